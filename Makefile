@@ -1,0 +1,58 @@
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#
+# make demo    set up, build, let the snake crawl over its terrain, say where the page lies
+# make test    set up, build, run the tests
+# make bench   run the benchmarks and print their table
+# make asan    the tests under the address and undefined-behaviour sanitizers
+# make test-long, make experiments   hours and minutes respectively; see docs
+JOBS ?= $(shell nproc)
+BUILD := build/release
+VSA := $(BUILD)/bin/vsa
+
+.PHONY: all setup build demo test test-long bench asan tidy format check-format experiments clean
+
+all: build
+
+setup:
+	@sh scripts/setup.sh
+
+build: setup
+	@cmake --preset release > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+
+demo: setup
+	@cmake --preset release -DVSA_TESTS=OFF -DVSA_BENCH=OFF > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@$(VSA) run snake_rubble --duration-s 20 --gait steered --record out/demo --no-topics
+
+test:
+	@sh scripts/setup.sh test
+	@cmake --preset release -DVSA_TESTS=ON -DVSA_BENCH=ON > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@ctest --test-dir $(BUILD) --output-on-failure -j 1
+
+bench: setup
+	@cmake --preset release -DVSA_BENCH=ON > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@sh scripts/bench.sh $(BUILD)
+
+asan:
+	@sh scripts/setup.sh test
+	@cmake --preset asan > /dev/null
+	@cmake --build build/asan -j $(JOBS) -- --quiet
+	@ctest --test-dir build/asan --output-on-failure -j 1
+
+tidy:
+	@sh scripts/setup.sh tidy
+	@cmake --preset tidy > /dev/null
+	@cmake --build build/tidy -j $(JOBS) -- --quiet
+
+format:
+	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
+
+check-format:
+	@sh scripts/setup.sh tidy
+	@git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror
+
+clean:
+	@rm -rf build out

@@ -1,0 +1,181 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "description.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <toml++/toml.h>
+
+#include "vsa/errors.hpp"
+
+namespace vsa::generate {
+namespace {
+
+/// Reads one table and remembers which of its keys were asked for; the others are mistakes.
+class Section {
+ public:
+  Section(const std::string& file, std::string name, const toml::table* table, Problems& problems)
+      : file_(file), name_(std::move(name)), table_(table), problems_(problems) {
+    if (table_ == nullptr) problem("", "", "the table is missing", "");
+  }
+  Section(const Section&) = delete;
+  Section& operator=(const Section&) = delete;
+  ~Section() {
+    if (table_ == nullptr) return;
+    for (const auto& [key, node] : *table_) {
+      if (!asked_.contains(std::string(key.str()))) problem(std::string(key.str()), "", "unknown key", join());
+    }
+  }
+
+  double number(const char* key, double min, double max) { return checked(key, find(key), min, max); }
+  int integer(const char* key, int min, int max) {
+    const double value = number(key, min, max);
+    if (value != std::floor(value)) problem(key, fmt::format("{}", value), "not a whole number", fmt::format("{} … {}", min, max));
+    return static_cast<int>(value);
+  }
+  std::string text(const char* key) {
+    const toml::node* node = find(key);
+    const auto value = node == nullptr ? std::nullopt : node->value<std::string>();
+    if (!value || value->empty()) problem(key, "", "missing or not a text", "a name");
+    return value.value_or("");
+  }
+  std::vector<double> numbers(const char* key, double min, double max) {
+    std::vector<double> values;
+    const toml::node* node = find(key);
+    if (node == nullptr || node->as_array() == nullptr) {
+      problem(key, "", "missing or not a list", "numbers");
+      return values;
+    }
+    for (const toml::node& item : *node->as_array()) values.push_back(checked(key, &item, min, max));
+    return values;
+  }
+  Range range(const char* key, double min, double max) {
+    const auto values = numbers(key, min, max);
+    if (values.size() == 2) return {values[0], values[1]};
+    problem(key, "", "not two numbers", fmt::format("{} … {}", min, max));
+    return {min, max};
+  }
+  const toml::array* tables(const char* key) {
+    const toml::node* node = find(key);
+    return node == nullptr ? nullptr : node->as_array();
+  }
+  void problem(const std::string& key, const std::string& value, const std::string& message, const std::string& allowed) {
+    problems_.add({file_, key.empty() ? name_ : name_ + "." + key, value, message, allowed});
+  }
+
+ private:
+  const toml::node* find(const char* key) {
+    asked_.insert(key);
+    return table_ == nullptr ? nullptr : table_->get(key);
+  }
+  double checked(const char* key, const toml::node* node, double min, double max) {
+    const auto value = node == nullptr || !node->is_number() ? std::nullopt : node->value<double>();
+    if (!value) {
+      problem(key, "", "missing or not a number", fmt::format("{} … {}", min, max));
+    } else if (!(*value >= min && *value <= max)) {
+      problem(key, fmt::format("{}", *value), "out of range", fmt::format("{} … {}", min, max));
+    }
+    return value.value_or(min);
+  }
+  std::string join() const {
+    std::string all;
+    for (const auto& key : asked_) all += (all.empty() ? "" : ", ") + key;
+    return all;
+  }
+
+  const std::string& file_;
+  std::string name_;
+  const toml::table* table_;
+  Problems& problems_;
+  std::set<std::string> asked_;
+};
+
+void read_robots(const std::string& file, const toml::table& root, Problems& problems, Description& d) {
+  const auto table = [&](const char* name) { return root[name].as_table(); };
+  {
+    Section s(file, "module", table("module"), problems);
+    d.module = {s.number("edge_m", 0.01, 1),           s.number("mass_kg", 0.01, 100),           s.number("flange_mass_kg", 1e-3, 10),
+                s.number("flange_radius_m", 1e-3, 1),  s.number("flange_thickness_m", 1e-3, 1),  s.number("chamfer_m", 1e-4, 0.1),
+                s.number("contact_radius_m", 1e-3, 1), s.number("friction", 0, 10)};
+    if (d.module.flange_mass_kg >= d.module.mass_kg) s.problem("flange_mass_kg", "", "not less than mass_kg, which includes it", "");
+  }
+  {
+    Section s(file, "actuator", table("actuator"), problems);
+    d.actuator = {s.text("preset"), s.text("plugin_file"), s.number("initial_preset_rad", 0, 0.785), s.number("baud_Hz", 1200, 1e8),
+                  s.number("state_rate_Hz", 1, 1000)};
+  }
+  {
+    Section s(file, "bench", table("bench"), problems);
+    d.bench = {s.number("height_m", 0.05, 10), s.number("load_mass_kg", 1e-3, 100), s.number("load_lever_m", 1e-3, 10),
+               s.number("load_radius_m", 1e-3, 1), s.number("load_length_m", 1e-3, 1)};
+  }
+  {
+    Section s(file, "snake", table("snake"), problems);
+    d.snake.modules = s.integer("modules", 2, 100);
+    d.snake.pitch_m = s.number("pitch_m", 0.01, 1);
+    d.snake.tail_mass_kg = s.number("tail_mass_kg", 0.01, 100);
+    d.snake.initial_preset_rad = s.number("initial_preset_rad", 0, 0.785);
+    d.snake.clearance_m = s.number("clearance_m", 0, 0.1);
+    d.snake.bus = s.text("bus");
+  }
+}
+
+void read_hills(const std::string& file, const toml::table& root, Problems& problems, HillsSpec& hills) {
+  Section s(file, "hills", root["hills"].as_table(), problems);
+  hills.samples = s.integer("samples", 3, 4097);
+  if (const int cells = hills.samples - 1; (cells & (cells - 1)) != 0) s.problem("samples", "", "not a power of two plus one", "129, 257, 513 …");
+  hills.size_m = s.number("size_m", 1, 1000);
+  hills.flat_radius_m = s.range("flat_radius_m", 0, 100);
+  const toml::array* waves = s.tables("waves");
+  if (waves == nullptr || waves->empty()) s.problem("waves", "", "missing or empty", "a list of waves");
+  for (std::size_t i = 0; waves != nullptr && i < waves->size(); ++i) {
+    Section w(file, fmt::format("hills.waves[{}]", i), waves->get(i)->as_table(), problems);
+    hills.waves.push_back({w.number("height_m", 0, 10), w.number("wavelength_m", 0.1, 1000), w.number("direction_deg", -360, 360),
+                           w.number("phase_deg", -360, 360)});
+  }
+}
+
+void read_world(const std::string& file, const toml::table& root, Problems& problems, Description& d) {
+  {
+    Section s(file, "world", root["world"].as_table(), problems);
+    d.world = {s.number("step_s", 1e-5, 4e-3), s.number("gravity_m_per_s2", 0, 100)};
+  }
+  {
+    Section s(file, "rubble", root["rubble"].as_table(), problems);
+    d.rubble.seed = static_cast<std::uint32_t>(s.number("seed", 0, 4294967295.0));
+    d.rubble.boxes = s.integer("boxes", 0, 1000);
+    d.rubble.height_m = s.range("height_m", 1e-3, 1);
+    d.rubble.side_m = s.range("side_m", 1e-3, 10);
+    d.rubble.steps_m = s.numbers("steps_m", 1e-3, 1);
+    d.rubble.step_size_m = s.range("step_size_m", 1e-2, 100);
+    d.rubble.step_gap_m = s.number("step_gap_m", 0, 100);
+    d.rubble.travel_deg = s.number("travel_deg", -360, 360);
+    d.rubble.patch_from_m = s.number("patch_from_m", 0, 100);
+    d.rubble.patch_size_m = s.range("patch_size_m", 0.1, 100);
+  }
+  read_hills(file, root, problems, d.hills);
+}
+
+}  // namespace
+
+Description read_description(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  Problems problems;
+  Description description{};
+  try {
+    const toml::table root = toml::parse_file(name);
+    read_robots(name, root, problems, description);
+    read_world(name, root, problems, description);
+    for (const auto& [key, node] : root) {
+      const std::set<std::string_view> known{"module", "actuator", "bench", "snake", "world", "rubble", "hills"};
+      if (!known.contains(key.str())) problems.add({name, std::string(key.str()), "", "unknown table", ""});
+    }
+  } catch (const toml::parse_error& error) {
+    problems.add({name, "", "", fmt::format("line {}: {}", error.source().begin.line, error.description()), ""});
+  }
+  problems.throw_if_any();
+  return description;
+}
+
+}  // namespace vsa::generate

@@ -1,0 +1,64 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What models/robots.toml says, checked. Units are in the names.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vsa::generate {
+
+using Range = std::array<double, 2>;
+
+struct ModuleSpec {
+  double edge_m, mass_kg, flange_mass_kg, flange_radius_m, flange_thickness_m, chamfer_m, contact_radius_m, friction;
+};
+struct ActuatorSpec {
+  std::string preset, plugin_file;
+  double initial_preset_rad, baud_Hz, state_rate_Hz;
+};
+struct BenchSpec {
+  double height_m, load_mass_kg, load_lever_m, load_radius_m, load_length_m;
+};
+struct SnakeSpec {
+  int modules;
+  double pitch_m, tail_mass_kg, initial_preset_rad, clearance_m;
+  std::string bus;
+};
+struct WorldSpec {
+  double step_s, gravity_m_per_s2;
+};
+struct RubbleSpec {
+  std::uint32_t seed;
+  int boxes;
+  Range height_m, side_m, step_size_m, patch_size_m;
+  std::vector<double> steps_m;
+  double step_gap_m, travel_deg, patch_from_m;
+};
+struct Wave {
+  double height_m, wavelength_m, direction_deg, phase_deg;
+};
+struct HillsSpec {
+  int samples;
+  double size_m;
+  Range flat_radius_m;
+  std::vector<Wave> waves;
+};
+
+struct Description {
+  ModuleSpec module;
+  ActuatorSpec actuator;
+  BenchSpec bench;
+  SnakeSpec snake;
+  WorldSpec world;
+  RubbleSpec rubble;
+  HillsSpec hills;
+};
+
+/// Throws InputError with every missing, unknown or impossible key at once.
+[[nodiscard]] Description read_description(const std::filesystem::path& file);
+
+}  // namespace vsa::generate

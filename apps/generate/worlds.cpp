@@ -1,0 +1,92 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// One world a file. Models come by model:// URI, so that every host finds them on its model path.
+#include <fmt/format.h>
+
+#include "generate.hpp"
+#include "vsa/units.hpp"
+
+namespace vsa::generate {
+namespace {
+
+struct Placed {
+  std::string model;
+  std::array<double, 6> pose;
+};
+
+void write_light(Xml& xml) {
+  xml.open("light", {{"name", "sun"}, {"type", "directional"}});
+  xml.leaf("cast_shadows", "true");
+  xml.leaf("pose", "0 0 10 0 0 0");
+  xml.leaf("diffuse", "0.8 0.8 0.8 1").leaf("specular", "0.2 0.2 0.2 1");
+  xml.leaf("direction", "-0.5 0.3 -0.9");
+  xml.close();
+}
+
+std::string world(const Description& d, const std::string& name, const std::vector<Placed>& models) {
+  Xml xml = begin_sdf();
+  xml.open("world", {{"name", name}});
+  xml.leaf("gravity", numbers({0, 0, -d.world.gravity_m_per_s2}));
+  xml.open("physics", {{"name", "step"}, {"type", "ode"}});
+  xml.leaf("max_step_size", d.world.step_s);
+  xml.leaf("real_time_factor", 1.0);
+  xml.leaf("real_time_update_rate", 1 / d.world.step_s);
+  xml.close();
+  write_light(xml);
+  for (const Placed& placed : models) {
+    const auto& p = placed.pose;
+    xml.open("include");
+    xml.leaf("uri", "model://" + placed.model);
+    xml.pose({p[0], p[1], p[2], p[3], p[4], p[5]});
+    xml.close();
+  }
+  xml.close().close();
+  return xml.text();
+}
+
+}  // namespace
+
+Xml begin_sdf() {
+  Xml xml;
+  xml.comment("Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0");
+  xml.comment("Written by vsa-generate from models/robots.toml: change that, not this.");
+  xml.open("sdf", {{"version", "1.7"}});
+  return xml;
+}
+
+void add_model(Files& files, const std::string& name, const std::string& title, const std::string& sdf) {
+  files[name + "/model.sdf"] = sdf;
+  Xml xml;
+  xml.open("model");
+  xml.leaf("name", title).leaf("version", "1.0");
+  xml.leaf("sdf", "model.sdf", {{"version", "1.7"}});
+  xml.open("author").leaf("name", "The vsasim authors").leaf("email", "none").close();
+  xml.leaf("description", title + ". Generated from models/robots.toml; see docs/models.md.");
+  xml.close();
+  files[name + "/model.config"] = xml.text();
+}
+
+void add_worlds(Files& files, const Description& d) {
+  const double lying = d.module.edge_m / 2 + d.snake.clearance_m;
+  const double quarter = kPi / 2;
+  const auto put = [&](const std::string& name, const std::vector<Placed>& models) { files["worlds/" + name + ".sdf"] = world(d, name, models); };
+  put("snake_flat", {{"terrain_flat", {}}, {"qbmove_snake", {0, 0, lying, 0, 0, 0}}});
+  put("snake_rubble", {{"terrain_rubble", {}}, {"qbmove_snake", {0, 0, lying, 0, 0, 0}}});
+  // One grey level of the heightmap more, so that its rounding can't put the start into the ground.
+  const Hills h = hills(d.hills);
+  put("snake_hills", {{"terrain_hills", {}}, {"qbmove_snake", {0, 0, h.start_m + h.height_m / 255 + lying, 0, 0, 0}}});
+  // Rolled by −90°, the shaft lies along the world's +y and the lever, along the module's +y, hangs straight down.
+  put("bench_load", {{"terrain_flat", {}}, {"qbmove_bench_load", {0, 0, d.bench.height_m, -quarter, 0, 0}}});
+  put("bench_free", {{"terrain_flat", {}}, {"qbmove_bench_free", {0, 0, d.bench.height_m, 0, 0, 0}}});
+  put("module", {{"terrain_flat", {}}, {"qbmove", {0, 0, lying, 0, 0, 0}}});
+}
+
+Files generate(const Description& d) {
+  Files files;
+  add_robots(files, d);
+  add_terrain(files, d);
+  add_worlds(files, d);
+  return files;
+}
+
+}  // namespace vsa::generate

@@ -1,0 +1,14 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace vsa::app {
+
+/// What the command line names: a file, or the stem of a built-in one (`folder`/NAME`extension` in a data directory). A file wins.
+/// Throws InputError with the built-in names there are. `what`: "world", "gait".
+[[nodiscard]] std::filesystem::path find_file(const std::string& given, const std::string& what,
+                                              const std::filesystem::path& folder, const std::string& extension);
+
+}  // namespace vsa::app

@@ -1,0 +1,28 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "interrupt.hpp"
+
+#include <atomic>
+#include <csignal>
+
+namespace vsa::app {
+namespace {
+
+std::atomic<int> noted{0};
+static_assert(std::atomic<int>::is_always_lock_free);
+
+extern "C" void vsa_note_signal(int signal) { noted.store(signal); }
+
+}  // namespace
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = vsa_note_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+int interrupted() noexcept { return noted.load(std::memory_order_relaxed); }
+
+}  // namespace vsa::app

@@ -1,0 +1,53 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Exit codes: 0 done, 1 failed, 2 bad usage or bad input; 128 + n where signal n cut short a run that had a duration.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "actuators.hpp"
+#include "command.hpp"
+#include "exit_codes.hpp"
+#include "run.hpp"
+#include "vsa/errors.hpp"
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  vsa run snake_flat --gait sidewind --duration-s 20 --record out
+  vsa run models/worlds/snake_flat.sdf --realtime
+  vsa command 20 35
+  vsa actuators qbmove_maker_pro
+
+Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 130 or 143 a run with a duration that a signal cut short.)";
+
+int run_application(int argc, char** argv) {
+  CLI::App app{"vsa: simulates robots built of variable stiffness actuators", "vsa"};
+  app.set_version_flag("--version", "vsa " VSA_VERSION);
+  app.require_subcommand(1);
+  app.footer(kExamples);
+  int exit_code = vsa::app::kDone;
+  vsa::app::setup_run(app, exit_code);
+  vsa::app::setup_command(app, exit_code);
+  vsa::app::setup_actuators(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? vsa::app::kDone : vsa::app::kBadInput;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_application(argc, argv);
+  } catch (const vsa::InputError& error) {
+    for (const auto& problem : error.problems()) std::cerr << "vsa: " << problem.text() << '\n';
+    return vsa::app::kBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << "vsa: " << error.what() << '\n';
+    return vsa::app::kFailed;
+  }
+}

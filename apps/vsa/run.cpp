@@ -1,0 +1,82 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "run.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "exit_codes.hpp"
+#include "interrupt.hpp"
+#include "numbers.hpp"
+#include "run_session.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::app {
+namespace {
+
+constexpr double kLongest_s = 1e8;  // three years; beyond that nanoseconds would overflow soon
+
+constexpr const char* kNotes = R"(WORLD is a file or the name of a built-in world, FILE a file or the name of a built-in gait.
+Without --duration-s the world runs until Ctrl-C, which is then the normal end (exit code 0). A run with a duration
+that Ctrl-C cuts short exits with 130. Either way the record is complete up to the last step.
+
+Examples:
+  vsa run snake_flat --gait sidewind --duration-s 20 --record out
+  vsa run snake_rubble --realtime)";
+
+void check(const RunOptions& options) {
+  if (options.duration_s && !(*options.duration_s > 0 && *options.duration_s <= kLongest_s)) {
+    throw InputError({"", "--duration-s", fmt::format("{}", *options.duration_s), "out of range", "above 0 to 1e8 s"});
+  }
+}
+
+void print(const std::vector<record::Statistic>& summary) {
+  for (const auto& line : summary) std::cout << fmt::format("{:<20}{}\n", line.label, line.value);
+  std::cout.flush();
+  if (!std::cout) throw std::runtime_error("can't write the summary to standard output");
+}
+
+int exit_code_of(int signal, const RunOptions& options) { return signal != 0 && options.duration_s ? kSignalled + signal : kDone; }
+
+}  // namespace
+
+int run_run(const RunOptions& options) {
+  check(options);
+  Console console;
+  RunSession session(options, console);
+  catch_interrupts();
+  int signal = 0;
+  try {
+    signal = session.run();
+  } catch (const std::exception& error) {
+    // A blow-up or a full disk: keep and tell what there is so far, then let main report the error itself.
+    console.wipe();
+    try {
+      print(session.finish(error.what()));
+    } catch (const std::exception& second) {
+      console.line(second.what());
+    }
+    throw;
+  }
+  print(session.finish(signal != 0 && options.duration_s ? "The run was interrupted." : ""));
+  return exit_code_of(signal, options);
+}
+
+void setup_run(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* sub = app.add_subcommand("run", "Run a world");
+  sub->add_option("WORLD", options->world, "SDF file, or a built-in world's name")->required();
+  sub->add_option("--duration-s", options->duration_s, "Simulated seconds to run; default: until Ctrl-C")->check(number_given());
+  sub->add_flag("--realtime", options->realtime, "Not faster than the wall clock; default: as fast as possible");
+  sub->add_option("--gait", options->gait, "Play this gait in simulated time");
+  sub->add_option("--record", options->record, "Write CSV files and a replay page into this directory");
+  CLI::Option* no_topics = sub->add_flag("--no-topics", options->no_topics, "Run without the transport");
+  sub->add_flag("--paused", options->paused, "Start paused; /world/W/control lets it run")->excludes(no_topics);
+  sub->footer(kNotes);
+  sub->callback([options, &exit_code] { exit_code = run_run(*options); });
+}
+
+}  // namespace vsa::app

@@ -1,0 +1,24 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+
+namespace vsa::app {
+
+struct RunOptions {
+  std::string world;  ///< a file, or a built-in world's name
+  std::optional<double> duration_s;
+  bool realtime = false;
+  bool paused = false;
+  bool no_topics = false;
+  std::string gait;    ///< a file, or a built-in gait's name; empty: none
+  std::string record;  ///< directory; empty: none
+};
+
+/// `vsa run WORLD.sdf`. Sets the exit code when it was the subcommand.
+void setup_run(CLI::App& app, int& exit_code);
+int run_run(const RunOptions& options);
+
+}  // namespace vsa::app

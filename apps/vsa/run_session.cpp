@@ -1,0 +1,162 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "run_session.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "find_file.hpp"
+#include "interrupt.hpp"
+#include "vsa/units.hpp"
+
+namespace vsa::app {
+namespace {
+
+constexpr double kTravelWindow_s = 1.3;  // where no gait tells its period; close to Table II's 2π/4.71 s
+constexpr double kTravelRate_Hz = 100;
+constexpr std::chrono::milliseconds kIdleWait{100};
+
+engine::World load_world(const std::string& name) { return engine::World::load(find_file(name, "world", "models/worlds", ".sdf")); }
+
+std::optional<engine::Gait> load_gait(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  return engine::Gait::load(find_file(name, "gait", "models/gaits", ".toml"));
+}
+
+double travel_window_s(const std::optional<engine::Gait>& gait) {
+  return gait && gait->params().frequency_rad_per_s > 0 ? 2 * kPi / gait->params().frequency_rad_per_s : kTravelWindow_s;
+}
+
+/// The page's template is generated, so it lies beside the build, where the other data needn't be.
+record::RecorderOptions recorder_options() {
+  record::RecorderOptions options;
+  options.page_template = config::find_data("web/replay.html").value_or("");
+  return options;
+}
+
+std::string top_level(const std::string& scoped) { return scoped.substr(0, scoped.find("::")); }
+
+}  // namespace
+
+RunSession::RunSession(const RunOptions& options, Console& console)
+    : console_(console),
+      realtime_(options.realtime),
+      duration_s_(options.duration_s),
+      world_(load_world(options.world)),
+      gait_(load_gait(options.gait)),
+      robot_model_(world_.robot_count() > 0 ? top_level(world_.robot_model(0)) : ""),
+      travel_window_s_(travel_window_s(gait_)),
+      control_(options.paused),
+      travel_(travel_window_s_, 1 / kTravelRate_Hz),
+      travel_cadence_(kTravelRate_Hz) {
+  for (const auto& warning : world_.warnings()) console_.line("warning: " + warning);
+  if (gait_) gait_->bind(world_);
+  if (!options.record.empty()) recorder_.emplace(world_, options.record, recorder_options());
+  const auto report = [&console](const std::string& line) { console.line(line); };
+  if (!options.no_topics) server_.emplace(world_, control_, report);
+  if (duration_s_) end_ns_ = world_.time_ns() + std::llround(*duration_s_ * 1e9);
+}
+
+int RunSession::run() {
+  pace_.anchor(world_.time_ns());
+  while (!done() && interrupted() == 0) {
+    switch (control_.next(world_.time_ns())) {
+      case topics::RunControl::Next::step:
+        step();
+        break;
+      case topics::RunControl::Next::reset:
+        reset();
+        break;
+      case topics::RunControl::Next::wait:
+        idle();
+        break;
+    }
+  }
+  wall_.pause();
+  console_.wipe();
+  return done() ? 0 : interrupted();
+}
+
+void RunSession::step() {
+  wall_.run();
+  if (gait_) gait_->apply(world_);
+  world_.step();
+  ++steps_;
+  if (recorder_) recorder_->sample(world_);
+  if (!robot_model_.empty() && travel_cadence_.due(world_.time_ns())) {
+    travel_cadence_.taken(world_.time_ns());
+    travel_.add(world_.center_of_mass(robot_model_));
+  }
+  if (server_) server_->stepped();
+  if (realtime_ && !pace_.hold(world_.time_ns()) && !told_late_) {
+    told_late_ = true;
+    console_.line("warning: this machine can't keep up with real time in this world");
+  }
+  constexpr std::uint64_t kLookAtClock = 16;  // steps between two looks at the wall clock for the progress line
+  if (steps_ % kLookAtClock == 0) console_.progress(world_.time_s(), duration_s_, speed_factor());
+}
+
+void RunSession::reset() {
+  world_.reset();
+  ++resets_;
+  if (gait_) gait_->reset();
+  travel_.restart();
+  travel_cadence_.restart();
+  if (recorder_) recorder_->sample(world_);
+  if (server_) server_->idle();
+  pace_.anchor(world_.time_ns());
+}
+
+void RunSession::idle() {
+  wall_.pause();
+  if (server_) server_->idle();
+  control_.wait(kIdleWait);
+  pace_.anchor(world_.time_ns());
+}
+
+double RunSession::speed_factor() const {
+  const double wall_s = wall_.seconds();
+  return wall_s > 0 ? static_cast<double>(steps_) * world_.step_s() / wall_s : 0.0;
+}
+
+std::vector<record::Statistic> RunSession::statistics() const {
+  std::vector<record::Statistic> out;
+  out.push_back({"simulated time",
+                 fmt::format("{:.3f} s in {:.2f} s of wall time", static_cast<double>(steps_) * world_.step_s(), wall_.seconds())});
+  out.push_back({"real-time factor", fmt::format("{:.1f}", speed_factor())});
+  if (resets_ > 0) out.push_back({"resets", fmt::format("{}; what follows counts from the last one", resets_)});
+  if (world_.robot_count() == 0) return out;
+  if (travel_.measured()) {
+    out.push_back(
+        {"distance travelled", fmt::format("{:.2f} m along the path, {:.2f} m net ({}, centre of mass averaged over {:.2f} s)",
+                                           travel_.path_m(), travel_.net_m(), robot_model_, travel_window_s_)});
+  } else {
+    out.push_back(
+        {"distance travelled", fmt::format("not measured: the run is shorter than {:.2f} s, one gait period", travel_window_s_)});
+  }
+  const actuator::Ledger energy = world_.ledger();
+  out.push_back({"energy from supply", fmt::format("{:.4g} J", energy.supply)});
+  out.push_back({"  became heat", fmt::format("{:.4g} J in copper, {:.4g} J in gearboxes, {:.4g} J at shafts, {:.4g} J viscous",
+                                              energy.copper, energy.motor_friction, energy.shaft_friction, energy.viscous)});
+  out.push_back({"  went to robots", fmt::format("{:.4g} J delivered at the shafts, {:+.4g} J stored in the actuators",
+                                                 energy.delivered, energy.stored() - energy.stored_at_start)});
+  out.push_back({"  model and step", fmt::format("{:+.3g} J motor constants, {:+.3g} J integration, {:+.3g} J coupling",
+                                                 energy.conversion, energy.integrator, energy.coupling)});
+  return out;
+}
+
+std::vector<record::Statistic> RunSession::finish(const std::string& note) {
+  wall_.pause();
+  std::vector<record::Statistic> out = statistics();
+  if (recorder_) {
+    const auto page = recorder_->finish(out, note);
+    out.push_back({"replay page", page.string()});
+    std::string files;
+    for (const auto& file : recorder_->files()) files += (files.empty() ? "" : ", ") + file.string();
+    out.push_back({"recorded data", files});
+  }
+  return out;
+}
+
+}  // namespace vsa::app

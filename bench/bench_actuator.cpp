@@ -1,0 +1,83 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What one actuator costs. Ratios in one run, against a bare sinh + cosh pair.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "vsa/config/preset.hpp"
+#include "vsa/host/robot.hpp"
+
+namespace {
+
+vsa::device::UnitConfig maker_pro() { return vsa::config::PresetLibrary().load("qbmove_maker_pro").unit; }
+
+void sinh_cosh_pair(benchmark::State& state) {
+  double u = 0.1;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(u);
+    benchmark::DoNotOptimize(std::sinh(u) + std::cosh(u));
+  }
+}
+BENCHMARK(sinh_cosh_pair);
+
+/// A unit on a hanging lever whose equilibrium moves as in the snake's gait: 60° at 4.71 rad/s, Table II's preset.
+void actuator_step_1ms(benchmark::State& state) {
+  vsa::device::Unit unit(maker_pro());
+  auto s = unit.initial(0, 0.6109, 0);
+  double q = 0, v = 0, t = 0;
+  std::int64_t n = 0;
+  vsa::device::TickMail mail;
+  for (auto _ : state) {
+    mail.has_inputs = n % 12 == 0;
+    if (mail.has_inputs) mail.inputs = unit.inputs_for(1.047 * std::sin(4.71 * t), 0.6109);
+    const double torque = unit.step(s, n * 1'000'000, 1'000'000, {q, v, 200.0}, {&mail, 1});
+    v += 1e-3 * (torque - 0.5 * std::sin(q) - 0.02 * v) * 200.0;
+    q += 1e-3 * v;
+    t += 1e-3;
+    ++n;
+  }
+  benchmark::DoNotOptimize(q);
+}
+BENCHMARK(actuator_step_1ms);
+
+/// A whole robot of N units with its bus; items are actuator steps.
+void robot_step(benchmark::State& state) {
+  const auto count = static_cast<std::size_t>(state.range(0));
+  vsa::host::RobotConfig config;
+  config.buses.resize((count + 11) / 12);
+  for (std::size_t i = 0; i < count; ++i) {
+    vsa::host::ActuatorConfig a;
+    a.name = "a" + std::to_string(i);
+    a.joint = a.name;
+    a.unit = maker_pro();
+    a.bus = i / 12;
+    a.id = static_cast<int>(i % 12) + 1;
+    a.initial_preset = 0.6109;
+    config.actuators.push_back(a);
+  }
+  vsa::host::Robot robot(config);
+  std::vector<vsa::host::JointIn> in(count, {0, 0, 200.0});
+  std::vector<double> out(count);
+  std::int64_t n = 0;
+  for (auto _ : state) {
+    if (n % 12 == 0)
+      for (std::size_t i = 0; i < count; ++i)
+        robot.command(i, 1.047 * std::sin(4.71e-3 * static_cast<double>(n) + 0.6 * static_cast<double>(i)), std::nullopt);
+    robot.advance(n * 1'000'000, 1'000'000, in, out);
+    for (std::size_t i = 0; i < count; ++i) {
+      in[i].speed_rad_per_s += 1e-3 * 200.0 * (out[i] - 0.5 * std::sin(in[i].angle_rad) - 0.02 * in[i].speed_rad_per_s);
+      in[i].angle_rad += 1e-3 * in[i].speed_rad_per_s;
+    }
+    ++n;
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(count) * state.iterations());
+  state.counters["real_time_factor"] = benchmark::Counter(1e-3 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+BENCHMARK(robot_step)->Arg(1)->Arg(12)->Arg(1000);
+
+}  // namespace
+
+BENCHMARK_MAIN();

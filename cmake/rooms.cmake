@@ -1,0 +1,17 @@
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#
+# vsa_room(NAME [PUBLIC target…] [PRIVATE target…]): the library of src/NAME with its headers in include/vsa/NAME.
+# A room links only the rooms that it may know; a wrong include still compiles, a wrong call doesn't link.
+function(vsa_room name)
+  cmake_parse_arguments(ROOM "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  add_library(vsa_${name} STATIC ${sources})
+  add_library(vsa::${name} ALIAS vsa_${name})
+  set_target_properties(vsa_${name} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(vsa_${name} PUBLIC cxx_std_20)
+  target_include_directories(vsa_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_link_libraries(vsa_${name} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY VSA_ROOMS vsa_${name})
+endfunction()

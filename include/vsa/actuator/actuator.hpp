@@ -1,0 +1,105 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The physics of one unit: two motors with their gearboxes, the elastic transmission, the output shaft's friction.
+//
+// A segment is a piece of a host step with constant terminal voltages, along which the shaft moves straight from q₀ to q₁. Its
+// unknowns are the pulleys' displacements:
+//     Δx_i = free_i + c_i (load̄_i(Δq, Δx) + f̄_i(Δx_i))
+// free_i and c_i come from the motor's exact step (drive/motor.hpp), load̄ from the law's segment mean, f̄ from the friction's closed
+// form. Newton on the law, friction exact in each iteration; for a convex potential the solution is unique.
+//
+// States: pulley angle, speed, current (2 each), friction anchors (3), shaft position of the last segment's end, energy ledger.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "vsa/actuator/ledger.hpp"
+#include "vsa/drive/bridge.hpp"
+#include "vsa/drive/motor.hpp"
+#include "vsa/elastic/transmission.hpp"
+#include "vsa/sensor/sensors.hpp"
+
+namespace vsa::actuator {
+
+struct ActuatorParams {
+  std::shared_ptr<const elastic::Transmission> transmission;
+  drive::MotorParams motor;              ///< at the motor's shaft; both motors alike
+  drive::GearboxParams gearbox;
+  drive::BridgeParams bridge;
+  drive::FrictionParams shaft_friction;
+  sensor::EncoderParams encoder;         ///< all three alike
+  double shaft_inertia_kgm2 = drive::kMissing;  ///< used as 1/A where a host can't tell the inverse inertia
+};
+
+struct ActuatorState {
+  std::array<drive::MotorState, 2> motor{};
+  std::array<double, 2> motor_anchor{};
+  double shaft = 0;         ///< y, end of the last segment's path
+  double shaft_anchor = 0;
+  std::array<double, 2> load{};  ///< mean spring load on each pulley over the last segment
+  Ledger ledger;
+};
+
+struct SegmentInput {
+  double dq = 0;                          ///< shaft displacement along the path
+  std::array<double, 2> voltage{};
+  drive::Terminal terminal = drive::Terminal::driven;
+};
+
+struct SegmentResult {
+  double torque = 0;  ///< mean torque of the transmission on the shaft
+  double slope = 0;   ///< −dτ̄/d(Δq), the motors' yielding included; ≥ 0 for a convex law
+};
+
+/// Parameters at the pulley and the prepared motor steps. Immutable but for prepare(); a state belongs to whoever owns time.
+class Actuator {
+ public:
+  explicit Actuator(ActuatorParams params);
+
+  [[nodiscard]] const ActuatorParams& params() const noexcept { return params_; }
+  [[nodiscard]] ActuatorState initial(const std::array<double, 2>& pulleys, double shaft) const noexcept;
+
+  /// Puts the shaft somewhere without work, friction relaxed: before the first step only. The ledger begins here.
+  void place(ActuatorState& state, double shaft) const noexcept;
+
+  /// One segment of length h; advances motors, anchors and ledger, and moves state.shaft by dq. No allocation, no exception.
+  SegmentResult segment(ActuatorState& state, double h_s, const SegmentInput& in) noexcept;
+
+  /// Shaft friction over a whole host step along the predicted path; moves its anchor and books its heat.
+  drive::FrictionStep shaft_friction(ActuatorState& state, double displacement) const noexcept;
+
+  /// The host moved the shaft to `actual` where the unit had predicted state.shaft. Books the difference:
+  ///   coupling += (H + B)(predicted) − (H + B)(actual) − (τ_ret Δy_actual − τ_path Δy_path)
+  /// and delivered += τ_ret Δy_actual. τ_ret is the torque that the host applied, τ_path Δy_path the work the segments booked.
+  void settle(ActuatorState& state, double actual, double applied_torque, double actual_dy, double path_work) const noexcept;
+
+  [[nodiscard]] elastic::Response spring(const ActuatorState& state, double shaft) const noexcept;
+  [[nodiscard]] double motor_current(const ActuatorState& state, int i, double voltage, drive::Terminal terminal) const noexcept;
+  [[nodiscard]] int motors() const noexcept { return motors_; }
+
+ private:
+  struct Prepared {
+    double h_s = 0;
+    drive::MotorStepper driven, open;
+  };
+  const drive::MotorStepper& stepper(double h_s, drive::Terminal terminal) noexcept;
+  struct Pulleys {
+    std::array<double, 2> dx{};                 // displacements
+    std::array<drive::FrictionStep, 2> friction{};
+    elastic::SegmentMean mean;                  // at the accepted displacements, linearly corrected
+    double slope = 0;
+  };
+  [[nodiscard]] Pulleys solve(const ActuatorState& state, const drive::MotorStepper& stepper, const SegmentInput& in) const noexcept;
+  void drive_motors(ActuatorState& state, const drive::MotorStepper& stepper, const SegmentInput& in, const Pulleys& p) const noexcept;
+  [[nodiscard]] elastic::Positions positions(const ActuatorState& state, double shaft) const noexcept;
+  void book_motors(ActuatorState& state) const noexcept;
+
+  ActuatorParams params_;
+  drive::MotorParams motor_;       // at the pulley
+  drive::FrictionParams friction_; // at the pulley
+  int motors_;
+  std::array<Prepared, 2> prepared_{};  // the two step lengths used last
+};
+
+}  // namespace vsa::actuator

@@ -1,0 +1,113 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Actuator presets: TOML files in which every value carries its unit, bounds and source.
+//
+//   [preset]
+//   name = "qbmove_maker_pro"
+//   title = "qbmove maker pro (paper, Table I)"
+//   [elastic]
+//   law = "two_sinh"
+//   k1_Nm = { value = 0.022, unit = "N·m", bounds = [1e-6, 10.0], source = "Table I" }
+//   [drive]
+//   friction_Nm = { value = 0.8, unit = "N·m", bounds = [0.0, 100.0], source = "Table I" }
+//
+// The unit must be the schema's (config/schema.hpp), the bounds must lie within the schema's, the value within the bounds; words
+// and switches have value and source only. An override ("drive.friction_Nm" = "0.7") replaces a value and passes the same checks.
+// In every Problem `file` is "path:line" where the line is known, and `key` is "group.name".
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsa/device/unit.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::config {
+
+/// One parameter as the preset gives it: for listings (`vsa actuators NAME`) and reports.
+struct Entry {
+  std::string key;    ///< "drive.friction_Nm"
+  std::string value;  ///< as text, shortest that reads back the same
+  std::string unit;
+  std::string bounds;  ///< "0 … 100" or the list of allowed words
+  std::string meaning;
+  std::string source;
+};
+
+struct Preset {
+  std::string name;
+  std::string title;
+  std::string description;  ///< may be empty
+  std::filesystem::path file;
+  std::string law;
+  std::vector<Entry> entries;
+  device::UnitConfig unit;
+};
+
+/// What a law's factory reads its own keys with: number("k1_Nm", "N·m", min, max, meaning). Every key asked for is required.
+/// Problems are collected, not thrown: number() is NaN then, and what the factory returns or throws is thrown away. A factory whose
+/// values are fine one by one but not together throws InputError with keys of its own ("C_m"); nothing else.
+class LawReader {
+ public:
+  virtual ~LawReader() = default;
+  virtual double number(std::string_view key, std::string_view unit, double min, double max, std::string_view meaning) = 0;
+};
+
+using LawFactory = std::function<std::shared_ptr<const elastic::Transmission>(LawReader&)>;
+
+/// The laws a preset may name. standard() has two_sinh and series_spring; users add their own.
+class LawRegistry {
+ public:
+  [[nodiscard]] static LawRegistry standard();
+  void add(std::string name, LawFactory factory);
+  [[nodiscard]] const LawFactory* find(std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> names() const;
+
+ private:
+  std::map<std::string, LawFactory, std::less<>> factories_;
+};
+
+struct Override {
+  std::string key, value;
+};
+
+/// Reads presets from directories, first match wins. A preset's name is its file's name without ".toml".
+class PresetLibrary {
+ public:
+  /// Empty: $VSA_PRESET_PATH (colon-separated), then presets/ of every data directory. Otherwise only the directories given.
+  explicit PresetLibrary(std::vector<std::filesystem::path> directories = {}, LawRegistry laws = LawRegistry::standard());
+
+  [[nodiscard]] std::vector<std::string> names() const;
+  /// Throws InputError: unknown name (with the names there are), or all problems of the file and the overrides at once.
+  [[nodiscard]] Preset load(std::string_view name, const std::vector<Override>& overrides = {}) const;
+  [[nodiscard]] Preset load_file(const std::filesystem::path& file, const std::vector<Override>& overrides = {}) const;
+  /// The same from text; `file` is what problems call it, its stem the name that the preset must have.
+  [[nodiscard]] Preset load_text(std::string_view text, const std::filesystem::path& file,
+                                 const std::vector<Override>& overrides = {}) const;
+  [[nodiscard]] const std::vector<std::filesystem::path>& directories() const noexcept { return directories_; }
+
+ private:
+  std::vector<std::filesystem::path> directories_;
+  LawRegistry laws_;
+};
+
+/// Where data (presets/, models/, web/) are looked for, in this order:
+///   1. $VSA_DATA_DIR, if set: then nowhere else
+///   2. ../share/vsa beside the executable's directory: an installation, or build/<preset>/bin with build/<preset>/share/vsa
+///   3. the source tree that the library was built from, for executables elsewhere
+[[nodiscard]] std::vector<std::filesystem::path> data_directories();
+
+/// The first of them that exists and has presets/. Throws InputError where none has.
+[[nodiscard]] std::filesystem::path data_directory();
+
+/// The first data directory that has `relative` ("models", "web/replay.html"); none: empty. A build directory holds generated files
+/// only, the source tree the others, so ask for what you need.
+[[nodiscard]] std::optional<std::filesystem::path> find_data(const std::filesystem::path& relative);
+
+}  // namespace vsa::config

@@ -1,0 +1,55 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Every parameter of a preset but the elastic law's own: one table, from which files are checked, listings are printed and
+// docs/config.md is tested. A law's keys are asked for by its factory (LawReader).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "vsa/device/unit.hpp"
+
+namespace vsa::config {
+
+enum class Kind {
+  number,   ///< finite, within bounds
+  integer,  ///< a whole number within bounds
+  toggle,   ///< true or false
+  word      ///< one of `words`, in the file as a string, or as a number where the words are numbers
+};
+
+/// What a parameter's setter gets: the number, 0 or 1 for a switch, or the index of the word.
+using Setter = void (*)(device::UnitConfig& unit, double value);
+
+enum class Need { required, optional, defaulted };
+
+struct Parameter {
+  std::string_view key;   ///< "drive.friction_Nm"
+  std::string_view unit;  ///< "N·m"; "1" where it has none; kPresetUnit: the law's; empty for words and switches
+  Kind kind = Kind::number;
+  double min = 0, max = 0;  ///< number, integer: allowed range, ends included
+  std::string_view words;   ///< word: "brake|coast"
+  std::string_view meaning;
+  Need need = Need::required;
+  std::string_view default_value;   ///< defaulted: as text
+  std::string_view default_source;  ///< defaulted: where that came from
+  Setter set = nullptr;
+};
+
+/// Stands for the unit of the law's preset; a law without a preset has no such parameter.
+inline constexpr std::string_view kPresetUnit = "preset unit";
+
+[[nodiscard]] std::span<const Parameter> parameters() noexcept;
+
+/// The keys that the laws of LawRegistry::standard() read, for documentation: "elastic.k1_Nm" and so on with unit and bounds.
+struct LawParameter {
+  std::string_view law, key, unit;
+  double min, max;
+  std::string_view meaning;
+};
+[[nodiscard]] std::span<const LawParameter> law_parameters() noexcept;
+
+/// The firmware's 16.16 fixed point of a gain, truncated toward zero as its C cast does: 0.1 → 6553, −0.8 → −52428.
+[[nodiscard]] std::int32_t fixed_16_16(double gain) noexcept;
+
+}  // namespace vsa::config

@@ -1,0 +1,87 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// DC motor behind a gearbox, seen at the driving pulley.
+//
+//   J ω̇ = K_τ I − b ω + T          J inertia, b viscous friction, T all other torque on the pulley (spring, friction)
+//   L İ = V − R I − K_b ω          with inductance
+//   I   = (V − K_b ω)/R            without (the paper's eq. 6; a unit's L/R is far below 1 ms)
+//   θ = n q,  τ_motor = T/n        gearbox (eq. 4–5): J, b scale with n², K_τ, K_b, and the loss torque with n
+//
+// For constant V and T over a step the system is linear; its step is exact (matrix exponential, prepared once per step length),
+// and so are the integrals that the energy ledger needs: ∫I², ∫ω², ∫Iω, ∫I, ∫ω.
+// Where K_τ ≠ K_b (SI, same shaft) energy is not conserved between the electrical and the mechanical side; the ledger
+// carries (K_b − K_τ)∫Iω as its own entry.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "vsa/drive/friction.hpp"
+
+namespace vsa::drive {
+
+inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+/// At the motor's own shaft; forgotten numbers stay NaN and fail validation.
+struct MotorParams {
+  double inertia_kgm2 = kMissing;
+  double viscous_Nms_per_rad = kMissing;
+  double torque_constant_Nm_per_A = kMissing;
+  double back_emf_Vs_per_rad = kMissing;
+  double resistance_Ohm = kMissing;
+  std::optional<double> inductance_H;  ///< none: I follows V and ω at once
+};
+
+struct GearboxParams {
+  double ratio = 1.0;     ///< n = motor turns per pulley turn, > 0
+  FrictionParams friction; ///< loss torque at the motor's shaft (eq. 5) and its presliding at the PULLEY
+};
+
+/// eq. (4)–(5): everything at the pulley.
+[[nodiscard]] MotorParams at_pulley(const MotorParams& motor, double ratio) noexcept;
+[[nodiscard]] FrictionParams at_pulley(const FrictionParams& loss, double ratio) noexcept;
+
+struct MotorState {
+  double angle = 0;    ///< pulley, rad
+  double speed = 0;    ///< rad/s
+  double current = 0;  ///< A; a state only where the motor has inductance
+};
+
+/// What the electrical side offers in a step.
+enum class Terminal { driven, open };
+
+/// Exact results of a step of length h with constant voltage and torque.
+struct MotorStep {
+  double displacement = 0;  ///< ∫ω
+  double speed = 0;         ///< at the end
+  double current = 0;       ///< at the end
+  double charge = 0;        ///< ∫I
+  double int_II = 0, int_ww = 0, int_Iw = 0;
+};
+
+/// The exact step of one motor for one step length: z = (ω, I, V, T) → results. Copyable, no allocation.
+class MotorStepper {
+ public:
+  MotorStepper() = default;
+  MotorStepper(const MotorParams& pulley_side, Terminal terminal, double h_s) noexcept;
+
+  /// ∫ω for T = 0: the displacement without load.
+  [[nodiscard]] double free_displacement(const MotorState& s, double voltage) const noexcept;
+  /// ∂(∫ω)/∂T, rad/(N·m).
+  [[nodiscard]] double compliance() const noexcept { return displacement_[3]; }
+  [[nodiscard]] MotorStep step(const MotorState& s, double voltage, double torque) const noexcept;
+  [[nodiscard]] double h_s() const noexcept { return h_; }
+
+ private:
+  using Row = std::array<double, 4>;
+  using Form = std::array<double, 10>;  // symmetric 4×4, upper triangle by rows
+  double h_ = 0;
+  Row displacement_{}, speed_{}, current_{}, charge_{};
+  Form ii_{}, ww_{}, iw_{};
+};
+
+/// Current for a state at terminal voltage V, A.
+[[nodiscard]] double current(const MotorParams& pulley_side, Terminal terminal, const MotorState& s, double voltage) noexcept;
+
+}  // namespace vsa::drive

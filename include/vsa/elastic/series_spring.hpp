@@ -1,0 +1,29 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A series elastic actuator: one motor, one linear spring.
+//
+//   H = ½ k (q − x₀)²,   τ = −k (q − x₀),   load₀ = +k (q − x₀),   σ = k
+//
+// There is no preset: the command's preset is ignored, and the law says so by an empty preset unit. Valid for any δ.
+#pragma once
+
+#include "vsa/elastic/transmission.hpp"
+
+namespace vsa::elastic {
+
+class SeriesSpring final : public Transmission {
+ public:
+  explicit SeriesSpring(double stiffness_Nm_per_rad) noexcept : stiffness_(stiffness_Nm_per_rad) {}
+
+  [[nodiscard]] Response evaluate(const Positions& at) const noexcept override;
+  [[nodiscard]] SegmentMean mean_over(const Positions& from, const Positions& to) const noexcept override;
+  [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& command) const noexcept override;
+  [[nodiscard]] EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override;
+  [[nodiscard]] int motor_count() const noexcept override { return 1; }
+  [[nodiscard]] std::string_view preset_unit() const noexcept override { return ""; }
+
+ private:
+  double stiffness_;
+};
+
+}  // namespace vsa::elastic

@@ -1,0 +1,86 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// An elastic transmission is one potential.
+//
+//   H(q, x) ≥ 0                    stored energy                               J
+//   τ      = −∂H/∂q                torque on the shaft                         N·m
+//   load_i = −∂H/∂x_i              torque on input i (driving pulley, pivot)   N·m
+//   σ      =  ∂²H/∂q²              stiffness, what a user means by it          N·m/rad
+//
+// q is the output shaft, x the motor-side inputs after their gearboxes (rad; metres for a prismatic input). Losses are
+// separate, passive terms and have no place here: a law that can be written as H can't create energy.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace vsa::elastic {
+
+/// Where the transmission is: shaft and the two inputs. A law with one motor ignores x[1].
+struct Positions {
+  double q = 0;
+  std::array<double, 2> x{};
+};
+
+/// Second derivatives of H (or of its mean over a segment; see SegmentMean).
+struct Hessian {
+  double qq = 0;
+  std::array<double, 2> qx{};
+  double x0x0 = 0;
+  double x0x1 = 0;
+  double x1x1 = 0;
+};
+
+/// Everything a law says at one place.
+struct Response {
+  double energy = 0;           ///< H, J
+  double torque = 0;           ///< τ = −∂H/∂q, N·m
+  std::array<double, 2> load;  ///< load_i = −∂H/∂x_i, N·m
+  Hessian curvature;           ///< ∂²H; curvature.qq is the stiffness σ
+};
+
+/// The mean torque and loads over the straight segment from → to:
+///   τ̄ = −∫₀¹ ∂H/∂q (z₀ + s Δz) ds, likewise the loads, so that τ̄ Δq + Σ load̄_i Δx_i = −ΔH.
+/// `slope` is the derivative of the mean gradient with respect to the segment's END, ∫₀¹ s ∂²H ds.
+/// Midpoint-rule integrators that use these means conserve energy exactly, however stiff the law.
+struct SegmentMean {
+  double torque = 0;
+  std::array<double, 2> load{};
+  Hessian slope;
+};
+
+/// What a user commands. The preset's unit belongs to the law (see Transmission::preset_unit).
+struct EquilibriumPreset {
+  double equilibrium = 0;  ///< rad
+  double preset = 0;
+};
+
+class Transmission {
+ public:
+  virtual ~Transmission() = default;
+  Transmission(const Transmission&) = delete;
+  Transmission& operator=(const Transmission&) = delete;
+
+  [[nodiscard]] virtual Response evaluate(const Positions& at) const noexcept = 0;
+
+  /// H alone; override where it is cheaper than evaluate().
+  [[nodiscard]] virtual double energy(const Positions& at) const noexcept { return evaluate(at).energy; }
+
+  /// Default: three-point Gauss–Legendre quadrature of evaluate() along the segment; what it misses is booked by the caller
+  /// as integrator error. Laws with a closed form override it.
+  [[nodiscard]] virtual SegmentMean mean_over(const Positions& from, const Positions& to) const noexcept;
+
+  /// Motor references x_ref for a commanded (equilibrium, preset).
+  [[nodiscard]] virtual std::array<double, 2> references(const EquilibriumPreset& command) const noexcept = 0;
+  /// The inverse: where the unloaded shaft rests and which preset the inputs amount to.
+  [[nodiscard]] virtual EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept = 0;
+
+  [[nodiscard]] virtual int motor_count() const noexcept { return 2; }
+  /// "rad" for the qbmove's half difference; "" where the law has no preset.
+  [[nodiscard]] virtual std::string_view preset_unit() const noexcept { return "rad"; }
+
+ protected:
+  Transmission() = default;
+};
+
+}  // namespace vsa::elastic

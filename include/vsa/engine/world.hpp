@@ -1,0 +1,135 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The embedded simulator for C++ users.
+//
+//   auto world = vsa::engine::World::load("models/worlds/snake_flat.sdf");
+//   world.command("joint_1", 0.5, 0.2);
+//   world.run(2.0);
+//   auto now = world.read("joint_1");
+//
+// A World owns time. The same inputs give the same bits; snapshot()/restore() are bit-exact; reset() returns to the first sample.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsa/config/preset.hpp"
+#include "vsa/host/robot.hpp"
+
+namespace vsa::engine {
+
+struct WorldOptions {
+  std::optional<double> step_s;  ///< none: the SDF's <physics><max_step_size>
+  config::PresetLibrary presets{};
+  std::vector<std::filesystem::path> model_path;  ///< searched for model:// URIs after $SDF_PATH and the built-in models
+  bool actuators = true;                          ///< false: no torques, for measuring the engine alone
+};
+
+/// A blow-up: the state is no longer finite or an engine warning was raised. what() names time, joint and value.
+class SimulationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Pose {
+  std::array<double, 3> position{};              ///< m, world
+  std::array<double, 4> quaternion{1, 0, 0, 0};  ///< w x y z
+};
+
+/// Geometry for pictures; primitive kinds as in SDF.
+struct Shape {
+  enum class Kind { box, sphere, cylinder, capsule, plane, mesh, heightmap } kind = Kind::box;
+  Pose pose;                     ///< in its link
+  std::array<double, 3> size{};  ///< box x y z; sphere r; cylinder/capsule r, length; plane x y; mesh: scale; heightmap: extent
+  std::array<float, 4> rgba{0.7f, 0.7f, 0.7f, 1};
+  std::vector<float> vertices;  ///< mesh and heightmap: triangles' corners, xyz each, link frame
+  std::vector<std::uint32_t> indices;
+};
+
+struct LinkInfo {
+  std::string name;   ///< scoped: "model::link"
+  std::string model;  ///< top-level model
+  double mass_kg = 0;
+  bool is_static = false;
+  std::vector<Shape> visuals;  ///< the SDF's visuals (collisions where a link has none)
+};
+
+struct ActuatorRef {
+  std::string model;                 ///< top-level model's name
+  std::string name;                  ///< the actuator's
+  std::size_t robot = 0, index = 0;  ///< into robots(), and the robot's own index
+};
+
+class World {
+ public:
+  /// Throws InputError with all problems.
+  [[nodiscard]] static World load(const std::filesystem::path& sdf, WorldOptions options = {});
+  [[nodiscard]] static World load_string(std::string_view sdf, WorldOptions options = {});
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  [[nodiscard]] const std::string& name() const noexcept;  ///< the SDF world's
+  [[nodiscard]] double step_s() const noexcept;
+  [[nodiscard]] std::int64_t time_ns() const noexcept;
+  [[nodiscard]] double time_s() const noexcept;
+
+  /// One step; throws SimulationError on a blow-up and stays where it was before.
+  void step();
+  /// Whole steps until `duration_s` more has passed.
+  void run(double duration_s);
+
+  // Actuators, by name ("joint_1", or "model/joint_1" where several models have it) or reference.
+  [[nodiscard]] const std::vector<ActuatorRef>& actuators() const noexcept;
+  [[nodiscard]] const ActuatorRef& actuator(std::string_view name) const;  ///< throws InputError with the names there are
+  bool command(std::string_view actuator, double equilibrium_rad, double preset);
+  [[nodiscard]] host::ActuatorReading read(std::string_view actuator) const;
+  [[nodiscard]] host::ActuatorReading read(const ActuatorRef& actuator) const;
+  [[nodiscard]] std::size_t robot_count() const noexcept;
+  [[nodiscard]] host::Robot& robot(std::size_t index) noexcept;
+  [[nodiscard]] const host::Robot& robot(std::size_t index) const noexcept;
+  [[nodiscard]] const std::string& robot_model(std::size_t index) const noexcept;  ///< scoped model name
+
+  // Bodies
+  [[nodiscard]] const std::vector<LinkInfo>& links() const noexcept;
+  void poses(std::span<Pose> out) const;  ///< one an entry of links()
+  [[nodiscard]] std::array<double, 3> center_of_mass(std::string_view model) const;
+  [[nodiscard]] double joint_angle(std::string_view scoped_joint) const;
+  [[nodiscard]] double joint_speed(std::string_view scoped_joint) const;
+  /// Sets a one-axis joint's angle and speed (kicks, initial conditions); other state stays.
+  void set_joint(std::string_view scoped_joint, double angle, double speed);
+  /// Moves a model that isn't fixed to the world (initial conditions): adds a yaw about the world's z axis and a translation.
+  void displace_model(std::string_view model, double yaw_rad, std::array<double, 3> translation);
+  /// Makes the present state the one that reset() returns to.
+  void make_initial();
+
+  /// Kinetic and gravitational energy of all bodies and that of the SDF's own joint springs, J, co-located with the actuators'
+  /// ledger (see host/robot.hpp): velocities v with positions q − (dt/2)·v.
+  struct Energy {
+    double kinetic = 0, gravitational = 0, springs = 0;
+  };
+  [[nodiscard]] Energy energy() const;
+  [[nodiscard]] actuator::Ledger ledger() const;  ///< over all robots
+  [[nodiscard]] int contact_count() const noexcept;
+
+  struct Snapshot;
+  [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
+  void restore(const Snapshot& snapshot);
+  void reset();
+
+  [[nodiscard]] const std::vector<std::string>& warnings() const noexcept;  ///< what the SDF has and the engine leaves out
+
+ private:
+  struct Impl;
+  explicit World(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vsa::engine

@@ -1,0 +1,135 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// All that a simulator sees of a robot made of VSAs: shaft angles and speeds in, shaft torques out.
+//
+// THE SHAFT COUPLING, one decision for every host
+// A host integrates v' = v + dt·(a_other + A τ), q' = q + dt·v' (semi-implicit Euler: MuJoCo, DART, ODE and Bullet do). Seen from
+//     y = q − (dt/2) v,
+// the same step reads y' = y + dt·(v + v')/2: the midpoint rule. So the unit works with y as its shaft angle, predicts
+//     Δy = dt·v + (dt²/2)·(a_other + A τ̄)                                                                    (1)
+// and returns τ̄, the MEAN torque of the spring over the segment y → y + Δy (elastic::SegmentMean), with (1) solved for Δy.
+// Then τ̄·Δy = −ΔH exactly: an engine with that A gains exactly what the spring loses, at any step and any stiffness.
+//   A        1/(effective inertia about the joint) = (M⁻¹)_jj, 1/(kg·m²). The host may give it per joint; else the configured value.
+//   a_other  acceleration by all else (gravity, contacts, other joints), taken from the last step: (v − v_before)/dt − A τ̄_before.
+// What (1) mispredicts is not hidden: it is the `coupling` entry of the energy ledger.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vsa/bus/master.hpp"
+#include "vsa/device/unit.hpp"
+
+namespace vsa::host {
+
+using vsa::device::UnitConfig;
+
+/// One actuator of a robot, as the plug-in XML lists it.
+struct ActuatorConfig {
+  std::string name;                 ///< unique in the robot
+  std::string joint;                ///< scoped joint name, e.g. "module_1::shaft"
+  std::string preset;               ///< name of the actuator preset it was made from
+  UnitConfig unit;                  ///< validated parameters
+  std::size_t bus = 0;              ///< index into RobotConfig::buses
+  int id = 1;                       ///< device id on that bus, 1–254
+  double initial_equilibrium_rad = 0;
+  double initial_preset = 0;        ///< in the law's preset unit
+};
+
+struct BusConfig {
+  std::string name;
+  double baud_Hz = 2'000'000;
+  std::optional<double> cycle_s;    ///< none: automatic, max(wire time, 1 ms × units)
+};
+
+struct RobotConfig {
+  std::vector<ActuatorConfig> actuators;
+  std::vector<BusConfig> buses;
+  double state_rate_Hz = 100;
+};
+
+/// What a host tells of one joint at the start of a step.
+struct JointIn {
+  double angle_rad = 0;
+  double speed_rad_per_s = 0;
+  /// A = (M⁻¹)_jj, 1/(kg·m²); none: the unit's configured shaft_inertia_kgm2 is used.
+  std::optional<double> inverse_inertia;
+};
+
+/// What an actuator is doing, for topics and recordings. Physical truth; the unit's own readings are `measured`.
+struct ActuatorReading {
+  double equilibrium_command_rad = 0;
+  double preset_command = 0;
+  double equilibrium_rad = 0;       ///< attained, from the pulleys
+  double preset = 0;                ///< attained, from the pulleys
+  double shaft_rad = 0;
+  double shaft_speed_rad_per_s = 0;
+  double deflection_rad = 0;        ///< shaft − equilibrium
+  double stiffness_Nm_per_rad = 0;
+  double torque_Nm = 0;             ///< on the shaft by the actuator, mean over the last step
+  std::array<double, 2> motor_rad{};
+  std::array<double, 2> motor_speed_rad_per_s{};
+  std::array<double, 2> motor_torque_Nm{};   ///< spring load on each pulley, mean over the last step
+  std::array<double, 2> current_A{};
+  std::array<Ticks, 3> measured{};           ///< motor 1, motor 2, shaft as the bus master last read them
+};
+
+/// A command that was out of range is clamped as the device does and reported once per actuator.
+struct Notice {
+  std::size_t actuator = 0;
+  std::string text;
+};
+
+class Robot {
+ public:
+  /// The config must be valid (config:: makes valid ones); throws InputError for what only the whole shows (ids, buses).
+  explicit Robot(RobotConfig config);
+  ~Robot();
+  Robot(Robot&&) noexcept;
+  Robot& operator=(Robot&&) noexcept;
+
+  [[nodiscard]] const RobotConfig& config() const noexcept;
+  [[nodiscard]] std::size_t size() const noexcept;  ///< number of actuators
+  [[nodiscard]] std::optional<std::size_t> find(std::string_view actuator_name) const noexcept;
+
+  /// One host step [t, t + dt) in integer nanoseconds. in/out have one entry an actuator, in config order. dt in 1 ns … 16 ms.
+  /// Allocates nothing, throws nothing, logs nothing.
+  void advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out) noexcept;
+
+  /// From any thread; taken at the next step's start in order of arrival. NaN or infinity: refused (false). None: keep.
+  bool command(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset);
+
+  /// A trajectory in simulated time: knots (time after its start, value), linear between, last value held. It replaces what that
+  /// channel had. Empty or non-increasing knots or non-finite numbers: refused (false).
+  struct Knot {
+    double time_s = 0;
+    double value = 0;
+  };
+  enum class Channel { equilibrium, preset };
+  bool follow(std::size_t actuator, Channel channel, std::vector<Knot> knots);
+
+  [[nodiscard]] ActuatorReading read(std::size_t actuator) const;
+  [[nodiscard]] actuator::Ledger ledger(std::size_t actuator) const;  ///< energy ledger since the start or the last reset
+  [[nodiscard]] actuator::Ledger ledger() const;                      ///< summed over all actuators
+  [[nodiscard]] std::vector<Notice> take_notices();                   ///< since the last call
+
+  /// Cuts or restores the supply of every unit (0 V: the motors short through the bridge).
+  void set_supply(bool on) noexcept;
+
+  struct Snapshot;  ///< opaque, copyable value
+  [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
+  void restore(const Snapshot& snapshot);
+  void reset();     ///< back to the first sample
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vsa::host

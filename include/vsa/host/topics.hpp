@@ -1,0 +1,133 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What the topics of a robot mean, once for every host. A host supplies a TopicPort (subscribe and publish); the rest is here.
+//
+// M is the scoped model name, J the actuator's name; their scopes "a::b" become "a/b" in a topic.
+//
+//   topic                              kind          unit     meaning
+//   /model/M/joint/J/cmd_equilibrium   double        rad      equilibrium position; the preset stays
+//   /model/M/joint/J/cmd_preset        double        rad ¹    stiffness preset; the equilibrium stays
+//   /model/M/vsa/cmd                   trajectory    rad ¹    name `J` = equilibrium, `J_preset` = preset
+//   /model/M/vsa/cmd_array             actuators     rad ¹    all equilibria, then all presets, in the plug-in's order
+//   /model/M/vsa/joint_state           joint states  rad …    per actuator: shaft (the SDF joint's name), J_motor_1, J_motor_2
+//   /model/M/joint/J/stiffness         double        N·m/rad
+//   /model/M/joint/J/deflection        double        rad      shaft − equilibrium
+//   /model/M/joint/J/preset            double        rad ¹    attained, from the pulleys
+//   /model/M/joint/J/current_1, _2     double        A        physical; the unit's filtered readings are on its port
+//   ¹ the unit of the actuator's law: half the pulleys' difference, in rad, for the qbmove
+//
+// A trajectory with one point is a command for now, whatever its time. With several, each channel goes linearly from its present
+// command to the first point and from point to point, in simulated time that starts at the next step, and holds the last;
+// velocities and efforts aren't used. A channel that isn't named keeps what it has.
+//
+// Refused as a whole, with one reported line a topic and kind of fault: numbers that aren't finite, wrong lengths, unknown or
+// repeated names, times that are negative or don't increase. Out-of-range values are the robot's business: it clamps and gives a
+// Notice.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsa/host/robot.hpp"
+
+namespace vsa::host {
+
+struct Trajectory {
+  struct Point {
+    std::vector<double> positions;  ///< one a name
+    double time_from_start_s = 0;
+  };
+  std::vector<std::string> names;
+  std::vector<Point> points;
+};
+
+struct ActuatorsCmd {
+  std::vector<double> positions;
+};
+
+/// Simulation truth, not the unit's readings.
+struct JointStates {
+  struct Joint {
+    std::string name;
+    double position_rad = 0;
+    double velocity_rad_per_s = 0;
+    double force_Nm = 0;  ///< shaft: by the actuator on the robot; motor: by the spring on its pulley
+  };
+  /// What an actuator has been told, so that a client sees its command arrive.
+  struct Command {
+    double equilibrium_rad = 0;
+    double preset = 0;
+  };
+  std::int64_t time_ns = 0;  ///< simulated
+  std::string model;
+  std::vector<Joint> joints;             ///< of each actuator: shaft, motor 1, and motor 2 where it has one
+  std::vector<std::string> names;        ///< of the actuators
+  std::vector<std::size_t> first_joint;  ///< each actuator's shaft, in `joints`
+  std::vector<Command> commands;         ///< one an actuator
+};
+
+/// One advertised topic. `wanted` must be cheap: it is asked for every topic at the state rate.
+template <class Message>
+class Publisher {
+ public:
+  virtual ~Publisher() = default;
+  [[nodiscard]] virtual bool wanted() const noexcept = 0;
+  virtual void publish(std::int64_t time_ns, const Message& message) = 0;
+};
+
+enum class Outcome {
+  ok,
+  unsupported,  ///< the transport has no such message kind: the topic is left out
+  refused,      ///< the transport takes no such topic name
+};
+
+/// What a host supplies. Handlers may be called from any thread, and no more once the port is gone.
+class TopicPort {
+ public:
+  virtual ~TopicPort() = default;
+  virtual Outcome on_double(const std::string& topic, std::function<void(double)> handler) = 0;
+  virtual Outcome on_trajectory(const std::string& topic, std::function<void(const Trajectory&)> handler) = 0;
+  virtual Outcome on_actuators(const std::string& topic, std::function<void(const ActuatorsCmd&)> handler) = 0;
+  /// Null: unsupported or refused.
+  virtual std::unique_ptr<Publisher<double>> advertise_double(const std::string& topic) = 0;
+  virtual std::unique_ptr<Publisher<JointStates>> advertise_states(const std::string& topic) = 0;
+};
+
+/// "a::b" → "a/b". Throws InputError where the name can't be a topic: empty parts, white space, '@', '~' or ":=".
+[[nodiscard]] std::string topic_scope(std::string_view scoped_name, std::string_view what);
+
+/// The topics' names, for hosts and clients alike. Names are scoped with "::" or "/".
+[[nodiscard]] std::string model_topic(std::string_view model, std::string_view leaf);  ///< leaf: "vsa/cmd", "vsa/joint_state", …
+[[nodiscard]] std::string joint_topic(std::string_view model, std::string_view actuator, std::string_view leaf);
+
+/// Subscribes and publishes for one robot. Declare it before its port's connection ends: the port must be gone before this is.
+class RobotTopics {
+ public:
+  /// One readable line. Called from any thread.
+  using Report = std::function<void(const std::string& line)>;
+
+  /// Throws InputError with every name that can't be a topic, and where a name `J_preset` could mean two things.
+  RobotTopics(Robot& robot, std::string model, TopicPort& port, Report report);
+  ~RobotTopics();
+  RobotTopics(RobotTopics&&) noexcept;
+  RobotTopics& operator=(RobotTopics&&) noexcept;
+
+  /// After every step: publishes when a state period of simulated time has begun since the last call (or time went back), to those
+  /// who listen, and reports what the robot clamped. Between two periods it costs a comparison.
+  void update(std::int64_t time_ns);
+  /// Publishes whatever the time: for a paused host, so that who comes late sees the state too.
+  void publish(std::int64_t time_ns);
+
+  [[nodiscard]] std::uint64_t refused() const noexcept;  ///< commands refused so far, reported or not
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vsa::host

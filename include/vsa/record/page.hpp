@@ -1,0 +1,64 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The replay page: one HTML file that needs nothing else, no network either. The template (web/, built into
+// share/vsa/web/replay.html) carries the program; the data go where its marker is, as JSON with base64 arrays of little-endian
+// 32-bit floats. Everything that came from a user's file is data to the page, never markup.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsa/record/run_data.hpp"
+
+namespace vsa::record {
+
+inline constexpr std::string_view kPageMarker = "@VSA_REPLAY_DATA@";
+
+/// What stands around the numbers.
+struct PageText {
+  std::string title;
+  std::vector<Statistic> summary;
+  std::vector<std::string> notes;  ///< what a reader must know, e.g. why the run ended early
+};
+
+/// Collects frames at the page's rate. When `frames_max` is reached every other frame is dropped and the rate is halved from then on,
+/// so that a long run gives a page of bounded size.
+class PageData {
+ public:
+  PageData(const RunInfo& info, double rate_Hz, std::size_t frames_max);
+
+  [[nodiscard]] bool due(std::int64_t time_ns) const noexcept { return cadence_.due(time_ns); }
+  void add(const Sample& sample);
+  void restart();
+  [[nodiscard]] std::size_t frames() const noexcept { return time_.size(); }
+
+  [[nodiscard]] std::string json(const RunInfo& info, const PageText& text) const;
+
+ private:
+  void halve();
+
+  std::vector<std::size_t> moving_;  // links whose poses are frames
+  std::vector<engine::Pose> first_;  // poses of the first sample, for the links that don't move
+  std::size_t actuators_ = 0;
+  double rate_Hz_;
+  std::size_t frames_max_;
+  Cadence cadence_;
+  std::vector<float> time_, poses_, readings_, energy_;  // frame after frame
+};
+
+/// Reads the template and checks that it has the marker once. Throws InputError.
+[[nodiscard]] std::string read_template(const std::filesystem::path& file);
+
+/// Writes template + data to `file`: beside it first, then renamed, so that there is never half a page. Throws RecordError.
+void write_page(const std::filesystem::path& file, std::string_view page_template, std::string_view json);
+
+/// Text as a JSON string that is safe inside <script>: quotes included, '<', '>', '&' and line separators escaped, bytes that aren't
+/// UTF-8 replaced.
+[[nodiscard]] std::string json_string(std::string_view text);
+
+/// Standard base64 of the floats' little-endian bytes.
+[[nodiscard]] std::string base64(const std::vector<float>& values);
+
+}  // namespace vsa::record

@@ -1,0 +1,74 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Records a run: CSV files (csv.hpp) and a replay page (page.hpp).
+//
+//   vsa::record::Recorder recorder(world, "out");     // the sample at the present time is taken here, before the first step
+//   while (…) { world.step(); recorder.sample(world); }
+//   recorder.finish({{"distance", "4.2 m"}});
+//
+// A run that blows up: what was sampled is in the files already; call finish() with a note and the page shows the run so far.
+// A world that was reset starts the recording over (its files hold one run, in order of time), and the page says so.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsa/record/run_data.hpp"
+
+namespace vsa::record {
+
+struct RecorderOptions {
+  double rate_Hz = 100;                  ///< of the CSV files, (0, 1e6]
+  double page_rate_Hz = 50;              ///< of the page, (0, 1e6]; halved as often as page_frames_max asks
+  std::size_t page_frames_max = 4000;    ///< at least 2
+  std::string title;                     ///< of the page; empty: the world's name
+  /// Empty: data_directory()/web/replay.html.
+  std::filesystem::path page_template;
+};
+
+/// The recorder's core, fed with samples: for tests and for hosts without engine::World.
+class RunRecord {
+ public:
+  /// Throws InputError: options out of range, directory or files that can't be written, a missing template.
+  RunRecord(RunInfo info, std::filesystem::path directory, RecorderOptions options);
+  ~RunRecord();
+  RunRecord(RunRecord&&) noexcept;
+  RunRecord& operator=(RunRecord&&) noexcept;
+
+  /// Whether a sample at that time is wanted by the files or the page.
+  [[nodiscard]] bool due(std::int64_t time_ns) const noexcept;
+  /// Throws RecordError; then nothing more is written to the files, but the page can still be made.
+  void add(const Sample& sample);
+  /// Closes the files and writes DIR/replay.html; returns its path. Once. Throws RecordError.
+  std::filesystem::path finish(const std::vector<Statistic>& summary, std::string_view note);
+  [[nodiscard]] std::vector<std::filesystem::path> files() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+class Recorder {
+ public:
+  Recorder(const engine::World& world, const std::filesystem::path& directory, RecorderOptions options = {});
+
+  /// Call after each step: takes a sample if one is due.
+  void sample(const engine::World& world);
+
+  /// Writes the page. `note` says on it why the run ended early; empty where it didn't.
+  std::filesystem::path finish(const std::vector<Statistic>& summary = {}, std::string_view note = {});
+
+  [[nodiscard]] std::vector<std::filesystem::path> files() const { return record_.files(); }
+
+ private:
+  Sample sample_;  // reused, so that sampling doesn't allocate
+  RunRecord record_;
+};
+
+/// What stays the same over a run of this world.
+[[nodiscard]] RunInfo describe(const engine::World& world);
+
+}  // namespace vsa::record

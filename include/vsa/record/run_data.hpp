@@ -1,0 +1,83 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What a recording holds, as plain data: the part that doesn't change (RunInfo) and one moment (Sample). The writers know only
+// these, so that they can be tested, and used, without a simulator.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsa/actuator/ledger.hpp"
+#include "vsa/engine/world.hpp"
+#include "vsa/host/robot.hpp"
+
+namespace vsa::record {
+
+struct ActuatorInfo {
+  std::string name;
+  std::string joint;               ///< scoped joint name, as configured
+  std::string preset;              ///< the actuator preset's name
+  std::string preset_unit = "rad"; ///< the law's; "" where it has no preset
+  int motors = 2;                  ///< 1 or 2: columns of a missing motor stay empty
+  std::vector<std::size_t> links;  ///< into RunInfo::links: the bodies to highlight for it
+};
+
+struct RobotInfo {
+  std::string model;  ///< scoped model name
+  std::vector<ActuatorInfo> actuators;
+};
+
+struct RunInfo {
+  std::string world;
+  double step_s = 0;
+  std::vector<RobotInfo> robots;
+  std::vector<engine::LinkInfo> links;
+};
+
+/// One moment. The same shape for every sample of a run.
+struct Sample {
+  std::int64_t time_ns = 0;
+  std::vector<host::ActuatorReading> actuators;  ///< robots in order, each robot's actuators in order
+  std::vector<engine::Pose> poses;               ///< one an entry of RunInfo::links
+  actuator::Ledger ledger;                       ///< over all actuators
+  double kinetic_J = 0, gravitational_J = 0;     ///< of all bodies
+};
+
+/// A line of the summary, as the command line prints it and the page shows it.
+struct Statistic {
+  std::string label;
+  std::string value;  ///< with its unit
+};
+
+/// Writing failed after the recording had begun (disk full, …). what() gives path and reason.
+class RecordError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The bodies that an actuator's joint belongs to, for highlighting: the links in the joint's own scope ("module_1::shaft" → all of
+/// "MODEL::module_1::…"). A joint without a scope says nothing of its bodies; then the robot's n-th moving link stands for its n-th
+/// actuator, as in a serial chain.
+[[nodiscard]] std::vector<std::size_t> links_of_joint(std::string_view model, std::string_view joint, std::size_t actuator_index,
+                                                      const std::vector<engine::LinkInfo>& links);
+
+/// Decides by integer time which steps are samples: the first step at or after each multiple of the period (rounded to 1 ns), so that
+/// sample times never drift and a rate above the step rate takes every step.
+class Cadence {
+ public:
+  explicit Cadence(double rate_Hz);
+  [[nodiscard]] bool due(std::int64_t time_ns) const noexcept { return time_ns >= next_ns_; }
+  void taken(std::int64_t time_ns) noexcept { next_ns_ = (time_ns / period_ns_ + 1) * period_ns_; }
+  void restart() noexcept { next_ns_ = 0; }
+  [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }
+
+ private:
+  std::int64_t period_ns_;
+  std::int64_t next_ns_ = 0;
+};
+
+}  // namespace vsa::record

@@ -1,0 +1,12 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace vsa::topics {
+
+/// Keeps ignition-transport on this machine: sets IGN_IP to 127.0.0.1 where it is unset. The transport reads it once, when a
+/// process makes its first node, so call it early and from one thread (it changes the environment); every class here that makes a
+/// node calls it. Who wants the network sets IGN_IP to that interface's address. The discovery's UDP sockets (10317, 10318) stay on
+/// all addresses.
+void prefer_loopback();
+
+}  // namespace vsa::topics

@@ -1,0 +1,41 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace vsa {
+
+/// The device's own integer units, as distinct types so that a tick can't be taken for a milliampere.
+/// Raw position: 65536 a turn. Reported position ("ticks"): raw >> resolution, 32768 a turn by default.
+struct Raw {
+  std::int32_t value = 0;
+  constexpr bool operator==(const Raw&) const = default;
+};
+
+struct Ticks {
+  std::int16_t value = 0;
+  constexpr bool operator==(const Ticks&) const = default;
+};
+
+/// Output of the position loop after the supply-dependent limit: percent of the bridge's full duty.
+struct DutyPercent {
+  std::int32_t value = 0;
+  constexpr bool operator==(const DutyPercent&) const = default;
+};
+
+struct MilliAmp {
+  std::int32_t value = 0;
+  constexpr bool operator==(const MilliAmp&) const = default;
+};
+
+struct MilliVolt {
+  std::int32_t value = 0;
+  constexpr bool operator==(const MilliVolt&) const = default;
+};
+
+inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kRawPerTurn = 65536.0;
+
+constexpr double radians(Raw raw) { return raw.value * (2.0 * kPi / kRawPerTurn); }
+
+}  // namespace vsa

@@ -1,0 +1,39 @@
+#!/bin/sh
+# Installs what building, testing and running vsasim needs on Debian 12.
+# Idempotent: when every package is present it touches neither the network nor the package manager.
+set -eu
+
+packages="
+  build-essential cmake ninja-build pkg-config git ca-certificates
+  libmujoco-dev libqhull-dev libsdformat-dev libignition-transport-dev libignition-msgs-dev ignition-transport-cli
+  libtomlplusplus-dev libtinyxml2-dev libcli11-dev libfmt-dev libexpected-dev
+  libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
+"
+# The page tests drive Debian's Chromium; a developer's tools are asked for by name: setup.sh test tidy
+for group in "$@"; do
+  case "$group" in
+    test) packages="$packages chromium" ;;
+    tidy) packages="$packages clang-format clang-tidy" ;;
+    *) echo "setup.sh: unknown group '$group' (allowed: test, tidy)" >&2; exit 2 ;;
+  esac
+done
+
+missing=""
+for p in $packages; do
+  dpkg-query -W -f='${Status}' "$p" 2>/dev/null | grep -q 'install ok installed' || missing="$missing $p"
+done
+# Node.js and npm: whatever is on the PATH serves; Debian's npm conflicts with other sources' Node.js.
+if ! command -v npm >/dev/null 2>&1 || ! command -v node >/dev/null 2>&1; then missing="$missing nodejs npm"; fi
+
+[ -n "$missing" ] || exit 0
+
+sudo=""
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null 2>&1 || { echo "setup.sh: needs root or sudo to install:$missing" >&2; exit 1; }
+  sudo="sudo"
+fi
+echo "setup: installing$missing"
+export DEBIAN_FRONTEND=noninteractive
+$sudo apt-get update -qq
+# shellcheck disable=SC2086 # the list is words on purpose
+$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null

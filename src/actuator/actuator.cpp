@@ -1,0 +1,203 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/actuator/actuator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace vsa::actuator {
+namespace {
+
+constexpr int kMaxIterations = 60;
+// Newton converges quadratically: a last correction that moves a load by this fraction leaves about its square. What it leaves is not
+// lost but booked as integrator error.
+constexpr double kRelativeTolerance = 1e-4;
+constexpr double kAbsoluteTolerance_Nm = 1e-6;
+
+double load_curvature(const elastic::Hessian& h, int i) noexcept { return i == 0 ? h.x0x0 : h.x1x1; }
+
+/// The mean, carried from the displacements it was evaluated at to nearby ones.
+void correct(elastic::SegmentMean& mean, const std::array<double, 2>& step) noexcept {
+  mean.torque -= mean.slope.qx[0] * step[0] + mean.slope.qx[1] * step[1];
+  mean.load[0] -= mean.slope.x0x0 * step[0] + mean.slope.x0x1 * step[1];
+  mean.load[1] -= mean.slope.x0x1 * step[0] + mean.slope.x1x1 * step[1];
+}
+
+}  // namespace
+
+Actuator::Actuator(ActuatorParams params)
+    : params_(std::move(params)),
+      motor_(drive::at_pulley(params_.motor, params_.gearbox.ratio)),
+      friction_(drive::at_pulley(params_.gearbox.friction, params_.gearbox.ratio)),
+      motors_(params_.transmission->motor_count()) {}
+
+elastic::Positions Actuator::positions(const ActuatorState& s, double shaft) const noexcept {
+  return {shaft, {s.motor[0].angle, s.motor[1].angle}};
+}
+
+ActuatorState Actuator::initial(const std::array<double, 2>& pulleys, double shaft) const noexcept {
+  ActuatorState s;
+  for (int i = 0; i < 2; ++i) s.motor[i].angle = s.motor_anchor[i] = pulleys[i];
+  place(s, shaft);
+  return s;
+}
+
+void Actuator::place(ActuatorState& s, double shaft) const noexcept {
+  s.shaft = s.shaft_anchor = shaft;
+  const elastic::Response r = params_.transmission->evaluate(positions(s, shaft));
+  s.load = r.load;
+  s.ledger = {};
+  s.ledger.elastic = r.energy;
+  book_motors(s);
+  s.ledger.stored_at_start = s.ledger.stored();
+}
+
+void Actuator::book_motors(ActuatorState& s) const noexcept {
+  Ledger& l = s.ledger;
+  l.kinetic = l.magnetic = l.bristle = 0;
+  for (int i = 0; i < motors_; ++i) {
+    l.kinetic += 0.5 * motor_.inertia_kgm2 * s.motor[i].speed * s.motor[i].speed;
+    if (motor_.inductance_H) l.magnetic += 0.5 * *motor_.inductance_H * s.motor[i].current * s.motor[i].current;
+    l.bristle += drive::bristle_energy(friction_, s.motor[i].angle - s.motor_anchor[i]);
+  }
+}
+
+const drive::MotorStepper& Actuator::stepper(double h_s, drive::Terminal terminal) noexcept {
+  if (prepared_[0].h_s != h_s) {
+    std::swap(prepared_[0], prepared_[1]);
+    if (prepared_[0].h_s != h_s) {
+      prepared_[0] = {h_s, {motor_, drive::Terminal::driven, h_s}, {motor_, drive::Terminal::open, h_s}};
+    }
+  }
+  return terminal == drive::Terminal::driven ? prepared_[0].driven : prepared_[0].open;
+}
+
+Actuator::Pulleys Actuator::solve(const ActuatorState& s, const drive::MotorStepper& stepper, const SegmentInput& in) const noexcept {
+  const double c = stepper.compliance();
+  const elastic::Positions from = positions(s, s.shaft);
+  std::array<double, 2> free{}, u{};
+  Pulleys p;
+  for (int i = 0; i < motors_; ++i) {
+    free[i] = stepper.free_displacement(s.motor[i], in.voltage[i]);
+    u[i] = s.motor[i].angle - s.motor_anchor[i];
+    p.dx[i] = drive::solve_friction(friction_, u[i], free[i] + c * s.load[i], c).displacement;
+  }
+  double last_residual = std::numeric_limits<double>::infinity();
+  std::array<double, 2> last_dx = p.dx;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const elastic::Positions to{from.q + in.dq, {from.x[0] + p.dx[0], from.x[1] + p.dx[1]}};
+    p.mean = params_.transmission->mean_over(from, to);
+    p.slope = p.mean.slope.qq;
+    std::array<double, 2> step{};
+    double residual = 0;
+    bool accepted = true;
+    for (int i = 0; i < motors_; ++i) {
+      // load(dx) ≈ load − κ·step; κ > −1/(2c) keeps the linear problem monotone where a law isn't convex.
+      const double kappa = std::max(load_curvature(p.mean.slope, i), -0.5 / c);
+      const double yield = 1.0 / (1.0 + c * kappa);
+      const double target = (free[i] + c * (p.mean.load[i] + kappa * p.dx[i])) * yield;
+      p.friction[i] = drive::solve_friction(friction_, u[i], target, c * yield);
+      step[i] = p.friction[i].displacement - p.dx[i];
+      residual = std::max(residual, std::abs(step[i]));
+      accepted = accepted && std::abs(kappa * step[i]) <= kRelativeTolerance * std::abs(p.mean.load[i]) + kAbsoluteTolerance_Nm;
+      const bool slides = p.friction[i].anchor_travel != 0.0 || friction_.coulomb_Nm <= 0 || friction_.presliding_rad <= 0;
+      const double bristle = slides ? 0.0 : 0.5 * friction_.coulomb_Nm / friction_.presliding_rad;
+      p.slope -= p.mean.slope.qx[i] * p.mean.slope.qx[i] * c * yield / (1.0 + c * yield * bristle);
+    }
+    if (accepted || iteration + 1 == kMaxIterations) {
+      for (int i = 0; i < 2; ++i) p.dx[i] += step[i];
+      correct(p.mean, step);
+      return p;
+    }
+    // A hardening spring can throw Newton far out; halve until the correction shrinks.
+    const bool worse = !(residual < last_residual);
+    for (int i = 0; i < 2; ++i) {
+      const double next = worse ? 0.5 * (p.dx[i] + last_dx[i]) : p.dx[i] + step[i];
+      if (!worse) last_dx[i] = p.dx[i];
+      p.dx[i] = next;
+    }
+    if (!worse) last_residual = residual;
+  }
+  return p;
+}
+
+void Actuator::drive_motors(ActuatorState& s, const drive::MotorStepper& stepper, const SegmentInput& in,
+                            const Pulleys& p) const noexcept {
+  Ledger& l = s.ledger;
+  for (int i = 0; i < motors_; ++i) {
+    drive::MotorState& m = s.motor[i];
+    const double voltage = in.terminal == drive::Terminal::driven ? in.voltage[i] : 0.0;
+    if (in.terminal == drive::Terminal::open && motor_.inductance_H) {
+      l.copper += 0.5 * *motor_.inductance_H * m.current * m.current;  // an opened winding burns what it stored
+      m.current = 0;
+    }
+    const drive::MotorStep step = stepper.step(m, voltage, p.mean.load[i] + p.friction[i].torque);
+    l.motor_friction += drive::friction_heat(friction_, m.angle - s.motor_anchor[i], p.friction[i]);
+    l.supply += voltage * step.charge;
+    l.supply_moved += std::abs(voltage * step.charge);
+    l.copper += motor_.resistance_Ohm * step.int_II;
+    l.conversion += (motor_.back_emf_Vs_per_rad - motor_.torque_constant_Nm_per_A) * step.int_Iw;
+    l.viscous += motor_.viscous_Nms_per_rad * step.int_ww;
+    m.angle += step.displacement;
+    m.speed = step.speed;
+    m.current = motor_.inductance_H ? step.current : 0.0;
+    s.motor_anchor[i] += p.friction[i].anchor_travel;
+    s.load[i] = p.mean.load[i];
+  }
+}
+
+SegmentResult Actuator::segment(ActuatorState& s, double h_s, const SegmentInput& in) noexcept {
+  const drive::MotorStepper& prepared = stepper(h_s, in.terminal);
+  const Pulleys p = solve(s, prepared, in);
+  const std::array<double, 2> before{s.motor[0].angle, s.motor[1].angle};
+  const double elastic_before = s.ledger.elastic;
+  drive_motors(s, prepared, in, p);
+  s.shaft += in.dq;
+  const double elastic = params_.transmission->energy(positions(s, s.shaft));
+  double work = p.mean.torque * in.dq;
+  for (int i = 0; i < motors_; ++i) work += p.mean.load[i] * (s.motor[i].angle - before[i]);
+  s.ledger.integrator -= (elastic - elastic_before) + work;
+  s.ledger.elastic = elastic;
+  book_motors(s);
+  return {p.mean.torque, p.slope};
+}
+
+drive::FrictionStep Actuator::shaft_friction(ActuatorState& s, double displacement) const noexcept {
+  // The segments have moved state.shaft already: the friction's own start is behind it.
+  const double u = s.shaft - displacement - s.shaft_anchor;
+  const drive::FrictionStep step = drive::follow_friction(params_.shaft_friction, u, displacement);
+  s.ledger.shaft_friction += drive::friction_heat(params_.shaft_friction, u, step);
+  s.shaft_anchor += step.anchor_travel;
+  s.ledger.shaft_bristle = drive::bristle_energy(params_.shaft_friction, s.shaft - s.shaft_anchor);
+  return step;
+}
+
+void Actuator::settle(ActuatorState& s, double actual, double applied_torque, double actual_dy, double path_work) const noexcept {
+  Ledger& l = s.ledger;
+  const double predicted = l.elastic + l.shaft_bristle;
+  s.shaft = actual;
+  if (params_.shaft_friction.presliding_rad > 0) {
+    const double z = params_.shaft_friction.presliding_rad;
+    s.shaft_anchor = actual - std::clamp(actual - s.shaft_anchor, -z, z);
+  } else {
+    s.shaft_anchor = actual;
+  }
+  l.elastic = params_.transmission->energy(positions(s, actual));
+  l.shaft_bristle = drive::bristle_energy(params_.shaft_friction, s.shaft - s.shaft_anchor);
+  const double work = applied_torque * actual_dy;
+  l.coupling += (predicted - (l.elastic + l.shaft_bristle)) - (work - path_work);
+  l.delivered += work;
+  l.pending = 0;
+  l.delivered_moved += std::abs(work);
+}
+
+elastic::Response Actuator::spring(const ActuatorState& s, double shaft) const noexcept {
+  return params_.transmission->evaluate(positions(s, shaft));
+}
+
+double Actuator::motor_current(const ActuatorState& s, int i, double voltage, drive::Terminal terminal) const noexcept {
+  return drive::current(motor_, terminal, s.motor[i], voltage);
+}
+
+}  // namespace vsa::actuator

@@ -1,0 +1,39 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdlib>
+
+#include "vsa/config/preset.hpp"
+#include "vsa/config/text.hpp"
+
+namespace vsa::config {
+namespace fs = std::filesystem;
+
+std::vector<fs::path> data_directories() {
+  const char* set = std::getenv("VSA_DATA_DIR");
+  if (set != nullptr && *set != '\0') return {fs::path(set)};
+  std::vector<fs::path> directories;
+  std::error_code error;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  if (!error) directories.push_back((executable.parent_path() / ".." / "share" / "vsa").lexically_normal());
+  directories.emplace_back(VSA_SOURCE_DIR);
+  return directories;
+}
+
+std::optional<fs::path> find_data(const fs::path& relative) {
+  for (const fs::path& directory : data_directories()) {
+    std::error_code error;
+    if (fs::exists(directory / relative, error)) return directory / relative;
+  }
+  return std::nullopt;
+}
+
+fs::path data_directory() {
+  if (const auto presets = find_data("presets")) return presets->parent_path();
+  std::vector<std::string> places;
+  for (const fs::path& directory : data_directories()) places.push_back(directory.string());
+  const char* set = std::getenv("VSA_DATA_DIR");
+  throw InputError(Problem{set != nullptr ? "VSA_DATA_DIR" : "", "data directory", join(places), "has no presets/",
+                           "a directory with presets/ and models/; set VSA_DATA_DIR"});
+}
+
+}  // namespace vsa::config

@@ -1,0 +1,177 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "config/document.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "vsa/config/text.hpp"
+
+namespace vsa::config {
+namespace {
+
+const std::vector<std::string> kGroups{"preset", "elastic", "drive", "shaft", "sensor", "firmware", "limits", "physics"};
+const std::vector<std::string> kPresetKeys{"name", "title", "description"};
+const std::vector<std::string> kItemKeys{"value", "unit", "bounds", "source"};
+
+int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+Scalar scalar(const toml::node& node) {
+  if (const auto* v = node.as_floating_point()) return v->get();
+  if (const auto* v = node.as_integer()) return v->get();
+  if (const auto* v = node.as_boolean()) return v->get();
+  if (const auto* v = node.as_string()) return v->get();
+  return {};
+}
+
+std::string node_text(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  if (node.is_array()) return "an array";
+  const Scalar value = scalar(node);
+  return std::holds_alternative<std::monostate>(value) ? "a date or time" : scalar_text(value);
+}
+
+class Reader {
+ public:
+  Reader(Document& document, Problems& problems) : doc_(document), problems_(problems) {}
+
+  void read(const toml::table& root) {
+    for (const auto& [key, node] : root) {
+      const std::string group(key.str());
+      const toml::table* table = node.as_table();
+      if (std::find(kGroups.begin(), kGroups.end(), group) == kGroups.end()) {
+        unknown(line_of(node), group, group, kGroups, "unknown table");
+      } else if (table == nullptr) {
+        add(line_of(node), group, node_text(node), "must be a table", "[" + group + "]");
+      } else if (group == "preset") {
+        read_preset(*table);
+      } else {
+        read_group(group, *table);
+      }
+    }
+    if (doc_.name.empty()) missing("preset.name");
+    if (doc_.title.empty()) missing("preset.title");
+    if (doc_.law.empty()) missing("elastic.law");
+  }
+
+ private:
+  void add(int line, std::string key, std::string value, std::string message, std::string allowed = {}) {
+    problems_.add({doc_.place(line), std::move(key), std::move(value), std::move(message), std::move(allowed)});
+  }
+  void missing(const std::string& key) {
+    if (std::find(doc_.broken.begin(), doc_.broken.end(), key) == doc_.broken.end()) add(0, key, "", "is missing", "a text");
+  }
+  void unknown(int line, const std::string& key, std::string_view word, const std::vector<std::string>& known, const char* what) {
+    add(line, key, "", std::string(what) + ", did you mean " + nearest(word, known) + "?", join(known));
+  }
+
+  std::string text_at(const toml::node& node, const std::string& key) {
+    const auto* text = node.as_string();
+    if (text != nullptr && !trim(text->get()).empty()) return text->get();
+    add(line_of(node), key, node_text(node), "must be a text that is not empty");
+    doc_.broken.push_back(key);
+    return {};
+  }
+
+  void read_preset(const toml::table& table) {
+    for (const auto& [name, node] : table) {
+      const std::string key = "preset." + std::string(name.str());
+      if (name == "name") {
+        doc_.name = text_at(node, key);
+      } else if (name == "title") {
+        doc_.title = text_at(node, key);
+      } else if (name == "description") {
+        doc_.description = text_at(node, key);
+      } else {
+        unknown(line_of(node), key, name.str(), kPresetKeys, "unknown key");
+      }
+    }
+  }
+
+  void read_group(const std::string& group, const toml::table& table) {
+    for (const auto& [name, node] : table) {
+      const std::string key = group + "." + std::string(name.str());
+      if (key == "elastic.law") {
+        doc_.law = text_at(node, key);
+        doc_.law_line = line_of(node);
+      } else if (const toml::table* item = node.as_table()) {
+        read_item(key, *item, line_of(node));
+      } else {
+        doc_.broken.push_back(key);
+        add(line_of(node), key, node_text(node), "must be a table",
+            "{ value = …, unit = …, bounds = [lowest, highest], source = … }");
+      }
+    }
+  }
+
+  void read_item(const std::string& key, const toml::table& table, int line) {
+    Item item;
+    item.key = key;
+    item.line = line;
+    for (const auto& [name, node] : table) {
+      const std::string part = key + "." + std::string(name.str());
+      if (name == "value") {
+        item.value = scalar(node);
+        if (std::holds_alternative<std::monostate>(item.value)) {
+          add(line_of(node), part, node_text(node), "must be a number, a text, true or false");
+        }
+      } else if (name == "unit") {
+        item.unit = text_at(node, part);
+      } else if (name == "source") {
+        item.source = text_at(node, part);
+      } else if (name == "bounds") {
+        item.bounds = bounds(node, part);
+      } else {
+        unknown(line_of(node), part, name.str(), kItemKeys, "unknown key");
+      }
+    }
+    if (!table.contains("value")) add(line, key + ".value", "", "is missing");
+    if (!table.contains("source")) add(line, key + ".source", "", "is missing", "where the value comes from");
+    const bool whole = !std::holds_alternative<std::monostate>(item.value);
+    if (whole) doc_.items.push_back(std::move(item));
+    if (!whole) doc_.broken.push_back(key);
+  }
+
+  std::optional<std::array<double, 2>> bounds(const toml::node& node, const std::string& key) {
+    const toml::array* pair = node.as_array();
+    if (pair != nullptr && pair->size() == 2) {
+      const auto low = (*pair)[0].value<double>(), high = (*pair)[1].value<double>();
+      const bool numbers = (*pair)[0].is_number() && (*pair)[1].is_number() && low && high;
+      if (numbers && std::isfinite(*low) && std::isfinite(*high) && *low <= *high) return std::array<double, 2>{*low, *high};
+    }
+    add(line_of(node), key, node_text(node), "must be two finite numbers in order", "[lowest, highest]");
+    // Without usable bounds the schema's alone hold; this problem stops the preset anyway.
+    return std::nullopt;
+  }
+
+  Document& doc_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+std::string Document::place(int line) const { return line > 0 ? file + ":" + std::to_string(line) : file; }
+
+std::string scalar_text(const Scalar& value) {
+  if (const auto* v = std::get_if<double>(&value)) return number_text(*v);
+  if (const auto* v = std::get_if<std::int64_t>(&value)) return std::to_string(*v);
+  if (const auto* v = std::get_if<bool>(&value)) return *v ? "true" : "false";
+  if (const auto* v = std::get_if<std::string>(&value)) return '"' + *v + '"';
+  return {};
+}
+
+Document read_document(std::string_view text, std::string file, Problems& problems) {
+  Document document;
+  document.file = std::move(file);
+  try {
+    const toml::table root = toml::parse(text);
+    document.readable = true;
+    Reader(document, problems).read(root);
+  } catch (const toml::parse_error& error) {
+    problems.add({document.place(static_cast<int>(error.source().begin.line)), "", "", std::string(error.description()), ""});
+  }
+  return document;
+}
+
+}  // namespace vsa::config

@@ -1,0 +1,48 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A preset file as written: its form is checked, its meaning is not. Keeps toml++ in one source file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vsa/errors.hpp"
+
+namespace vsa::config {
+
+using Scalar = std::variant<std::monostate, double, std::int64_t, bool, std::string>;
+
+/// One parameter: key = { value, unit, bounds, source }.
+struct Item {
+  std::string key;  ///< "drive.friction_Nm"
+  int line = 0;
+  Scalar value;
+  std::optional<std::string> unit;
+  std::optional<std::array<double, 2>> bounds;
+  std::string source;
+};
+
+struct Document {
+  std::string file;
+  std::string name, title, description, law;
+  int law_line = 0;
+  std::vector<Item> items;
+  /// Keys whose form is wrong, so that they are not reported as missing as well.
+  std::vector<std::string> broken;
+  bool readable = false;  ///< false: not TOML at all; nothing else holds
+
+  /// "file:line", or "file" for line 0.
+  [[nodiscard]] std::string place(int line) const;
+};
+
+/// As the user would recognise it: 0.5, "text", true.
+[[nodiscard]] std::string scalar_text(const Scalar& value);
+
+[[nodiscard]] Document read_document(std::string_view text, std::string file, Problems& problems);
+
+}  // namespace vsa::config

@@ -1,0 +1,213 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "config/plugin_draft.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "config/build.hpp"
+#include "vsa/config/text.hpp"
+
+namespace vsa::config {
+namespace {
+
+// Endings that topics add to an actuator's name: "J_preset" is a channel of J.
+constexpr std::string_view kReservedEndings[] = {"_preset", "_motor_1", "_motor_2"};
+
+class Finisher {
+ public:
+  Finisher(const RobotDraft& draft, std::string_view where, const PresetLibrary& presets, Problems& problems)
+      : draft_(draft), where_(where), presets_(presets), problems_(problems) {}
+
+  host::RobotConfig finish() {
+    config_.state_rate_Hz = draft_.state_rate_Hz;
+    if (draft_.actuators.empty()) add("plugin", "", "has no actuator", "at least one <actuator>");
+    make_buses();
+    for (const ActuatorDraft& a : draft_.actuators) config_.actuators.push_back(make(a));
+    check_names();
+    if (!lost_) {
+      give_ids();
+      check_cycles();
+    }
+    return std::move(config_);
+  }
+
+ private:
+  void add(std::string key, std::string value, std::string message, std::string allowed = {}) {
+    problems_.add({std::string(where_), std::move(key), std::move(value), std::move(message), std::move(allowed)});
+  }
+
+  void make_buses() {
+    std::set<std::string> seen;
+    for (const BusDraft& b : draft_.buses) {
+      if (!seen.insert(b.name).second) add(b.path + "@name", '"' + b.name + '"', "two buses have this name", "unique names");
+      config_.buses.push_back({b.name, b.baud_Hz, b.cycle_s});
+    }
+    if (draft_.buses.empty()) config_.buses.emplace_back().name = kDefaultBus;
+    used_.resize(config_.buses.size());
+  }
+
+  host::ActuatorConfig make(const ActuatorDraft& a) {
+    host::ActuatorConfig out;
+    out.name = a.name;
+    out.joint = a.joint;
+    out.preset = a.preset;
+    out.initial_equilibrium_rad = a.initial_equilibrium;
+    out.initial_preset = a.initial_preset;
+    find_bus(a, out);
+    if (const Preset* preset = a.preset.empty() ? nullptr : load(a)) {
+      out.unit = preset->unit;
+      check_initial(a, out);
+    }
+    return out;
+  }
+
+  void find_bus(const ActuatorDraft& a, host::ActuatorConfig& out) {
+    std::vector<std::string> names;
+    for (const host::BusConfig& b : config_.buses) names.push_back(b.name);
+    if (a.bus.empty()) {
+      if (names.size() == 1) return;
+      add(a.path + "/bus", "", "must say which bus", join(names));
+      lost_ = true;
+      return;
+    }
+    const auto at = std::find(names.begin(), names.end(), a.bus);
+    const bool declared = !draft_.buses.empty() && at != names.end();
+    if (declared) out.bus = static_cast<std::size_t>(at - names.begin());
+    if (!declared) {
+      lost_ = true;
+      add(a.path + "/bus", '"' + a.bus + '"', "no such bus",
+          draft_.buses.empty() ? "declare it: <bus name=\"" + a.bus + "\"/>" : join(names));
+    }
+  }
+
+  /// Robots have many equal units: each preset is read once, and its problems are told once.
+  const Preset* load(const ActuatorDraft& a) {
+    std::string key = a.preset;
+    for (const Override& o : a.overrides) key += '\n' + o.key + '\t' + o.value;
+    const auto [entry, fresh] = cache_.try_emplace(key);
+    if (fresh) {
+      try {
+        entry->second = presets_.load(a.preset, a.overrides);
+      } catch (const InputError& error) {
+        for (const Problem& p : error.problems()) report_preset(a, p);
+      }
+    }
+    return entry->second ? &*entry->second : nullptr;
+  }
+
+  void report_preset(const ActuatorDraft& a, const Problem& p) {
+    const bool from_override = p.key.compare(0, kOverrideMark.size(), kOverrideMark) == 0;
+    if (from_override) {
+      add(a.path + "/override[" + p.key.substr(kOverrideMark.size()) + "]", p.value, p.message, p.allowed);
+    } else if (p.key == "preset" && p.file.empty()) {
+      add(a.path + "/preset", p.value, p.message, p.allowed);
+    } else {
+      add(a.path + "/preset", '"' + a.preset + '"', p.text());
+    }
+  }
+
+  void check_initial(const ActuatorDraft& a, const host::ActuatorConfig& out) {
+    const auto& law = *out.unit.actuator.transmission;
+    const std::string path = a.path + "/initial@";
+    const std::string unit(law.preset_unit());
+    const std::string right = unit.empty() ? "" : std::string(kPresetPrefix) + "_" + unit;
+    if (!a.initial_preset_key.empty() && a.initial_preset_key != right) {
+      add(path + a.initial_preset_key, number_text(a.initial_preset),
+          right.empty() ? "this actuator has no preset: leave it out" : "is not this actuator's preset", right);
+    } else if (std::abs(a.initial_preset) > out.unit.preset_max) {
+      add(path + a.initial_preset_key, number_text(a.initial_preset), "is larger than the preset's limits.preset_max",
+          range_text(-out.unit.preset_max, out.unit.preset_max) + " " + unit);
+    }
+    check_references(a, out);
+  }
+
+  /// The firmware would clamp the references; where the unit starts must be what the file says.
+  void check_references(const ActuatorDraft& a, const host::ActuatorConfig& out) {
+    const auto& law = *out.unit.actuator.transmission;
+    const firmware::LoopParams& loop = out.unit.loop;
+    const auto x = law.references({a.initial_equilibrium, a.initial_preset});
+    for (std::size_t i = 0; i < static_cast<std::size_t>(law.motor_count()); ++i) {
+      const double bits = 32768.0 * (1 << loop.resolution[i]);
+      const double low = loop.limits_on ? loop.limits_raw[2 * i] : -bits;
+      const double high = loop.limits_on ? loop.limits_raw[2 * i + 1] : bits - 1;
+      const double raw = x[i] * kRawPerTurn / (2 * kPi);
+      if (raw >= low - 0.5 && raw <= high + 0.5) continue;
+      add(a.path + "/initial", number_text(x[i]) + " rad",
+          "reference of motor " + std::to_string(i + 1) + " is beyond the firmware's limits",
+          range_text(low, high) + " raw, 65536 a turn");
+    }
+  }
+
+  void check_names() {
+    std::map<std::string, std::string> names, joints;
+    for (const ActuatorDraft& a : draft_.actuators) {
+      if (a.name_ok && !names.emplace(a.name, a.path).second)
+        add(a.path, '"' + a.name + '"', "two actuators have this name", "unique names");
+      const auto [at, fresh] = joints.emplace(a.joint, a.path);
+      if (!a.joint.empty() && !fresh)
+        add(a.path + "/joint", '"' + a.joint + '"', at->second + " drives this joint already", "one actuator a joint");
+    }
+    for (const auto& [name, path] : names) {
+      for (std::string_view ending : kReservedEndings) {
+        const std::string clash = name + std::string(ending);
+        if (names.count(clash) != 0)
+          add(names[clash], '"' + clash + '"', "is a channel of " + path + " in the topics", "another name");
+      }
+    }
+  }
+
+  /// Given ids first; the others get the lowest free ones of their bus, in the order of the file.
+  void give_ids() {
+    for (std::size_t i = 0; i < draft_.actuators.size(); ++i) {
+      const ActuatorDraft& a = draft_.actuators[i];
+      if (!a.id) continue;
+      const auto [at, fresh] = used_[config_.actuators[i].bus].emplace(*a.id, a.path);
+      if (!fresh)
+        add(a.path + "/bus@id", std::to_string(*a.id), at->second + " has this id on the same bus", "unique ids on a bus");
+      config_.actuators[i].id = *a.id;
+    }
+    for (std::size_t i = 0; i < draft_.actuators.size(); ++i) {
+      const ActuatorDraft& a = draft_.actuators[i];
+      if (a.id || !a.id_ok) continue;
+      auto& used = used_[config_.actuators[i].bus];
+      int id = 1;
+      while (used.count(id) != 0) ++id;
+      if (id > kMaxId) add(a.path + "/bus", "", "the bus is full", "at most " + std::to_string(kMaxId) + " units on a bus");
+      used.emplace(id, a.path);
+      config_.actuators[i].id = id;
+    }
+  }
+
+  void check_cycles() {
+    for (std::size_t b = 0; b < draft_.buses.size(); ++b) {
+      const BusDraft& bus = draft_.buses[b];
+      const auto on_it = [b](const host::ActuatorConfig& a) { return a.bus == b; };
+      const int units = static_cast<int>(std::count_if(config_.actuators.begin(), config_.actuators.end(), on_it));
+      if (units == 0) add(bus.path, "", "no actuator is on this bus", "at least one");
+      const std::int64_t wire_ns = bus::wire_time_ns(units, bus.baud_Hz);
+      if (!bus.cycle_s || std::llround(*bus.cycle_s * 1e9) >= wire_ns) continue;
+      add(bus.path + "@cycle_s", number_text(*bus.cycle_s),
+          "is shorter than the time on the wire of " + std::to_string(units) + " units",
+          "auto, or at least " + number_text(static_cast<double>(wire_ns) / 1e9) + " s");
+    }
+  }
+
+  const RobotDraft& draft_;
+  std::string_view where_;
+  const PresetLibrary& presets_;
+  Problems& problems_;
+  host::RobotConfig config_;
+  bool lost_ = false;  // an actuator's bus is unknown: who shares a bus can't be judged
+  std::vector<std::map<int, std::string>> used_;
+  std::map<std::string, std::optional<Preset>> cache_;
+};
+
+}  // namespace
+
+host::RobotConfig finish(const RobotDraft& draft, std::string_view where, const PresetLibrary& presets, Problems& problems) {
+  return Finisher(draft, where, presets, problems).finish();
+}
+
+}  // namespace vsa::config

@@ -1,0 +1,47 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The plug-in element as written, form checked, and what makes a robot of it: presets, names, buses, ids.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsa/config/preset.hpp"
+#include "vsa/host/robot.hpp"
+
+namespace vsa::config {
+
+inline constexpr int kMaxId = 254;
+inline constexpr std::string_view kPresetPrefix = "preset";
+inline constexpr const char* kDefaultBus = "bus";
+
+struct ActuatorDraft {
+  std::string path;  ///< "actuator[shoulder]"
+  std::string name, joint, preset;
+  bool name_ok = false;
+  std::string bus;        ///< empty: the only one
+  std::optional<int> id;  ///< none: the next free one
+  bool id_ok = true;
+  double initial_equilibrium = 0, initial_preset = 0;
+  std::string initial_preset_key;  ///< "preset_rad"; empty: not given
+  std::vector<Override> overrides;
+};
+
+struct BusDraft {
+  std::string path, name;
+  double baud_Hz = 2'000'000;
+  std::optional<double> cycle_s;
+};
+
+struct RobotDraft {
+  std::vector<ActuatorDraft> actuators;
+  std::vector<BusDraft> buses;
+  double state_rate_Hz = 100;
+};
+
+[[nodiscard]] host::RobotConfig finish(const RobotDraft& draft, std::string_view where, const PresetLibrary& presets,
+                                       Problems& problems);
+
+}  // namespace vsa::config

@@ -1,0 +1,182 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/config/plugin_xml.hpp"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+
+#include "config/plugin_draft.hpp"
+#include "config/xml_reader.hpp"
+#include "vsa/config/text.hpp"
+
+namespace vsa::config {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr double kMaxAngle = 1e6;  // what a command may be depends on the firmware's limits, checked with the preset
+constexpr double kMinBaud = 9600, kMaxBaud = 10e6;
+constexpr double kMaxCycle_s = 10;
+constexpr double kMinRate_Hz = 1e-3, kMaxRate_Hz = 1000;
+
+class Parser {
+ public:
+  Parser(std::string_view where, Problems& problems) : xml_(where, problems) {}
+
+  RobotDraft parse(const XMLElement& root) {
+    RobotDraft robot;
+    if (std::string(root.Name()) != "plugin") xml_.add(root.Name(), "", "is not a plug-in element", "plugin");
+    xml_.check_attributes(root, "plugin", {"name", "filename"});
+    const std::string name = xml_.attribute(root, "name").value_or("");
+    if (name != kPluginName) xml_.add("plugin@name", '"' + name + '"', "is not this plug-in", std::string(kPluginName));
+    xml_.check_children(root, "plugin", {"actuator", "bus", "state_rate_Hz"});
+    for (const XMLElement* e = root.FirstChildElement("bus"); e; e = e->NextSiblingElement("bus")) robot.buses.push_back(bus(*e));
+    int index = 0;
+    for (const XMLElement* e = root.FirstChildElement("actuator"); e; e = e->NextSiblingElement("actuator")) {
+      robot.actuators.push_back(actuator(*e, ++index));
+    }
+    if (const XMLElement* e = xml_.only(root, "plugin", "state_rate_Hz")) {
+      xml_.check_attributes(*e, "state_rate_Hz", {});
+      const auto rate = xml_.number("state_rate_Hz", xml_.text(*e, "state_rate_Hz"), kMinRate_Hz, kMaxRate_Hz, "Hz");
+      robot.state_rate_Hz = rate.value_or(robot.state_rate_Hz);
+    }
+    return robot;
+  }
+
+ private:
+  /// Text of a child that must be there; empty where it isn't, and reported.
+  std::string required_text(const XMLElement& e, const std::string& path, const char* name) {
+    const XMLElement* child = xml_.only(e, path, name);
+    const std::string key = path + "/" + name;
+    std::string text;
+    if (child != nullptr) {
+      xml_.check_attributes(*child, key, {});
+      text = xml_.text(*child, key);
+    }
+    if (text.empty()) xml_.add(key, "", child ? "is empty" : "is missing");
+    return text;
+  }
+
+  ActuatorDraft actuator(const XMLElement& e, int index) {
+    ActuatorDraft draft;
+    const std::string numbered = "actuator[" + std::to_string(index) + "]";
+    const auto given = xml_.attribute(e, "name");
+    draft.path = given && !given->empty() ? "actuator[" + *given + "]" : numbered;
+    xml_.check_attributes(e, draft.path, {"name"});
+    xml_.check_children(e, draft.path, {"joint", "preset", "bus", "initial", "override"});
+    draft.joint = required_text(e, draft.path, "joint");
+    draft.preset = required_text(e, draft.path, "preset");
+    draft.name = given ? *given : draft.joint;
+    if (given) {
+      draft.name_ok = xml_.check_name(draft.path + "@name", draft.name);
+    } else if (!draft.joint.empty()) {
+      draft.name_ok = xml_.check_name(draft.path + "/joint (as the actuator's name; give it a name attribute)", draft.name);
+    }
+    if (const XMLElement* child = xml_.only(e, draft.path, "bus")) place_on_bus(*child, draft);
+    if (const XMLElement* child = xml_.only(e, draft.path, "initial")) initial(*child, draft);
+    for (const XMLElement* o = e.FirstChildElement("override"); o; o = o->NextSiblingElement("override")) add_override(*o, draft);
+    return draft;
+  }
+
+  void place_on_bus(const XMLElement& e, ActuatorDraft& draft) {
+    const std::string path = draft.path + "/bus";
+    xml_.check_attributes(e, path, {"id"});
+    draft.bus = xml_.text(e, path);
+    if (const auto id = xml_.attribute(e, "id")) {
+      draft.id = xml_.integer(path + "@id", *id, 1, kMaxId);
+      draft.id_ok = draft.id.has_value();
+    }
+  }
+
+  /// The preset's attribute carries the unit of the preset's law, which isn't known yet: any "preset_…" is kept.
+  void initial(const XMLElement& e, ActuatorDraft& draft) {
+    const std::string path = draft.path + "/initial";
+    std::vector<std::string> known{"equilibrium_rad", "preset_rad"};
+    for (const tinyxml2::XMLAttribute* a = e.FirstAttribute(); a != nullptr; a = a->Next()) {
+      const std::string name = a->Name();
+      if (name.compare(0, kPresetPrefix.size(), kPresetPrefix) != 0) continue;
+      known.push_back(name);
+      if (!draft.initial_preset_key.empty()) xml_.add(attribute_path(path, name), a->Value(), "the preset is given more than once");
+      draft.initial_preset_key = name;
+      draft.initial_preset =
+          xml_.number(attribute_path(path, name), std::string(trim(a->Value())), -kMaxAngle, kMaxAngle, "").value_or(0);
+    }
+    xml_.check_attributes(e, path, known);
+    xml_.check_children(e, path, {});
+    if (const auto text = xml_.attribute(e, "equilibrium_rad")) {
+      draft.initial_equilibrium = xml_.number(path + "@equilibrium_rad", *text, -kMaxAngle, kMaxAngle, "rad").value_or(0);
+    }
+  }
+
+  void add_override(const XMLElement& e, ActuatorDraft& draft) {
+    const std::string path = draft.path + "/override";
+    xml_.check_attributes(e, path, {"key", "value"});
+    xml_.check_children(e, path, {});
+    const auto key = xml_.attribute(e, "key"), value = xml_.attribute(e, "value");
+    if (!key) xml_.add(path + "@key", "", "is missing", "a parameter such as drive.friction_Nm");
+    if (!value) xml_.add(path + "@value", "", "is missing");
+    if (key && value) draft.overrides.push_back({*key, *value});
+  }
+
+  BusDraft bus(const XMLElement& e) {
+    BusDraft draft;
+    draft.name = xml_.attribute(e, "name").value_or("");
+    draft.path = "bus[" + draft.name + "]";
+    xml_.check_attributes(e, draft.path, {"name", "baud", "cycle_s"});
+    xml_.check_children(e, draft.path, {"serial_port"});
+    xml_.check_name(draft.path + "@name", draft.name);
+    if (const auto text = xml_.attribute(e, "baud")) {
+      const auto baud = xml_.integer(draft.path + "@baud", *text, static_cast<int>(kMinBaud), static_cast<int>(kMaxBaud));
+      draft.baud_Hz = baud ? *baud : draft.baud_Hz;
+    }
+    const auto cycle = xml_.attribute(e, "cycle_s");
+    if (cycle && *cycle != "auto") {
+      draft.cycle_s = parse_number(*cycle);
+      if (!draft.cycle_s || *draft.cycle_s <= 0 || *draft.cycle_s > kMaxCycle_s) {
+        xml_.add(draft.path + "@cycle_s", '"' + *cycle + '"', "must be auto or a time",
+                 "auto, or seconds from the bus's wire time to " + number_text(kMaxCycle_s));
+        draft.cycle_s.reset();
+      }
+    }
+    if (const XMLElement* port = xml_.only(e, draft.path, "serial_port")) {
+      xml_.add(draft.path + "/serial_port", '"' + xml_.text(*port, draft.path + "/serial_port") + '"',
+               "this version has no virtual serial port: leave the element out and command through topics");
+    }
+    return draft;
+  }
+
+  XmlReader xml_;
+};
+
+}  // namespace
+
+host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, const PresetLibrary& presets) {
+  Problems problems;
+  tinyxml2::XMLDocument document;
+  const bool parsed = !xml.empty() && document.Parse(xml.data(), xml.size()) == tinyxml2::XML_SUCCESS;
+  const XMLElement* root = parsed ? document.RootElement() : nullptr;
+  if (root == nullptr) {
+    const std::string line = parsed || xml.empty() ? "" : ", line " + std::to_string(document.ErrorLineNum());
+    throw InputError(Problem{std::string(where), "plugin", "", "is not well-formed XML" + line, "one <plugin> element"});
+  }
+  if (root->NextSiblingElement() != nullptr) {
+    problems.add(
+        {std::string(where), root->NextSiblingElement()->Name(), "", "a second element at the top", "one <plugin> element"});
+  }
+  const RobotDraft draft = Parser(where, problems).parse(*root);
+  host::RobotConfig config = finish(draft, where, presets, problems);
+  problems.throw_if_any();
+  return config;
+}
+
+void check_joints(const host::RobotConfig& config, const std::vector<std::string>& joints, std::string_view where,
+                  Problems& problems) {
+  for (const host::ActuatorConfig& a : config.actuators) {
+    if (std::find(joints.begin(), joints.end(), a.joint) != joints.end()) continue;
+    const std::string hint = joints.empty() ? "" : ", did you mean " + nearest(a.joint, joints) + "?";
+    problems.add({std::string(where), "actuator[" + a.name + "]/joint", '"' + a.joint + '"', "the model has no such joint" + hint,
+                  joints.empty() ? "the model has no joints" : join(joints)});
+  }
+}
+
+}  // namespace vsa::config

@@ -1,0 +1,101 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/config/schema.hpp"
+
+#include <cstdint>
+
+namespace vsa::config {
+namespace {
+
+using Unit = device::UnitConfig;
+
+constexpr std::string_view kFirmware = "the published firmware, NMMI/qbmove-maker-pro 6.1";
+constexpr std::string_view kSensor = "AS5045 magnetic encoder, as the qbmove has";
+constexpr std::string_view kPulleySide = "numbers given at the driving pulley need no ratio";
+
+void set_resolution(Unit& u, double v) {
+  for (int& bits : u.loop.resolution) bits = static_cast<int>(v);
+}
+
+void set_limit_low(Unit& u, double v) { u.loop.limits_raw[0] = u.loop.limits_raw[2] = static_cast<std::int32_t>(v); }
+void set_limit_high(Unit& u, double v) { u.loop.limits_raw[1] = u.loop.limits_raw[3] = static_cast<std::int32_t>(v); }
+
+// Bounds are what the models accept and a real actuator could have; a preset narrows them to what its device could have.
+constexpr Parameter kTable[] = {
+    {"drive.supply_V", "V", Kind::number, 0, 100, "", "supply voltage of the bridge", Need::required, "", "",
+     [](Unit& u, double v) { u.actuator.bridge.supply_V = v; }},
+    {"drive.dead_band", "1", Kind::number, 0, 0.99, "", "controller output below which the bridge gives nothing, 1 = full output",
+     Need::required, "", "", [](Unit& u, double v) { u.actuator.bridge.dead_band = v; }},
+    {"drive.off_mode", "", Kind::word, 0, 0, "brake|coast", "motors off: terminals shorted (brake) or open (coast)",
+     Need::defaulted, "brake", "assumption: unknown for the qbmove; shorted terminals are usual for such bridges",
+     [](Unit& u, double v) { u.actuator.bridge.brake_when_off = v == 0; }},
+    {"drive.inertia_kgm2", "kg·m²", Kind::number, 1e-9, 100, "", "rotor and gears, at the motor's shaft", Need::required, "", "",
+     [](Unit& u, double v) { u.actuator.motor.inertia_kgm2 = v; }},
+    {"drive.viscous_Nms_per_rad", "N·m·s/rad", Kind::number, 0, 100, "", "viscous friction b, at the motor's shaft", Need::required,
+     "", "", [](Unit& u, double v) { u.actuator.motor.viscous_Nms_per_rad = v; }},
+    {"drive.torque_constant_Nm_per_A", "N·m/A", Kind::number, 1e-6, 100, "", "torque a current, at the motor's shaft",
+     Need::required, "", "", [](Unit& u, double v) { u.actuator.motor.torque_constant_Nm_per_A = v; }},
+    {"drive.back_emf_Vs_per_rad", "V·s/rad", Kind::number, 0, 100, "", "voltage a speed, at the motor's shaft", Need::required, "",
+     "", [](Unit& u, double v) { u.actuator.motor.back_emf_Vs_per_rad = v; }},
+    {"drive.resistance_Ohm", "Ω", Kind::number, 1e-3, 1e4, "", "winding and wiring", Need::required, "", "",
+     [](Unit& u, double v) { u.actuator.motor.resistance_Ohm = v; }},
+    {"drive.inductance_H", "H", Kind::number, 1e-7, 100, "", "winding; left out: the current follows voltage and speed at once",
+     Need::optional, "", "", [](Unit& u, double v) { u.actuator.motor.inductance_H = v; }},
+    {"drive.gear_ratio", "1", Kind::number, 1e-3, 1e5, "", "motor turns a pulley turn, n", Need::defaulted, "1", kPulleySide,
+     [](Unit& u, double v) { u.actuator.gearbox.ratio = v; }},
+    {"drive.friction_Nm", "N·m", Kind::number, 0, 1000, "", "Coulomb friction of motor and gearbox, at the motor's shaft",
+     Need::required, "", "", [](Unit& u, double v) { u.actuator.gearbox.friction.coulomb_Nm = v; }},
+    {"drive.presliding_rad", "rad", Kind::number, 0, 1, "", "displacement before that friction slides, at the pulley",
+     Need::required, "", "", [](Unit& u, double v) { u.actuator.gearbox.friction.presliding_rad = v; }},
+    {"drive.polarity", "", Kind::word, 0, 0, "-1|1", "-1: motor wired against its encoder", Need::defaulted, "1",
+     "motor and encoder turn the same way", [](Unit& u, double v) { u.polarity = v == 0 ? -1 : 1; }},
+    {"shaft.friction_Nm", "N·m", Kind::number, 0, 1000, "", "Coulomb friction of the output shaft", Need::required, "", "",
+     [](Unit& u, double v) { u.actuator.shaft_friction.coulomb_Nm = v; }},
+    {"shaft.presliding_rad", "rad", Kind::number, 0, 1, "", "displacement before that friction slides", Need::required, "", "",
+     [](Unit& u, double v) { u.actuator.shaft_friction.presliding_rad = v; }},
+    {"shaft.inertia_kgm2", "kg·m²", Kind::number, 1e-7, 1000, "",
+     "what turns with the shaft, where the simulator can't tell its effective inertia", Need::required, "", "",
+     [](Unit& u, double v) { u.actuator.shaft_inertia_kgm2 = v; }},
+    {"sensor.encoder_bits", "bit", Kind::integer, 1, 16, "", "resolution of all three encoders, 2^bits a turn", Need::defaulted,
+     "12", kSensor, [](Unit& u, double v) { u.actuator.encoder.bits = static_cast<int>(v); }},
+    {"sensor.encoder_zero_rad", "rad", Kind::number, -3.2, 3.2, "", "reading = angle + zero, all three encoders", Need::defaulted,
+     "0", "ideal calibration", [](Unit& u, double v) { u.actuator.encoder.zero_rad = v; }},
+    {"firmware.kp_pct_per_tick", "%/tick", Kind::number, -100, 100, "", "proportional gain, % PWM a raw tick (65536 a turn)",
+     Need::defaulted, "0.1", kFirmware, [](Unit& u, double v) { u.loop.kp = fixed_16_16(v); }},
+    {"firmware.ki_pct_per_tick", "%/tick", Kind::number, -100, 100, "", "integral gain, each 1 ms sample", Need::defaulted, "0",
+     kFirmware, [](Unit& u, double v) { u.loop.ki = fixed_16_16(v); }},
+    {"firmware.kd_pct_per_tick", "%/tick", Kind::number, -100, 100, "", "derivative gain on the measurement, each 1 ms sample",
+     Need::defaulted, "0.8", kFirmware, [](Unit& u, double v) { u.loop.kd = fixed_16_16(v); }},
+    {"firmware.limit_low_raw", "raw", Kind::integer, -8388608, 8388607, "", "lowest reference of both motors, 65536 a turn",
+     Need::defaulted, "-30000", kFirmware, set_limit_low},
+    {"firmware.limit_high_raw", "raw", Kind::integer, -8388608, 8388607, "", "highest reference of both motors, 65536 a turn",
+     Need::defaulted, "30000", kFirmware, set_limit_high},
+    {"firmware.limits_on", "", Kind::toggle, 0, 1, "", "references are clamped to the limits", Need::defaulted, "true", kFirmware,
+     [](Unit& u, double v) { u.loop.limits_on = v != 0; }},
+    {"firmware.resolution", "bit", Kind::integer, 0, 8, "", "right shift from raw to reported ticks, motors and shaft",
+     Need::defaulted, "1", kFirmware, set_resolution},
+    {"firmware.supply_limit", "", Kind::toggle, 0, 1, "", "duty limited by supply voltage, to about 8 V at the motor",
+     Need::defaulted, "true", kFirmware, [](Unit& u, double v) { u.loop.supply_limit = v != 0; }},
+    {"limits.preset_max", kPresetUnit, Kind::number, 0, 100, "",
+     "largest accepted magnitude of the preset; absent where the law has no preset", Need::required, "", "",
+     [](Unit& u, double v) { u.preset_max = v; }},
+    {"physics.substep_max_s", "s", Kind::number, 1e-6, 1e-3, "", "longest physics segment inside a step of the simulator",
+     Need::defaulted, "0.001", "one firmware tick", [](Unit& u, double v) { u.substep_max_s = v; }},
+};
+
+constexpr LawParameter kLaws[] = {
+    {"two_sinh", "k1_Nm", "N·m", 1e-9, 1e3, "torque scale of the spring to motor 1"},
+    {"two_sinh", "a1_per_rad", "1/rad", 1e-3, 100, "hardening rate of the spring to motor 1"},
+    {"two_sinh", "k2_Nm", "N·m", 1e-9, 1e3, "torque scale of the spring to motor 2"},
+    {"two_sinh", "a2_per_rad", "1/rad", 1e-3, 100, "hardening rate of the spring to motor 2"},
+    {"series_spring", "stiffness_Nm_per_rad", "N·m/rad", 1e-6, 1e7, "stiffness of the spring"},
+};
+
+}  // namespace
+
+std::span<const Parameter> parameters() noexcept { return kTable; }
+
+std::span<const LawParameter> law_parameters() noexcept { return kLaws; }
+
+std::int32_t fixed_16_16(double gain) noexcept { return static_cast<std::int32_t>(gain * 65536.0); }
+
+}  // namespace vsa::config

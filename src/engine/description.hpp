@@ -1,0 +1,110 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A world as a physics engine needs it, whatever file it came from and whatever engine will run it. All poses and axes are in the
+// world's frame at the start, where every joint is at zero; lengths in m, masses in kg, inertias in kg·m², angles in rad.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <ignition/math/Matrix3.hh>
+#include <ignition/math/Pose3.hh>
+#include <ignition/math/Vector3.hh>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vsa/engine/world.hpp"
+
+namespace vsa::engine {
+
+using Pose3 = ignition::math::Pose3d;
+using Vec3 = ignition::math::Vector3d;
+using Mat3 = ignition::math::Matrix3d;
+
+/// Triangles in the frame of the collision or visual, already scaled.
+struct Mesh {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Heights above the geometry's origin, row 0 at the smallest y, column 0 at the smallest x. The grid spans
+/// [−extent/2, extent/2] about `centre`.
+struct Heightmap {
+  std::size_t rows = 0, columns = 0;
+  std::vector<double> heights;  ///< ≥ 0, rows × columns
+  double extent_x = 0, extent_y = 0;
+  Vec3 centre;
+  [[nodiscard]] double highest() const;
+};
+
+struct Geometry {
+  enum class Kind { box, sphere, cylinder, capsule, ellipsoid, plane, mesh, heightmap } kind = Kind::box;
+  Vec3 size;  ///< box: full lengths; sphere: r; cylinder, capsule: r, length of the straight part; ellipsoid: radii; plane: lengths
+  Pose3 offset;  ///< of the geometry in its collision or visual (a plane's normal is +z of this frame)
+  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const Heightmap> heightmap;
+};
+
+struct Surface {
+  double mu = 1;                ///< isotropic Coulomb friction; a pair has the smaller of its two
+  double torsional_m = 0;       ///< spin torque per normal force
+  std::uint32_t mask = 0xFFFF;  ///< two shapes collide where their masks share a bit
+};
+
+struct Collision {
+  std::string name;  ///< "model::link/collision"
+  Pose3 pose;        ///< in the link
+  Geometry geometry;
+  Surface surface;
+};
+
+struct Link {
+  std::string name;   ///< scoped
+  std::string model;  ///< top-level
+  bool is_static = false;
+  bool self_collide = false;
+  Pose3 pose;
+  double mass = 1;
+  Vec3 com;      ///< in the link
+  Mat3 inertia;  ///< about the centre of mass, link's axes
+  std::vector<Collision> collisions;
+};
+
+struct Axis {
+  Vec3 xyz;
+  std::optional<std::array<double, 2>> range;
+  double damping = 0;    ///< N·m·s/rad or N·s/m
+  double friction = 0;   ///< Coulomb, N·m or N
+  double stiffness = 0;  ///< N·m/rad or N/m about `rest`
+  double rest = 0;
+};
+
+struct Joint {
+  enum class Kind { fixed, hinge, slide, ball, universal } kind = Kind::fixed;
+  std::string name;                   ///< scoped
+  std::optional<std::size_t> parent;  ///< none: the world
+  std::optional<std::size_t> child;
+  Pose3 pose;
+  std::vector<Axis> axes;  ///< hinge, slide: 1; universal: 2, the first fixed in the parent
+  [[nodiscard]] bool one_axis() const { return kind == Kind::hinge || kind == Kind::slide; }
+};
+
+/// A <plugin> of ours, as text.
+struct Plugin {
+  std::string model;  ///< scoped name of the model that owns it
+  std::string top_model;
+  std::string xml;
+};
+
+struct WorldDescription {
+  std::string name;
+  Vec3 gravity{0, 0, -9.8};
+  double step_s = 1e-3;
+  std::vector<Link> links;
+  std::vector<Joint> joints;
+  std::vector<Plugin> plugins;
+  std::vector<LinkInfo> infos;  ///< one a link, with its visuals
+};
+
+}  // namespace vsa::engine

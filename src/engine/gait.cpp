@@ -1,0 +1,78 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/engine/gait.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vsa/units.hpp"
+
+namespace vsa::engine {
+namespace {
+
+double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
+
+}  // namespace
+
+void steer(const SteeringParams& params, SteeringState& state, std::array<double, 2> center, std::size_t window, double dt_s, bool engaged) {
+  state.trail.push_back(center);
+  if (state.trail.size() <= window) return;
+  const auto from = state.trail.front();
+  state.trail.erase(state.trail.begin());
+  const double dx = center[0] - from[0], dy = center[1] - from[1];
+  if (std::hypot(dx, dy) >= params.min_travel_m) state.heading_rad = std::atan2(dy, dx);
+  if (!engaged || !state.heading_rad) return;
+  if (!state.target_rad) state.target_rad = params.target_rad.value_or(*state.heading_rad);
+  const double goal = std::clamp(params.gain * wrapped(*state.target_rad - *state.heading_rad), -params.limit_rad, params.limit_rad);
+  const double reach = params.slew_rad_per_s * dt_s;
+  state.phase_rad += std::clamp(goal - state.phase_rad, -reach, reach);
+}
+
+double Gait::equilibrium(const GaitGroup& group, std::size_t k, double t_s) const {
+  const double ramp = t_s < params_.ramp_s ? t_s / params_.ramp_s : 1.0;
+  double phase = params_.frequency_rad_per_s * t_s + group.n[k] * kPi / group.lambda + group.delta_rad;
+  if (params_.steering && params_.steering->group == group.name) phase += state_.steering.phase_rad;
+  return group.offset_rad + group.amplitude_rad * ramp * std::sin(phase);
+}
+
+void Gait::bind(const World& world) {
+  Problems problems;
+  for (const GaitGroup& group : params_.groups) {
+    for (const std::string& name : group.actuators) {
+      try {
+        const ActuatorRef& found = world.actuator(name);
+        if (params_.steering && params_.steering->group == group.name) model_ = found.model;
+      } catch (const InputError& error) {
+        for (const Problem& p : error.problems()) problems.add({params_.file, "group." + group.name + ".actuators", name, p.message, p.allowed});
+      }
+    }
+  }
+  problems.throw_if_any();
+  bound_ = true;
+}
+
+void Gait::steer_model(const World& world, double t_s) {
+  const double dt_s = static_cast<double>(params_.period_ns) * 1e-9;
+  const double cycle_s = 2 * kPi / params_.frequency_rad_per_s;
+  const auto center = world.center_of_mass(model_);
+  const auto window = static_cast<std::size_t>(std::max(1.0, std::round(cycle_s / dt_s)));
+  steer(*params_.steering, state_.steering, {center[0], center[1]}, window, dt_s, t_s >= params_.ramp_s + cycle_s);
+}
+
+void Gait::apply(World& world) {
+  if (!bound_) bind(world);
+  const std::int64_t slot = world.time_ns() / params_.period_ns;
+  if (slot == state_.last_slot) return;
+  if (slot < state_.last_slot) reset();
+  state_.last_slot = slot;
+  const double t_s = world.time_s();
+  if (params_.steering) steer_model(world, t_s);
+  for (const GaitGroup& group : params_.groups) {
+    for (std::size_t k = 0; k < group.actuators.size(); ++k) {
+      world.command(group.actuators[k], equilibrium(group, k, t_s), group.preset_rad);
+    }
+  }
+}
+
+void Gait::reset() { state_ = {}; }
+
+}  // namespace vsa::engine

@@ -1,0 +1,23 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Triangle meshes: STL (binary and text) and Wavefront OBJ (vertices and faces; polygons as fans).
+#pragma once
+
+#include <filesystem>
+
+#include "description.hpp"
+
+namespace vsa::engine {
+
+inline constexpr const char* kMeshFormats = ".stl, .obj";
+
+[[nodiscard]] bool mesh_format_known(const std::filesystem::path& file);
+/// Throws InputError where the file can't be read or holds no triangle.
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& file, const Vec3& scale);
+
+/// Why the mesh isn't the surface of one convex body; empty where it is.
+///   no vertex in front of any face (tolerance: 1e-4 of the mesh's size)
+///   closed: Σ n A = 0 and Σ ∫ x nᵀ dA = V·1, which hold for every closed surface (Gauss) and fail where faces are missing
+[[nodiscard]] std::string not_convex(const Mesh& mesh);
+
+}  // namespace vsa::engine

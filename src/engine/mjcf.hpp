@@ -1,0 +1,41 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// WorldDescription → MuJoCo's XML, in memory. Names are generated (b3, j5, h0): users' names may hold anything. Numbers are written
+// so that they read back the same.
+//
+// Choices
+//   contact        elliptic cones; solref 0.004 s (MuJoCo keeps it ≥ 2 dt), critically damped
+//   friction       a pair has the smaller coefficient of its two shapes, as with Gazebo's ODE and DART. MuJoCo would take the
+//   larger one,
+//                  but where priorities differ the higher one's: a lower coefficient gets a higher priority. Spin friction is that
+//                  of the same shape.
+//   collisions     links joined by a joint never collide; links of one model only where one of them has self_collide
+//   joints         no armature; limits and dry friction as constraints with solref 0.004 s
+#pragma once
+
+#include <string>
+
+#include "tree.hpp"
+
+namespace vsa::engine {
+
+struct Capacity {
+  int contacts = 0, rows = 0;
+};
+
+struct Mjcf {
+  std::string xml;
+  std::vector<std::shared_ptr<const Heightmap>> heightmaps;  ///< h0, h1 …: their data are filled in after compiling
+};
+
+[[nodiscard]] Mjcf write_mjcf(const WorldDescription& world, const std::vector<TreeNode>& tree, double step_s, Capacity capacity);
+
+/// Heights are stored as fractions of this.
+[[nodiscard]] double heightmap_scale(const Heightmap& map);
+
+/// MuJoCo's names.
+[[nodiscard]] std::string body_name(std::size_t link);
+[[nodiscard]] std::string joint_name(std::size_t joint, std::size_t axis = 0);
+[[nodiscard]] std::string free_joint_name(std::size_t link);
+
+}  // namespace vsa::engine

@@ -1,0 +1,69 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "mujoco_model.hpp"
+
+#include <array>
+#include <cstring>
+#include <mutex>
+
+#include "heightmap_file.hpp"
+
+namespace vsa::engine {
+namespace {
+
+std::mutex compiling;  // mj_loadXML keeps its last model in a global
+
+void on_warning(const char*) {}  // counted in mjData, where every step looks
+
+[[noreturn]] void on_error(const char* text) { throw SimulationError(std::string("MuJoCo: ") + text); }
+
+struct VfsDeleter {
+  void operator()(mjVFS* vfs) const {
+    mj_deleteVFS(vfs);
+    delete vfs;
+  }
+};
+
+bool add(mjVFS& vfs, const VirtualFile& file) {
+  if (mj_makeEmptyFileVFS(&vfs, file.name.c_str(), static_cast<int>(file.bytes.size())) != 0) return false;
+  const int index = mj_findFileVFS(&vfs, file.name.c_str());
+  std::memcpy(vfs.filedata[index], file.bytes.data(), file.bytes.size());
+  return true;
+}
+
+}  // namespace
+
+ModelPtr compile(const std::string& xml, const VirtualFile* extra, std::string& reason) {
+  const std::lock_guard lock(compiling);
+  mju_user_warning = on_warning;
+  mju_user_error = on_error;
+  const std::unique_ptr<mjVFS, VfsDeleter> vfs(new mjVFS);
+  mj_defaultVFS(vfs.get());
+  if (!add(*vfs, {"world.xml", xml}) || (extra != nullptr && !add(*vfs, *extra))) {
+    reason = "the world is too large for MuJoCo's virtual files";
+    return nullptr;
+  }
+  std::array<char, 1000> error{};
+  ModelPtr model(mj_loadXML("world.xml", vfs.get(), error.data(), static_cast<int>(error.size())));
+  mj_freeLastXML();
+  if (!model) reason = error.data();
+  return model;
+}
+
+GreyImage decode_png(const std::string& bytes, const std::filesystem::path& file) {
+  constexpr std::size_t kBitDepthAt = 24;  // signature, then the IHDR chunk: length, type, width, height, depth
+  if (bytes.size() <= kBitDepthAt || bytes[kBitDepthAt] > 8) {
+    throw InputError(Problem{file.string(), "", "", "PNG with more than 8 bits a channel isn't read", kImageFormats});
+  }
+  std::string reason;
+  const VirtualFile png{"image.png", bytes};
+  const ModelPtr model =
+      compile("<mujoco><asset><texture name=\"t\" type=\"2d\" file=\"image.png\"/></asset></mujoco>", &png, reason);
+  if (!model) throw InputError(Problem{file.string(), "", "", "broken PNG: " + reason, kImageFormats});
+  GreyImage image;
+  image.width = static_cast<std::size_t>(model->tex_width[0]);
+  image.height = static_cast<std::size_t>(model->tex_height[0]);
+  for (std::size_t i = 0; i < image.width * image.height; ++i) image.pixels.push_back(model->tex_rgb[3 * i]);
+  return image;
+}
+
+}  // namespace vsa::engine

@@ -1,0 +1,186 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "mujoco_physics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mjcf.hpp"
+
+namespace vsa::engine {
+namespace {
+
+constexpr int kMaxRows = 12000;  // 12000² doubles of MuJoCo's dual matrix: 1.2 GB, touched only as far as used
+
+const char* warning_text(int kind) {
+  switch (kind) {
+    case mjWARN_INERTIA:
+      return "singular inertia matrix";
+    case mjWARN_CONTACTFULL:
+      return "too many contacts";
+    case mjWARN_CNSTRFULL:
+      return "too many constraints";
+    case mjWARN_BADQPOS:
+      return "bad position";
+    case mjWARN_BADQVEL:
+      return "bad velocity";
+    case mjWARN_BADQACC:
+      return "bad acceleration";
+    default:
+      return "engine warning";
+  }
+}
+
+}  // namespace
+
+MujocoPhysics::MujocoPhysics(ModelPtr model, const WorldDescription& world, const std::vector<TreeNode>& tree)
+    : model_(std::move(model)), joint_(world.joints.size()), root_(world.links.size(), -1) {
+  const mjModel* m = model_.get();
+  q_owner_.resize(static_cast<std::size_t>(m->nq));
+  v_owner_.resize(static_cast<std::size_t>(m->nv));
+  const auto own = [&](int id, const std::string& name) {
+    const int q_end = id + 1 < m->njnt ? m->jnt_qposadr[id + 1] : m->nq, v_end = id + 1 < m->njnt ? m->jnt_dofadr[id + 1] : m->nv;
+    std::fill(q_owner_.begin() + m->jnt_qposadr[id], q_owner_.begin() + q_end, name);
+    std::fill(v_owner_.begin() + m->jnt_dofadr[id], v_owner_.begin() + v_end, name);
+  };
+  for (std::size_t l = 0; l < world.links.size(); ++l) {
+    body_.push_back(mj_name2id(m, mjOBJ_BODY, body_name(l).c_str()));
+    mass_.push_back(world.links[l].is_static ? 0.0 : world.links[l].mass);
+  }
+  for (std::size_t j = 0; j < world.joints.size(); ++j) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const int id = mj_name2id(m, mjOBJ_JOINT, joint_name(j, k).c_str());
+      if (id < 0) continue;
+      own(id, "joint " + world.joints[j].name);
+      if (world.joints[j].one_axis()) joint_[j] = {m->jnt_qposadr[id], m->jnt_dofadr[id]};
+    }
+  }
+  for (const TreeNode& node : tree) {
+    const int id = node.free ? mj_name2id(m, mjOBJ_JOINT, free_joint_name(node.link).c_str()) : -1;
+    if (id >= 0) own(id, "link " + world.links[node.link].name);
+    root_[node.link] = node.free ? id : node.parent ? root_[*node.parent] : -1;
+  }
+  unit_.resize(static_cast<std::size_t>(m->nv));
+  column_.resize(unit_.size());
+  make_data();
+  before_ = save().values;
+}
+
+void MujocoPhysics::make_data() {
+  data_.reset(mj_makeData(model_.get()));
+  view_.reset(mj_makeData(model_.get()));
+  if (!data_ || !view_) throw SimulationError("MuJoCo: no memory for the world's state");
+  view_stale_ = true;
+}
+
+void MujocoPhysics::grow() {
+  const PhysicsState state = save();
+  model_->njmax *= 2;
+  model_->nconmax *= 2;
+  model_->nstack *= 4;
+  make_data();
+  restore(state);
+}
+
+void MujocoPhysics::changed() { view_stale_ = true; }
+
+void MujocoPhysics::prepare() {
+  const mjModel* m = model_.get();
+  mju_copy(before_.data(), data_->qpos, m->nq);
+  mju_copy(before_.data() + m->nq, data_->qvel, m->nv);
+  mju_copy(before_.data() + m->nq + m->nv, data_->qacc_warmstart, m->nv);
+  for (;;) {
+    mj_fwdPosition(m, data_.get());
+    const bool full = data_->warning[mjWARN_CONTACTFULL].number > 0 || data_->warning[mjWARN_CNSTRFULL].number > 0;
+    if (!full || m->njmax * 2 > kMaxRows) break;
+    grow();
+  }
+  mj_fwdVelocity(m, data_.get());
+  mju_zero(data_->qfrc_applied, m->nv);
+}
+
+double MujocoPhysics::inverse_inertia(std::size_t joint) {
+  const int v = joint_[joint].v;
+  std::fill(unit_.begin(), unit_.end(), 0.0);
+  unit_[static_cast<std::size_t>(v)] = 1;
+  mj_solveM(model_.get(), data_.get(), column_.data(), unit_.data(), 1);
+  return column_[static_cast<std::size_t>(v)];
+}
+
+void MujocoPhysics::apply(std::size_t joint, double torque) { data_->qfrc_applied[joint_[joint].v] = torque; }
+
+std::optional<Fault> MujocoPhysics::check(const mjtNum* values, int n, bool positions, const char* quantity) const {
+  const auto& owner = positions ? q_owner_ : v_owner_;
+  for (int i = 0; i < n; ++i) {
+    if (!std::isfinite(values[i]) || std::abs(values[i]) > mjMAXVAL)
+      return Fault{owner[static_cast<std::size_t>(i)], quantity, values[i]};
+  }
+  return std::nullopt;
+}
+
+/// A warning names no joint, so the fastest one is shown.
+std::optional<Fault> MujocoPhysics::find_fault() const {
+  for (int kind = 0; kind < mjNWARNING; ++kind) {
+    if (data_->warning[kind].number == 0) continue;
+    const auto nv = static_cast<std::size_t>(model_->nv);
+    if (nv == 0) return Fault{"world", warning_text(kind), 0};
+    const auto* fastest =
+        std::max_element(data_->qvel, data_->qvel + nv, [](mjtNum a, mjtNum b) { return std::abs(a) < std::abs(b); });
+    return Fault{v_owner_[static_cast<std::size_t>(fastest - data_->qvel)], fmt::format("speed ({})", warning_text(kind)),
+                 *fastest};
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> MujocoPhysics::advance() {
+  const mjModel* m = model_.get();
+  mjData* d = data_.get();
+  std::optional<Fault> fault = check(d->qpos, m->nq, true, "position");
+  if (!fault) fault = check(d->qvel, m->nv, false, "speed");
+  if (!fault) fault = check(d->qfrc_applied, m->nv, false, "applied torque");
+  if (!fault) {
+    mj_fwdActuation(m, d);
+    mj_fwdAcceleration(m, d);
+    mj_fwdConstraint(m, d);
+    fault = check(d->qacc, m->nv, false, "acceleration");
+  }
+  if (!fault) fault = find_fault();
+  if (!fault) {
+    mj_Euler(m, d);
+    fault = check(d->qvel, m->nv, false, "speed");
+    if (!fault) fault = check(d->qpos, m->nq, true, "position");
+    if (!fault) fault = find_fault();
+  }
+  if (fault) restore({before_});
+  changed();
+  return fault;
+}
+
+JointState MujocoPhysics::joint(std::size_t joint) const { return {data_->qpos[joint_[joint].q], data_->qvel[joint_[joint].v]}; }
+
+void MujocoPhysics::set_joint(std::size_t joint, JointState state) {
+  data_->qpos[joint_[joint].q] = state.position;
+  data_->qvel[joint_[joint].v] = state.speed;
+  changed();
+}
+
+PhysicsState MujocoPhysics::save() const {
+  const mjModel* m = model_.get();
+  PhysicsState out;
+  out.values.assign(data_->qpos, data_->qpos + m->nq);
+  out.values.insert(out.values.end(), data_->qvel, data_->qvel + m->nv);
+  out.values.insert(out.values.end(), data_->qacc_warmstart, data_->qacc_warmstart + m->nv);
+  return out;
+}
+
+void MujocoPhysics::restore(const PhysicsState& state) {
+  const mjModel* m = model_.get();
+  mju_copy(data_->qpos, state.values.data(), m->nq);
+  mju_copy(data_->qvel, state.values.data() + m->nq, m->nv);
+  mju_copy(data_->qacc_warmstart, state.values.data() + m->nq + m->nv, m->nv);
+  for (mjWarningStat& warning : data_->warning) warning = {};
+  changed();
+}
+
+}  // namespace vsa::engine

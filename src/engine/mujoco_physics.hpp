@@ -1,0 +1,64 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Physics on MuJoCo 2.2.2. A step is its pipeline without mj_step's silent repair (which resets a bad state and goes on):
+//
+//   prepare()  mj_fwdPosition, mj_fwdVelocity          poses, M = LᵀDL, contacts; nothing of it is computed twice
+//   advance()  mj_fwdActuation … mj_fwdConstraint      v̇ with the applied torques
+//              check, mj_Euler, check                  v' = v + dt·(M + dt·B)⁻¹M v̇ with joint damping B; q' = q + dt·v'
+//
+// Contacts live in fixed arrays: where they overflow, prepare() doubles them and starts again, so the result is as if they had been
+// that large from the beginning.
+// State: qpos, qvel, qacc_warmstart (the solver's first guess). There are no activations.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mujoco_model.hpp"
+#include "physics.hpp"
+#include "tree.hpp"
+
+namespace vsa::engine {
+
+class MujocoPhysics final : public Physics {
+ public:
+  MujocoPhysics(ModelPtr model, const WorldDescription& world, const std::vector<TreeNode>& tree);
+
+  void prepare() override;
+  double inverse_inertia(std::size_t joint) override;
+  void apply(std::size_t joint, double torque) override;
+  std::optional<Fault> advance() override;
+  JointState joint(std::size_t joint) const override;
+  void set_joint(std::size_t joint, JointState state) override;
+  void poses(std::span<Pose> links) const override;
+  Vec3 center_of_mass(std::span<const std::size_t> links) const override;
+  bool displace(std::span<const std::size_t> links, double yaw, const Vec3& shift) override;
+  World::Energy energy() const override;
+  int contact_count() const override;
+  PhysicsState save() const override;
+  void restore(const PhysicsState& state) override;
+
+ private:
+  struct Address {
+    int q = -1, v = -1;
+  };
+  void make_data();
+  void grow();
+  void changed();
+  const mjData& view() const;
+  std::optional<Fault> find_fault() const;
+  std::optional<Fault> check(const mjtNum* values, int n, bool positions, const char* quantity) const;
+
+  ModelPtr model_;
+  DataPtr data_;
+  DataPtr view_;  // kinematics of the present state, brought up to date when somebody looks
+  mutable bool view_stale_ = true;
+  std::vector<int> body_;       // of a link
+  std::vector<double> mass_;    // of a link
+  std::vector<Address> joint_;  // of a one-axis joint
+  std::vector<int> root_;       // of a link: the joint id of its free root, −1: tied to the world
+  std::vector<std::string> q_owner_, v_owner_;
+  std::vector<mjtNum> before_, unit_, column_;
+};
+
+}  // namespace vsa::engine

@@ -1,0 +1,118 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Looking at the world and building it; none of this touches the state that steps, but displace().
+#include <algorithm>
+#include <cmath>
+
+#include "mjcf.hpp"
+#include "mujoco_physics.hpp"
+
+namespace vsa::engine {
+
+const mjData& MujocoPhysics::view() const {
+  if (view_stale_) {
+    const mjModel* m = model_.get();
+    mju_copy(view_->qpos, data_->qpos, m->nq);
+    mju_copy(view_->qvel, data_->qvel, m->nv);
+    mj_kinematics(m, view_.get());
+    mj_comPos(m, view_.get());
+    view_stale_ = false;
+  }
+  return *view_;
+}
+
+void MujocoPhysics::poses(std::span<Pose> links) const {
+  const mjData& d = view();
+  for (std::size_t i = 0; i < links.size() && i < body_.size(); ++i) {
+    const mjtNum* p = d.xpos + 3 * body_[i];
+    const mjtNum* q = d.xquat + 4 * body_[i];
+    links[i] = {{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}};
+  }
+}
+
+Vec3 MujocoPhysics::center_of_mass(std::span<const std::size_t> links) const {
+  const mjData& d = view();
+  Vec3 sum;
+  double mass = 0;
+  for (const std::size_t i : links) {
+    const mjtNum* p = d.xipos + 3 * body_[i];
+    sum += Vec3(p[0], p[1], p[2]) * mass_[i];
+    mass += mass_[i];
+  }
+  return mass > 0 ? sum / mass : Vec3::Zero;
+}
+
+bool MujocoPhysics::displace(std::span<const std::size_t> links, double yaw, const Vec3& shift) {
+  std::vector<int> roots;
+  for (const std::size_t i : links) {
+    if (root_[i] < 0) return false;
+    if (std::find(roots.begin(), roots.end(), root_[i]) == roots.end()) roots.push_back(root_[i]);
+  }
+  const ignition::math::Quaterniond turn(0, 0, yaw);
+  for (const int id : roots) {
+    mjtNum* q = data_->qpos + model_->jnt_qposadr[id];
+    mjtNum* v = data_->qvel + model_->jnt_dofadr[id];
+    const Vec3 position = turn * Vec3(q[0], q[1], q[2]) + shift;
+    const ignition::math::Quaterniond rotation = turn * ignition::math::Quaterniond(q[3], q[4], q[5], q[6]);
+    const Vec3 velocity = turn * Vec3(v[0], v[1], v[2]);  // the angular one is in the body's own axes
+    for (std::size_t k = 0; k < 3; ++k) {
+      q[k] = position[k];
+      v[k] = velocity[k];
+    }
+    q[3] = rotation.W(), q[4] = rotation.X(), q[5] = rotation.Y(), q[6] = rotation.Z();
+  }
+  changed();
+  return true;
+}
+
+World::Energy MujocoPhysics::energy() const {
+  const mjModel* m = model_.get();
+  mjData* d = view_.get();
+  view_stale_ = true;
+  mju_copy(d->qpos, data_->qpos, m->nq);
+  mju_copy(d->qvel, data_->qvel, m->nv);
+  mj_integratePos(m, d->qpos, d->qvel, -m->opt.timestep / 2);
+  mj_kinematics(m, d);
+  mj_comPos(m, d);
+  mj_crb(m, d);
+  std::vector<mjtNum> momentum(static_cast<std::size_t>(m->nv));
+  mj_mulM(m, d, momentum.data(), d->qvel);
+  World::Energy out;
+  out.kinetic = mju_dot(momentum.data(), d->qvel, m->nv) / 2;
+  for (std::size_t i = 0; i < body_.size(); ++i) out.gravitational -= mass_[i] * mju_dot3(m->opt.gravity, d->xipos + 3 * body_[i]);
+  for (int j = 0; j < m->njnt; ++j) {
+    const int q = m->jnt_qposadr[j];
+    const double stretch = m->jnt_stiffness[j] > 0 ? d->qpos[q] - m->qpos_spring[q] : 0;
+    out.springs += m->jnt_stiffness[j] * stretch * stretch / 2;
+  }
+  return out;
+}
+
+int MujocoPhysics::contact_count() const {
+  static_cast<void>(view());
+  mj_collision(model_.get(), view_.get());
+  return view_->ncon;
+}
+
+std::unique_ptr<Physics> make_mujoco(const WorldDescription& world, double step_s, std::string_view file, Problems& problems) {
+  const std::vector<TreeNode> tree = build_tree(world, file, problems);
+  if (!problems.empty()) return nullptr;
+  int moving = 0;
+  for (const Link& l : world.links) moving += l.is_static ? 0 : static_cast<int>(l.collisions.size());
+  const int contacts = 100 + 8 * std::min(moving, 100);
+  const Mjcf mjcf = write_mjcf(world, tree, step_s, {contacts, 3 * contacts + 100});
+  std::string reason;
+  ModelPtr model = compile(mjcf.xml, nullptr, reason);
+  if (!model) {
+    problems.add({std::string(file), "", "", "MuJoCo refuses the world: " + reason, ""});
+    return nullptr;
+  }
+  for (std::size_t h = 0; h < mjcf.heightmaps.size(); ++h) {
+    const Heightmap& map = *mjcf.heightmaps[h];
+    float* to = model->hfield_data + model->hfield_adr[h];
+    for (const double height : map.heights) *to++ = static_cast<float>(height / heightmap_scale(map));
+  }
+  return std::make_unique<MujocoPhysics>(std::move(model), world, tree);
+}
+
+}  // namespace vsa::engine

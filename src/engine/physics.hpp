@@ -1,0 +1,68 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The door to a physics engine. A step has two halves, so that torques can follow from positions and from what the engine has
+// worked out for them:
+//
+//   prepare()      everything that depends on the present state: poses, inertia, contacts
+//   apply(j, τ)    for every driven joint; what isn't applied is zero
+//   advance()      v' = v + dt·a(q, v, τ), q' = q + dt·v'   (semi-implicit Euler)
+//
+// States: positions, velocities, and what an engine carries over as a first guess (PhysicsState holds all that decides the next
+// step).
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "description.hpp"
+
+namespace vsa::engine {
+
+struct JointState {
+  double position = 0, speed = 0;
+};
+
+/// All that decides what comes next. Equal values, equal future.
+struct PhysicsState {
+  std::vector<double> values;
+};
+
+/// Why a step was refused.
+struct Fault {
+  std::string where;     ///< "joint m::j", "link m::l", or the engine
+  std::string quantity;  ///< "acceleration", "position", an engine's warning
+  double value = 0;
+};
+
+class Physics {
+ public:
+  virtual ~Physics() = default;
+
+  virtual void prepare() = 0;
+  /// (M⁻¹)_jj of a one-axis joint, 1/(kg·m²); valid between prepare() and advance().
+  [[nodiscard]] virtual double inverse_inertia(std::size_t joint) = 0;
+  virtual void apply(std::size_t joint, double torque) = 0;
+  /// A fault leaves the state as it was at prepare().
+  [[nodiscard]] virtual std::optional<Fault> advance() = 0;
+
+  [[nodiscard]] virtual JointState joint(std::size_t joint) const = 0;  ///< one-axis joints
+  virtual void set_joint(std::size_t joint, JointState state) = 0;
+
+  virtual void poses(std::span<Pose> links) const = 0;
+  [[nodiscard]] virtual Vec3 center_of_mass(std::span<const std::size_t> links) const = 0;
+  /// Turns about the world's z axis and shifts every free body among `links`. False where one of them is tied to the world.
+  [[nodiscard]] virtual bool displace(std::span<const std::size_t> links, double yaw, const Vec3& shift) = 0;
+  /// With positions moved back by half a step, velocities as they are.
+  [[nodiscard]] virtual World::Energy energy() const = 0;
+  [[nodiscard]] virtual int contact_count() const = 0;
+
+  [[nodiscard]] virtual PhysicsState save() const = 0;
+  virtual void restore(const PhysicsState& state) = 0;
+};
+
+/// Builds the world in MuJoCo. Adds to `problems` and returns null where it can't.
+[[nodiscard]] std::unique_ptr<Physics> make_mujoco(const WorldDescription& world, double step_s, std::string_view file,
+                                                   Problems& problems);
+
+}  // namespace vsa::engine

@@ -1,0 +1,131 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <ignition/math/Quaternion.hh>
+#include <sdf/Box.hh>
+#include <sdf/Capsule.hh>
+#include <sdf/Cylinder.hh>
+#include <sdf/Ellipsoid.hh>
+#include <sdf/Geometry.hh>
+#include <sdf/Heightmap.hh>
+#include <sdf/Mesh.hh>
+#include <sdf/Plane.hh>
+#include <sdf/Sphere.hh>
+
+#include "heightmap_file.hpp"
+#include "mesh_file.hpp"
+#include "read_context.hpp"
+
+namespace vsa::engine {
+namespace {
+
+constexpr const char* kShapes = "box, sphere, cylinder, capsule, ellipsoid, plane, heightmap, convex mesh";
+
+/// Visuals that can't be shown are only left out; collisions are refused.
+struct Where {
+  ReadContext& c;
+  sdf::ElementPtr element;
+  std::string key;
+  bool collides;
+
+  std::nullopt_t refuse(const std::string& name, const std::string& value, const std::string& message, const std::string& allowed) {
+    if (collides) {
+      c.problem(element, key + "/geometry/" + name, value, message, allowed);
+    } else {
+      c.notes.add("visuals that can't be shown are left out (" + message + ")", key);
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Geometry> sized(Geometry::Kind kind, const Vec3& size, int used, const char* name) {
+    for (int i = 0; i < used; ++i) {
+      const double x = size[static_cast<std::size_t>(i)];
+      if (!std::isfinite(x) || x <= 0) return refuse(name, fmt::format("{}", x), "a length that isn't positive", "> 0, finite");
+    }
+    Geometry g;
+    g.kind = kind;
+    g.size = size;
+    return g;
+  }
+
+  [[nodiscard]] std::filesystem::path locate(const std::string& uri, const std::string& from) const {
+    const bool known = !from.empty() && from.front() != '<' && std::filesystem::exists(from);
+    return c.finder.find(uri, known ? std::filesystem::path(from).parent_path() : c.base);
+  }
+};
+
+std::optional<Geometry> read_plane(Where& w, const sdf::Plane& plane) {
+  Geometry g;
+  g.kind = Geometry::Kind::plane;
+  g.size = {plane.Size().X(), plane.Size().Y(), 0};
+  const Vec3 normal = plane.Normal();
+  if (!normal.IsFinite() || normal.Length() < 1e-9)
+    return w.refuse("plane/normal", "", "has no direction", "a vector other than zero");
+  g.offset.Rot().From2Axes(Vec3::UnitZ, normal);
+  return g;
+}
+
+std::optional<Geometry> read_mesh_geometry(Where& w, const sdf::Mesh& mesh) {
+  const auto path = w.locate(mesh.Uri(), mesh.FilePath());
+  if (path.empty()) return w.refuse("mesh/uri", mesh.Uri(), "file not found", "a file in: " + w.c.finder.searched());
+  if (!mesh.Submesh().empty()) return w.refuse("mesh/submesh", mesh.Submesh(), "submeshes aren't supported", "whole meshes");
+  if (!mesh_format_known(path)) return w.refuse("mesh/uri", mesh.Uri(), "this mesh format isn't read", kMeshFormats);
+  Geometry g;
+  g.kind = Geometry::Kind::mesh;
+  g.size = mesh.Scale();
+  try {
+    g.mesh = std::make_shared<const Mesh>(read_mesh(path, mesh.Scale()));
+  } catch (const InputError& error) {
+    return w.refuse("mesh/uri", mesh.Uri(), error.what(), kMeshFormats);
+  }
+  if (!w.collides) return g;
+  if (const std::string why = not_convex(*g.mesh); !why.empty()) {
+    return w.refuse("mesh/uri", mesh.Uri(), why, "convex closed meshes; split the body, or use primitives or a heightmap");
+  }
+  return g;
+}
+
+std::optional<Geometry> read_heightmap_geometry(Where& w, const sdf::Heightmap& map) {
+  const auto path = w.locate(map.Uri(), map.FilePath());
+  if (path.empty()) return w.refuse("heightmap/uri", map.Uri(), "file not found", "a file in: " + w.c.finder.searched());
+  std::optional<Geometry> g = w.sized(Geometry::Kind::heightmap, map.Size(), 3, "heightmap/size");
+  if (!g) return g;
+  try {
+    g->heightmap = std::make_shared<const Heightmap>(read_heightmap(path, map.Size(), map.Position()));
+  } catch (const InputError& error) {
+    return w.refuse("heightmap/uri", map.Uri(), error.what(), kImageFormats);
+  }
+  return g;
+}
+
+}  // namespace
+
+std::optional<Geometry> read_geometry(ReadContext& c, const sdf::Geometry& geometry, const std::string& key, bool collides) {
+  Where w{c, geometry.Element(), key, collides};
+  switch (geometry.Type()) {
+    case sdf::GeometryType::BOX:
+      return w.sized(Geometry::Kind::box, geometry.BoxShape()->Size(), 3, "box/size");
+    case sdf::GeometryType::SPHERE:
+      return w.sized(Geometry::Kind::sphere, {geometry.SphereShape()->Radius(), 0, 0}, 1, "sphere/radius");
+    case sdf::GeometryType::CYLINDER:
+      return w.sized(Geometry::Kind::cylinder, {geometry.CylinderShape()->Radius(), geometry.CylinderShape()->Length(), 0}, 2,
+                     "cylinder");
+    case sdf::GeometryType::CAPSULE:
+      return w.sized(Geometry::Kind::capsule, {geometry.CapsuleShape()->Radius(), geometry.CapsuleShape()->Length(), 0}, 2,
+                     "capsule");
+    case sdf::GeometryType::ELLIPSOID:
+      return w.sized(Geometry::Kind::ellipsoid, geometry.EllipsoidShape()->Radii(), 3, "ellipsoid/radii");
+    case sdf::GeometryType::PLANE:
+      return read_plane(w, *geometry.PlaneShape());
+    case sdf::GeometryType::MESH:
+      return read_mesh_geometry(w, *geometry.MeshShape());
+    case sdf::GeometryType::HEIGHTMAP:
+      return read_heightmap_geometry(w, *geometry.HeightmapShape());
+    default:
+      // libsdformat calls what it doesn't know empty.
+      if (!geometry.Element() || child(geometry.Element(), "empty") || !geometry.Element()->GetFirstElement()) return std::nullopt;
+      return w.refuse(geometry.Element()->GetFirstElement()->GetName(), "", "this kind of geometry isn't supported", kShapes);
+  }
+}
+
+}  // namespace vsa::engine

@@ -1,0 +1,80 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "sdf_world.hpp"
+
+#include <sdf/Model.hh>
+#include <sdf/Physics.hh>
+#include <sdf/Root.hh>
+#include <sdf/World.hh>
+
+#include "read_context.hpp"
+#include "sdf_parse.hpp"
+
+namespace vsa::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+void read_physics(ReadContext& c, const sdf::World& world) {
+  const sdf::Physics* physics = world.PhysicsDefault();
+  if (physics == nullptr) return;
+  c.out.step_s = physics->MaxStepSize();
+  const sdf::ElementPtr element = physics->Element();
+  for (const char* engine : {"ode", "bullet", "simbody", "dart"}) {
+    if (child(element, engine)) c.notes.add("solver settings of other engines are left out", std::string("physics/") + engine);
+  }
+}
+
+void read_world_extras(ReadContext& c, const sdf::World& world) {
+  const sdf::ElementPtr e = world.Element();
+  if (world.LightCount() > 0) c.notes.add("lights are left out", "world");
+  if (world.ActorCount() > 0) c.notes.add("actors are left out", "world");
+  if (world.WindLinearVelocity() != Vec3::Zero) c.notes.add("wind is left out", "world");
+  for (const char* name : {"population", "road", "state"}) {
+    if (child(e, name)) c.problem(child(e, name), std::string("world/") + name, "", "isn't supported");
+  }
+  for (sdf::ElementPtr p = child(e, "plugin"); p; p = p->GetNextElement("plugin")) {
+    c.notes.add("foreign plugins are left out", "world/plugin[" + p->GetAttribute("name")->GetAsString() + "]");
+  }
+}
+
+void read_root(ReadContext& c, const sdf::Root& root) {
+  if (root.WorldCount() > 1) c.problem(nullptr, "world", root.WorldByIndex(1)->Name(), "a second world", "one world a file");
+  if (root.WorldCount() > 0) {
+    const sdf::World& world = *root.WorldByIndex(0);
+    c.out.name = world.Name();
+    c.out.gravity = world.Gravity();
+    if (!c.out.gravity.IsFinite()) c.problem(world.Element(), "world/gravity", "", "isn't finite", "finite numbers");
+    if (world.Element()) {
+      read_physics(c, world);
+      read_world_extras(c, world);
+    }
+    for (std::uint64_t i = 0; i < world.ModelCount(); ++i) read_model(c, *world.ModelByIndex(i), nullptr);
+  } else if (root.Model() != nullptr) {
+    c.out.name = "default";
+    read_model(c, *root.Model(), nullptr);
+  }
+  if (c.out.links.empty() && c.problems.empty()) c.problem(nullptr, "", "", "holds no model with a link");
+}
+
+}  // namespace
+
+WorldDescription read_sdf(const SdfSource& source, const std::vector<fs::path>& model_path, std::vector<std::string>& warnings,
+                          Problems& problems) {
+  WorldDescription out;
+  std::error_code ignored;
+  if (!source.path.empty() && !fs::is_regular_file(source.path, ignored)) {
+    problems.add({source.path.string(), "", "", "no such file", "an SDF or URDF file"});
+    return out;
+  }
+  const fs::path base = source.path.empty() ? fs::current_path() : fs::absolute(source.path).parent_path();
+  const Finder finder(model_path);
+  Notes notes;
+  ReadContext context{out, problems, notes, finder, source.label(), base, true};
+  sdf::Root root;
+  parse_sdf(source, context, root);
+  read_root(context, root);
+  warnings = notes.texts();
+  return out;
+}
+
+}  // namespace vsa::engine

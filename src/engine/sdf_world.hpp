@@ -1,0 +1,28 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// SDF 1.6–1.9 (and URDF as libsdformat reads it) → WorldDescription.
+//
+// What the engine can't honour is a problem; what doesn't touch the physics (visual materials, sensors, lights, foreign plugins) is
+// a warning, once a kind. A file with a model and no world becomes that model in a world of SDF's defaults.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "description.hpp"
+
+namespace vsa::engine {
+
+struct SdfSource {
+  std::filesystem::path path;  ///< read from here; empty: `text`
+  std::string_view text;
+  [[nodiscard]] std::string label() const { return path.empty() ? "SDF text" : path.string(); }
+};
+
+/// Everything wrong goes to `problems`; the description is complete only where nothing was.
+[[nodiscard]] WorldDescription read_sdf(const SdfSource& source, const std::vector<std::filesystem::path>& model_path,
+                                        std::vector<std::string>& warnings, Problems& problems);
+
+}  // namespace vsa::engine

@@ -1,0 +1,130 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// From a file to a World: read, build the robots, compile, and remember the first sample. All problems are thrown at once.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sdf_world.hpp"
+#include "vsa/config/plugin_xml.hpp"
+#include "world_impl.hpp"
+
+namespace vsa::engine {
+namespace {
+
+constexpr double kStepMin_s = 1e-6, kStepMax_s = 16e-3;
+
+std::int64_t step_ns(const WorldOptions& options, const WorldDescription& world, const std::string& file, Problems& problems) {
+  const double step_s = options.step_s.value_or(world.step_s);
+  if (!(step_s >= kStepMin_s && step_s <= kStepMax_s)) {
+    problems.add({options.step_s ? "" : file, options.step_s ? "step_s" : "physics/max_step_size", fmt::format("{}", step_s),
+                  "step out of range", fmt::format("{} … {} s", kStepMin_s, kStepMax_s)});
+    return 1'000'000;
+  }
+  return std::llround(step_s * 1e9);
+}
+
+/// Joints as a plugin in `model` may name them: relative to that model.
+std::vector<std::pair<std::string, std::size_t>> joints_under(const WorldDescription& world, const std::string& model) {
+  std::vector<std::pair<std::string, std::size_t>> out;
+  const std::string prefix = model + "::";
+  for (std::size_t j = 0; j < world.joints.size(); ++j) {
+    if (world.joints[j].name.rfind(prefix, 0) == 0) out.emplace_back(world.joints[j].name.substr(prefix.size()), j);
+  }
+  return out;
+}
+
+struct RobotBuilder {
+  WorldDescription& world;
+  const config::PresetLibrary& presets;
+  std::string file;
+  Problems& problems;
+
+  /// The joints of the config's actuators; empty where one isn't there.
+  std::vector<std::size_t> match(const host::RobotConfig& config, const Plugin& plugin, const std::string& where) {
+    const auto known = joints_under(world, plugin.model);
+    std::vector<std::string> names;
+    for (const auto& [name, index] : known) names.push_back(name);
+    const std::size_t before = problems.list().size();
+    config::check_joints(config, names, where, problems);
+    std::vector<std::size_t> out;
+    for (const host::ActuatorConfig& a : config.actuators) {
+      const auto it = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == a.joint; });
+      if (it == known.end()) continue;
+      if (!world.joints[it->second].one_axis()) {
+        problems.add(
+            {where, "actuator[" + a.name + "]/joint", a.joint, "isn't a joint with one axis", "revolute, continuous, prismatic"});
+      }
+      out.push_back(it->second);
+    }
+    return problems.list().size() == before ? out : std::vector<std::size_t>{};
+  }
+
+  std::optional<RobotSlot> build(const Plugin& plugin) {
+    const std::string where = file + ": " + plugin.model;
+    try {
+      host::RobotConfig config = config::parse_plugin(plugin.xml, where, presets);
+      std::vector<std::size_t> joints = match(config, plugin, where);
+      if (joints.size() != config.actuators.size()) return std::nullopt;
+      const std::size_t n = joints.size();
+      return RobotSlot{plugin.model,           host::Robot(std::move(config)), std::move(joints), std::vector<host::JointIn>(n),
+                       std::vector<double>(n), std::vector<double>(n)};
+    } catch (const InputError& error) {
+      problems.add_all(error);
+      return std::nullopt;
+    }
+  }
+};
+
+/// A joint belongs to one robot; within a plugin config:: has looked already.
+void check_shared_joints(const std::vector<RobotSlot>& robots, const WorldDescription& world, const std::string& file,
+                         Problems& problems) {
+  std::vector<std::size_t> seen;
+  for (const RobotSlot& slot : robots) {
+    for (const std::size_t j : slot.joints) {
+      if (std::find(seen.begin(), seen.end(), j) != seen.end()) {
+        problems.add({file, slot.model, world.joints[j].name, "two plugins drive this joint", "one actuator a joint"});
+      }
+    }
+    seen.insert(seen.end(), slot.joints.begin(), slot.joints.end());
+  }
+}
+
+}  // namespace
+
+void World::Impl::add_robots(const std::string& file, Problems& problems) {
+  if (!options.actuators) return;
+  RobotBuilder builder{world, options.presets, file, problems};
+  for (const Plugin& plugin : world.plugins) {
+    std::optional<RobotSlot> slot = builder.build(plugin);
+    if (!slot) continue;
+    for (std::size_t i = 0; i < slot->joints.size(); ++i) {
+      actuators.push_back({plugin.top_model, slot->robot.config().actuators[i].name, robots.size(), i});
+    }
+    robots.push_back(std::move(*slot));
+  }
+  check_shared_joints(robots, world, file, problems);
+}
+
+std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOptions options) {
+  auto impl = std::make_unique<World::Impl>();
+  impl->options = std::move(options);
+  Problems problems;
+  impl->world = read_sdf(source, impl->options.model_path, impl->warnings, problems);
+  impl->dt_ns = step_ns(impl->options, impl->world, source.label(), problems);
+  impl->add_robots(source.label(), problems);
+  problems.throw_if_any();
+  impl->physics = make_mujoco(impl->world, static_cast<double>(impl->dt_ns) * 1e-9, source.label(), problems);
+  problems.throw_if_any();
+  impl->initial = impl->snapshot();
+  return impl;
+}
+
+World World::load(const std::filesystem::path& sdf, WorldOptions options) {
+  return World(Impl::load({sdf, {}}, std::move(options)));
+}
+
+World World::load_string(std::string_view sdf, WorldOptions options) { return World(Impl::load({{}, sdf}, std::move(options))); }
+
+}  // namespace vsa::engine

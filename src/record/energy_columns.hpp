@@ -1,0 +1,40 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The entries of the energy record, written once for energy.csv and the page.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "vsa/record/run_data.hpp"
+
+namespace vsa::record {
+
+struct EnergyColumn {
+  std::string_view name;  // without the unit, J
+  double (*value)(const Sample&);
+};
+
+// "motor_kinetic" is the ledger's own kinetic energy (motors); "kinetic" is that of the bodies.
+inline constexpr std::array<EnergyColumn, 18> kEnergyColumns{{
+    {"supply", [](const Sample& s) { return s.ledger.supply; }},
+    {"copper", [](const Sample& s) { return s.ledger.copper; }},
+    {"conversion", [](const Sample& s) { return s.ledger.conversion; }},
+    {"viscous", [](const Sample& s) { return s.ledger.viscous; }},
+    {"motor_friction", [](const Sample& s) { return s.ledger.motor_friction; }},
+    {"shaft_friction", [](const Sample& s) { return s.ledger.shaft_friction; }},
+    {"delivered", [](const Sample& s) { return s.ledger.delivered; }},
+    {"integrator", [](const Sample& s) { return s.ledger.integrator; }},
+    {"coupling", [](const Sample& s) { return s.ledger.coupling; }},
+    {"motor_kinetic", [](const Sample& s) { return s.ledger.kinetic; }},
+    {"magnetic", [](const Sample& s) { return s.ledger.magnetic; }},
+    {"elastic", [](const Sample& s) { return s.ledger.elastic; }},
+    {"bristle", [](const Sample& s) { return s.ledger.bristle; }},
+    {"stored_at_start", [](const Sample& s) { return s.ledger.stored_at_start; }},
+    {"supply_moved", [](const Sample& s) { return s.ledger.supply_moved; }},
+    {"delivered_moved", [](const Sample& s) { return s.ledger.delivered_moved; }},
+    {"kinetic", [](const Sample& s) { return s.kinetic_J; }},
+    {"gravitational", [](const Sample& s) { return s.gravitational_J; }},
+}};
+
+}  // namespace vsa::record

@@ -1,0 +1,33 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string_view>
+
+namespace vsa::record {
+
+/// A file that is appended to in whole pieces: a piece that fails half-way is cut off again, so that what stays is readable.
+class OutputFile {
+ public:
+  OutputFile() = default;
+  explicit OutputFile(std::filesystem::path path);  ///< creates or empties; throws RecordError
+  ~OutputFile();
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&& other) noexcept;
+
+  void append(std::string_view piece);  ///< throws RecordError
+  void restart();                       ///< empties; throws RecordError
+  void close();                         ///< throws RecordError
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  [[noreturn]] void fail(std::string_view what, int error) const;
+
+  std::filesystem::path path_;
+  int fd_ = -1;
+  off_t good_ = 0;  // bytes in whole pieces
+};
+
+}  // namespace vsa::record

@@ -1,0 +1,145 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/record/page.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "record/energy_columns.hpp"
+#include "record/output_file.hpp"
+#include "record/page_json.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::record {
+namespace {
+
+struct Channel {
+  std::string_view name;
+  double (*value)(const host::ActuatorReading&);
+};
+
+using Reading = host::ActuatorReading;
+constexpr std::array<Channel, 10> kChannels{{
+    {"shaft_rad", [](const Reading& r) { return r.shaft_rad; }},
+    {"shaft_speed_rad_per_s", [](const Reading& r) { return r.shaft_speed_rad_per_s; }},
+    {"equilibrium_command_rad", [](const Reading& r) { return r.equilibrium_command_rad; }},
+    {"equilibrium_rad", [](const Reading& r) { return r.equilibrium_rad; }},
+    {"preset_command", [](const Reading& r) { return r.preset_command; }},
+    {"preset", [](const Reading& r) { return r.preset; }},
+    {"stiffness_Nm_per_rad", [](const Reading& r) { return r.stiffness_Nm_per_rad; }},
+    {"torque_Nm", [](const Reading& r) { return r.torque_Nm; }},
+    {"current_1_A", [](const Reading& r) { return r.current_A[0]; }},
+    {"current_2_A", [](const Reading& r) { return r.current_A[1]; }},
+}};
+constexpr std::size_t kPoseNumbers = 7;
+
+/// frames × width → width × frames: the page draws one channel at a time.
+std::vector<float> by_channel(const std::vector<float>& frames, std::size_t width) {
+  std::vector<float> out(frames.size());
+  const std::size_t count = width == 0 ? 0 : frames.size() / width;
+  for (std::size_t f = 0; f < count; ++f) {
+    for (std::size_t c = 0; c < width; ++c) out[c * count + f] = frames[f * width + c];
+  }
+  return out;
+}
+
+template <class Columns>
+std::string names(const Columns& columns) {
+  std::string out;
+  for (const auto& c : columns) (out += out.empty() ? "" : ",") += '"' + std::string(c.name) + '"';
+  return '[' + out + ']';
+}
+
+void drop_odd(std::vector<float>& frames, std::size_t width) {
+  std::size_t kept = 0;
+  for (std::size_t f = 0; width > 0 && f < frames.size() / width; f += 2, ++kept) {
+    std::copy_n(frames.begin() + static_cast<std::ptrdiff_t>(f * width), width,
+                frames.begin() + static_cast<std::ptrdiff_t>(kept * width));
+  }
+  frames.resize(kept * width);
+}
+
+}  // namespace
+
+PageData::PageData(const RunInfo& info, double rate_Hz, std::size_t frames_max)
+    : rate_Hz_(rate_Hz), frames_max_(frames_max), cadence_(rate_Hz) {
+  for (std::size_t i = 0; i < info.links.size(); ++i) {
+    if (!info.links[i].is_static) moving_.push_back(i);
+  }
+  for (const RobotInfo& r : info.robots) actuators_ += r.actuators.size();
+}
+
+void PageData::halve() {
+  drop_odd(time_, 1);
+  drop_odd(poses_, moving_.size() * kPoseNumbers);
+  drop_odd(readings_, actuators_ * kChannels.size());
+  drop_odd(energy_, kEnergyColumns.size());
+  rate_Hz_ /= 2;
+  cadence_ = Cadence(rate_Hz_);
+}
+
+void PageData::add(const Sample& sample) {
+  if (time_.empty()) first_ = sample.poses;
+  if (frames() >= frames_max_) halve();
+  const auto f = [](double v) { return static_cast<float>(v); };
+  time_.push_back(f(static_cast<double>(sample.time_ns) / 1e9));
+  for (const std::size_t i : moving_) {
+    for (const double v : sample.poses[i].position) poses_.push_back(f(v));
+    for (const double v : sample.poses[i].quaternion) poses_.push_back(f(v));
+  }
+  for (const Reading& r : sample.actuators) {
+    for (const Channel& c : kChannels) readings_.push_back(f(c.value(r)));
+  }
+  for (const EnergyColumn& c : kEnergyColumns) energy_.push_back(f(c.value(sample)));
+  cadence_.taken(sample.time_ns);
+}
+
+void PageData::restart() {
+  for (auto* v : {&time_, &poses_, &readings_, &energy_}) v->clear();
+  cadence_.restart();
+}
+
+std::string PageData::json(const RunInfo& info, const PageText& text) const {
+  std::string out = "{" + page_header(info, text, first_);
+  out += ",\n\"frames\":" + std::to_string(frames()) + ",\n\"time\":\"" + base64(time_) + "\",\n\"poses\":\"" + base64(poses_);
+  out += "\",\n\"actuator_channels\":" + names(kChannels) + ",\n\"actuators\":\"";
+  out += base64(by_channel(readings_, actuators_ * kChannels.size()));
+  out += "\",\n\"energy_channels\":" + names(kEnergyColumns) + ",\n\"energy\":\"";
+  return out + base64(by_channel(energy_, kEnergyColumns.size())) + "\"}";
+}
+
+std::string read_template(const std::filesystem::path& file) {
+  const auto problem = [&](const std::string& message) { return InputError(Problem{file.string(), "", "", message, ""}); };
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw problem("can't read the replay page's template: " + std::system_category().message(errno));
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  const std::size_t at = text.find(kPageMarker);
+  if (at == std::string::npos || text.find(kPageMarker, at + 1) != std::string::npos) {
+    throw problem("not a template of the replay page: it must hold " + std::string(kPageMarker) + " once");
+  }
+  return text;
+}
+
+void write_page(const std::filesystem::path& file, std::string_view page_template, std::string_view json) {
+  const std::size_t at = page_template.find(kPageMarker);
+  std::filesystem::path beside = file;
+  beside += ".part";
+  try {
+    OutputFile out(beside);
+    out.append(page_template.substr(0, at));
+    out.append(json);
+    out.append(page_template.substr(at + kPageMarker.size()));
+    out.close();
+    std::filesystem::rename(beside, file);
+  } catch (const std::exception& e) {
+    std::error_code ignored;
+    std::filesystem::remove(beside, ignored);
+    throw RecordError(file.string() + ": can't write the replay page: " + e.what());
+  }
+}
+
+}  // namespace vsa::record

@@ -1,0 +1,63 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/record/recorder.hpp"
+
+#include <utility>
+
+namespace vsa::record {
+namespace {
+
+void read(const engine::World& world, Sample& sample) {
+  sample.time_ns = world.time_ns();
+  sample.actuators.clear();
+  for (std::size_t r = 0; r < world.robot_count(); ++r) {
+    for (std::size_t i = 0; i < world.robot(r).size(); ++i) sample.actuators.push_back(world.robot(r).read(i));
+  }
+  sample.poses.resize(world.links().size());
+  world.poses(sample.poses);
+  sample.ledger = world.ledger();
+  const engine::World::Energy energy = world.energy();
+  sample.kinetic_J = energy.kinetic;
+  sample.gravitational_J = energy.gravitational;
+}
+
+ActuatorInfo describe(const host::ActuatorConfig& config) {
+  ActuatorInfo info{config.name, config.joint, config.preset, "", 2, {}};
+  if (const auto& law = config.unit.actuator.transmission) {
+    info.preset_unit = law->preset_unit();
+    info.motors = law->motor_count();
+  }
+  return info;
+}
+
+}  // namespace
+
+RunInfo describe(const engine::World& world) {
+  RunInfo info{world.name(), world.step_s(), {}, world.links()};
+  for (std::size_t r = 0; r < world.robot_count(); ++r) {
+    RobotInfo robot{world.robot_model(r), {}};
+    for (const host::ActuatorConfig& a : world.robot(r).config().actuators) {
+      robot.actuators.push_back(describe(a));
+      robot.actuators.back().links = links_of_joint(robot.model, a.joint, robot.actuators.size() - 1, info.links);
+    }
+    info.robots.push_back(std::move(robot));
+  }
+  return info;
+}
+
+Recorder::Recorder(const engine::World& world, const std::filesystem::path& directory, RecorderOptions options)
+    : record_(describe(world), directory, std::move(options)) {
+  read(world, sample_);
+  record_.add(sample_);
+}
+
+void Recorder::sample(const engine::World& world) {
+  if (!record_.due(world.time_ns())) return;
+  read(world, sample_);
+  record_.add(sample_);
+}
+
+std::filesystem::path Recorder::finish(const std::vector<Statistic>& summary, std::string_view note) {
+  return record_.finish(summary, note);
+}
+
+}  // namespace vsa::record

@@ -1,0 +1,108 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <utility>
+
+#include "vsa/config/preset.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/record/csv.hpp"
+#include "vsa/record/page.hpp"
+#include "vsa/record/recorder.hpp"
+
+namespace vsa::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+RecorderOptions checked(RecorderOptions options) {
+  Problems problems;
+  const auto rate = [&](const char* key, double value) {
+    if (!(value > 0 && value <= 1e6)) problems.add({"", key, std::to_string(value), "not a recording rate", "above 0 to 1e6 Hz"});
+  };
+  rate("rate_Hz", options.rate_Hz);
+  rate("page_rate_Hz", options.page_rate_Hz);
+  if (options.page_frames_max < 2) {
+    problems.add({"", "page_frames_max", std::to_string(options.page_frames_max), "too few frames", "2 or more"});
+  }
+  problems.throw_if_any();
+  if (options.page_template.empty()) options.page_template = config::data_directory() / "web" / "replay.html";
+  return options;
+}
+
+std::string seconds(std::int64_t time_ns) {
+  std::string text = std::to_string(static_cast<double>(time_ns) / 1e9);
+  return text.substr(0, text.size() - 3) + " s";
+}
+
+}  // namespace
+
+struct RunRecord::Impl {
+  RunInfo info;
+  fs::path directory;
+  RecorderOptions options;
+  std::string page_template;
+  CsvFiles files;
+  Cadence cadence;
+  PageData page;
+  std::int64_t last_ns = -1;
+  std::vector<std::string> notes;
+  bool files_failed = false;
+
+  Impl(RunInfo i, fs::path d, RecorderOptions o)
+      : info(std::move(i)),
+        directory(std::move(d)),
+        options(checked(std::move(o))),
+        page_template(read_template(options.page_template)),
+        files(info, directory),
+        cadence(options.rate_Hz),
+        page(info, options.page_rate_Hz, options.page_frames_max) {}
+
+  void start_over(std::int64_t time_ns) {
+    notes.push_back("The world went back from " + seconds(last_ns) + " to " + seconds(time_ns) + ": the recording starts there.");
+    cadence.restart();
+    page.restart();
+    if (!files_failed) files.restart();
+  }
+
+  void write_files(const Sample& sample) {
+    try {
+      files.write(sample);
+      cadence.taken(sample.time_ns);
+    } catch (const RecordError& e) {
+      files_failed = true;
+      notes.push_back("The CSV files end at " + seconds(sample.time_ns) + ". " + e.what());
+      throw;
+    }
+  }
+};
+
+RunRecord::RunRecord(RunInfo info, fs::path directory, RecorderOptions options)
+    : impl_(std::make_unique<Impl>(std::move(info), std::move(directory), std::move(options))) {}
+RunRecord::~RunRecord() = default;
+RunRecord::RunRecord(RunRecord&&) noexcept = default;
+RunRecord& RunRecord::operator=(RunRecord&&) noexcept = default;
+
+bool RunRecord::due(std::int64_t time_ns) const noexcept {
+  return impl_->cadence.due(time_ns) || impl_->page.due(time_ns) || time_ns < impl_->last_ns;
+}
+
+void RunRecord::add(const Sample& sample) {
+  Impl& r = *impl_;
+  if (sample.time_ns < r.last_ns) r.start_over(sample.time_ns);
+  r.last_ns = sample.time_ns;
+  if (r.page.due(sample.time_ns)) r.page.add(sample);
+  if (!r.files_failed && r.cadence.due(sample.time_ns)) r.write_files(sample);
+}
+
+fs::path RunRecord::finish(const std::vector<Statistic>& summary, std::string_view note) {
+  Impl& r = *impl_;
+  PageText text{r.options.title.empty() ? r.info.world : r.options.title, summary, r.notes};
+  if (!note.empty()) text.notes.emplace_back(note);
+  const fs::path file = r.directory / "replay.html";
+  write_page(file, r.page_template, r.page.json(r.info, text));
+  r.files.close();
+  return file;
+}
+
+std::vector<fs::path> RunRecord::files() const { return impl_->files.files(); }
+
+}  // namespace vsa::record

@@ -1,0 +1,115 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "messages.hpp"
+
+#include <array>
+#include <charconv>
+#include <limits>
+#include <string_view>
+
+namespace vsa::topics {
+namespace {
+
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+constexpr std::array<const char*, 3> kKeys{"actuator", "equilibrium_command_rad", "preset_command"};
+
+std::string text(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+double number(const std::string& text) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+void set_data(ignition::msgs::Header& header, int index, const std::string& value) {
+  while (header.data_size() <= index) header.add_data()->set_key(kKeys[static_cast<std::size_t>(header.data_size() - 1)]);
+  auto& data = *header.mutable_data(index);
+  if (data.value_size() == 0) data.add_value();
+  data.set_value(0, value);
+}
+
+bool has_data(const ignition::msgs::Header& header) {
+  if (header.data_size() < static_cast<int>(kKeys.size())) return false;
+  for (int i = 0; i < static_cast<int>(kKeys.size()); ++i) {
+    if (header.data(i).key() != kKeys[static_cast<std::size_t>(i)] || header.data(i).value_size() != 1) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void set_time(ignition::msgs::Time& out, std::int64_t time_ns) {
+  out.set_sec(time_ns / kNsPerSecond);
+  out.set_nsec(static_cast<std::int32_t>(time_ns % kNsPerSecond));
+}
+
+std::int64_t to_ns(const ignition::msgs::Time& time) { return time.sec() * kNsPerSecond + time.nsec(); }
+
+host::Trajectory decode(const ignition::msgs::JointTrajectory& message) {
+  host::Trajectory out;
+  out.names.assign(message.joint_names().begin(), message.joint_names().end());
+  for (const auto& point : message.points()) {
+    const double seconds = static_cast<double>(point.time_from_start().sec()) + 1e-9 * point.time_from_start().nsec();
+    out.points.push_back({{point.positions().begin(), point.positions().end()}, seconds});
+  }
+  return out;
+}
+
+void encode(const host::Trajectory& trajectory, ignition::msgs::JointTrajectory& out) {
+  out.Clear();
+  for (const auto& name : trajectory.names) out.add_joint_names(name);
+  for (const auto& point : trajectory.points) {
+    auto& to = *out.add_points();
+    for (const double position : point.positions) to.add_positions(position);
+    const auto ns = static_cast<std::int64_t>(point.time_from_start_s * 1e9 + 0.5);
+    to.mutable_time_from_start()->set_sec(ns / kNsPerSecond);
+    to.mutable_time_from_start()->set_nsec(static_cast<std::int32_t>(ns % kNsPerSecond));
+  }
+}
+
+host::ActuatorsCmd decode(const ignition::msgs::Actuators& message) {
+  return {{message.position().begin(), message.position().end()}};
+}
+
+void encode(const host::JointStates& states, ignition::msgs::Model& out) {
+  set_time(*out.mutable_header()->mutable_stamp(), states.time_ns);
+  out.set_name(states.model);
+  const auto count = static_cast<int>(states.joints.size());
+  while (out.joint_size() < count) out.add_joint();
+  std::size_t actuator = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto& from = states.joints[static_cast<std::size_t>(i)];
+    auto& to = *out.mutable_joint(i);
+    to.set_name(from.name);
+    auto& axis = *to.mutable_axis1();
+    axis.set_position(from.position_rad);
+    axis.set_velocity(from.velocity_rad_per_s);
+    axis.set_force(from.force_Nm);
+    const bool is_shaft = actuator < states.first_joint.size() && states.first_joint[actuator] == static_cast<std::size_t>(i);
+    if (!is_shaft) continue;
+    set_data(*to.mutable_header(), 0, states.names[actuator]);
+    set_data(*to.mutable_header(), 1, text(states.commands[actuator].equilibrium_rad));
+    set_data(*to.mutable_header(), 2, text(states.commands[actuator].preset));
+    ++actuator;
+  }
+}
+
+host::JointStates decode(const ignition::msgs::Model& message) {
+  host::JointStates out;
+  out.time_ns = to_ns(message.header().stamp());
+  out.model = message.name();
+  for (const auto& joint : message.joint()) {
+    if (has_data(joint.header())) {
+      out.first_joint.push_back(out.joints.size());
+      out.names.push_back(joint.header().data(0).value(0));
+      out.commands.push_back({number(joint.header().data(1).value(0)), number(joint.header().data(2).value(0))});
+    }
+    out.joints.push_back({joint.name(), joint.axis1().position(), joint.axis1().velocity(), joint.axis1().force()});
+  }
+  return out;
+}
+
+}  // namespace vsa::topics

@@ -1,0 +1,109 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "vsa/actuator/actuator.hpp"
+#include "vsa/elastic/two_sinh.hpp"
+
+namespace {
+
+using vsa::actuator::Actuator;
+using vsa::actuator::ActuatorParams;
+using vsa::actuator::SegmentInput;
+using vsa::drive::Terminal;
+
+ActuatorParams maker_pro() {
+  ActuatorParams p;
+  p.transmission = std::make_shared<vsa::elastic::TwoSinh>(vsa::elastic::TwoSinhParams{{0.022, 0.022}, {6.85, 6.85}});
+  p.motor = {0.001, 0.01, 0.8, 1.3, 2.3, std::nullopt};
+  p.gearbox = {1.0, {0.8, 0.03}};
+  p.shaft_friction = {0.01, 0.03};
+  return p;
+}
+
+TEST(Segment, EveryLossIsPositiveAndTheBalanceClosesWhateverHappens) {
+  std::mt19937 rng(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    ActuatorParams p = maker_pro();
+    if (trial % 3 == 1) p.motor.inductance_H = 1e-3;
+    if (trial % 4 == 1) p.gearbox.friction.presliding_rad = 0;
+    if (trial % 5 == 1) p.gearbox.ratio = 3.0;
+    p.motor.back_emf_Vs_per_rad = 0.8;  // K_b = K_τ: no conversion entry
+    Actuator a(p);
+    auto s = a.initial({0.7 * unit(rng), 0.7 * unit(rng)}, 0.3 * unit(rng));
+    auto last = s.ledger;
+    for (int n = 0; n < 50; ++n) {
+      const double h = std::pow(10.0, -4 + unit(rng));
+      a.segment(s, h, {1e-2 * unit(rng), {8 * unit(rng), 8 * unit(rng)}, n % 7 == 0 ? Terminal::open : Terminal::driven});
+      a.shaft_friction(s, 0.0);
+      const auto& l = s.ledger;
+      ASSERT_GE(l.copper, last.copper - 1e-12);
+      ASSERT_GE(l.viscous, last.viscous - 1e-12);
+      ASSERT_GE(l.motor_friction, last.motor_friction - 1e-12);
+      ASSERT_GE(l.shaft_friction, last.shaft_friction - 1e-12);
+      ASSERT_NEAR(l.conversion, 0.0, 1e-12);
+      last = l;
+    }
+  }
+}
+
+TEST(Segment, LockedPulleysDeflectAsTheClosedFormSays) {
+  ActuatorParams p = maker_pro();
+  p.gearbox.friction = {100.0, 0.0};  // nothing moves the motors
+  Actuator a(p);
+  auto s = a.initial({0.4, -0.4}, 0.0);
+  for (int n = 0; n < 300; ++n) a.segment(s, 1e-3, {1e-3, {0, 0}, Terminal::driven});
+  EXPECT_DOUBLE_EQ(s.motor[0].angle, 0.4);
+  EXPECT_NEAR(a.spring(s, s.shaft).torque, -2 * 0.022 * std::cosh(6.85 * 0.4) * std::sinh(6.85 * 0.3), 1e-10);
+}
+
+TEST(Segment, ALoadedMotorSettlesWhereFrictionHoldsIt) {
+  // Unpowered and open: the pulley creeps until spring load and friction agree.
+  ActuatorParams p = maker_pro();
+  Actuator a(p);
+  auto s = a.initial({0.0, 0.0}, 0.75);
+  for (int n = 0; n < 4000; ++n) a.segment(s, 1e-3, {0, {0, 0}, Terminal::driven});
+  EXPECT_NEAR(s.motor[0].speed, 0.0, 1e-6);
+  EXPECT_LE(std::abs(a.spring(s, s.shaft).load[0]), 0.8 + 1e-9);
+  EXPECT_GT(s.motor[0].angle, 0.03);
+}
+
+TEST(Segment, TorqueSlopeIsTheDerivativeOfTheMeanTorque) {
+  for (const double coulomb : {0.0, 0.8}) {
+    ActuatorParams p = maker_pro();
+    p.gearbox.friction.coulomb_Nm = coulomb;
+    Actuator a(p);
+    const auto start = a.initial({0.5, -0.5}, 0.1);
+    auto torque = [&](double dq) {
+      auto s = start;
+      return a.segment(s, 1e-3, {dq, {5, 1}, Terminal::driven}).torque;
+    };
+    auto s = start;
+    const double slope = a.segment(s, 1e-3, {0.01, {5, 1}, Terminal::driven}).slope;
+    EXPECT_NEAR(slope, -(torque(0.01 + 1e-4) - torque(0.01 - 1e-4)) / 2e-4, 2e-2 * slope);
+  }
+}
+
+TEST(Segment, SolvesSpringsThatHardenExponentially) {
+  ActuatorParams p = maker_pro();
+  Actuator a(p);
+  for (const double jump : {-1.5, -0.8, 0.8, 1.5}) {
+    auto s = a.initial({0.785, -0.785}, 0.0);
+    const double stored = s.ledger.stored();
+    const auto r = a.segment(s, 4e-3, {jump, {0, 0}, Terminal::driven});
+    ASSERT_TRUE(std::isfinite(r.torque)) << jump;
+    EXPECT_GE(r.slope, 0.0);
+    const double work = -r.torque * jump;  // put in by whoever moved the shaft
+    EXPECT_NEAR(s.ledger.copper + s.ledger.conversion + s.ledger.viscous + s.ledger.motor_friction + s.ledger.stored() - stored +
+                    s.ledger.integrator - s.ledger.supply,
+                work, 1e-9 * (1 + std::abs(work)))
+        << jump;
+    EXPECT_LT(std::abs(s.ledger.integrator), 1e-3 * (1 + std::abs(work))) << jump;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,89 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Bad usage and bad input end with exit code 2 and lines that say what would be right.
+#include <gtest/gtest.h>
+
+#include "subprocess.hpp"
+
+namespace {
+
+using vsa::test::Result;
+using vsa::test::run_vsa;
+using vsa::test::Scratch;
+using vsa::test::write_file;
+
+void expect_bad_input(const Result& result, const std::vector<std::string>& parts) {
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  for (const auto& part : parts) EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in:\n" << result.err;
+}
+
+TEST(Usage, HelpAndVersionAreNoErrors) {
+  const auto help = run_vsa({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* part : {"run", "command", "actuators", "Examples", "Exit codes"}) {
+    EXPECT_NE(help.out.find(part), std::string::npos) << part;
+  }
+  const auto version = run_vsa({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_EQ(version.out.rfind("vsa ", 0), 0U) << version.out;
+  EXPECT_EQ(run_vsa({"run", "--help"}).exit_code, 0);
+}
+
+TEST(Usage, WrongArgumentsAreBadUsage) {
+  EXPECT_EQ(run_vsa({}).exit_code, 2);
+  EXPECT_EQ(run_vsa({"dance"}).exit_code, 2);
+  EXPECT_EQ(run_vsa({"run"}).exit_code, 2);
+  EXPECT_EQ(run_vsa({"run", "bench_free", "--fast"}).exit_code, 2);
+  EXPECT_EQ(run_vsa({"run", "bench_free", "--paused", "--no-topics"}).exit_code, 2) << "nobody could let it run";
+  EXPECT_EQ(run_vsa({"command", "10"}).exit_code, 2);
+  EXPECT_EQ(run_vsa({"command", "ten", "20"}).exit_code, 2);
+  EXPECT_EQ(run_vsa({"command", "", "20"}).exit_code, 2);
+}
+
+TEST(Usage, ADurationMustBeAPositiveNumber) {
+  for (const char* duration : {"0", "-1", "nan", "inf", "1e9", "abc", ""}) {
+    const auto result = run_vsa({"run", "bench_free", "--no-topics", "--duration-s", duration});
+    EXPECT_EQ(result.exit_code, 2) << duration << ": " << result.err;
+    EXPECT_NE(result.err.find("--duration-s"), std::string::npos) << result.err;
+  }
+}
+
+TEST(Usage, AMissingWorldIsToldWithTheWorldsThereAre) {
+  expect_bad_input(run_vsa({"run", "atlantis"}), {"atlantis", "no such file", "snake_flat"});
+  expect_bad_input(run_vsa({"run", "/nowhere/world.sdf"}), {"/nowhere/world.sdf", "no such file"});
+  expect_bad_input(run_vsa({"run", "/tmp"}), {"/tmp", "is a directory"});
+}
+
+TEST(Usage, ABrokenWorldIsBadInput) {
+  const Scratch scratch;
+  write_file(scratch / "broken.sdf", "<sdf version='1.8'><world name='w'><model></world>");
+  expect_bad_input(run_vsa({"run", (scratch / "broken.sdf").string(), "--no-topics"}), {"broken.sdf"});
+  write_file(scratch / "empty.sdf", "");
+  expect_bad_input(run_vsa({"run", (scratch / "empty.sdf").string(), "--no-topics"}), {"empty.sdf"});
+}
+
+TEST(Usage, AnUnknownGaitIsToldWithTheGaitsThereAre) {
+  expect_bad_input(run_vsa({"run", "snake_flat", "--no-topics", "--gait", "gallop"}), {"gallop", "no such file", "sidewind"});
+}
+
+TEST(Usage, AGaitForAnotherRobotIsBadInputBeforeAnythingRuns) {
+  const Scratch scratch;
+  const auto result = run_vsa({"run", "bench_free", "--no-topics", "--gait", "sidewind", "--record", (scratch / "out").string()});
+  expect_bad_input(result, {"joint_2"});
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
+TEST(Usage, ARecordDirectoryThatCannotBeIsBadInput) {
+  const Scratch scratch;
+  write_file(scratch / "file", "in the way");
+  const auto result =
+      run_vsa({"run", "bench_free", "--no-topics", "--duration-s", "1", "--record", (scratch / "file" / "out").string()});
+  expect_bad_input(result, {"file/out"});
+  EXPECT_EQ(result.out, "") << "nothing may have run";
+}
+
+TEST(Usage, ACommandMustBeFiniteAndItsTimeoutPositive) {
+  expect_bad_input(run_vsa({"command", "nan", "inf", "--timeout-s", "0"}), {"EQUILIBRIUM_DEG", "PRESET_DEG", "--timeout-s"});
+}
+
+}  // namespace

@@ -1,0 +1,222 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Where presets come from, what overrides and defaults do, and how values are written.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <clocale>
+#include <cstdlib>
+
+#include "support.hpp"
+#include "vsa/config/schema.hpp"
+#include "vsa/config/text.hpp"
+
+namespace vsa::test {
+namespace {
+
+using config::Override;
+using config::PresetLibrary;
+
+const config::Entry& entry(const config::Preset& preset, const std::string& key) {
+  const auto same = [&](const config::Entry& e) { return e.key == key; };
+  const auto at = std::find_if(preset.entries.begin(), preset.entries.end(), same);
+  EXPECT_NE(at, preset.entries.end()) << key;
+  return *at;
+}
+
+/// Sets an environment variable for a scope.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
+  ~Environment() { unsetenv(name_); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+};
+
+TEST(Override, ReplacesAValueAndSaysSoInTheSource) {
+  const auto preset = shipped().load("qbmove_maker_pro", {{"drive.friction_Nm", "0.7"}, {"elastic.k1_Nm", "0.03"}});
+  EXPECT_EQ(preset.unit.actuator.gearbox.friction.coulomb_Nm, 0.7);
+  EXPECT_EQ(entry(preset, "drive.friction_Nm").value, "0.7");
+  expect_pieces(entry(preset, "drive.friction_Nm").source, {"override", "the preset has 0.8", "Table I"});
+  EXPECT_EQ(entry(preset, "elastic.k1_Nm").value, "0.03");
+}
+
+TEST(Override, WorksForWordsSwitchesWholeNumbersAndAbsentOptionalKeys) {
+  const auto preset = shipped().load("qbmove_maker_pro", {{"drive.off_mode", "coast"},
+                                                          {"firmware.limits_on", "false"},
+                                                          {"drive.polarity", "-1"},
+                                                          {"sensor.encoder_bits", "14"},
+                                                          {"drive.inductance_H", "1e-3"}});
+  EXPECT_FALSE(preset.unit.actuator.bridge.brake_when_off);
+  EXPECT_FALSE(preset.unit.loop.limits_on);
+  EXPECT_EQ(preset.unit.polarity, -1);
+  EXPECT_EQ(preset.unit.actuator.encoder.bits, 14);
+  EXPECT_EQ(preset.unit.actuator.motor.inductance_H, 1e-3);
+}
+
+TEST(Override, ThatIsBadIsRefusedByNameOfTheOverride) {
+  const std::pair<Override, const char*> table[] = {
+      {{"drive.friction_Nm", "0.7 "}, "must be a number"},
+      {{"drive.friction_Nm", "0.7abc"}, "must be a number"},
+      {{"drive.friction_Nm", ""}, "must be a number"},
+      {{"drive.friction_Nm", "nan"}, "must be a number"},
+      {{"drive.friction_Nm", "1e999"}, "must be a number"},
+      {{"drive.friction_Nm", "0x10"}, "must be a number"},
+      {{"drive.friction_Nm", "0,7"}, "must be a number"},
+      {{"drive.friction_Nm", "-0.1"}, "is outside of what the model accepts"},
+      {{"drive.friction_Nm", "11"}, "is outside of the preset's own bounds"},
+      {{"drive.frction_Nm", "0.7"}, "did you mean drive.friction_Nm?"},
+      {{"elastic.k3_Nm", "0.7"}, "did you mean elastic.k1_Nm?"},
+      {{"elastic.law", "series_spring"}, "can't be overridden"},
+      {{"drive.off_mode", "Brake"}, "is not one of the words"},
+      {{"firmware.limits_on", "1"}, "must be true or false"},
+      {{"sensor.encoder_bits", "12.0"}, "must be a whole number"},
+  };
+  for (const auto& [given, message] : table) {
+    const auto problems = problems_of([&, o = given] { (void)shipped().load("qbmove_maker_pro", {o}); });
+    ASSERT_EQ(problems.size(), 1u) << given.key << " " << given.value << "\n" << text_of(problems);
+    EXPECT_EQ(problems[0].key, "override " + given.key);
+    EXPECT_EQ(problems[0].value, '"' + given.value + '"');
+    expect_pieces(problems[0].message, {message});
+  }
+}
+
+TEST(Override, GivenTwiceIsRefused) {
+  const std::vector<Override> twice{{"drive.friction_Nm", "0.7"}, {"drive.friction_Nm", "0.6"}};
+  expect_pieces(text_of(problems_of([&] { (void)shipped().load("sea_example", twice); })), {"is given more than once"});
+}
+
+TEST(Default, StandsInForAKeyThatTheFileLeavesOutAndIsListedAsOne) {
+  const Directory directory("defaults");
+  std::string text = read(source_dir() / "presets/qbmove_maker_pro.toml");
+  const std::size_t from = text.find("[firmware]"), to = text.find("[limits]");
+  text.erase(from, to - from);
+  const auto preset = shipped().load_file(directory.write("qbmove_maker_pro.toml", text));
+  EXPECT_EQ(preset.unit.loop.kp, 6553);
+  EXPECT_EQ(preset.unit.loop.limits_raw, firmware::LoopParams{}.limits_raw);
+  EXPECT_EQ(entry(preset, "firmware.kp_pct_per_tick").value, "0.1");
+  expect_pieces(entry(preset, "firmware.kp_pct_per_tick").source, {"default: ", "6.1"});
+}
+
+TEST(Default, OfEveryDefaultedParameterIsWithinItsOwnBoundsAndHasASource) {
+  for (const config::Parameter& p : config::parameters()) {
+    EXPECT_EQ(p.need == config::Need::defaulted, !p.default_value.empty()) << p.key;
+    EXPECT_EQ(p.need == config::Need::defaulted, !p.default_source.empty()) << p.key;
+    EXPECT_FALSE(p.meaning.empty()) << p.key;
+    if (p.need != config::Need::defaulted || !p.words.empty() || p.kind == config::Kind::toggle) continue;
+    const auto value = config::parse_number(p.default_value);
+    ASSERT_TRUE(value.has_value()) << p.key;
+    EXPECT_TRUE(*value >= p.min && *value <= p.max) << p.key;
+  }
+}
+
+TEST(PresetLibrary, AnUnknownNameIsRefusedWithTheNamesThereAre) {
+  for (const char* name : {"qbmove", "", "../presets/sea_example", "sea_example.toml", "/etc/passwd"}) {
+    const auto problems = problems_of([&] { (void)shipped().load(name); });
+    ASSERT_EQ(problems.size(), 1u);
+    expect_pieces(problems[0].text(), {"unknown preset", "qbmove_advanced, qbmove_maker_pro,", "searched", "presets"});
+  }
+}
+
+TEST(PresetLibrary, TheFirstDirectoryWinsAndPresetPathComesBeforeTheShippedOnes) {
+  const Directory directory("path");
+  directory.write("sea_example.toml", replaced(read(source_dir() / "presets/sea_example.toml"), "value = 10.0", "value = 20.0"));
+  const Environment path("VSA_PRESET_PATH", "/nowhere::" + directory.path().string());
+  const Environment data("VSA_DATA_DIR", VSA_SOURCE_DIR);
+  const PresetLibrary library;
+  EXPECT_EQ(library.load("sea_example").unit.actuator.transmission->evaluate({}).curvature.qq, 20.0);
+  EXPECT_EQ(library.load("qbmove_maker_pro").name, "qbmove_maker_pro");
+  EXPECT_EQ(library.directories().size(), 3u);
+}
+
+TEST(DataDirectory, IsFoundFromAnExecutableInTheBuildTreeThroughTheSourceTree) {
+  EXPECT_TRUE(std::filesystem::exists(config::data_directory() / "presets"));
+  ASSERT_TRUE(config::find_data("presets/sea_example.toml").has_value());
+  EXPECT_FALSE(config::find_data("no such thing").has_value());
+  EXPECT_EQ(config::data_directories().front().filename(), "vsa");
+  EXPECT_EQ(config::data_directories().front().parent_path().filename(), "share");
+}
+
+TEST(DataDirectory, FromTheEnvironmentIsTheOnlyOne) {
+  const Environment data("VSA_DATA_DIR", "/nowhere");
+  EXPECT_EQ(config::data_directories(), std::vector<std::filesystem::path>{"/nowhere"});
+  const auto problems = problems_of([] { (void)config::data_directory(); });
+  expect_pieces(text_of(problems), {"VSA_DATA_DIR", "/nowhere", "has no presets/"});
+  EXPECT_TRUE(PresetLibrary().names().empty());
+}
+
+TEST(LawRegistry, HasTheStandardLawsAndTakesMore) {
+  config::LawRegistry laws = config::LawRegistry::standard();
+  EXPECT_EQ(laws.names(), (std::vector<std::string>{"series_spring", "two_sinh"}));
+  laws.add("mine", [](config::LawReader&) { return nullptr; });
+  EXPECT_NE(laws.find("mine"), nullptr);
+  EXPECT_EQ(laws.find("yours"), nullptr);
+}
+
+TEST(LawRegistry, AFactorysOwnComplaintIsAProblemOfThePreset) {
+  const Directory directory("complaint");
+  const auto file = directory.write("sea_example.toml", read(source_dir() / "presets/sea_example.toml"));
+  config::LawRegistry laws = config::LawRegistry::standard();
+  laws.add("series_spring", [](config::LawReader& reader) -> std::shared_ptr<const elastic::Transmission> {
+    (void)reader.number("stiffness_Nm_per_rad", "N·m/rad", 0, 1e6, "stiffness");
+    throw InputError(Problem{"", "stiffness_Nm_per_rad", "10", "is too soft for this test", "11"});
+  });
+  const auto problems = problems_of([&] { (void)PresetLibrary({directory.path()}, laws).load("sea_example"); });
+  ASSERT_EQ(problems.size(), 1u) << text_of(problems);
+  EXPECT_EQ(problems[0].key, "elastic.stiffness_Nm_per_rad");
+  EXPECT_EQ(problems[0].file, file.string() + ":11");
+  laws.add("series_spring", [](config::LawReader& reader) {
+    (void)reader.number("stiffness_Nm_per_rad", "N·m/rad", 0, 1e6, "stiffness");
+    return nullptr;
+  });
+  expect_pieces(text_of(problems_of([&] { (void)PresetLibrary({directory.path()}, laws).load("sea_example"); })),
+                {"returned nothing"});
+}
+
+TEST(Text, OfANumberIsTheShortestThatReadsBackTheSame) {
+  const std::pair<double, const char*> table[] = {
+      {0.1, "0.1"}, {-30000, "-30000"}, {2e6, "2000000"}, {1e-6, "1e-06"}, {1.0 / 3, "0.3333333333333333"},
+      {0, "0"},     {6.85, "6.85"}};
+  for (const auto& [value, text] : table) {
+    EXPECT_EQ(config::number_text(value), text);
+    EXPECT_EQ(config::parse_number(text), value);
+  }
+}
+
+TEST(Text, NumbersDoNotDependOnTheLocale) {
+  // Not every machine has a locale with a comma; where there is none the test shows the "C" locale only.
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
+    if (std::setlocale(LC_ALL, name) != nullptr) break;
+  }
+  EXPECT_EQ(config::parse_number("0.5"), 0.5);
+  EXPECT_EQ(config::parse_number("0,5"), std::nullopt);
+  EXPECT_EQ(config::number_text(0.5), "0.5");
+  std::setlocale(LC_ALL, before.c_str());
+}
+
+TEST(Documentation, NamesEveryKeyUnitAndBoundOfTheSchema) {
+  const std::string text = read(source_dir() / "docs/config.md");
+  const auto expect_row = [&](const std::string& key, const std::string& unit, const std::string& bounds,
+                              std::string_view meaning) {
+    const std::size_t at = text.find("| `" + key + "` |");
+    ASSERT_NE(at, std::string::npos) << key << " has no row in docs/config.md";
+    const std::string row = text.substr(at, text.find('\n', at) - at);
+    expect_pieces(row, {unit, bounds, std::string(meaning)});
+  };
+  for (const config::Parameter& p : config::parameters()) {
+    const bool numeric = p.kind == config::Kind::number || p.kind == config::Kind::integer;
+    expect_row(std::string(p.key), std::string(p.unit), numeric ? config::range_text(p.min, p.max) : "", p.meaning);
+    if (p.need == config::Need::defaulted)
+      expect_row(std::string(p.key), "", "`" + std::string(p.default_value) + "`", p.default_source);
+  }
+  for (const config::LawParameter& p : config::law_parameters()) {
+    expect_row("elastic." + std::string(p.key), std::string(p.unit), config::range_text(p.min, p.max), p.meaning);
+  }
+}
+
+}  // namespace
+}  // namespace vsa::test

@@ -1,0 +1,142 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The presets that the project ships: each value where it belongs, each with a source.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support.hpp"
+#include "support/one_joint.hpp"
+#include "vsa/config/schema.hpp"
+#include "vsa/elastic/series_spring.hpp"
+#include "vsa/elastic/two_sinh.hpp"
+
+namespace vsa::test {
+namespace {
+
+using config::Preset;
+
+TEST(ShippedPresets, AreTheFourOfTheDocumentation) {
+  EXPECT_EQ(shipped().names(),
+            (std::vector<std::string>{"qbmove_advanced", "qbmove_maker_pro", "qbmove_maker_pro_datasheet", "sea_example"}));
+}
+
+TEST(ShippedPresets, EveryOneLoadsAndEveryEntryHasMeaningBoundsAndSource) {
+  for (const std::string& name : shipped().names()) {
+    const Preset preset = shipped().load(name);
+    EXPECT_EQ(preset.name, name);
+    EXPECT_FALSE(preset.title.empty() || preset.description.empty());
+    EXPECT_EQ(preset.file.stem(), name);
+    EXPECT_GT(preset.entries.size(), 25u);
+    for (const config::Entry& e : preset.entries) {
+      EXPECT_FALSE(e.value.empty() || e.bounds.empty() || e.meaning.empty() || e.source.empty()) << name << " " << e.key;
+    }
+  }
+}
+
+TEST(ShippedPresets, GiveEveryParameterThemselvesSoThatNoneDependsOnADefault) {
+  for (const std::string& name : shipped().names()) {
+    for (const config::Entry& e : shipped().load(name).entries)
+      EXPECT_EQ(e.source.rfind("default:", 0), std::string::npos) << e.key;
+  }
+}
+
+TEST(ShippedPresets, TheMakerProHasTheValuesOfTableIWithTheErratumOnBackEmf) {
+  const Preset preset = shipped().load("qbmove_maker_pro");
+  const device::UnitConfig& u = preset.unit;
+  const auto* springs = dynamic_cast<const elastic::TwoSinh*>(u.actuator.transmission.get());
+  ASSERT_NE(springs, nullptr);
+  EXPECT_EQ(springs->params().k_Nm, (std::array<double, 2>{0.022, 0.022}));
+  EXPECT_EQ(springs->params().a_per_rad, (std::array<double, 2>{6.85, 6.85}));
+  EXPECT_EQ(u.actuator.motor.inertia_kgm2, 0.001);
+  EXPECT_EQ(u.actuator.motor.viscous_Nms_per_rad, 0.01);
+  EXPECT_EQ(u.actuator.motor.torque_constant_Nm_per_A, 0.8);
+  EXPECT_EQ(u.actuator.motor.back_emf_Vs_per_rad, 1.3);
+  EXPECT_EQ(u.actuator.motor.resistance_Ohm, 2.3);
+  EXPECT_FALSE(u.actuator.motor.inductance_H.has_value());
+  EXPECT_EQ(u.actuator.gearbox.ratio, 1.0);
+  EXPECT_EQ(u.actuator.gearbox.friction.coulomb_Nm, 0.8);
+  EXPECT_EQ(u.actuator.gearbox.friction.presliding_rad, 0.03);
+  EXPECT_EQ(u.actuator.bridge.supply_V, 12.0);
+  EXPECT_EQ(u.actuator.bridge.dead_band, 0.3);
+  EXPECT_TRUE(u.actuator.bridge.brake_when_off);
+  EXPECT_EQ(u.actuator.shaft_friction.coulomb_Nm, 0.01);
+  EXPECT_EQ(u.actuator.shaft_inertia_kgm2, 1e-4);
+  EXPECT_EQ(u.actuator.encoder.bits, 12);
+  EXPECT_EQ(u.polarity, 1);
+  EXPECT_EQ(u.preset_max, 0.785);
+  EXPECT_EQ(u.substep_max_s, 1e-3);
+}
+
+TEST(ShippedPresets, TheMakerProsFirmwareIsThePublishedDefault) {
+  const firmware::LoopParams got = shipped().load("qbmove_maker_pro").unit.loop, want;
+  EXPECT_EQ(got.kp, want.kp);
+  EXPECT_EQ(got.ki, want.ki);
+  EXPECT_EQ(got.kd, want.kd);
+  EXPECT_EQ(got.limits_raw, want.limits_raw);
+  EXPECT_EQ(got.limits_on, want.limits_on);
+  EXPECT_EQ(got.resolution, want.resolution);
+  EXPECT_EQ(got.supply_limit, want.supply_limit);
+}
+
+TEST(ShippedPresets, TheBackEmfConstantsSourceExplainsTheErratum) {
+  for (const config::Entry& e : shipped().load("qbmove_maker_pro").entries) {
+    if (e.key == "drive.back_emf_Vs_per_rad") expect_pieces(e.source, {"Erratum", "prints 0.3", "0.6299"});
+  }
+}
+
+TEST(ShippedPresets, TheDataSheetsSpringsDiffer) {
+  const Preset preset = shipped().load("qbmove_maker_pro_datasheet");
+  const auto* springs = dynamic_cast<const elastic::TwoSinh*>(preset.unit.actuator.transmission.get());
+  ASSERT_NE(springs, nullptr);
+  EXPECT_EQ(springs->params().k_Nm, (std::array<double, 2>{0.0227, 0.0216}));
+  EXPECT_EQ(springs->params().a_per_rad, (std::array<double, 2>{6.7328, 6.9602}));
+}
+
+TEST(ShippedPresets, TheAdvancedUnitHasInvertedGainsAndPolarityAndNoSupplyLimit) {
+  const device::UnitConfig u = shipped().load("qbmove_advanced").unit;
+  EXPECT_EQ(u.loop.kp, -6553);
+  EXPECT_EQ(u.loop.kd, -52428);
+  EXPECT_EQ(u.polarity, -1);
+  EXPECT_FALSE(u.loop.supply_limit);
+  EXPECT_EQ(u.actuator.motor.inertia_kgm2, 0.0233);
+}
+
+TEST(ShippedPresets, TheSeriesElasticExampleHasOneMotorAndNoPreset) {
+  const device::UnitConfig u = shipped().load("sea_example").unit;
+  EXPECT_EQ(u.actuator.transmission->motor_count(), 1);
+  EXPECT_EQ(u.actuator.transmission->evaluate({.q = 0.1, .x = {}}).curvature.qq, 10.0);
+  EXPECT_EQ(u.preset_max, 0.0);
+}
+
+TEST(ShippedPresets, EveryUnitTurnsAnUnloadedShaftToTheCommandAndStaysThere) {
+  // Wrong signs of gains and polarity run away; the band is what dead band and gear friction leave of 0.5 rad.
+  for (const std::string& name : shipped().names()) {
+    const device::UnitConfig unit = shipped().load(name).unit;
+    OneJoint joint(unit, 0.0, 0.5 * unit.preset_max, 1e-3, 1'000'000);
+    joint.load = [&joint](double) { return -0.01 * joint.v; };
+    const device::TickMail mail{true, joint.unit.inputs_for(0.5, 0.5 * unit.preset_max)};
+    (void)joint.unit.step(joint.state, 0, joint.dt_ns, {0, 0, 1e3}, {&mail, 1});
+    joint.t_ns = joint.dt_ns;
+    double lowest = 1e9, highest = -1e9;
+    while (joint.t_ns < 4'000'000'000) {
+      joint.step();
+      if (joint.t_ns < 3'000'000'000) continue;
+      lowest = std::min(lowest, joint.q);
+      highest = std::max(highest, joint.q);
+    }
+    EXPECT_NEAR(lowest, 0.5, 0.12) << name;
+    EXPECT_NEAR(highest, 0.5, 0.12) << name;
+    EXPECT_LT(highest - lowest, 0.02) << name;
+  }
+}
+
+TEST(ShippedPresets, GainsAreTruncatedTowardZeroAsTheFirmwaresCastDoes) {
+  EXPECT_EQ(config::fixed_16_16(0.1), 6553);
+  EXPECT_EQ(config::fixed_16_16(-0.1), -6553);
+  EXPECT_EQ(config::fixed_16_16(0.8), 52428);
+  EXPECT_EQ(config::fixed_16_16(1.0), 65536);
+}
+
+}  // namespace
+}  // namespace vsa::test

@@ -1,0 +1,128 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The shaft coupling's criteria (include/vsa/host/robot.hpp), on the smallest host that integrates as every engine does.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/one_joint.hpp"
+
+namespace {
+
+using vsa::test::maker_pro;
+using vsa::test::OneJoint;
+using vsa::test::without_losses;
+
+/// Times at which the shaft crosses its equilibrium upwards, by linear interpolation.
+std::vector<double> upward_crossings(OneJoint& joint, double duration_s) {
+  std::vector<double> times;
+  const double dt = static_cast<double>(joint.dt_ns) * 1e-9;
+  double before = joint.q;
+  while (static_cast<double>(joint.t_ns) * 1e-9 < duration_s) {
+    joint.step();
+    if (before < 0 && joint.q >= 0) times.push_back(static_cast<double>(joint.t_ns) * 1e-9 - dt * joint.q / (joint.q - before));
+    before = joint.q;
+  }
+  return times;
+}
+
+TEST(Coupling, AnUndampedUnitKeepsItsEnergyAndItsFrequencyForASecond) {
+  // DESIGN: p = 0.611 rad, J = 4e-4 kg·m², 1 ms: 90–110 % of the energy after 1 s, frequency within 1 %.
+  OneJoint joint(without_losses(), 0.0, 0.611, 4e-4, 1'000'000);
+  const auto x = joint.state.actuator.motor;
+  const double p = 0.5 * (x[0].angle - x[1].angle);
+  joint.q = 0.01;
+  joint.step();
+  const double before = joint.energy();
+  const auto times = upward_crossings(joint, 1.0);
+  EXPECT_NEAR(joint.energy() / before, 1.0, 1e-5);
+  const double sigma = 2 * 6.85 * 0.022 * std::cosh(6.85 * p);
+  const double frequency = static_cast<double>(times.size() - 1) / (times.back() - times.front());
+  EXPECT_NEAR(frequency * 2 * vsa::kPi / std::sqrt(sigma / 4e-4), 1.0, 0.01);
+}
+
+TEST(Coupling, SpringMassFrequencyFollowsThePreset) {
+  for (double preset : {0.0, 0.2, 0.46, 0.69}) {
+    OneJoint joint(without_losses(), 0.0, preset, 1e-3, 250'000);
+    const auto x = joint.state.actuator.motor;
+    joint.q = 0.002;
+    const auto times = upward_crossings(joint, 3.0);
+    const double sigma = 2 * 6.85 * 0.022 * std::cosh(6.85 * 0.5 * (x[0].angle - x[1].angle));
+    const double frequency = static_cast<double>(times.size() - 1) / (times.back() - times.front());
+    EXPECT_NEAR(frequency * 2 * vsa::kPi / std::sqrt(sigma / 1e-3), 1.0, 1e-3) << preset;
+  }
+}
+
+TEST(Coupling, ABareFlangeKickedFarAtTheLargestPresetNeverGainsEnergy) {
+  for (std::int64_t step_ns : {500'000, 1'000'000, 2'000'000, 4'000'000}) {
+    for (const bool losses : {true, false}) {
+      OneJoint joint(losses ? maker_pro() : without_losses(), 0.0, 0.785, 1e-4, step_ns);
+      joint.q = 0.8;
+      joint.step();
+      // With motors on, the firmware pushes energy in; the ledger says how much.
+      auto stored = [&] { return 0.5 * joint.inertia * joint.v * joint.v + joint.state.actuator.ledger.stored(); };
+      const double first = stored() - joint.state.actuator.ledger.supply;
+      double worst = 0;
+      for (int n = 0; n < 2000; ++n) {
+        joint.step();
+        ASSERT_TRUE(std::isfinite(joint.q) && std::isfinite(joint.v)) << step_ns << " step " << n;
+        worst = std::max(worst, stored() - joint.state.actuator.ledger.supply - first);
+      }
+      EXPECT_LT(worst, 1e-4 * first) << step_ns << " ns, losses " << losses;
+      const double y = joint.q - 0.5e-9 * static_cast<double>(step_ns) * joint.v;
+      EXPECT_LT(std::abs(y), 0.81) << step_ns;
+    }
+  }
+}
+
+TEST(Coupling, AFrictionlessFlangeKeepsItsEnergyOverTenPeriods) {
+  // Kicked by 0.2 rad at the largest preset, J = 1e-4, 0.5 ms: at least 90 % after ten periods.
+  OneJoint joint(without_losses(), 0.0, 0.785, 1e-4, 500'000);
+  joint.q = 0.2;
+  joint.step();
+  const double before = joint.energy();
+  int crossings = 0;
+  for (double last = joint.q; crossings < 20; last = joint.q) {
+    joint.step();
+    crossings += (last < 0) != (joint.q < 0);
+    ASSERT_LT(joint.t_ns, 1'000'000'000);
+  }
+  EXPECT_NEAR(joint.energy() / before, 1.0, 1e-3);
+}
+
+TEST(Coupling, ConvergesWithTheSecondOrderOfItsMidpointRule) {
+  // A swing with motors, friction and firmware switched off: angle after 50 ms against a fine step.
+  auto end_angle = [](std::int64_t step_ns) {
+    OneJoint joint(without_losses(), 0.0, 0.5, 1e-3, step_ns);
+    joint.v = 0.0;
+    joint.q = 0.1;
+    joint.load = [](double q) { return -0.3 * std::sin(q); };
+    while (joint.t_ns < 48'000'000) joint.step();
+    return joint.q - 0.5e-9 * static_cast<double>(step_ns) * joint.v + 0.5e-9 * static_cast<double>(step_ns) * joint.v;
+  };
+  const double reference = end_angle(7'812);  // not a divisor of the tick: cut there
+  const double e1 = std::abs(end_angle(1'000'000) - reference);
+  const double e2 = std::abs(end_angle(500'000) - reference);
+  const double e4 = std::abs(end_angle(250'000) - reference);
+  EXPECT_LT(e2, 0.6 * e1);
+  EXPECT_LT(e4, 0.6 * e2);
+}
+
+TEST(Coupling, WithTheSupplyCutTheStoredEnergyNeverGrows) {
+  OneJoint joint(maker_pro(), 0.0, 0.6, 1e-3, 1'000'000);
+  joint.q = 0.3;
+  joint.state.supply_on = false;
+  joint.step();
+  auto total = [&] { return 0.5 * joint.inertia * joint.v * joint.v + joint.state.actuator.ledger.stored(); };
+  double last = total();
+  const double first = last;
+  for (int n = 0; n < 3000; ++n) {
+    joint.step();
+    ASSERT_LE(total(), last + 2e-6 * first) << n;
+    last = total();
+  }
+  EXPECT_LT(last, first);
+}
+
+}  // namespace

@@ -1,0 +1,62 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Debian's own command-line client, over real sockets: what docs/topics.md shows.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "served_world.hpp"
+#include "transport_test.hpp"
+
+namespace {
+
+using vsa::test::kServiceTool;
+using vsa::test::kTopicTool;
+using vsa::test::run_command;
+using vsa::test::ServedWorld;
+using vsa::test::until;
+
+class DebianClient : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(access(kTopicTool, X_OK), 0) << "package ignition-transport-cli is missing";
+    served.start();
+  }
+  ServedWorld served{false};
+};
+
+TEST_F(DebianClient, ListsTheTopics) {
+  const auto list = run_command(std::string(kTopicTool) + " -l");
+  EXPECT_EQ(list.exit_code, 0);
+  for (const char* topic :
+       {"/clock", "/world/bench/stats", "/model/bench_arm/vsa/joint_state", "/model/bench_arm/joint/joint_1/stiffness"}) {
+    EXPECT_NE(list.text.find(std::string(topic) + "\n"), std::string::npos) << topic << " isn't in\n" << list.text;
+  }
+}
+
+TEST_F(DebianClient, EchoesAState) {
+  const auto echo = run_command(std::string(kTopicTool) + " -e -n 1 -t /model/bench_arm/vsa/joint_state");
+  EXPECT_EQ(echo.exit_code, 0);
+  for (const char* part : {"name: \"bench_arm\"", "name: \"shaft\"", "name: \"joint_1_motor_2\"", "preset_command"}) {
+    EXPECT_NE(echo.text.find(part), std::string::npos) << part << " isn't in\n" << echo.text;
+  }
+}
+
+TEST_F(DebianClient, PublishesACommand) {
+  const std::string publish =
+      std::string(kTopicTool) + " -t /model/bench_arm/joint/joint_1/cmd_equilibrium -m ignition.msgs.Double -p 'data: 0.25'";
+  EXPECT_TRUE(until([&] {
+    run_command(publish);  // a message can be lost while the two find each other
+    return served.equilibrium_command_rad() == 0.25;
+  }));
+}
+
+TEST_F(DebianClient, PausesTheWorld) {
+  const std::string pause = std::string(kServiceTool) +
+                            " -s /world/bench/control --reqtype ignition.msgs.WorldControl --reptype "
+                            "ignition.msgs.Boolean --timeout 5000 -r 'pause: true'";
+  const auto reply = run_command(pause);
+  EXPECT_NE(reply.text.find("data: true"), std::string::npos) << reply.text;
+  EXPECT_TRUE(served.wait_for([this](const auto&) { return served.control.paused(); }));
+}
+
+}  // namespace

@@ -1,0 +1,194 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The curves: one small Plotly figure a panel, all on the same time axis, with a cursor at the replay's time.
+import Plotly from 'plotly.js-basic-dist-min';
+import { frameAt, valueAt } from './data.js';
+import { css, series } from './palette.js';
+
+const kPointsMax = 60000; // points drawn at once; beyond that frames are skipped
+const kMargin = { l: 46, r: 8, t: 6, b: 20 };
+
+const element = (tag, className, text) => {
+  const e = document.createElement(tag);
+  if (className) e.className = className;
+  if (text !== undefined) e.textContent = text;
+  return e;
+};
+
+function dashSample(dash, color) {
+  const ns = 'http://www.w3.org/2000/svg';
+  const svg = document.createElementNS(ns, 'svg');
+  svg.setAttribute('viewBox', '0 0 18 6');
+  svg.setAttribute('aria-hidden', 'true');
+  const line = document.createElementNS(ns, 'path');
+  line.setAttribute('d', 'M0 3h18');
+  line.setAttribute('stroke', color);
+  line.setAttribute('stroke-width', '2.4');
+  line.setAttribute('stroke-dasharray', { dash: '5 3', dot: '2 2.4', dashdot: '6 2 2 2' }[dash] ?? 'none');
+  svg.append(line);
+  return svg;
+}
+
+export class Curves {
+  constructor(run, root, seek) {
+    this.run = run;
+    this.root = root;
+    this.seek = seek;
+    this.range = [run.start, run.end > run.start ? run.end : run.start + 1];
+    this.panels = [];
+    this.time = run.start;
+    new ResizeObserver(() => this.resize()).observe(root);
+  }
+
+  /** sources: [{name, color, data}]; several share a panel's lines by dash and differ by colour. */
+  show(panels, sources) {
+    const empty = !sources.length || !this.run.frames;
+    const same = !empty && panels.length === this.panels.length && panels.every((p, i) => p.title === this.panels[i].panel.title);
+    if (!same) {
+      // Not purged: Plotly may still have work under way for a figure; without its element it is collected.
+      this.root.replaceChildren();
+      this.panels = empty ? [] : panels.map((panel) => this.build(panel));
+    }
+    if (empty) this.root.append(element('p', 'empty', this.run.frames ? 'Nothing is selected.' : 'The recording holds no frames.'));
+    this.panels.forEach((built, i) => this.fill(built, panels[i], sources));
+    this.setTime(this.time);
+  }
+
+  build(panel) {
+    const figure = element('figure');
+    const caption = element('figcaption');
+    const heading = element('h3');
+    const keys = element('div', 'keys');
+    caption.append(heading, keys);
+    const plot = element('div', 'plot');
+    plot.setAttribute('role', 'img');
+    figure.append(caption, plot);
+    this.root.append(figure);
+    return { panel, plot, heading, keys, cursor: element('div', 'cursor'), values: [], listening: false };
+  }
+
+  fill(built, panel, sources) {
+    const { plot, heading, keys, cursor } = built;
+    const lines = this.lines(panel, sources);
+    heading.replaceChildren(panel.title + ' ', element('small', '', panel.unit));
+    keys.replaceChildren();
+    built.panel = panel;
+    built.values = lines.map((line) => {
+      const key = element('span');
+      const value = element('b');
+      key.append(dashSample(line.dash, line.color), line.label, value);
+      keys.append(key);
+      return { channel: line.channel, value };
+    });
+    plot.setAttribute('aria-label', `${panel.title} in ${panel.unit} over time: ${lines.map((l) => l.label).join(', ')}`);
+    Plotly.react(plot, this.traces(panel, lines), this.layout(plot), { displayModeBar: false, doubleClick: false });
+    plot.append(cursor);
+    if (!built.listening) this.listen(built);
+    built.listening = true;
+  }
+
+  lines(panel, sources) {
+    const colors = series();
+    return sources.flatMap((source) =>
+      panel.lines.map(([label, channel, dash], i) => ({
+        label: sources.length > 1 ? (panel.lines.length > 1 ? `${source.name} ${label}` : source.name) : label,
+        // One source: a colour a line. Several: a colour a source, as on its chip.
+        color: sources.length > 1 ? source.color : colors[i],
+        dash,
+        channel: source.data[channel],
+      })),
+    );
+  }
+
+  traces(panel, lines) {
+    const stride = Math.max(1, Math.ceil((this.run.frames * lines.length) / kPointsMax));
+    const pick = (array, scale) => {
+      const out = [];
+      for (let i = 0; i < array.length; i += stride) out.push(array[i] * scale);
+      return out;
+    };
+    const x = pick(this.run.time, 1);
+    return lines.map((line) => ({
+      type: 'scatter',
+      mode: x.length > 1 ? 'lines' : 'markers',
+      x,
+      y: pick(line.channel, panel.scale),
+      hoverinfo: 'skip',
+      line: { color: line.color, width: line.dash === 'solid' ? 1.7 : 1.4, dash: line.dash },
+      marker: { color: line.color },
+    }));
+  }
+
+  layout({ clientWidth: width, clientHeight: height }) {
+    const axis = { color: css('--soft'), gridcolor: css('--grid'), zeroline: false, linecolor: css('--line'), tickfont: { size: 10.5 } };
+    return {
+      width,
+      height,
+      margin: kMargin,
+      showlegend: false,
+      hovermode: false,
+      // A finger scrolls the page; a mouse zooms.
+      dragmode: window.matchMedia('(pointer: coarse)').matches ? false : 'zoom',
+      paper_bgcolor: 'transparent',
+      plot_bgcolor: 'transparent',
+      font: { family: getComputedStyle(document.body).fontFamily, size: 11 },
+      xaxis: { ...axis, range: [...this.range], ticksuffix: ' s', nticks: 8 },
+      yaxis: { ...axis, fixedrange: true, nticks: 5, automargin: false },
+    };
+  }
+
+  listen(built) {
+    const { plot } = built;
+    let down = null;
+    // Captured, because Plotly keeps what happens on its drag layer to itself.
+    plot.addEventListener('pointerdown', (e) => (down = { x: e.clientX, y: e.clientY }), true);
+    const up = (e) => {
+      const click = down && Math.hypot(e.clientX - down.x, e.clientY - down.y) < 4;
+      down = null;
+      if (click) this.seek(this.timeAt(built, e.clientX));
+    };
+    window.addEventListener('pointerup', (e) => down && up(e), true);
+    plot.addEventListener('dblclick', () => this.zoom(this.run.start, this.run.end), true);
+    plot.on('plotly_relayout', (change) => {
+      const from = change['xaxis.range[0]'];
+      if (from !== undefined) this.zoom(from, change['xaxis.range[1]']);
+    });
+  }
+
+  timeAt({ plot }, clientX) {
+    const axis = plot._fullLayout.xaxis;
+    return axis.p2d(clientX - plot.getBoundingClientRect().left - axis._offset);
+  }
+
+  /** All panels show the same span of time. */
+  zoom(from, to) {
+    if (!(to > from) || (this.range[0] === from && this.range[1] === to)) return;
+    this.range = [from, to];
+    for (const p of this.panels) Plotly.relayout(p.plot, { 'xaxis.range': [from, to] }).then(() => this.placeCursor(p));
+  }
+
+  resize() {
+    for (const p of this.panels) {
+      const { clientWidth: width, clientHeight: height } = p.plot;
+      if (width && width !== p.plot._fullLayout.width) Plotly.relayout(p.plot, { width, height }).then(() => this.placeCursor(p));
+    }
+  }
+
+  setTime(time) {
+    this.time = time;
+    if (!this.run.frames) return;
+    const at = frameAt(this.run, time);
+    for (const p of this.panels) {
+      for (const v of p.values) v.value.textContent = (valueAt(v.channel, at) * p.panel.scale).toFixed(p.panel.digits).replace('-', '−');
+      this.placeCursor(p);
+    }
+  }
+
+  placeCursor({ plot, cursor }) {
+    const axis = plot._fullLayout?.xaxis;
+    if (!axis) return;
+    const part = (this.time - axis.range[0]) / (axis.range[1] - axis.range[0]);
+    cursor.hidden = part < 0 || part > 1;
+    cursor.style.transform = `translateX(${axis._offset + part * axis._length}px)`;
+  }
+}

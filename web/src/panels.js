@@ -1,0 +1,76 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Which curves there are. A line: [name, channel, dash]; `scale` takes the recorded unit to the shown one.
+
+const kDegree = 180 / Math.PI;
+
+export function actuatorPanels(actuators) {
+  const units = [...new Set(actuators.map((a) => a.preset_unit))];
+  const angle = units.length === 1 && units[0] === 'rad';
+  const hasPreset = units.some((u) => u !== '');
+  const twoMotors = actuators.some((a) => a.motors > 1);
+  const panels = [
+    {
+      title: 'Shaft angle',
+      unit: '°',
+      scale: kDegree,
+      digits: 1,
+      lines: [
+        ['shaft', 'shaft_rad', 'solid'],
+        ['equilibrium', 'equilibrium_rad', 'dash'],
+        ['commanded', 'equilibrium_command_rad', 'dot'],
+      ],
+    },
+    {
+      title: 'Stiffness preset',
+      unit: angle ? '°' : units.join(', '),
+      scale: angle ? kDegree : 1,
+      digits: angle ? 1 : 3,
+      lines: [
+        ['attained', 'preset', 'solid'],
+        ['commanded', 'preset_command', 'dot'],
+      ],
+    },
+    { title: 'Stiffness', unit: 'N·m/rad', scale: 1, digits: 2, lines: [['stiffness', 'stiffness_Nm_per_rad', 'solid']] },
+    { title: 'Torque on the shaft', unit: 'N·m', scale: 1, digits: 3, lines: [['torque', 'torque_Nm', 'solid']] },
+    {
+      title: twoMotors ? 'Motor currents' : 'Motor current',
+      unit: 'A',
+      scale: 1,
+      digits: 3,
+      lines: [['motor 1', 'current_1_A', 'solid'], ...(twoMotors ? [['motor 2', 'current_2_A', 'dash']] : [])],
+    },
+    { title: 'Shaft speed', unit: 'rad/s', scale: 1, digits: 2, lines: [['speed', 'shaft_speed_rad_per_s', 'solid']] },
+  ];
+  return hasPreset ? panels : panels.filter((p) => p.title !== 'Stiffness preset');
+}
+
+export function energyPanels() {
+  return [
+    {
+      title: 'From the supply',
+      unit: 'J',
+      scale: 1,
+      digits: 1,
+      lines: [
+        ['supply', 'supply', 'solid'],
+        ['given to the robot', 'delivered', 'dash'],
+      ],
+    },
+    {
+      title: 'Turned to heat',
+      unit: 'J',
+      scale: 1,
+      digits: 1,
+      lines: [
+        ['copper', 'copper', 'solid'],
+        ['gear friction', 'motor_friction', 'dash'],
+        ['viscous', 'viscous', 'dot'],
+        ['shaft friction', 'shaft_friction', 'dashdot'],
+      ],
+    },
+    { title: 'Stored in the springs', unit: 'J', scale: 1, digits: 3, lines: [['elastic', 'elastic', 'solid']] },
+    { title: 'Motion of the bodies', unit: 'J', scale: 1, digits: 3, lines: [['kinetic', 'kinetic', 'solid']] },
+    { title: 'Height of the bodies', unit: 'J', scale: 1, digits: 3, lines: [['gravitational', 'gravitational', 'solid']] },
+  ];
+}
