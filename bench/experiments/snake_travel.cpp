@@ -86,6 +86,7 @@ class Track {
     count_ = 0;
   }
   void report(Run& run) const {
+    if (points_.size() < 2) throw std::runtime_error("the run is shorter than two gait periods");
     for (std::size_t i = 1; i < points_.size(); ++i) {
       run.path_m += std::hypot(points_[i][0] - points_[i - 1][0], points_[i][1] - points_[i - 1][1]);
     }
@@ -108,7 +109,7 @@ void place(World& world, int start, int starts) {
   world.displace_model("qbmove_snake", yaw_deg * vsa::kPi / 180, {x, y, 0});
 }
 
-/// Two threads that load at once crash inside libsdformat and MuJoCo's compiler; stepping apart is fine.
+/// libsdformat 12 crashes where two threads are in sdf::Root::Load at once; stepping worlds in several threads is fine.
 World loaded(const std::string& name, std::mutex& loading) {
   const std::scoped_lock guard(loading);
   return World::load(kModels / "worlds" / ("snake_" + name + ".sdf"));

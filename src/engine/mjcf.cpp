@@ -50,7 +50,7 @@ class Writer {
                    step_s, text(world_.gravity));
     result_.xml += "<flag filterparent=\"disable\"/></option>\n<default><geom solref=\"0.004 1\"/>";
     result_.xml += "<joint armature=\"0\" solreflimit=\"0.004 1\" solreffriction=\"0.004 1\"/></default>\n";
-    result_.xml += "<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + bodies + "</worldbody>\n<contact>\n";
+    result_.xml += "<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + ground_ + bodies + "</worldbody>\n<contact>\n";
     excludes();
     result_.xml += "</contact>\n</mujoco>\n";
     return std::move(result_);
@@ -67,10 +67,14 @@ class Writer {
     if (node.free) to += fmt::format("<freejoint name=\"{}\"/>\n", free_joint_name(node.link));
     if (node.joint) joint(node, to);
     for (std::size_t k = 0; k < link.collisions.size(); ++k) {
-      // MuJoCo sorts bodies, not shapes: apart, a field of static blocks costs what lies near, not what there is.
+      const Collision& c = link.collisions[k];
+      if (endless(c)) {
+        geom(c, link.pose, ground_);
+        continue;
+      }
       const bool apart = parts(node.link) > 1;
       if (apart) to += fmt::format("<body name=\"{}\">\n", part_name(node.link, k));
-      geom(link.collisions[k], to);
+      geom(c, Pose3(), to);
       if (apart) to += "</body>\n";
     }
     for (const std::size_t i : children_[node.link]) body(tree_[i], to);
@@ -150,8 +154,8 @@ class Writer {
     return index;
   }
 
-  void geom(const Collision& c, std::string& to) {
-    Pose3 pose = c.pose * c.geometry.offset;
+  void geom(const Collision& c, const Pose3& at, std::string& to) {
+    Pose3 pose = at * c.pose * c.geometry.offset;
     if (c.geometry.heightmap) pose = pose * Pose3(c.geometry.heightmap->centre, ignition::math::Quaterniond::Identity);
     const auto it = std::find(classes_.begin(), classes_.end(), FrictionClass{c.surface.mu, c.surface.torsional_m});
     const auto priority = classes_.end() - it;
@@ -161,11 +165,20 @@ class Writer {
                       c.surface.mask);
   }
 
-  /// Bodies that carry a link's shapes.
+  // MuJoCo 2.2.2's broad phase
+  //   - pairs a body that has a plane or heightmap with everything, and once more where boxes overlap: contacts come out twice.
+  //   Only the
+  //     world's own body is spared, so these shapes go there;
+  //   - sorts bodies, not shapes: the shapes of a static link get a body each, and a field of blocks costs what lies near.
+  static bool endless(const Collision& c) {
+    return c.geometry.kind == Geometry::Kind::plane || c.geometry.kind == Geometry::Kind::heightmap;
+  }
   [[nodiscard]] std::size_t parts(std::size_t link) const {
     return world_.links[link].is_static ? std::max<std::size_t>(1, world_.links[link].collisions.size()) : 1;
   }
   [[nodiscard]] std::string part_name(std::size_t link, std::size_t k) const {
+    const Link& l = world_.links[link];
+    if (k < l.collisions.size() && endless(l.collisions[k])) return "world";
     return parts(link) > 1 ? fmt::format("b{}_{}", link, k) : body_name(link);
   }
 
@@ -181,13 +194,15 @@ class Writer {
         if (links[b].model == links[a].model && !links[b].self_collide && !links[b].collisions.empty()) pairs.insert({a, b});
       }
     }
+    std::set<std::string> lines;
     for (const auto& [a, b] : pairs) {
       for (std::size_t i = 0; i < parts(a); ++i) {
         for (std::size_t k = 0; k < parts(b); ++k) {
-          fmt::format_to(out(), "<exclude body1=\"{}\" body2=\"{}\"/>\n", part_name(a, i), part_name(b, k));
+          lines.insert(fmt::format("<exclude body1=\"{}\" body2=\"{}\"/>\n", part_name(a, i), part_name(b, k)));
         }
       }
     }
+    for (const std::string& line : lines) result_.xml += line;
   }
 
   const WorldDescription& world_;
@@ -196,6 +211,7 @@ class Writer {
   std::vector<std::size_t> roots_;
   std::vector<FrictionClass> classes_;  // ascending
   std::string assets_;
+  std::string ground_;
   std::size_t meshes_ = 0;
   Mjcf result_;
 };

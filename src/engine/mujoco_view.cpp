@@ -110,7 +110,8 @@ std::unique_ptr<Physics> make_mujoco(const WorldDescription& world, double step_
   for (std::size_t h = 0; h < mjcf.heightmaps.size(); ++h) {
     const Heightmap& map = *mjcf.heightmaps[h];
     float* to = model->hfield_data + model->hfield_adr[h];
-    for (const double height : map.heights) *to++ = static_cast<float>(height / heightmap_scale(map));
+    const double scale = heightmap_scale(map);
+    for (const double height : map.heights) *to++ = static_cast<float>(height / scale);
   }
   return std::make_unique<MujocoPhysics>(std::move(model), world, tree);
 }

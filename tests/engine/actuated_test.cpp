@@ -117,7 +117,7 @@ TEST(Actuated, TheSnakeOfTheModelsLoadsAndStandsStill) {
   const auto now = w.center_of_mass("qbmove_snake");
   EXPECT_NEAR(now[0], start[0], 2e-3);
   EXPECT_NEAR(now[2], start[2], 3e-3);
-  EXPECT_GT(w.contact_count(), 12);
+  EXPECT_EQ(w.contact_count(), 26);  // two spheres a module, 13 modules, each once
 }
 
 }  // namespace
