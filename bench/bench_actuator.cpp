@@ -48,11 +48,12 @@ void robot_step(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
   vsa::host::RobotConfig config;
   config.buses.resize((count + 11) / 12);
+  const auto unit = maker_pro();
   for (std::size_t i = 0; i < count; ++i) {
     vsa::host::ActuatorConfig a;
     a.name = "a" + std::to_string(i);
     a.joint = a.name;
-    a.unit = maker_pro();
+    a.unit = unit;
     a.bus = i / 12;
     a.id = static_cast<int>(i % 12) + 1;
     a.initial_preset = 0.6109;

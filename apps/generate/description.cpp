@@ -2,10 +2,10 @@
 #include "description.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <cmath>
 #include <set>
-#include <toml++/toml.h>
 
 #include "vsa/errors.hpp"
 
@@ -95,10 +95,16 @@ void read_robots(const std::string& file, const toml::table& root, Problems& pro
   const auto table = [&](const char* name) { return root[name].as_table(); };
   {
     Section s(file, "module", table("module"), problems);
-    d.module = {s.number("edge_m", 0.01, 1),           s.number("mass_kg", 0.01, 100),           s.number("flange_mass_kg", 1e-3, 10),
-                s.number("flange_radius_m", 1e-3, 1),  s.number("flange_thickness_m", 1e-3, 1),  s.number("chamfer_m", 1e-4, 0.1),
-                s.number("contact_radius_m", 1e-3, 1), s.number("friction", 0, 10)};
-    if (d.module.flange_mass_kg >= d.module.mass_kg) s.problem("flange_mass_kg", "", "not less than mass_kg, which includes it", "");
+    d.module = {s.number("edge_m", 0.01, 1),
+                s.number("mass_kg", 0.01, 100),
+                s.number("flange_mass_kg", 1e-3, 10),
+                s.number("flange_radius_m", 1e-3, 1),
+                s.number("flange_thickness_m", 1e-3, 1),
+                s.number("chamfer_m", 1e-4, 0.1),
+                s.number("contact_radius_m", 1e-3, 1),
+                s.number("friction", 0, 10)};
+    if (d.module.flange_mass_kg >= d.module.mass_kg)
+      s.problem("flange_mass_kg", "", "not less than mass_kg, which includes it", "");
   }
   {
     Section s(file, "actuator", table("actuator"), problems);
@@ -124,7 +130,8 @@ void read_robots(const std::string& file, const toml::table& root, Problems& pro
 void read_hills(const std::string& file, const toml::table& root, Problems& problems, HillsSpec& hills) {
   Section s(file, "hills", root["hills"].as_table(), problems);
   hills.samples = s.integer("samples", 3, 4097);
-  if (const int cells = hills.samples - 1; (cells & (cells - 1)) != 0) s.problem("samples", "", "not a power of two plus one", "129, 257, 513 …");
+  if (const int cells = hills.samples - 1; (cells & (cells - 1)) != 0)
+    s.problem("samples", "", "not a power of two plus one", "129, 257, 513 …");
   hills.size_m = s.number("size_m", 1, 1000);
   hills.flat_radius_m = s.range("flat_radius_m", 0, 100);
   const toml::array* waves = s.tables("waves");

@@ -35,9 +35,9 @@ struct Block {
 /// The hills' ground above the lowest point, m, rows from +y to −y as in the picture.
 struct Hills {
   std::vector<std::uint8_t> pixels;
-  double height_m = 0;        ///< of the brightest pixel
-  double start_m = 0;         ///< at the centre
-  double steepest_rad = 0;    ///< largest slope of the exact ground
+  double height_m = 0;      ///< of the brightest pixel
+  double start_m = 0;       ///< at the centre
+  double steepest_rad = 0;  ///< largest slope of the exact ground
 };
 [[nodiscard]] Hills hills(const HillsSpec& spec);
 

@@ -49,7 +49,8 @@ void box_visual(Xml& xml, const std::string& name, std::array<double, 6> pose, c
   xml.close();
 }
 
-void cylinder_visual(Xml& xml, const std::string& name, const Vec& at, Axis axis, double radius_m, double length_m, const Color& color) {
+void cylinder_visual(Xml& xml, const std::string& name, const Vec& at, Axis axis, double radius_m, double length_m,
+                     const Color& color) {
   const auto pose = along(axis, at);
   xml.open("visual", {{"name", name}});
   xml.pose({pose[0], pose[1], pose[2], pose[3], pose[4], pose[5]});

@@ -26,7 +26,8 @@ void write_surface(Xml& xml, double friction);
 
 /// Visual primitives; poses are x y z roll pitch yaw in the link.
 void box_visual(Xml& xml, const std::string& name, std::array<double, 6> pose, const Vec& size_m, const Color& color);
-void cylinder_visual(Xml& xml, const std::string& name, const Vec& at, Axis axis, double radius_m, double length_m, const Color& color);
+void cylinder_visual(Xml& xml, const std::string& name, const Vec& at, Axis axis, double radius_m, double length_m,
+                     const Color& color);
 
 /// The housing: a cube with its four edges along the shaft chamfered, pulleys showing on both sides.
 void housing_visuals(Xml& xml, const ModuleSpec& m, Axis shaft, const Color& color);

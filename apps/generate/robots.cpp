@@ -9,9 +9,7 @@
 namespace vsa::generate {
 namespace {
 
-Inertial housing(const ModuleSpec& m) {
-  return solid_box(m.mass_kg - m.flange_mass_kg, {m.edge_m, m.edge_m, m.edge_m}, {});
-}
+Inertial housing(const ModuleSpec& m) { return solid_box(m.mass_kg - m.flange_mass_kg, {m.edge_m, m.edge_m, m.edge_m}, {}); }
 
 void write_joint(Xml& xml, const std::string& name, const char* parent, const char* child, const Vec& at, Axis axis) {
   xml.open("joint", {{"name", name}, {"type", "revolute"}});
@@ -29,7 +27,8 @@ struct PluginEntry {
   std::string name, joint;
 };
 
-void write_plugin(Xml& xml, const ActuatorSpec& a, const std::string& bus, double initial_preset, const std::vector<PluginEntry>& list) {
+void write_plugin(Xml& xml, const ActuatorSpec& a, const std::string& bus, double initial_preset,
+                  const std::vector<PluginEntry>& list) {
   xml.open("plugin", {{"name", "vsa::Robot"}, {"filename", a.plugin_file}});
   for (std::size_t i = 0; i < list.size(); ++i) {
     xml.open("actuator", {{"name", list[i].name}});
@@ -57,7 +56,8 @@ void write_flange_link(Xml& xml, const ModuleSpec& m, const BenchSpec* load) {
   const double top = m.edge_m / 2 + m.flange_thickness_m / 2;
   std::vector<Inertial> parts{solid_cylinder(m.flange_mass_kg, m.flange_radius_m, m.flange_thickness_m, Axis::z, {0, 0, top})};
   if (load != nullptr) {
-    parts.push_back(solid_cylinder(load->load_mass_kg, load->load_radius_m, load->load_length_m, Axis::z, {0, load->load_lever_m, top}));
+    parts.push_back(
+        solid_cylinder(load->load_mass_kg, load->load_radius_m, load->load_length_m, Axis::z, {0, load->load_lever_m, top}));
   }
   xml.open("link", {{"name", "flange"}});
   write_inertial(xml, combine(parts));
@@ -103,7 +103,8 @@ void flange_visuals(Xml& xml, const ModuleSpec& m, double pitch, Axis axis) {
   const bool upright = axis == Axis::z;
   const double neck = joint - e / 2 + 0.004;
   cylinder_visual(xml, "flange", {joint, 0, 0}, axis, 0.009, width, kFlange);
-  box_visual(xml, "neck", {e / 2 - 0.004 + neck / 2, 0, 0, 0, 0, 0}, {neck, upright ? 0.014 : width * 0.8, upright ? width * 0.8 : 0.014}, kFlange);
+  box_visual(xml, "neck", {e / 2 - 0.004 + neck / 2, 0, 0, 0, 0, 0},
+             {neck, upright ? 0.014 : width * 0.8, upright ? width * 0.8 : 0.014}, kFlange);
   box_visual(xml, "plate", {e / 2 + 0.0005, 0, 0, 0, 0, 0}, {0.003, 0.62 * e, 0.62 * e}, kFlange);
 }
 
@@ -127,7 +128,8 @@ void write_body(Xml& xml, const Description& d, int k) {
   if (k > 0) flange_visuals(xml, m, pitch, shaft_axis(k - 1));
   if (k == 0) {
     for (const double side : {-1.0, 1.0}) {
-      cylinder_visual(xml, side < 0 ? "eye_right" : "eye_left", {0.5 * m.edge_m, side * 0.24 * m.edge_m, 0.18 * m.edge_m}, Axis::x, 0.006, 0.004, kMark);
+      cylinder_visual(xml, side < 0 ? "eye_right" : "eye_left", {0.5 * m.edge_m, side * 0.24 * m.edge_m, 0.18 * m.edge_m}, Axis::x,
+                      0.006, 0.004, kMark);
     }
   }
   xml.close();
@@ -154,7 +156,8 @@ std::string snake_model(const Description& d) {
 
 void add_robots(Files& files, const Description& d) {
   add_model(files, "qbmove", "qbmove maker pro: one module, free to move", module_model(d, "qbmove", false, nullptr));
-  add_model(files, "qbmove_bench_free", "qbmove maker pro, held by its housing, flange free", module_model(d, "qbmove_bench_free", true, nullptr));
+  add_model(files, "qbmove_bench_free", "qbmove maker pro, held by its housing, flange free",
+            module_model(d, "qbmove_bench_free", true, nullptr));
   add_model(files, "qbmove_bench_load", "qbmove maker pro, held by its housing, with a lever and a mass",
             module_model(d, "qbmove_bench_load", true, &d.bench));
   add_model(files, "qbmove_snake", "Snake of qbmove modules in series", snake_model(d));

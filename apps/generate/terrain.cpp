@@ -36,14 +36,13 @@ double ground(const HillsSpec& spec, double x, double y) {
     const double along = x * std::cos(w.direction_deg * kDegree) + y * std::sin(w.direction_deg * kDegree);
     sum += w.height_m * std::sin(2 * kPi / w.wavelength_m * along + w.phase_deg * kDegree);
   }
-  const double s = std::clamp((std::hypot(x, y) - spec.flat_radius_m[0]) / (spec.flat_radius_m[1] - spec.flat_radius_m[0]), 0.0, 1.0);
+  const double s =
+      std::clamp((std::hypot(x, y) - spec.flat_radius_m[0]) / (spec.flat_radius_m[1] - spec.flat_radius_m[0]), 0.0, 1.0);
   return sum * s * s * (3 - 2 * s);
 }
 
 void plane(Xml& xml, double friction) {
-  const auto geometry = [&] {
-    xml.open("geometry").open("plane").leaf("normal", "0 0 1").leaf("size", "100 100").close().close();
-  };
+  const auto geometry = [&] { xml.open("geometry").open("plane").leaf("normal", "0 0 1").leaf("size", "100 100").close().close(); };
   xml.open("collision", {{"name", "ground"}});
   geometry();
   write_surface(xml, friction);
@@ -77,7 +76,8 @@ void rubble_body(Xml& xml, const Description& d) {
     xml.open("geometry").open("box").leaf("size", numbers({b.length, b.width, b.height})).close().close();
     write_surface(xml, d.module.friction);
     xml.close();
-    box_visual(xml, name, {b.x, b.y, b.height / 2, 0, 0, b.yaw}, {b.length, b.width, b.height}, {shade + 0.06, shade, shade - 0.06});
+    box_visual(xml, name, {b.x, b.y, b.height / 2, 0, 0, b.yaw}, {b.length, b.width, b.height},
+               {shade + 0.06, shade, shade - 0.06});
   }
 }
 

@@ -69,7 +69,9 @@ void add_model(Files& files, const std::string& name, const std::string& title, 
 void add_worlds(Files& files, const Description& d) {
   const double lying = d.module.edge_m / 2 + d.snake.clearance_m;
   const double quarter = kPi / 2;
-  const auto put = [&](const std::string& name, const std::vector<Placed>& models) { files["worlds/" + name + ".sdf"] = world(d, name, models); };
+  const auto put = [&](const std::string& name, const std::vector<Placed>& models) {
+    files["worlds/" + name + ".sdf"] = world(d, name, models);
+  };
   put("snake_flat", {{"terrain_flat", {}}, {"qbmove_snake", {0, 0, lying, 0, 0, 0}}});
   put("snake_rubble", {{"terrain_rubble", {}}, {"qbmove_snake", {0, 0, lying, 0, 0, 0}}});
   // One grey level of the heightmap more, so that its rounding can't put the start into the ground.

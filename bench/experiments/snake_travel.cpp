@@ -2,7 +2,8 @@
 //
 // How far the snake gets: worlds × gaits × starts. Prints a table in Markdown and, with --json, writes every run.
 //
-//   snake_travel [--worlds flat,rubble,hills] [--gaits sidewind,steered_soft,…] [--starts 8] [--duration-s 60] [--jobs 1] [--json FILE]
+//   snake_travel [--worlds flat,rubble,hills] [--gaits sidewind,steered_soft,…] [--starts 8] [--duration-s 60] [--jobs 1] [--json
+//   FILE]
 //
 // Path and net displacement are those of the cycle-averaged centre of mass: its mean over one gait period, one value a period. A
 // start differs from the others by its yaw (−2° … +2°) and by ±1 mm in x and y: a tiny difference that grows, so look at medians.
@@ -62,13 +63,21 @@ Options parsed(int argc, char** argv) {
     const std::string flag = argv[i];
     if (i + 1 == argc) throw vsa::InputError(vsa::Problem{"command line", flag, "", "a value is missing", ""});
     const std::string value = argv[i + 1];
-    if (flag == "--worlds") o.worlds = split(value);
-    else if (flag == "--gaits") o.gaits = split(value);
-    else if (flag == "--starts") o.starts = std::max(1, std::stoi(value));
-    else if (flag == "--duration-s") o.duration_s = std::stod(value);
-    else if (flag == "--jobs") o.jobs = std::max(1, std::stoi(value));
-    else if (flag == "--json") o.json = value;
-    else throw vsa::InputError(vsa::Problem{"command line", flag, "", "unknown option", "--worlds --gaits --starts --duration-s --jobs --json"});
+    if (flag == "--worlds")
+      o.worlds = split(value);
+    else if (flag == "--gaits")
+      o.gaits = split(value);
+    else if (flag == "--starts")
+      o.starts = std::max(1, std::stoi(value));
+    else if (flag == "--duration-s")
+      o.duration_s = std::stod(value);
+    else if (flag == "--jobs")
+      o.jobs = std::max(1, std::stoi(value));
+    else if (flag == "--json")
+      o.json = value;
+    else
+      throw vsa::InputError(
+          vsa::Problem{"command line", flag, "", "unknown option", "--worlds --gaits --starts --duration-s --jobs --json"});
   }
   return o;
 }
@@ -159,7 +168,9 @@ std::string shown(const std::vector<double>& values) {
 
 void print_table(const Options& o, const std::vector<Run>& runs) {
   fmt::print("{} s, {} starts; median (min–max)\n\n", o.duration_s, o.starts);
-  fmt::print("| world | gait | path m | net m | along +y m | peak torque N·m | attained preset rad | supply J | real-time factor | failed |\n");
+  fmt::print(
+      "| world | gait | path m | net m | along +y m | peak torque N·m | attained preset rad | supply J | real-time factor | failed "
+      "|\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|---|\n");
   for (const auto& world : o.worlds) {
     for (const auto& gait : o.gaits) {
@@ -183,8 +194,8 @@ void print_table(const Options& o, const std::vector<Run>& runs) {
         fmt::print("| {} | {} | – | – | – | – | – | – | – | {} |\n", world, gait, failed);
         continue;
       }
-      fmt::print("| {} | {} | {} | {} | {} | {:.1f} | {:.3f} | {:.0f} | {:.1f} | {} |\n", world, gait, shown(path), shown(net), shown(along),
-                 spread(torque).max, spread(preset).median, spread(supply).median, spread(factor).median, failed);
+      fmt::print("| {} | {} | {} | {} | {} | {:.1f} | {:.3f} | {:.0f} | {:.1f} | {} |\n", world, gait, shown(path), shown(net),
+                 shown(along), spread(torque).max, spread(preset).median, spread(supply).median, spread(factor).median, failed);
     }
   }
 }
@@ -197,12 +208,13 @@ void write_json(const Options& o, const std::vector<Run>& runs) {
     std::string track;
     for (const auto& p : r.track) track += fmt::format("{}[{:.4f},{:.4f},{:.4f}]", track.empty() ? "" : ",", p[0], p[1], p[2]);
     std::string error = r.error;
-    std::replace_if(error.begin(), error.end(), [](char c) { return c == '"' || c == '\\' || c < ' '; }, ' ');
+    std::replace_if(
+        error.begin(), error.end(), [](char c) { return c == '"' || c == '\\' || c < ' '; }, ' ');
     out << fmt::format(
         R"({{"world":"{}","gait":"{}","start":{},"duration_s":{},"path_m":{:.4f},"net_m":{:.4f},"x_m":{:.4f},"y_m":{:.4f},)"
         R"("torque_peak_Nm":{:.3f},"preset_mean_rad":{:.4f},"supply_J":{:.2f},"wall_s":{:.2f},"error":"{}","track_m":[{}]}}{})",
-        r.world, r.gait, r.start, o.duration_s, r.path_m, r.net_m, r.x_m, r.y_m, r.torque_peak_Nm, r.preset_mean_rad, r.supply_J, r.wall_s,
-        error, track, i + 1 < runs.size() ? ",\n" : "\n");
+        r.world, r.gait, r.start, o.duration_s, r.path_m, r.net_m, r.x_m, r.y_m, r.torque_peak_Nm, r.preset_mean_rad, r.supply_J,
+        r.wall_s, error, track, i + 1 < runs.size() ? ",\n" : "\n");
   }
   out << "]\n";
   if (!out.flush()) throw std::runtime_error("can't write " + o.json);
@@ -232,8 +244,8 @@ std::vector<Run> run_all(const Options& o) {
       }
       const std::scoped_lock guard(lock);
       const Run& r = runs[i];
-      fmt::print(stderr, "{:3}/{} {} {} {}: path {:.2f} m, net {:.2f} m ({:+.2f}, {:+.2f}) {:.1f} s {}\n", i + 1, runs.size(), r.world, r.gait,
-                 r.start, r.path_m, r.net_m, r.x_m, r.y_m, r.wall_s, r.error);
+      fmt::print(stderr, "{:3}/{} {} {} {}: path {:.2f} m, net {:.2f} m ({:+.2f}, {:+.2f}) {:.1f} s {}\n", i + 1, runs.size(),
+                 r.world, r.gait, r.start, r.path_m, r.net_m, r.x_m, r.y_m, r.wall_s, r.error);
     }
   };
   std::vector<std::thread> threads;

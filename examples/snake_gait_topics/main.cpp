@@ -5,16 +5,16 @@
 //   vsa run models/worlds/snake_flat.sdf --realtime &
 //   snake_gait_topics models/gaits/sidewind.toml 30
 //
-// Every 20 ms one JointTrajectory with one point: the joint's name is its equilibrium, the name with "_preset" its preset. What arrives
-// when is up to the machine, so two such runs differ; a gait that must be repeatable is played by `vsa run --gait`.
+// Every 20 ms one JointTrajectory with one point: the joint's name is its equilibrium, the name with "_preset" its preset. What
+// arrives when is up to the machine, so two such runs differ; a gait that must be repeatable is played by `vsa run --gait`.
+#include <ignition/msgs/joint_trajectory.pb.h>
+
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <ignition/transport/Node.hh>
 #include <iostream>
 #include <thread>
-
-#include <ignition/msgs/joint_trajectory.pb.h>
-#include <ignition/transport/Node.hh>
 
 #include "vsa/engine/gait.hpp"
 

@@ -30,6 +30,7 @@ Actuator::Actuator(ActuatorParams params)
     : params_(std::move(params)),
       motor_(drive::at_pulley(params_.motor, params_.gearbox.ratio)),
       friction_(drive::at_pulley(params_.gearbox.friction, params_.gearbox.ratio)),
+      shaft_friction_(params_.shaft_friction),
       motors_(params_.transmission->motor_count()) {}
 
 elastic::Positions Actuator::positions(const ActuatorState& s, double shaft) const noexcept {
@@ -101,8 +102,7 @@ Actuator::Pulleys Actuator::solve(const ActuatorState& s, const drive::MotorStep
       step[i] = p.friction[i].displacement - p.dx[i];
       residual = std::max(residual, std::abs(step[i]));
       accepted = accepted && std::abs(kappa * step[i]) <= kRelativeTolerance * std::abs(p.mean.load[i]) + kAbsoluteTolerance_Nm;
-      const bool slides = p.friction[i].anchor_travel != 0.0 || friction_.coulomb_Nm <= 0 || friction_.presliding_rad <= 0;
-      const double bristle = slides ? 0.0 : 0.5 * friction_.coulomb_Nm / friction_.presliding_rad;
+      const double bristle = p.friction[i].anchor_travel != 0.0 ? 0.0 : 0.5 * friction_.stiffness;
       p.slope -= p.mean.slope.qx[i] * p.mean.slope.qx[i] * c * yield / (1.0 + c * yield * bristle);
     }
     if (accepted || iteration + 1 == kMaxIterations) {
@@ -166,10 +166,10 @@ SegmentResult Actuator::segment(ActuatorState& s, double h_s, const SegmentInput
 drive::FrictionStep Actuator::shaft_friction(ActuatorState& s, double displacement) const noexcept {
   // The segments have moved state.shaft already: the friction's own start is behind it.
   const double u = s.shaft - displacement - s.shaft_anchor;
-  const drive::FrictionStep step = drive::follow_friction(params_.shaft_friction, u, displacement);
-  s.ledger.shaft_friction += drive::friction_heat(params_.shaft_friction, u, step);
+  const drive::FrictionStep step = drive::follow_friction(shaft_friction_, u, displacement);
+  s.ledger.shaft_friction += drive::friction_heat(shaft_friction_, u, step);
   s.shaft_anchor += step.anchor_travel;
-  s.ledger.shaft_bristle = drive::bristle_energy(params_.shaft_friction, s.shaft - s.shaft_anchor);
+  s.ledger.shaft_bristle = drive::bristle_energy(shaft_friction_, s.shaft - s.shaft_anchor);
   return step;
 }
 
@@ -184,7 +184,7 @@ void Actuator::settle(ActuatorState& s, double actual, double applied_torque, do
     s.shaft_anchor = actual;
   }
   l.elastic = params_.transmission->energy(positions(s, actual));
-  l.shaft_bristle = drive::bristle_energy(params_.shaft_friction, s.shaft - s.shaft_anchor);
+  l.shaft_bristle = drive::bristle_energy(shaft_friction_, s.shaft - s.shaft_anchor);
   const double work = applied_torque * actual_dy;
   l.coupling += (predicted - (l.elastic + l.shaft_bristle)) - (work - path_work);
   l.delivered += work;

@@ -24,7 +24,7 @@ std::int16_t to_ticks(double rad, int resolution) noexcept {
 
 }  // namespace
 
-Unit::Unit(UnitConfig config) : config_(std::move(config)), actuator_(config_.actuator) {}
+Unit::Unit(UnitConfig config) : config_(std::move(config)), shaft_friction_(config_.actuator.shaft_friction), actuator_(config_.actuator) {}
 
 int Unit::ticks_in(std::int64_t t_ns, std::int64_t dt_ns) noexcept {
   const std::int64_t first = (t_ns + kTickNs - 1) / kTickNs;
@@ -109,7 +109,6 @@ double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const Sha
   const double other = s.started ? (in.speed - s.last_speed) / s.last_dt - in.inverse_inertia * s.applied_torque : 0.0;
   const double c = 0.5 * dt * dt * in.inverse_inertia;
   const double free = dt * in.speed + 0.5 * dt * dt * other;
-  const drive::FrictionParams& friction = config_.actuator.shaft_friction;
   const double u = y - s.actuator.shaft_anchor;
 
   const UnitState start = s;
@@ -123,7 +122,7 @@ double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const Sha
     // Newton on the spring, exact on the friction.
     const double slope = std::max(path.slope, 0.0);
     const double yield = 1.0 / (1.0 + c * slope);
-    const auto next = drive::solve_friction(friction, u, (free + c * (path.torque + slope * dy)) * yield, c * yield);
+    const auto next = drive::solve_friction(shaft_friction_, u, (free + c * (path.torque + slope * dy)) * yield, c * yield);
     const double move = next.displacement - dy;
     torque = path.torque - slope * move + next.torque;
     // The linear correction leaves an error of second order; the stiffer the step (c·slope), the more of it reaches the shaft.

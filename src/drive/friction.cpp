@@ -25,7 +25,7 @@ FrictionStep solve_coulomb(double coulomb, double free, double compliance) noexc
 
 }  // namespace
 
-FrictionStep follow_friction(const FrictionParams& p, double u, double displacement) noexcept {
+FrictionStep follow_friction(const Friction& p, double u, double displacement) noexcept {
   FrictionStep step;
   step.displacement = displacement;
   if (p.coulomb_Nm <= 0) {
@@ -39,35 +39,34 @@ FrictionStep follow_friction(const FrictionParams& p, double u, double displacem
   }
   const double reached = u + displacement;
   const double end = std::clamp(reached, -p.presliding_rad, p.presliding_rad);
-  step.torque = -p.coulomb_Nm * (0.5 * (u + end) / p.presliding_rad);
+  step.torque = -0.5 * p.stiffness * (u + end);
   step.anchor_travel = reached - end;
   return step;
 }
 
-FrictionStep solve_friction(const FrictionParams& p, double u, double free, double compliance) noexcept {
+FrictionStep solve_friction(const Friction& p, double u, double free, double compliance) noexcept {
   if (p.coulomb_Nm <= 0) return follow_friction(p, u, free);
   if (p.presliding_rad <= 0) return solve_coulomb(p.coulomb_Nm, free, compliance);
-  const double stiffness = p.coulomb_Nm / p.presliding_rad;
-  const double stick = (free - compliance * stiffness * u) / (1.0 + 0.5 * compliance * stiffness);
+  const double stick = (free - compliance * p.stiffness * u) / (1.0 + 0.5 * compliance * p.stiffness);
   if (std::abs(u + stick) <= p.presliding_rad) return follow_friction(p, u, stick);
   // The bristle ends fully bent. τ̄ falls monotonically with Δx, so the root lies on the side that `stick` overshot.
   FrictionStep step;
   const double end = std::copysign(p.presliding_rad, u + stick);
-  step.torque = -0.5 * stiffness * (u + end);
+  step.torque = -0.5 * p.stiffness * (u + end);
   step.displacement = free + compliance * step.torque;
   step.anchor_travel = u + step.displacement - end;
   return step;
 }
 
-double bristle_energy(const FrictionParams& p, double u) noexcept {
-  return p.presliding_rad > 0 ? 0.5 * p.coulomb_Nm / p.presliding_rad * u * u : 0.0;
+double bristle_energy(const Friction& p, double u) noexcept {
+  return 0.5 * p.stiffness * u * u;
 }
 
-double friction_heat(const FrictionParams& p, double u, const FrictionStep& step) noexcept {
+double friction_heat(const Friction& p, double u, const FrictionStep& step) noexcept {
   if (p.coulomb_Nm <= 0) return 0.0;
   if (p.presliding_rad <= 0) return -step.torque * step.displacement;
   const double end = u + step.displacement - step.anchor_travel;
-  return 0.5 * p.coulomb_Nm / p.presliding_rad * (u + end) * step.anchor_travel;
+  return 0.5 * p.stiffness * (u + end) * step.anchor_travel;
 }
 
 }  // namespace vsa::drive

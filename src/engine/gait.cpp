@@ -13,7 +13,8 @@ double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
 
 }  // namespace
 
-void steer(const SteeringParams& params, SteeringState& state, std::array<double, 2> center, std::size_t window, double dt_s, bool engaged) {
+void steer(const SteeringParams& params, SteeringState& state, std::array<double, 2> center, std::size_t window, double dt_s,
+           bool engaged) {
   state.trail.push_back(center);
   if (state.trail.size() <= window) return;
   const auto from = state.trail.front();
@@ -22,7 +23,8 @@ void steer(const SteeringParams& params, SteeringState& state, std::array<double
   if (std::hypot(dx, dy) >= params.min_travel_m) state.heading_rad = std::atan2(dy, dx);
   if (!engaged || !state.heading_rad) return;
   if (!state.target_rad) state.target_rad = params.target_rad.value_or(*state.heading_rad);
-  const double goal = std::clamp(params.gain * wrapped(*state.target_rad - *state.heading_rad), -params.limit_rad, params.limit_rad);
+  const double goal =
+      std::clamp(params.gain * wrapped(*state.target_rad - *state.heading_rad), -params.limit_rad, params.limit_rad);
   const double reach = params.slew_rad_per_s * dt_s;
   state.phase_rad += std::clamp(goal - state.phase_rad, -reach, reach);
 }
@@ -42,7 +44,8 @@ void Gait::bind(const World& world) {
         const ActuatorRef& found = world.actuator(name);
         if (params_.steering && params_.steering->group == group.name) model_ = found.model;
       } catch (const InputError& error) {
-        for (const Problem& p : error.problems()) problems.add({params_.file, "group." + group.name + ".actuators", name, p.message, p.allowed});
+        for (const Problem& p : error.problems())
+          problems.add({params_.file, "group." + group.name + ".actuators", name, p.message, p.allowed});
       }
     }
   }

@@ -2,11 +2,11 @@
 //
 // Reads gait files. Every key that nobody asks for is a mistake; all mistakes of a file are reported together.
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <cmath>
 #include <set>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "vsa/engine/gait.hpp"
 #include "vsa/units.hpp"
@@ -52,7 +52,8 @@ class Reader {
 
   void only(const toml::table& table, const std::string& scope, const std::set<std::string_view>& known) {
     for (const auto& [key, node] : table) {
-      if (!known.contains(key.str())) problem(scope + std::string(key.str()), shown(&node), "unknown key", fmt::format("{}", list(known)));
+      if (!known.contains(key.str()))
+        problem(scope + std::string(key.str()), shown(&node), "unknown key", fmt::format("{}", list(known)));
     }
   }
 
@@ -102,7 +103,8 @@ toml::table with_bases(const std::filesystem::path& file, int depth) {
   if (node == nullptr) return own;
   const auto base = node->value<std::string>();
   if (!base) throw InputError(Problem{file.string(), "base", "", "not a file name", ""});
-  if (depth >= kMaxBases) throw InputError(Problem{file.string(), "base", *base, "too many bases one upon the other", fmt::format("{}", kMaxBases)});
+  if (depth >= kMaxBases)
+    throw InputError(Problem{file.string(), "base", *base, "too many bases one upon the other", fmt::format("{}", kMaxBases)});
   toml::table whole = with_bases(file.parent_path() / *base, depth + 1);
   own.erase("base");
   overlay(whole, own);
@@ -121,11 +123,13 @@ void read_members(Reader& reader, const toml::table& table, const std::string& s
   }
   for (std::size_t i = 0; numbers != nullptr && i < numbers->size(); ++i) {
     const auto n = numbers->get(i)->value_exact<std::int64_t>();
-    if (!n || *n < -1000 || *n > 1000) reader.problem(fmt::format("{}n[{}]", scope, i), "", "not a whole number in range", "-1000 … 1000");
+    if (!n || *n < -1000 || *n > 1000)
+      reader.problem(fmt::format("{}n[{}]", scope, i), "", "not a whole number in range", "-1000 … 1000");
     group.n.push_back(static_cast<int>(n.value_or(0)));
   }
   if (names != nullptr && numbers != nullptr && group.n.size() != group.actuators.size()) {
-    reader.problem(scope + "n", fmt::format("{} numbers", group.n.size()), "not one an actuator", fmt::format("{}", group.actuators.size()));
+    reader.problem(scope + "n", fmt::format("{} numbers", group.n.size()), "not one an actuator",
+                   fmt::format("{}", group.actuators.size()));
   }
 }
 

@@ -33,7 +33,7 @@ void check_whole(const RobotConfig& config) {
 struct Robot::Impl {
   explicit Impl(RobotConfig c) : config(std::move(c)) {
     units.reserve(config.actuators.size());
-    for (const ActuatorConfig& a : config.actuators) units.emplace_back(a.unit);
+    for (const ActuatorConfig& a : config.actuators) units.push_back(unit_for(a.unit));
     std::vector<int> on_bus(config.buses.size(), 0);
     order.resize(units.size());
     for (std::size_t i = 0; i < units.size(); ++i) order[i] = i;
@@ -43,6 +43,7 @@ struct Robot::Impl {
     for (std::size_t i : order) place[i] = on_bus[config.actuators[i].bus]++;
     for (std::size_t b = 0; b < config.buses.size(); ++b)
       schedules.push_back(bus::make_schedule(std::max(on_bus[b], 1), config.buses[b].baud_Hz, config.buses[b].cycle_s));
+    for (const ActuatorConfig& a : config.actuators) schedule_of.push_back(&schedules[a.bus]);
     state.actuators.resize(units.size());
     for (std::size_t i = 0; i < units.size(); ++i) {
       const ActuatorConfig& a = config.actuators[i];
@@ -50,10 +51,18 @@ struct Robot::Impl {
       slot.equilibrium.value = a.initial_equilibrium_rad;
       slot.preset.value = a.initial_preset;
       // The shaft's true place is known at the first step; until then it rests on its equilibrium.
-      slot.unit = units[i].initial(a.initial_equilibrium_rad, a.initial_preset, a.initial_equilibrium_rad);
+      slot.unit = units[i]->initial(a.initial_equilibrium_rad, a.initial_preset, a.initial_equilibrium_rad);
     }
     notices.reserve(units.size());
     initial = state;
+  }
+
+  /// Units with equal parameters share one instance: a thousand of them then fit the processor's cache. States are their own.
+  std::shared_ptr<device::Unit> unit_for(const UnitConfig& unit) {
+    for (const auto& known : distinct)
+      if (known->config() == unit) return known;
+    distinct.push_back(std::make_shared<device::Unit>(unit));
+    return distinct.back();
   }
 
   void take_commands() noexcept {
@@ -89,8 +98,10 @@ struct Robot::Impl {
   int collect_mail(std::size_t i, std::int64_t t_ns, std::int64_t dt_ns, Mail& mail) noexcept;
 
   RobotConfig config;
-  std::vector<device::Unit> units;
+  std::vector<std::shared_ptr<device::Unit>> units;
+  std::vector<std::shared_ptr<device::Unit>> distinct;
   std::vector<bus::Schedule> schedules;
+  std::vector<const bus::Schedule*> schedule_of;  // one an actuator
   std::vector<std::size_t> order;  // by id
   std::vector<int> place;          // the unit's place on its bus, 0 = first
   RobotState state, initial;
@@ -100,15 +111,15 @@ struct Robot::Impl {
 
 void Robot::Impl::send_frame(std::size_t i, std::int64_t before_ns) noexcept {
   ActuatorSlot& slot = state.actuators[i];
-  const bus::Schedule& schedule = schedules[config.actuators[i].bus];
+  const bus::Schedule& schedule = *schedule_of[i];
   const std::int64_t sent = schedule.inputs_at_ns(slot.cycle * schedule.cycle_ns, place[i]) - schedule.inputs_at_ns(0, 0);
   if (slot.sent || sent >= before_ns) return;
   slot.sent = true;
-  slot.sent_inputs = units[i].inputs_for(slot.equilibrium.at(sent), slot.preset.at(sent));
+  slot.sent_inputs = units[i]->inputs_for(slot.equilibrium.at(sent), slot.preset.at(sent));
 }
 
 int Robot::Impl::collect_mail(std::size_t i, std::int64_t t_ns, std::int64_t dt_ns, Mail& mail) noexcept {
-  const bus::Schedule& schedule = schedules[config.actuators[i].bus];
+  const bus::Schedule& schedule = *schedule_of[i];
   ActuatorSlot& slot = state.actuators[i];
   const int ticks = std::min(device::Unit::ticks_in(t_ns, dt_ns), device::kMaxTicksPerStep);
   std::int64_t at = (t_ns + firmware::kTickNs - 1) / firmware::kTickNs * firmware::kTickNs;
@@ -154,12 +165,12 @@ void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const Joint
     ActuatorSlot& slot = d.state.actuators[i];
     const int ticks = d.collect_mail(i, t_ns, dt_ns, mail);
     if (slot.reply_due_ns >= 0 && slot.reply_due_ns < t_ns) {
-      slot.measured = firmware::measurements(d.config.actuators[i].unit.loop, slot.unit.loop);
+      slot.measured = firmware::measurements(d.units[i]->config().loop, slot.unit.loop);
       slot.reply_due_ns = -1;
     }
-    const double inverse = in[i].inverse_inertia.value_or(1.0 / d.config.actuators[i].unit.actuator.shaft_inertia_kgm2);
+    const double inverse = in[i].inverse_inertia ? *in[i].inverse_inertia : 1.0 / d.units[i]->config().actuator.shaft_inertia_kgm2;
     slot.shaft_rad = in[i].angle_rad;
-    torques_out[i] = d.units[i].step(slot.unit, t_ns, dt_ns, {in[i].angle_rad, in[i].speed_rad_per_s, inverse},
+    torques_out[i] = d.units[i]->step(slot.unit, t_ns, dt_ns, {in[i].angle_rad, in[i].speed_rad_per_s, inverse},
                                      {mail.data(), static_cast<std::size_t>(ticks)});
   }
   d.state.time_ns = t_ns + dt_ns;
@@ -187,7 +198,7 @@ bool Robot::follow(std::size_t actuator, Channel channel, std::vector<Knot> knot
 
 ActuatorReading Robot::read(std::size_t actuator) const {
   const ActuatorSlot& slot = impl_->state.actuators.at(actuator);
-  const device::Unit& unit = impl_->units[actuator];
+  const device::Unit& unit = *impl_->units[actuator];
   const device::UnitState& u = slot.unit;
   ActuatorReading r;
   r.equilibrium_command_rad = slot.equilibrium.at(impl_->state.time_ns);

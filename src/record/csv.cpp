@@ -39,7 +39,8 @@ std::string csv_text(std::string_view text) {
 const std::string* common_unit(const RobotInfo& robot) {
   if (robot.actuators.empty()) return nullptr;
   const std::string& first = robot.actuators.front().preset_unit;
-  const bool same = std::all_of(robot.actuators.begin(), robot.actuators.end(), [&](const auto& a) { return a.preset_unit == first; });
+  const bool same =
+      std::all_of(robot.actuators.begin(), robot.actuators.end(), [&](const auto& a) { return a.preset_unit == first; });
   return same ? &first : nullptr;
 }
 
@@ -82,8 +83,8 @@ std::string file_stem(std::string_view model) {
   std::string out;
   for (std::size_t i = 0; i < model.size(); ++i) {
     const char c = model[i];
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-                       (c == '.' && i > 0);
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || (c == '.' && i > 0);
     if (c == ':' && i > 0 && model[i - 1] == ':') continue;  // one '_' for "::"
     out += plain ? c : '_';
   }

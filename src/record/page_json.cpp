@@ -42,20 +42,27 @@ std::string numbers(const Range& range) {
 }
 
 std::string pose(const engine::Pose& p) {
-  return '[' + number(p.position[0]) + ',' + number(p.position[1]) + ',' + number(p.position[2]) + ',' + number(p.quaternion[0]) + ',' +
-         number(p.quaternion[1]) + ',' + number(p.quaternion[2]) + ',' + number(p.quaternion[3]) + ']';
+  return '[' + number(p.position[0]) + ',' + number(p.position[1]) + ',' + number(p.position[2]) + ',' + number(p.quaternion[0]) +
+         ',' + number(p.quaternion[1]) + ',' + number(p.quaternion[2]) + ',' + number(p.quaternion[3]) + ']';
 }
 
 std::string_view kind_name(engine::Shape::Kind kind) {
   using K = engine::Shape::Kind;
   switch (kind) {
-    case K::box: return "box";
-    case K::sphere: return "sphere";
-    case K::cylinder: return "cylinder";
-    case K::capsule: return "capsule";
-    case K::plane: return "plane";
-    case K::mesh: return "mesh";
-    case K::heightmap: return "heightmap";
+    case K::box:
+      return "box";
+    case K::sphere:
+      return "sphere";
+    case K::cylinder:
+      return "cylinder";
+    case K::capsule:
+      return "capsule";
+    case K::plane:
+      return "plane";
+    case K::mesh:
+      return "mesh";
+    case K::heightmap:
+      return "heightmap";
   }
   return "box";
 }
@@ -68,7 +75,8 @@ class Geometries {
     if (fresh) {
       // Indices as floats stay exact up to 2^24 corners.
       const std::vector<float> indices(shape.indices.begin(), shape.indices.end());
-      (text_ += text_.empty() ? "" : ",") += "{\"vertices\":\"" + base64(shape.vertices) + "\",\"indices\":\"" + base64(indices) + "\"}";
+      (text_ += text_.empty() ? "" : ",") +=
+          "{\"vertices\":\"" + base64(shape.vertices) + "\",\"indices\":\"" + base64(indices) + "\"}";
     }
     return at->second;
   }
@@ -80,8 +88,8 @@ class Geometries {
 };
 
 std::string visual(const engine::Shape& s, Geometries& geometries) {
-  std::string out = "{\"kind\":\"" + std::string(kind_name(s.kind)) + "\",\"pose\":" + pose(s.pose) + ",\"size\":" + numbers(s.size) +
-                    ",\"rgba\":" + numbers(s.rgba);
+  std::string out = "{\"kind\":\"" + std::string(kind_name(s.kind)) + "\",\"pose\":" + pose(s.pose) +
+                    ",\"size\":" + numbers(s.size) + ",\"rgba\":" + numbers(s.rgba);
   if (!s.vertices.empty()) out += ",\"geometry\":" + std::to_string(geometries.index(s));
   return out + '}';
 }
@@ -113,9 +121,10 @@ std::string page_header(const RunInfo& info, const PageText& text, const std::ve
   };
   const auto statistic = [](const Statistic& s) { return '[' + json_string(s.label) + ',' + json_string(s.value) + ']'; };
   return "\"format\":1,\n\"title\":" + json_string(text.title) + ",\n\"world\":" + json_string(info.world) +
-         ",\n\"step_s\":" + number(info.step_s) + ",\n\"notes\":" + array(text.notes, [](const auto& n) { return json_string(n); }) +
-         ",\n\"summary\":" + array(text.summary, statistic) + ",\n\"robots\":" + array(info.robots, robot) + ",\n\"links\":" + links +
-         ",\n\"geometries\":" + geometries.text();
+         ",\n\"step_s\":" + number(info.step_s) +
+         ",\n\"notes\":" + array(text.notes, [](const auto& n) { return json_string(n); }) +
+         ",\n\"summary\":" + array(text.summary, statistic) + ",\n\"robots\":" + array(info.robots, robot) +
+         ",\n\"links\":" + links + ",\n\"geometries\":" + geometries.text();
 }
 
 }  // namespace vsa::record

@@ -1,11 +1,12 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/engine/gait.hpp"
+
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <cmath>
 
-#include "vsa/engine/gait.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::engine {
@@ -80,7 +81,9 @@ TEST(Gait, GrowsIntoTheWaveFromRest) {
 
 TEST(Gait, VariantsTakeEverythingButThePresetFromTheirBase) {
   const Gait base = Gait::load(kGaits / "sidewind.toml");
-  for (const auto& [file, preset] : {std::pair{"sidewind_soft.toml", 10.0}, {"sidewind_stiff.toml", 44.9}, {"steered_soft.toml", 10.0},
+  for (const auto& [file, preset] : {std::pair{"sidewind_soft.toml", 10.0},
+                                     {"sidewind_stiff.toml", 44.9},
+                                     {"steered_soft.toml", 10.0},
                                      {"steered_stiff.toml", 44.9}}) {
     const Gait variant = Gait::load(kGaits / file);
     for (const char* name : {"vertical", "horizontal"}) {
@@ -101,9 +104,7 @@ TEST(Gait, NoVariantAsksForMoreThanAUnitAccepts) {
 
 TEST(GaitFile, ThatIsMissingIsNamed) { EXPECT_TRUE(says(problems_of("/nowhere/gait.toml"), "/nowhere/gait.toml")); }
 
-TEST(GaitFile, WithBrokenSyntaxTellsTheLine) {
-  EXPECT_TRUE(says(problems_of(written("title = \"a\"\nramp_s = = 2\n")), "line 2"));
-}
+TEST(GaitFile, WithBrokenSyntaxTellsTheLine) { EXPECT_TRUE(says(problems_of(written("title = \"a\"\nramp_s = = 2\n")), "line 2")); }
 
 TEST(GaitFile, WithAnUnknownKeyNamesItAndTheKeysThereAre) {
   const std::string text = problems_of(written(replaced(kGood, "ramp_s", "ramp")));

@@ -25,7 +25,11 @@ void play(World& w, Gait& g, double seconds) {
 }
 
 TEST(Worlds, AllLoadWithTheirActuators) {
-  for (const auto& [name, count] : {std::pair{"module", 1}, {"bench_free", 1}, {"bench_load", 1}, {"snake_flat", 12}, {"snake_rubble", 12},
+  for (const auto& [name, count] : {std::pair{"module", 1},
+                                    {"bench_free", 1},
+                                    {"bench_load", 1},
+                                    {"snake_flat", 12},
+                                    {"snake_rubble", 12},
                                     {"snake_hills", 12}}) {
     EXPECT_EQ(world(name).actuators().size(), static_cast<std::size_t>(count)) << name;
   }
@@ -106,10 +110,19 @@ TEST(Bench, HoldsItsLoadLevelAgainstGravity) {
   World w = world("bench_load");
   w.command("shaft", 0.8, 0.6);
   w.run(3.0);
-  const auto now = w.read("shaft");
-  // At rest the actuator carries M g r sin q; the flange disc's own weight acts on the axis.
-  EXPECT_NEAR(now.torque_Nm, 1.0 * 9.81 * 0.15 * std::sin(now.shaft_rad), 0.03);
-  EXPECT_GT(now.shaft_rad, 0.5);
+  // The load still swings on its spring; over many swings the actuator carries the mean of M g r sin q. What is left is the change
+  // of momentum over the window and the shaft's friction, 0.01 N·m.
+  double torque = 0, weight = 0, angle = 0;
+  const int samples = 4000;
+  for (int i = 0; i < samples; ++i) {
+    w.step();
+    const auto now = w.read("shaft");
+    torque += now.torque_Nm / samples;
+    weight += 1.0 * 9.81 * 0.15 * std::sin(now.shaft_rad) / samples;
+    angle += now.shaft_rad / samples;
+  }
+  EXPECT_NEAR(torque, weight, 0.02);
+  EXPECT_GT(angle, 0.5);
 }
 
 }  // namespace

@@ -115,7 +115,8 @@ TEST(CsvFiles, SayAtOnceThatTheDiskIsFull) {
   const Scratch dir;
   fs::create_symlink("/dev/full", dir.path() / "energy.csv");
   const std::string message = message_of<InputError>([&] { CsvFiles(fake::tiny(), dir.path()); });
-  EXPECT_NE(message.find((dir.path() / "energy.csv").string() + ": can't write: No space left on device"), std::string::npos) << message;
+  EXPECT_NE(message.find((dir.path() / "energy.csv").string() + ": can't write: No space left on device"), std::string::npos)
+      << message;
 }
 
 TEST(CsvFiles, StopTheRecordWithPathAndReasonAndKeepWholeLinesOnAFullDisk) {

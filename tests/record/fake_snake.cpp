@@ -26,7 +26,9 @@ Shape shape(Kind kind, std::array<double, 3> size, std::array<float, 4> rgba, Po
 }
 
 LinkInfo module(int i) {
-  LinkInfo l{"snake::module_" + std::to_string(i + 1) + "::body", "snake", 0.45, false, {}, };
+  LinkInfo l{
+      "snake::module_" + std::to_string(i + 1) + "::body", "snake", 0.45, false, {},
+  };
   l.visuals.push_back(shape(Kind::box, {0.066, 0.066, 0.066}, {0.85f, 0.86f, 0.88f, 1}));
   const double s = std::sqrt(0.5);
   const Pose up{{0.0, 0.0, 0.034}, {1, 0, 0, 0}};

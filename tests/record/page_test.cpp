@@ -20,7 +20,9 @@ TEST(JsonString, NeverLeavesTheScriptElementItStandsIn) {
 
 TEST(JsonString, KeepsUtf8AndReplacesWhatIsNone) {
   EXPECT_EQ(json_string("Σ \U0001F40D"), "\"Σ \U0001F40D\"");
-  EXPECT_EQ(json_string("a\xff" "b"), R"("a\ufffdb")");
+  EXPECT_EQ(json_string("a\xff"
+                        "b"),
+            R"("a\ufffdb")");
   EXPECT_EQ(json_string("\xc0\xaf"), R"("\ufffd\ufffd")") << "an overlong '/'";
   EXPECT_EQ(json_string("\xed\xa0\x80"), R"("\ufffd\ufffd\ufffd")") << "a lone surrogate";
   EXPECT_EQ(json_string("\xe2\x82"), R"("\ufffd\ufffd")") << "cut short";

@@ -54,11 +54,17 @@ TEST_F(WorldServer, RunsPausesAndRunsToATime) {
   msgs::WorldControl request;
   ASSERT_EQ(ask(request), true) << "an absent pause lets it run";
   ASSERT_TRUE(served.wait_for([](const auto& world) { return world.time_ns() > 50'000'000; }));
-  request.mutable_run_to_sim_time()->set_sec(1);
+  request.set_pause(true);
   ASSERT_EQ(ask(request), true);
-  ASSERT_TRUE(served.wait_for([](const auto& world) { return world.time_ns() >= 1'000'000'000; }));
   ASSERT_TRUE(served.wait_for([this](const auto&) { return served.control.paused(); }));
-  EXPECT_EQ(served.time_ns(), 1'000'000'000);
+  const std::int64_t goal_ns = served.time_ns() + 1'000'000'000;
+  request.Clear();
+  request.mutable_run_to_sim_time()->set_sec(goal_ns / 1'000'000'000);
+  request.mutable_run_to_sim_time()->set_nsec(static_cast<int>(goal_ns % 1'000'000'000));
+  ASSERT_EQ(ask(request), true);
+  ASSERT_TRUE(served.wait_for([goal_ns](const auto& world) { return world.time_ns() >= goal_ns; }));
+  ASSERT_TRUE(served.wait_for([this](const auto&) { return served.control.paused(); }));
+  EXPECT_EQ(served.time_ns(), goal_ns);
 }
 
 TEST_F(WorldServer, ResetsToTheFirstSample) {

@@ -12,23 +12,36 @@ import { Stage } from './stage.js';
 const $ = (id) => document.getElementById(id);
 const run = readRun($('data').textContent);
 const playback = new Playback(run.start, run.end);
+const kHeadline = 4; // statistics beside the title; the others unfold
 let stage = null;
 let energyShown = run.actuators.length === 0;
+
+/** "1.89 m along the path": the number and its unit stand out, the rest explains. */
+function statistic(label, value) {
+  const item = document.createElement('div');
+  const dt = document.createElement('dt');
+  const dd = document.createElement('dd');
+  const [, number, rest] = /^([+−-]?[\d.]+(?:e[+-]?\d+)? ?(?:[^\s\d,]{1,7}(?=\s|,|$))?)(.*)$/s.exec(value) ?? [null, value, ''];
+  const lead = document.createElement('b');
+  const more = document.createElement('span');
+  dt.textContent = label;
+  lead.textContent = number;
+  more.textContent = rest;
+  dd.title = value;
+  dd.append(lead, more);
+  item.append(dt, dd);
+  return item;
+}
 
 function writeHeader() {
   document.title = `${run.title} – vsasim replay`;
   $('title').textContent = run.title;
   const count = run.actuators.length;
   $('subtitle').textContent = `world ${run.world} · ${count} actuator${count === 1 ? '' : 's'} · ${+(run.step_s * 1e3).toFixed(4)} ms steps`;
-  for (const [label, value] of run.summary) {
-    const item = document.createElement('div');
-    const dt = document.createElement('dt');
-    const dd = document.createElement('dd');
-    dt.textContent = label;
-    dd.textContent = value;
-    item.append(dt, dd);
-    $('summary').append(item);
-  }
+  const items = run.summary.map(([label, value]) => statistic(label, value));
+  $('summary').append(...items.slice(0, kHeadline));
+  $('more').hidden = items.length <= kHeadline;
+  $('more-list').append(...items.slice(kHeadline));
   for (const note of run.notes) {
     const p = document.createElement('p');
     p.textContent = note;
@@ -38,6 +51,8 @@ function writeHeader() {
 
 function makeStage() {
   try {
+    // Asked on a canvas of its own: three.js would log an error, and a context's settings can't be changed later.
+    if (!document.createElement('canvas').getContext('webgl2')) throw new Error('no webgl2 context');
     stage = new Stage(run, $('canvas'));
   } catch (error) {
     const message = $('view-message');

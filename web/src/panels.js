@@ -55,6 +55,7 @@ export function energyPanels() {
       lines: [
         ['supply', 'supply', 'solid'],
         ['given to the robot', 'delivered', 'dash'],
+        ['motor constants', 'conversion', 'dot'], // (K_b − K_τ)∫Iω dt: see actuator/ledger.hpp
       ],
     },
     {

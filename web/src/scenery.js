@@ -8,7 +8,7 @@ import { scenery } from './palette.js';
 const kGroundRadius = 120;
 
 /** One metre of ground: a line a metre, fainter ones each quarter. */
-function gridTexture(colors) {
+export function gridTexture(colors) {
   const n = 512;
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = n;
@@ -30,7 +30,6 @@ function gridTexture(colors) {
   }
   const texture = new THREE.CanvasTexture(canvas);
   texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
-  texture.repeat.set(2 * kGroundRadius, 2 * kGroundRadius);
   texture.colorSpace = THREE.SRGBColorSpace;
   texture.anisotropy = 16;
   return texture;
@@ -55,6 +54,9 @@ function skyDome() {
   dome.frustumCulled = false;
   return dome;
 }
+
+/** Drawn over a terrain's own colour. */
+export const kTerrainGrid = { ground: 0xffffff, line: '#b4b4b4', minor: '#dcdcdc' };
 
 export class Scenery {
   /** `size`: about how far the robot reaches, m; shadows are drawn that far around it. */
@@ -100,6 +102,7 @@ export class Scenery {
     for (const mesh of this.grounds) {
       mesh.material.map?.dispose();
       mesh.material.map = gridTexture(c);
+      mesh.material.map.repeat.set(2 * kGroundRadius, 2 * kGroundRadius);
       mesh.material.needsUpdate = true;
     }
   }

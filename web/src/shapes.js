@@ -35,20 +35,23 @@ export function geometryOf(shape, run, still) {
   }
 }
 
-/** Heights as light and shade: valleys darker, ridges lighter, around the SDF's own colour. */
+/** Heights as light and shade, valleys darker, ridges lighter, around the SDF's own colour; and a coordinate a metre for a grid. */
 export function shadeByHeight(geometry, rgba) {
   geometry.computeBoundingBox();
   const { min, max } = geometry.boundingBox;
   const at = geometry.getAttribute('position');
   const colors = new Float32Array(at.count * 3);
-  const base = new THREE.Color(rgba[0], rgba[1], rgba[2]);
+  const grid = new Float32Array(at.count * 2);
+  const base = new THREE.Color().setRGB(rgba[0], rgba[1], rgba[2], THREE.SRGBColorSpace);
   const color = new THREE.Color();
   for (let i = 0; i < at.count; ++i) {
     const part = max.z > min.z ? (at.getZ(i) - min.z) / (max.z - min.z) : 0.5;
     color.copy(base).multiplyScalar(0.72 + 0.5 * part);
     colors.set([color.r, color.g, color.b], 3 * i);
+    grid.set([at.getX(i), at.getY(i)], 2 * i);
   }
   geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3));
+  geometry.setAttribute('uv', new THREE.BufferAttribute(grid, 2));
 }
 
 export function materialOf(shape) {

@@ -5,7 +5,7 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { centrePath, frameAt, mainModel } from './data.js';
 import { dark, scenery } from './palette.js';
-import { Scenery } from './scenery.js';
+import { gridTexture, kTerrainGrid, Scenery } from './scenery.js';
 import { geometryOf, materialOf, place, shadeByHeight } from './shapes.js';
 import { Trace } from './trace.js';
 
@@ -19,6 +19,7 @@ export class Stage {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     this.renderer.toneMapping = THREE.NeutralToneMapping;
+    this.renderer.toneMappingExposure = 1.15;
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(34, 1, 0.01, 600);
     this.camera.up.set(0, 0, 1);
@@ -34,7 +35,8 @@ export class Stage {
     this.size = this.reach();
     this.scenery = new Scenery(this.renderer, this.scene, this.size);
     this.groups = run.links.map((link) => this.build(link));
-    this.trace = new Trace(run, this.path, this.restHeight());
+    const still = this.groups.filter((_, i) => run.links[i].pose);
+    this.trace = new Trace(run, this.path, this.restHeight(), still);
     this.scene.add(this.trace.group);
     this.controls.minDistance = this.size * 0.15;
     this.controls.maxDistance = 60;
@@ -75,8 +77,11 @@ export class Stage {
       const geometry = geometryOf(shape, this.run, still);
       if (!geometry) continue;
       geometry.computeBoundingBox();
-      if (shape.kind === 'heightmap') shadeByHeight(geometry, shape.rgba);
       const mesh = new THREE.Mesh(geometry, materialOf(shape));
+      if (shape.kind === 'heightmap') {
+        shadeByHeight(geometry, shape.rgba);
+        mesh.material.map = gridTexture(kTerrainGrid);
+      }
       // Triangles come in the link's frame already.
       if (shape.geometry === undefined) place(mesh, shape.pose);
       mesh.castShadow = shape.kind !== 'plane';

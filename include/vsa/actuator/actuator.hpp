@@ -30,6 +30,7 @@ struct ActuatorParams {
   drive::FrictionParams shaft_friction;
   sensor::EncoderParams encoder;         ///< all three alike
   double shaft_inertia_kgm2 = drive::kMissing;  ///< used as 1/A where a host can't tell the inverse inertia
+  bool operator==(const ActuatorParams&) const = default;
 };
 
 struct ActuatorState {
@@ -97,7 +98,8 @@ class Actuator {
 
   ActuatorParams params_;
   drive::MotorParams motor_;       // at the pulley
-  drive::FrictionParams friction_; // at the pulley
+  drive::Friction friction_;       // at the pulley
+  drive::Friction shaft_friction_;
   int motors_;
   std::array<Prepared, 2> prepared_{};  // the two step lengths used last
 };

@@ -23,6 +23,7 @@ struct UnitConfig {
   int polarity = 1;               ///< −1: motor wiring reversed against the encoder (qbmove advanced, with negative gains)
   double preset_max = 0.785;      ///< accepted |preset|
   double substep_max_s = 1e-3;    ///< longest physics segment, (0, 1 ms]
+  bool operator==(const UnitConfig&) const = default;
 };
 
 struct UnitState {
@@ -82,6 +83,7 @@ class Unit {
   void tick(UnitState& state, double shaft, const TickMail& mail) noexcept;
 
   UnitConfig config_;
+  drive::Friction shaft_friction_;
   actuator::Actuator actuator_;
 };
 

@@ -17,6 +17,15 @@ namespace vsa::drive {
 struct FrictionParams {
   double coulomb_Nm = 0;      ///< τ_c ≥ 0
   double presliding_rad = 0;  ///< z_max ≥ 0
+  bool operator==(const FrictionParams&) const = default;
+};
+
+/// The parameters with what every step needs of them, made once.
+struct Friction : FrictionParams {
+  // NOLINTNEXTLINE(google-explicit-constructor): the same law, only prepared
+  Friction(const FrictionParams& p) noexcept
+      : FrictionParams(p), stiffness(p.presliding_rad > 0 && p.coulomb_Nm > 0 ? p.coulomb_Nm / p.presliding_rad : 0.0) {}
+  double stiffness;  ///< τ_c/z_max, N·m/rad; 0 where there is no bristle
 };
 
 struct FrictionStep {
@@ -29,15 +38,15 @@ struct FrictionStep {
 ///   u           x − z at the start
 ///   free        displacement without this friction
 ///   compliance  displacement per mean torque, rad/(N·m), ≥ 0
-[[nodiscard]] FrictionStep solve_friction(const FrictionParams& p, double u, double free, double compliance) noexcept;
+[[nodiscard]] FrictionStep solve_friction(const Friction& p, double u, double free, double compliance) noexcept;
 
 /// The same law for a known displacement.
-[[nodiscard]] FrictionStep follow_friction(const FrictionParams& p, double u, double displacement) noexcept;
+[[nodiscard]] FrictionStep follow_friction(const Friction& p, double u, double displacement) noexcept;
 
 /// ½(τ_c/z_max)u², J; 0 where z_max = 0.
-[[nodiscard]] double bristle_energy(const FrictionParams& p, double u) noexcept;
+[[nodiscard]] double bristle_energy(const Friction& p, double u) noexcept;
 
 /// Energy turned to heat in a step that began at u, J; its own formula, ≥ 0 in every branch.
-[[nodiscard]] double friction_heat(const FrictionParams& p, double u, const FrictionStep& step) noexcept;
+[[nodiscard]] double friction_heat(const Friction& p, double u, const FrictionStep& step) noexcept;
 
 }  // namespace vsa::drive

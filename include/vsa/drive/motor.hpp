@@ -31,11 +31,13 @@ struct MotorParams {
   double back_emf_Vs_per_rad = kMissing;
   double resistance_Ohm = kMissing;
   std::optional<double> inductance_H;  ///< none: I follows V and ω at once
+  bool operator==(const MotorParams&) const = default;
 };
 
 struct GearboxParams {
   double ratio = 1.0;     ///< n = motor turns per pulley turn, > 0
   FrictionParams friction; ///< loss torque at the motor's shaft (eq. 5) and its presliding at the PULLEY
+  bool operator==(const GearboxParams&) const = default;
 };
 
 /// eq. (4)–(5): everything at the pulley.

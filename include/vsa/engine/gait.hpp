@@ -5,11 +5,11 @@
 //   y_n(t) = D + A r(t) sin(ω t + n π/λ + δ + s)          the paper's eq. (10); s = steering, on one group only       rad
 //   r(t)   = t/ramp_s below ramp_s, then 1: the body grows into the wave instead of jumping into it
 //
-// Commands are sent at every multiple of period_s: what is sent is a function of simulated time and, when steering, of where the model
-// has been. All memory is in GaitState, which is copyable; a copy of a Gait goes on exactly as the original.
+// Commands are sent at every multiple of period_s: what is sent is a function of simulated time and, when steering, of where the
+// model has been. All memory is in GaitState, which is copyable; a copy of a Gait goes on exactly as the original.
 //
-// Steering: the direction of travel is that of the model's centre of mass against where it was one gait period ago (so the wobble of
-// the cycle cancels). With ψ its angle about the world's z axis,
+// Steering: the direction of travel is that of the model's centre of mass against where it was one gait period ago (so the wobble
+// of the cycle cancels). With ψ its angle about the world's z axis,
 //   goal = clamp(gain · wrap(ψ_target − ψ), ±limit_rad),   s moves towards goal by at most slew_rad_per_s.
 // A model that moved less than min_travel_m in the period has no direction: the last one holds.
 //
@@ -27,14 +27,10 @@
 //   offset_deg = 0.0                  # D
 //   lambda = 5.0                      # λ: modules a half wave
 //   delta_deg = 0.0                   # δ
-//   preset_deg = 35.0                 # stiffness preset (half difference); a unit accepts up to its preset_max (0.785 rad = 44.98°)
-//   [steering]                        # optional
-//   group = "horizontal"
-//   gain = 1.0                        # rad/rad; negative turns the other way
-//   limit_rad = 0.8
-//   slew_rad_per_s = 0.35
-//   min_travel_m = 0.03
-//   target_deg = 90.0                 # in the world, from +x about +z; left out: the direction of travel after ramp and first period
+//   preset_deg = 35.0                 # stiffness preset (half difference); a unit accepts up to its preset_max (0.785 rad
+//   = 44.98°) [steering]                        # optional group = "horizontal" gain = 1.0                        # rad/rad;
+//   negative turns the other way limit_rad = 0.8 slew_rad_per_s = 0.35 min_travel_m = 0.03 target_deg = 90.0                 # in
+//   the world, from +x about +z; left out: the direction of travel after ramp and first period
 #pragma once
 
 #include <array>
@@ -69,7 +65,7 @@ struct SteeringParams {
 };
 
 struct GaitParams {
-  std::string file;                    ///< for messages
+  std::string file;  ///< for messages
   std::string title;
   double frequency_rad_per_s = 0;
   double ramp_s = 0;
@@ -82,20 +78,22 @@ struct SteeringState {
   std::vector<std::array<double, 2>> trail;  ///< the last period's centres of mass, oldest first
   std::optional<double> heading_rad;         ///< direction of travel
   std::optional<double> target_rad;
-  double phase_rad = 0;                      ///< s
+  double phase_rad = 0;  ///< s
 };
 
 /// One control period of steering; `window` is a gait period in samples, `engaged` false while the gait still ramps up.
-void steer(const SteeringParams& params, SteeringState& state, std::array<double, 2> center, std::size_t window, double dt_s, bool engaged);
+void steer(const SteeringParams& params, SteeringState& state, std::array<double, 2> center, std::size_t window, double dt_s,
+           bool engaged);
 
 struct GaitState {
-  std::int64_t last_slot = -1;               ///< time_ns / period_ns of the last commands
+  std::int64_t last_slot = -1;  ///< time_ns / period_ns of the last commands
   SteeringState steering;
 };
 
 class Gait {
  public:
-  /// Throws InputError with every problem: missing file, syntax, unknown or missing keys, NaN, numbers out of range, doubled actuators.
+  /// Throws InputError with every problem: missing file, syntax, unknown or missing keys, NaN, numbers out of range, doubled
+  /// actuators.
   [[nodiscard]] static Gait load(const std::filesystem::path& file);
   explicit Gait(GaitParams params) : params_(std::move(params)) {}
 
@@ -117,7 +115,7 @@ class Gait {
 
   GaitParams params_;
   GaitState state_;
-  std::string model_;   // whose centre of mass steers
+  std::string model_;  // whose centre of mass steers
   bool bound_ = false;
 };
 

@@ -32,6 +32,7 @@ struct LoopParams {
   bool limits_on = true;
   std::array<int, 3> resolution{1, 1, 1};               ///< 0…8
   bool supply_limit = true;                             ///< false: full duty at any supply (advanced unit)
+  bool operator==(const LoopParams&) const = default;
 };
 
 struct LoopState {

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The CSV files of a recording (RFC 4180 quoting, "\n" line ends, "." decimal point, shortest digits that read back the same double):
+// The CSV files of a recording (RFC 4180 quoting, "\n" line ends, "." decimal point, shortest digits that read back the same
+// double):
 //
 //   MODEL_actuators.csv  one a robot, long form, one line an actuator and sample:
 //     time_s,actuator,shaft_rad,shaft_speed_rad_per_s,equilibrium_command_rad,equilibrium_rad,preset_command_rad,preset_rad,
@@ -8,7 +9,8 @@
 //     The preset's columns end in its law's unit; where a robot mixes laws, a last column preset_unit tells. One-motor
 //     actuators leave the second motor's cells empty.
 //   links.csv            time_s,link,x_m,y_m,z_m,qw,qx,qy,qz   pose in the world of every link that isn't static
-//   energy.csv           time_s, the energy ledger summed over all actuators (actuator/ledger.hpp), kinetic_J and gravitational_J of
+//   energy.csv           time_s, the energy ledger summed over all actuators (actuator/ledger.hpp), kinetic_J and gravitational_J
+//   of
 //                        all bodies
 //
 // A sample is appended as whole lines with one write a file, so that a run that ends badly leaves whole lines.
@@ -24,8 +26,8 @@ namespace vsa::record {
 
 class CsvFiles {
  public:
-  /// Makes the directory where it is missing, replaces the files, writes the headers. Throws InputError with every file that can't be
-  /// written and why.
+  /// Makes the directory where it is missing, replaces the files, writes the headers. Throws InputError with every file that can't
+  /// be written and why.
   CsvFiles(const RunInfo& info, const std::filesystem::path& directory);
   ~CsvFiles();
   CsvFiles(const CsvFiles&) = delete;

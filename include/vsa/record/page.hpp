@@ -23,8 +23,8 @@ struct PageText {
   std::vector<std::string> notes;  ///< what a reader must know, e.g. why the run ended early
 };
 
-/// Collects frames at the page's rate. When `frames_max` is reached every other frame is dropped and the rate is halved from then on,
-/// so that a long run gives a page of bounded size.
+/// Collects frames at the page's rate. When `frames_max` is reached every other frame is dropped and the rate is halved from then
+/// on, so that a long run gives a page of bounded size.
 class PageData {
  public:
   PageData(const RunInfo& info, double rate_Hz, std::size_t frames_max);
@@ -54,8 +54,8 @@ class PageData {
 /// Writes template + data to `file`: beside it first, then renamed, so that there is never half a page. Throws RecordError.
 void write_page(const std::filesystem::path& file, std::string_view page_template, std::string_view json);
 
-/// Text as a JSON string that is safe inside <script>: quotes included, '<', '>', '&' and line separators escaped, bytes that aren't
-/// UTF-8 replaced.
+/// Text as a JSON string that is safe inside <script>: quotes included, '<', '>', '&' and line separators escaped, bytes that
+/// aren't UTF-8 replaced.
 [[nodiscard]] std::string json_string(std::string_view text);
 
 /// Standard base64 of the floats' little-endian bytes.

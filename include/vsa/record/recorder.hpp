@@ -21,10 +21,10 @@
 namespace vsa::record {
 
 struct RecorderOptions {
-  double rate_Hz = 100;                  ///< of the CSV files, (0, 1e6]
-  double page_rate_Hz = 50;              ///< of the page, (0, 1e6]; halved as often as page_frames_max asks
-  std::size_t page_frames_max = 4000;    ///< at least 2
-  std::string title;                     ///< of the page; empty: the world's name
+  double rate_Hz = 100;                ///< of the CSV files, (0, 1e6]
+  double page_rate_Hz = 50;            ///< of the page, (0, 1e6]; halved as often as page_frames_max asks
+  std::size_t page_frames_max = 4000;  ///< at least 2
+  std::string title;                   ///< of the page; empty: the world's name
   /// Empty: data_directory()/web/replay.html.
   std::filesystem::path page_template;
 };

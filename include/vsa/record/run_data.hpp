@@ -19,11 +19,11 @@ namespace vsa::record {
 
 struct ActuatorInfo {
   std::string name;
-  std::string joint;               ///< scoped joint name, as configured
-  std::string preset;              ///< the actuator preset's name
-  std::string preset_unit = "rad"; ///< the law's; "" where it has no preset
-  int motors = 2;                  ///< 1 or 2: columns of a missing motor stay empty
-  std::vector<std::size_t> links;  ///< into RunInfo::links: the bodies to highlight for it
+  std::string joint;                ///< scoped joint name, as configured
+  std::string preset;               ///< the actuator preset's name
+  std::string preset_unit = "rad";  ///< the law's; "" where it has no preset
+  int motors = 2;                   ///< 1 or 2: columns of a missing motor stay empty
+  std::vector<std::size_t> links;   ///< into RunInfo::links: the bodies to highlight for it
 };
 
 struct RobotInfo {
@@ -65,8 +65,8 @@ class RecordError : public std::runtime_error {
 [[nodiscard]] std::vector<std::size_t> links_of_joint(std::string_view model, std::string_view joint, std::size_t actuator_index,
                                                       const std::vector<engine::LinkInfo>& links);
 
-/// Decides by integer time which steps are samples: the first step at or after each multiple of the period (rounded to 1 ns), so that
-/// sample times never drift and a rate above the step rate takes every step.
+/// Decides by integer time which steps are samples: the first step at or after each multiple of the period (rounded to 1 ns), so
+/// that sample times never drift and a rate above the step rate takes every step.
 class Cadence {
  public:
   explicit Cadence(double rate_Hz);

@@ -17,6 +17,7 @@ namespace vsa::sensor {
 struct EncoderParams {
   int bits = 12;        ///< 1…16
   double zero_rad = 0;  ///< reading = angle + zero
+  bool operator==(const EncoderParams&) const = default;
 };
 
 /// Position within the turn in raw units (65536 a turn), as a signed 16-bit number: −32768…32767.
