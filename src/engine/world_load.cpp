@@ -122,7 +122,12 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
 }
 
 World World::load(const std::filesystem::path& sdf, WorldOptions options) {
-  return World(Impl::load({sdf, {}}, std::move(options)));
+  std::filesystem::path file = sdf;
+  // A bare name that is no file here may be a built-in world's.
+  if (!sdf.has_parent_path() && !std::filesystem::exists(sdf)) {
+    if (auto built_in = config::find_data("models/worlds" / sdf)) file = *built_in;
+  }
+  return World(Impl::load({file, {}}, std::move(options)));
 }
 
 World World::load_string(std::string_view sdf, WorldOptions options) { return World(Impl::load({{}, sdf}, std::move(options))); }

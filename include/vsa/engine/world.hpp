@@ -2,7 +2,7 @@
 //
 // The embedded simulator for C++ users.
 //
-//   auto world = vsa::engine::World::load("models/worlds/snake_flat.sdf");
+//   auto world = vsa::engine::World::load("snake_flat.sdf");
 //   world.command("joint_1", 0.5, 0.2);
 //   world.run(2.0);
 //   auto now = world.read("joint_1");
@@ -69,7 +69,7 @@ struct ActuatorRef {
 
 class World {
  public:
-  /// Throws InputError with all problems.
+  /// A file, or the name of a built-in world ("snake_flat.sdf"). Throws InputError with all problems.
   [[nodiscard]] static World load(const std::filesystem::path& sdf, WorldOptions options = {});
   [[nodiscard]] static World load_string(std::string_view sdf, WorldOptions options = {});
   ~World();
