@@ -23,7 +23,7 @@ build: setup
 demo: setup
 	@cmake --preset release > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa -- --quiet
-	@$(VSA) run snake_rubble --duration-s 20 --gait steered --record out/demo --no-topics
+	@$(VSA) run snake_rubble --duration-s 20 --gait climb --record out/demo --no-topics
 
 test:
 	@sh scripts/setup.sh test

@@ -75,7 +75,8 @@ void robot_step(benchmark::State& state) {
     ++n;
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(count) * state.iterations());
-  state.counters["real_time_factor"] = benchmark::Counter(1e-3 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["real_time_factor"] =
+      benchmark::Counter(1e-3 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 BENCHMARK(robot_step)->Arg(1)->Arg(12)->Arg(1000);
 

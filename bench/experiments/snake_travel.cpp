@@ -118,14 +118,8 @@ void place(World& world, int start, int starts) {
   world.displace_model("qbmove_snake", yaw_deg * vsa::kPi / 180, {x, y, 0});
 }
 
-/// libsdformat 12 crashes where two threads are in sdf::Root::Load at once; stepping worlds in several threads is fine.
-World loaded(const std::string& name, std::mutex& loading) {
-  const std::scoped_lock guard(loading);
-  return World::load(kModels / "worlds" / ("snake_" + name + ".sdf"));
-}
-
-void travel(Run& run, const Options& o, std::mutex& loading) {
-  World world = loaded(run.world, loading);
+void travel(Run& run, const Options& o) {
+  World world = World::load(kModels / "worlds" / ("snake_" + run.world + ".sdf"));
   const auto began = std::chrono::steady_clock::now();
   Gait gait = Gait::load(kModels / "gaits" / (run.gait + ".toml"));
   place(world, run.start, o.starts);
@@ -234,11 +228,11 @@ std::vector<Run> run_all(const Options& o) {
     }
   }
   std::atomic<std::size_t> next{0};
-  std::mutex lock, loading;
+  std::mutex lock;
   const auto work = [&] {
     for (std::size_t i = next++; i < runs.size(); i = next++) {
       try {
-        travel(runs[i], o, loading);
+        travel(runs[i], o);
       } catch (const std::exception& error) {
         runs[i].error = error.what();
       }

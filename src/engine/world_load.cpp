@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "sdf_world.hpp"
 #include "vsa/config/plugin_xml.hpp"
@@ -12,6 +13,9 @@
 
 namespace vsa::engine {
 namespace {
+
+// libsdformat keeps global state while it reads: two threads in sdf::Root::Load crash.
+std::mutex reading;
 
 constexpr double kStepMin_s = 1e-6, kStepMax_s = 16e-3;
 
@@ -111,7 +115,10 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
   auto impl = std::make_unique<World::Impl>();
   impl->options = std::move(options);
   Problems problems;
-  impl->world = read_sdf(source, impl->options.model_path, impl->warnings, problems);
+  {
+    const std::scoped_lock lock(reading);
+    impl->world = read_sdf(source, impl->options.model_path, impl->warnings, problems);
+  }
   impl->dt_ns = step_ns(impl->options, impl->world, source.label(), problems);
   impl->add_robots(source.label(), problems);
   problems.throw_if_any();

@@ -12,26 +12,25 @@
 
 namespace vsa::host {
 
-struct Command {
+/// What one channel of an actuator is to do from the next step on.
+struct Order {
   std::size_t actuator;
   Robot::Channel channel;
   std::shared_ptr<const std::vector<Robot::Knot>> knots;
 };
 
+inline Order make_order(std::size_t actuator, Robot::Channel channel, std::vector<Robot::Knot> knots) {
+  return {actuator, channel, std::make_shared<const std::vector<Robot::Knot>>(std::move(knots))};
+}
+
 /// Commands from any thread, in order of arrival. The stepping thread takes no lock while nothing waits, and allocates nothing: it
 /// swaps two vectors.
 class CommandQueue {
  public:
-  struct Item {
-    std::size_t actuator;
-    Robot::Channel channel;
-    std::vector<Robot::Knot> knots;
-  };
-
-  void push(Item item) {
-    Command c{item.actuator, item.channel, std::make_shared<const std::vector<Robot::Knot>>(std::move(item.knots))};
+  /// All of them, so that no step falls between.
+  void push(std::vector<Order> orders) {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back(std::move(c));
+    for (Order& order : orders) waiting_.push_back(std::move(order));
     any_.store(true, std::memory_order_release);
   }
 
@@ -43,7 +42,7 @@ class CommandQueue {
       std::swap(waiting_, taken_);
       any_.store(false, std::memory_order_relaxed);
     }
-    for (Command& c : taken_) take(c);
+    for (Order& order : taken_) take(order);
     taken_.clear();
   }
 
@@ -55,7 +54,7 @@ class CommandQueue {
 
  private:
   std::mutex mutex_;
-  std::vector<Command> waiting_, taken_;
+  std::vector<Order> waiting_, taken_;
   std::atomic<bool> any_{false};
 };
 

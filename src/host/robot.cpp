@@ -20,7 +20,8 @@ void check_whole(const RobotConfig& config) {
     for (std::size_t j = 0; j < i; ++j) {
       const ActuatorConfig& b = config.actuators[j];
       if (a.name == b.name) problems.add({"", a.name, "", "two actuators have this name", "unique names"});
-      if (a.joint == b.joint) problems.add({"", a.name, a.joint, "joint is driven by " + b.name + " already", "one actuator a joint"});
+      if (a.joint == b.joint)
+        problems.add({"", a.name, a.joint, "joint is driven by " + b.name + " already", "one actuator a joint"});
       if (a.bus == b.bus && a.id == b.id)
         problems.add({"", a.name, std::to_string(a.id), "id is used by " + b.name + " on the same bus", "unique ids on a bus"});
     }
@@ -66,7 +67,7 @@ struct Robot::Impl {
   }
 
   void take_commands() noexcept {
-    queue.drain([this](Command& c) {
+    queue.drain([this](Order& c) {
       ActuatorSlot& slot = state.actuators[c.actuator];
       (c.channel == Channel::equilibrium ? slot.equilibrium : slot.preset).begin(std::move(c.knots), state.time_ns);
       note_range(c.actuator);
@@ -102,8 +103,8 @@ struct Robot::Impl {
   std::vector<std::shared_ptr<device::Unit>> distinct;
   std::vector<bus::Schedule> schedules;
   std::vector<const bus::Schedule*> schedule_of;  // one an actuator
-  std::vector<std::size_t> order;  // by id
-  std::vector<int> place;          // the unit's place on its bus, 0 = first
+  std::vector<std::size_t> order;                 // by id
+  std::vector<int> place;                         // the unit's place on its bus, 0 = first
   RobotState state, initial;
   CommandQueue queue;
   NoticeList notices;
@@ -171,17 +172,27 @@ void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const Joint
     const double inverse = in[i].inverse_inertia ? *in[i].inverse_inertia : 1.0 / d.units[i]->config().actuator.shaft_inertia_kgm2;
     slot.shaft_rad = in[i].angle_rad;
     torques_out[i] = d.units[i]->step(slot.unit, t_ns, dt_ns, {in[i].angle_rad, in[i].speed_rad_per_s, inverse},
-                                     {mail.data(), static_cast<std::size_t>(ticks)});
+                                      {mail.data(), static_cast<std::size_t>(ticks)});
   }
   d.state.time_ns = t_ns + dt_ns;
 }
 
 bool Robot::command(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset) {
-  if (actuator >= size()) return false;
-  if (equilibrium_rad && !std::isfinite(*equilibrium_rad)) return false;
-  if (preset && !std::isfinite(*preset)) return false;
-  if (equilibrium_rad) impl_->queue.push({actuator, Channel::equilibrium, {{0.0, *equilibrium_rad}}});
-  if (preset) impl_->queue.push({actuator, Channel::preset, {{0.0, *preset}}});
+  const Command one{actuator, equilibrium_rad, preset};
+  return command(std::span(&one, 1));
+}
+
+bool Robot::command(std::span<const Command> commands) {
+  for (const Command& c : commands) {
+    if (c.actuator >= size()) return false;
+    if (!std::isfinite(c.equilibrium_rad.value_or(0.0)) || !std::isfinite(c.preset.value_or(0.0))) return false;
+  }
+  std::vector<Order> orders;
+  for (const Command& c : commands) {
+    if (c.equilibrium_rad) orders.push_back(make_order(c.actuator, Channel::equilibrium, {{0.0, *c.equilibrium_rad}}));
+    if (c.preset) orders.push_back(make_order(c.actuator, Channel::preset, {{0.0, *c.preset}}));
+  }
+  impl_->queue.push(std::move(orders));
   return true;
 }
 
@@ -192,7 +203,7 @@ bool Robot::follow(std::size_t actuator, Channel channel, std::vector<Knot> knot
     if (!std::isfinite(k.time_s) || !std::isfinite(k.value) || k.time_s < 0 || k.time_s <= last || k.time_s > 1e9) return false;
     last = k.time_s;
   }
-  impl_->queue.push({actuator, channel, std::move(knots)});
+  impl_->queue.push({make_order(actuator, channel, std::move(knots))});
   return true;
 }
 
@@ -235,10 +246,11 @@ std::vector<Notice> Robot::take_notices() {
     const ActuatorConfig& a = impl_->config.actuators[n.actuator];
     const auto unit = std::string(a.unit.actuator.transmission->preset_unit());
     const std::string limit = std::to_string(a.unit.preset_max);
-    out.push_back({n.actuator, n.kind == NoticeKind::preset
-                                   ? a.name + ": preset " + std::to_string(n.value) + " " + unit + " is beyond ±" + limit + ": clamped"
-                                   : a.name + ": equilibrium " + std::to_string(n.value) +
-                                         " rad with this preset drives a motor beyond its limits: clamped as the unit does"});
+    out.push_back(
+        {n.actuator, n.kind == NoticeKind::preset
+                         ? a.name + ": preset " + std::to_string(n.value) + " " + unit + " is beyond ±" + limit + ": clamped"
+                         : a.name + ": equilibrium " + std::to_string(n.value) +
+                               " rad with this preset drives a motor beyond its limits: clamped as the unit does"});
   }
   return out;
 }

@@ -46,10 +46,10 @@ struct Track {
 struct ActuatorSlot {
   device::UnitState unit;
   Track equilibrium, preset;
-  std::int64_t cycle = 0;           ///< the next bus cycle whose frame this unit hasn't had
-  bool sent = false;                ///< that frame is on the wire, with the contents below
+  std::int64_t cycle = 0;  ///< the next bus cycle whose frame this unit hasn't had
+  bool sent = false;       ///< that frame is on the wire, with the contents below
   std::array<Ticks, 2> sent_inputs{};
-  std::int64_t reply_due_ns = -1;   ///< when the unit answers GET_MEASUREMENTS; −1: answered
+  std::int64_t reply_due_ns = -1;  ///< when the unit answers GET_MEASUREMENTS; −1: answered
   double shaft_rad = 0;
   std::array<Ticks, 3> measured{};
   bool noted_preset = false, noted_limits = false;

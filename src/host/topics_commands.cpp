@@ -69,7 +69,9 @@ void TopicCommands::array(const std::string& topic, const ActuatorsCmd& message)
     refuse(topic, Fault::not_finite, not_finite_text(*bad));
     return;
   }
-  for (std::size_t i = 0; i < n; ++i) robot_.command(i, values[i], values[n + i]);
+  std::vector<Robot::Command> commands;
+  for (std::size_t i = 0; i < n; ++i) commands.push_back({i, values[i], values[n + i]});
+  robot_.command(commands);
 }
 
 bool TopicCommands::find_targets(const std::string& topic, const Trajectory& message, std::vector<Target>& targets) {
@@ -135,16 +137,13 @@ void TopicCommands::trajectory(const std::string& topic, const Trajectory& messa
 }
 
 void TopicCommands::apply_point(const std::vector<Target>& targets, const std::vector<double>& values) {
-  // An actuator's two channels go in one command.
-  struct Both {
-    std::optional<double> equilibrium, preset;
-  };
-  std::map<std::size_t, Both> commands;
+  std::vector<Robot::Command> commands;
   for (std::size_t k = 0; k < targets.size(); ++k) {
-    Both& both = commands[targets[k].actuator];
-    (targets[k].channel == Robot::Channel::equilibrium ? both.equilibrium : both.preset) = values[k];
+    Robot::Command& c = commands.emplace_back();
+    c.actuator = targets[k].actuator;
+    (targets[k].channel == Robot::Channel::equilibrium ? c.equilibrium_rad : c.preset) = values[k];
   }
-  for (const auto& [actuator, both] : commands) robot_.command(actuator, both.equilibrium, both.preset);
+  robot_.command(commands);
 }
 
 }  // namespace vsa::host

@@ -111,6 +111,18 @@ TEST(Robot, RefusesWhatIsNotANumber) {
   EXPECT_EQ(bench.robot.read(0).equilibrium_command_rad, 0.0);
 }
 
+TEST(Robot, SeveralCommandsActTogetherOrNotAtAll) {
+  Bench bench(chain(2));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Robot::Command> good{{0, 0.1, 0.2}, {1, 0.3, std::nullopt}}, bad{{0, 0.7, 0.7}, {1, nan, 0.7}};
+  EXPECT_TRUE(bench.robot.command(good));
+  EXPECT_FALSE(bench.robot.command(bad));
+  bench.step();
+  EXPECT_EQ(bench.robot.read(0).equilibrium_command_rad, 0.1);
+  EXPECT_EQ(bench.robot.read(0).preset_command, 0.2);
+  EXPECT_EQ(bench.robot.read(1).equilibrium_command_rad, 0.3);
+}
+
 TEST(Robot, OutOfRangeCommandsAreClampedAndReportedOnce) {
   Bench bench(chain(1));
   for (int n = 0; n < 5; ++n) {

@@ -69,7 +69,8 @@ struct ActuatorRef {
 
 class World {
  public:
-  /// A file, or the name of a built-in world ("snake_flat.sdf"). Throws InputError with all problems.
+  /// A file, or the name of a built-in world ("snake_flat.sdf"). Throws InputError with all problems. Safe from several
+  /// threads at once (reading takes turns); a World itself belongs to one thread, but for commands.
   [[nodiscard]] static World load(const std::filesystem::path& sdf, WorldOptions options = {});
   [[nodiscard]] static World load_string(std::string_view sdf, WorldOptions options = {});
   ~World();

@@ -105,6 +105,13 @@ class Robot {
   /// From any thread; taken at the next step's start in order of arrival. NaN or infinity: refused (false). None: keep.
   bool command(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset);
 
+  /// Several at once: all take effect in the same step, or none where one is refused (false).
+  struct Command {
+    std::size_t actuator = 0;
+    std::optional<double> equilibrium_rad, preset;
+  };
+  bool command(std::span<const Command> commands);
+
   /// A trajectory in simulated time: knots (time after its start, value), linear between, last value held. It replaces what that
   /// channel had. Empty or non-increasing knots or non-finite numbers: refused (false).
   struct Knot {
