@@ -123,7 +123,8 @@ TEST(Chain, StaticDeflectionUnderALoadFollowsTheClosedForm) {
   const double load = 0.3 * 9.81 * 0.15 * std::sin(r.shaft_rad);
   const double x = load / (2 * 0.022 * std::cosh(6.85 * r.preset));
   const double deflection = std::asinh(x) / 6.85;
-  EXPECT_NEAR(std::abs(r.deflection_rad), deflection, 0.01 / r.stiffness_Nm_per_rad + 1e-3) << "the shaft's friction holds 0.01 N·m";
+  EXPECT_NEAR(std::abs(r.deflection_rad), deflection, 0.01 / r.stiffness_Nm_per_rad + 1e-3)
+      << "the shaft's friction holds 0.01 N·m";
   EXPECT_NEAR(std::abs(r.torque_Nm), load, 0.01) << "what is left of the swing";
 }
 
