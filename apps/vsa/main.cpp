@@ -8,6 +8,7 @@
 #include "actuators.hpp"
 #include "command.hpp"
 #include "exit_codes.hpp"
+#include "interrupt.hpp"
 #include "run.hpp"
 #include "vsa/errors.hpp"
 
@@ -21,7 +22,18 @@ constexpr const char* kExamples = R"(Examples:
 
 Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 130 or 143 a run with a duration that a signal cut short.)";
 
+/// An unset shell variable in quotes. CLI11 takes it for an absent value; a user wants to know.
+void refuse_empty(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (*argv[i] != '\0') continue;
+    const std::string before = i > 1 ? argv[i - 1] : "the first argument";
+    throw vsa::InputError({"", before, "\"\"", "an empty argument", "a name, a path or a number"});
+  }
+}
+
 int run_application(int argc, char** argv) {
+  vsa::app::survive_broken_pipes();
+  refuse_empty(argc, argv);
   CLI::App app{"vsa: simulates robots built of variable stiffness actuators", "vsa"};
   app.set_version_flag("--version", "vsa " VSA_VERSION);
   app.require_subcommand(1);

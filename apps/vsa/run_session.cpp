@@ -52,9 +52,10 @@ RunSession::RunSession(const RunOptions& options, Console& console)
       travel_cadence_(kTravelRate_Hz) {
   for (const auto& warning : world_.warnings()) console_.line("warning: " + warning);
   if (gait_) gait_->bind(world_);
-  if (!options.record.empty()) recorder_.emplace(world_, options.record, recorder_options());
   const auto report = [&console](const std::string& line) { console.line(line); };
   if (!options.no_topics) server_.emplace(world_, control_, report);
+  // Last, so that a run that is refused has not touched an earlier record.
+  if (!options.record.empty()) recorder_.emplace(world_, options.record, recorder_options());
   if (duration_s_) end_ns_ = world_.time_ns() + std::llround(*duration_s_ * 1e9);
 }
 

@@ -10,7 +10,8 @@ int main() {
   const auto before = world.snapshot();
   world.run(2.0);
   const auto now = world.read(joint);
-  std::printf("shaft %.3f rad, stiffness %.2f N·m/rad, current %.2f A\n", now.shaft_rad, now.stiffness_Nm_per_rad, now.current_A[0]);
+  std::printf("shaft %.3f rad, stiffness %.2f N·m/rad, current %.2f A\n", now.shaft_rad, now.stiffness_Nm_per_rad,
+              now.current_A[0]);
   world.restore(*before);
   std::printf("back at %.3f s\n", world.time_s());
 }

@@ -35,9 +35,7 @@ class InputError : public std::runtime_error {
 class Problems {
  public:
   void add(Problem problem) { list_.push_back(std::move(problem)); }
-  void add_all(const InputError& error) {
-    list_.insert(list_.end(), error.problems().begin(), error.problems().end());
-  }
+  void add_all(const InputError& error) { list_.insert(list_.end(), error.problems().begin(), error.problems().end()); }
   [[nodiscard]] bool empty() const noexcept { return list_.empty(); }
   [[nodiscard]] const std::vector<Problem>& list() const noexcept { return list_; }
   void throw_if_any() const {

@@ -10,8 +10,8 @@ namespace vsa::actuator {
 namespace {
 
 constexpr int kMaxIterations = 60;
-// Newton converges quadratically: a last correction that moves a load by this fraction leaves about its square. What it leaves is not
-// lost but booked as integrator error.
+// Newton converges quadratically: a last correction that moves a load by this fraction leaves about its square. What it leaves is
+// not lost but booked as integrator error.
 constexpr double kRelativeTolerance = 1e-4;
 constexpr double kAbsoluteTolerance_Nm = 1e-6;
 
@@ -74,7 +74,8 @@ const drive::MotorStepper& Actuator::stepper(double h_s, drive::Terminal termina
   return terminal == drive::Terminal::driven ? prepared_[0].driven : prepared_[0].open;
 }
 
-Actuator::Pulleys Actuator::solve(const ActuatorState& s, const drive::MotorStepper& stepper, const SegmentInput& in) const noexcept {
+Actuator::Pulleys Actuator::solve(const ActuatorState& s, const drive::MotorStepper& stepper,
+                                  const SegmentInput& in) const noexcept {
   const double c = stepper.compliance();
   const elastic::Positions from = positions(s, s.shaft);
   std::array<double, 2> free{}, u{};

@@ -24,7 +24,8 @@ std::int16_t to_ticks(double rad, int resolution) noexcept {
 
 }  // namespace
 
-Unit::Unit(UnitConfig config) : config_(std::move(config)), shaft_friction_(config_.actuator.shaft_friction), actuator_(config_.actuator) {}
+Unit::Unit(UnitConfig config)
+    : config_(std::move(config)), shaft_friction_(config_.actuator.shaft_friction), actuator_(config_.actuator) {}
 
 int Unit::ticks_in(std::int64_t t_ns, std::int64_t dt_ns) noexcept {
   const std::int64_t first = (t_ns + kTickNs - 1) / kTickNs;

@@ -58,9 +58,7 @@ FrictionStep solve_friction(const Friction& p, double u, double free, double com
   return step;
 }
 
-double bristle_energy(const Friction& p, double u) noexcept {
-  return 0.5 * p.stiffness * u * u;
-}
+double bristle_energy(const Friction& p, double u) noexcept { return 0.5 * p.stiffness * u * u; }
 
 double friction_heat(const Friction& p, double u, const FrictionStep& step) noexcept {
   if (p.coulomb_Nm <= 0) return 0.0;

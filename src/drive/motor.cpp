@@ -83,9 +83,9 @@ Plant plant(const MotorParams& m, Terminal terminal) noexcept {
 
 /// Integrals over a step that doubling carries from h/2^k to h.
 struct Integrals {
-  Matrix phi{};                  // z at the end
-  Vector speed{}, current{};     // ∫ω, ∫I as rows
-  Matrix ii{}, ww{}, iw{};       // ∫I², ∫ω², ∫Iω as forms
+  Matrix phi{};               // z at the end
+  Vector speed{}, current{};  // ∫ω, ∫I as rows
+  Matrix ii{}, ww{}, iw{};    // ∫I², ∫ω², ∫Iω as forms
 };
 
 void add_outer(Matrix& sum, const Vector& a, const Vector& b, double w) noexcept {

@@ -105,7 +105,12 @@ toml::table with_bases(const std::filesystem::path& file, int depth) {
   if (!base) throw InputError(Problem{file.string(), "base", "", "not a file name", ""});
   if (depth >= kMaxBases)
     throw InputError(Problem{file.string(), "base", *base, "too many bases one upon the other", fmt::format("{}", kMaxBases)});
-  toml::table whole = with_bases(file.parent_path() / *base, depth + 1);
+  const std::filesystem::path below = file.parent_path() / *base;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(below, ignored)) {
+    throw InputError(Problem{file.string(), "base", *base, "no such file", "a gait file beside this one"});
+  }
+  toml::table whole = with_bases(below, depth + 1);
   own.erase("base");
   overlay(whole, own);
   return whole;

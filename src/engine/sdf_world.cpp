@@ -6,6 +6,7 @@
 #include <sdf/Root.hh>
 #include <sdf/World.hh>
 
+#include "includes.hpp"
 #include "read_context.hpp"
 #include "sdf_parse.hpp"
 
@@ -70,6 +71,7 @@ WorldDescription read_sdf(const SdfSource& source, const std::vector<fs::path>& 
   const Finder finder(model_path);
   Notes notes;
   ReadContext context{out, problems, notes, finder, source.label(), base, true};
+  if (!check_includes(source, context)) return out;
   sdf::Root root;
   parse_sdf(source, context, root);
   read_root(context, root);

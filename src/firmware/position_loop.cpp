@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::int32_t kPwmMax = 100;
 constexpr std::int32_t kErrorSumMax = 100000;
-constexpr std::int32_t kFarError = 131072;      // 2¹⁷: beyond it the P product is shifted early
-constexpr std::int32_t kTurnJump = 49152;       // a jump past this is the wrap of the turn
-constexpr std::int32_t kSuspectJump = 16384;    // a quarter turn in a tick is not believed …
-constexpr std::uint8_t kBelieveAfter = 10;      // … unless it stays for ten ticks
-constexpr std::int32_t kFilterAlpha = 3;        // of 1024 a tick: τ ≈ 341 ms
+constexpr std::int32_t kFarError = 131072;    // 2¹⁷: beyond it the P product is shifted early
+constexpr std::int32_t kTurnJump = 49152;     // a jump past this is the wrap of the turn
+constexpr std::int32_t kSuspectJump = 16384;  // a quarter turn in a tick is not believed …
+constexpr std::uint8_t kBelieveAfter = 10;    // … unless it stays for ten ticks
+constexpr std::int32_t kFilterAlpha = 3;      // of 1024 a tick: τ ≈ 341 ms
 
 /// Percent PWM that gives about 8 V, by supply in steps of 512 mV from 8 V. The makers measured these.
 constexpr std::array<std::uint8_t, 36> kEightVoltPwm{100, 76, 71, 69, 67, 65, 63, 61, 60, 58, 57, 56, 55, 54, 53, 52, 51, 50,

@@ -92,6 +92,7 @@ std::string file_stem(std::string_view model) {
 }
 
 struct CsvFiles::Impl {
+  DirectoryLock lock;
   struct Robot {
     std::vector<std::string> names;  // quoted
     std::vector<int> motors;
@@ -149,10 +150,13 @@ CsvFiles::CsvFiles(const RunInfo& info, const fs::path& directory) : impl_(std::
   std::error_code error;
   fs::create_directories(directory, error);
   // "File exists" and friends differ between systems; say what matters.
-  if (fs::exists(directory) && !fs::is_directory(directory)) {
+  std::error_code ignored;
+  if (fs::exists(directory, ignored) && !fs::is_directory(directory, ignored)) {
     throw InputError(Problem{directory.string(), "", "", "can't record there: it is a file, not a directory", ""});
   }
   if (error) throw InputError(Problem{directory.string(), "", "", "can't make the directory: " + error.message(), ""});
+
+  impl_->lock = DirectoryLock(directory);
 
   std::vector<std::string> names;
   for (const RobotInfo& robot : info.robots) {

@@ -2,6 +2,7 @@
 #include "record/output_file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "vsa/errors.hpp"
 #include "vsa/record/run_data.hpp"
 
 namespace vsa::record {
@@ -60,6 +62,25 @@ void OutputFile::restart() {
 void OutputFile::close() {
   if (fd_ < 0) return;
   if (::close(std::exchange(fd_, -1)) != 0) fail("can't finish writing", errno);
+}
+
+DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
+  fd_ = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // File systems without locks, and directories that can't be read, record unguarded.
+  if (fd_ < 0 || ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(std::exchange(fd_, -1));
+  throw InputError(Problem{directory.string(), "", "", "another run is recording there", "a directory of its own"});
+}
+
+DirectoryLock::~DirectoryLock() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+DirectoryLock::DirectoryLock(DirectoryLock&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+
+DirectoryLock& DirectoryLock::operator=(DirectoryLock&& other) noexcept {
+  std::swap(fd_, other.fd_);
+  return *this;
 }
 
 }  // namespace vsa::record

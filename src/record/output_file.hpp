@@ -30,4 +30,19 @@ class OutputFile {
   off_t good_ = 0;  // bytes in whole pieces
 };
 
+/// Holds a directory for one recording at a time, by a lock on the directory itself: it leaves nothing behind, whatever ends the
+/// program.
+class DirectoryLock {
+ public:
+  DirectoryLock() = default;
+  /// Throws InputError where another recording holds it.
+  explicit DirectoryLock(const std::filesystem::path& directory);
+  ~DirectoryLock();
+  DirectoryLock(DirectoryLock&& other) noexcept;
+  DirectoryLock& operator=(DirectoryLock&& other) noexcept;
+
+ private:
+  int fd_ = -1;
+};
+
 }  // namespace vsa::record

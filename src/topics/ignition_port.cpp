@@ -63,8 +63,8 @@ class StatesPublisher final : public host::Publisher<host::JointStates> {
 }  // namespace
 
 void prefer_loopback() {
-  constexpr int kKeepWhatIsSet = 0;
-  setenv("IGN_IP", "127.0.0.1", kKeepWhatIsSet);
+  const char* set = std::getenv("IGN_IP");
+  if (set == nullptr || *set == '\0') setenv("IGN_IP", "127.0.0.1", 1);  // the transport takes an empty one for "any address"
 }
 
 struct IgnitionPort::Impl {

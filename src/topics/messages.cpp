@@ -46,7 +46,12 @@ void set_time(ignition::msgs::Time& out, std::int64_t time_ns) {
   out.set_nsec(static_cast<std::int32_t>(time_ns % kNsPerSecond));
 }
 
-std::int64_t to_ns(const ignition::msgs::Time& time) { return time.sec() * kNsPerSecond + time.nsec(); }
+std::int64_t to_ns(const ignition::msgs::Time& time) {
+  // What doesn't fit is as good as for ever; a client may send any 64 bits.
+  constexpr std::int64_t kLast_s = std::numeric_limits<std::int64_t>::max() / kNsPerSecond - 2;
+  const std::int64_t seconds = std::clamp<std::int64_t>(time.sec(), -kLast_s, kLast_s);
+  return seconds * kNsPerSecond + std::clamp<std::int32_t>(time.nsec(), -999'999'999, 999'999'999);
+}
 
 host::Trajectory decode(const ignition::msgs::JointTrajectory& message) {
   host::Trajectory out;

@@ -40,6 +40,11 @@ TEST(Usage, WrongArgumentsAreBadUsage) {
   EXPECT_EQ(run_vsa({"command", "", "20"}).exit_code, 2);
 }
 
+TEST(Usage, AnEmptyArgumentIsRefusedAndNamed) {
+  expect_bad_input(run_vsa({"run", "bench_free", "--duration-s", "0.01", "--record", ""}), {"--record", "empty"});
+  expect_bad_input(run_vsa({"command", "10", "20", "--joint", ""}), {"--joint", "empty"});
+}
+
 TEST(Usage, ADurationMustBeAPositiveNumber) {
   for (const char* duration : {"0", "-1", "nan", "inf", "1e9", "abc", ""}) {
     const auto result = run_vsa({"run", "bench_free", "--no-topics", "--duration-s", duration});

@@ -18,8 +18,8 @@ using vsa::drive::solve_friction;
 TEST(Friction, IsPassiveInEveryBranch) {
   std::mt19937 rng(7);
   std::uniform_real_distribution<double> unit(-1, 1);
-  for (const FrictionParams p : {FrictionParams{0.8, 0.03}, FrictionParams{0.8, 0.0}, FrictionParams{0.0, 0.03}, FrictionParams{0, 0},
-                                 FrictionParams{0.01, 1e-9}}) {
+  for (const FrictionParams p : {FrictionParams{0.8, 0.03}, FrictionParams{0.8, 0.0}, FrictionParams{0.0, 0.03},
+                                 FrictionParams{0, 0}, FrictionParams{0.01, 1e-9}}) {
     for (int n = 0; n < 5000; ++n) {
       const double u = p.coulomb_Nm > 0 ? p.presliding_rad * unit(rng) : 0.0;
       const double free = std::pow(10.0, -6 + 6 * std::abs(unit(rng))) * unit(rng);

@@ -1,6 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // Bad input: each error names what it is about, and nothing gets through in silence.
+#include <filesystem>
+#include <fstream>
+
 #include "worlds.hpp"
 
 namespace vsa::engine::testing {
@@ -25,6 +28,33 @@ TEST(BadInput, AMissingFileIsNamed) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_TRUE(has(error.what(), "/nowhere/at/all.sdf: no such file")) << error.what();
+  }
+}
+
+TEST(BadInput, CircularIncludesAreNamedInsteadOfFollowed) {
+  const std::filesystem::path dir = ::testing::TempDir() + "vsa_circle";
+  std::filesystem::create_directories(dir);
+  const auto write = [&](const char* name, const char* other) {
+    std::ofstream(dir / name) << "<sdf version='1.7'><model name='" << name[0] << "'><link name='l'/><include><uri>" << other
+                              << "</uri></include></model></sdf>";
+  };
+  write("a.sdf", "b.sdf");
+  write("b.sdf", "a.sdf");
+  try {
+    static_cast<void>(World::load(dir / "a.sdf"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(has(error.what(), "b.sdf: include/uri = a.sdf")) << error.what();
+    EXPECT_TRUE(has(error.what(), "circle")) << error.what();
+  }
+  std::filesystem::remove_all(dir);
+}
+
+TEST(BadInput, AVersionThatIsNotOneIsRefused) {
+  for (const char* version : {"abc", "99", "", "1.10", "-1.7"}) {
+    const std::string text = problems_of("<sdf version='" + std::string(version) + "'><world name='w'/></sdf>");
+    EXPECT_TRUE(has(text, "sdf@version")) << version << ": " << text;
+    EXPECT_TRUE(has(text, "1.6 … 1.9")) << version << ": " << text;
   }
 }
 

@@ -111,6 +111,16 @@ TEST(CsvFiles, NameEveryFileThatCantBeOpenedAndWhy) {
   EXPECT_NE(message.find("links.csv: can't open for writing: No such file or directory"), std::string::npos) << message;
 }
 
+TEST(CsvFiles, GiveADirectoryToOneRecordingAtATime) {
+  const Scratch dir;
+  {
+    const CsvFiles first(fake::tiny(), dir.path());
+    const std::string message = message_of<InputError>([&] { CsvFiles(fake::tiny(), dir.path()); });
+    EXPECT_NE(message.find("another run is recording there"), std::string::npos) << message;
+  }
+  EXPECT_NO_THROW(CsvFiles(fake::tiny(), dir.path()));
+}
+
 TEST(CsvFiles, SayAtOnceThatTheDiskIsFull) {
   const Scratch dir;
   fs::create_symlink("/dev/full", dir.path() / "energy.csv");

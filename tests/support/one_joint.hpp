@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The smallest possible host: one joint with an inertia and a load, integrated as every engine does it, v' = v + dt·a, q' = q + dt·v'.
+// The smallest possible host: one joint with an inertia and a load, integrated as every engine does it, v' = v + dt·a, q' = q +
+// dt·v'.
 #pragma once
 
 #include <functional>

@@ -24,11 +24,11 @@ namespace vsa::actuator {
 
 struct ActuatorParams {
   std::shared_ptr<const elastic::Transmission> transmission;
-  drive::MotorParams motor;              ///< at the motor's shaft; both motors alike
+  drive::MotorParams motor;  ///< at the motor's shaft; both motors alike
   drive::GearboxParams gearbox;
   drive::BridgeParams bridge;
   drive::FrictionParams shaft_friction;
-  sensor::EncoderParams encoder;         ///< all three alike
+  sensor::EncoderParams encoder;                ///< all three alike
   double shaft_inertia_kgm2 = drive::kMissing;  ///< used as 1/A where a host can't tell the inverse inertia
   bool operator==(const ActuatorParams&) const = default;
 };
@@ -36,14 +36,14 @@ struct ActuatorParams {
 struct ActuatorState {
   std::array<drive::MotorState, 2> motor{};
   std::array<double, 2> motor_anchor{};
-  double shaft = 0;         ///< y, end of the last segment's path
+  double shaft = 0;  ///< y, end of the last segment's path
   double shaft_anchor = 0;
   std::array<double, 2> load{};  ///< mean spring load on each pulley over the last segment
   Ledger ledger;
 };
 
 struct SegmentInput {
-  double dq = 0;                          ///< shaft displacement along the path
+  double dq = 0;  ///< shaft displacement along the path
   std::array<double, 2> voltage{};
   drive::Terminal terminal = drive::Terminal::driven;
 };
@@ -86,19 +86,21 @@ class Actuator {
   };
   const drive::MotorStepper& stepper(double h_s, drive::Terminal terminal) noexcept;
   struct Pulleys {
-    std::array<double, 2> dx{};                 // displacements
+    std::array<double, 2> dx{};  // displacements
     std::array<drive::FrictionStep, 2> friction{};
-    elastic::SegmentMean mean;                  // at the accepted displacements, linearly corrected
+    elastic::SegmentMean mean;  // at the accepted displacements, linearly corrected
     double slope = 0;
   };
-  [[nodiscard]] Pulleys solve(const ActuatorState& state, const drive::MotorStepper& stepper, const SegmentInput& in) const noexcept;
-  void drive_motors(ActuatorState& state, const drive::MotorStepper& stepper, const SegmentInput& in, const Pulleys& p) const noexcept;
+  [[nodiscard]] Pulleys solve(const ActuatorState& state, const drive::MotorStepper& stepper,
+                              const SegmentInput& in) const noexcept;
+  void drive_motors(ActuatorState& state, const drive::MotorStepper& stepper, const SegmentInput& in,
+                    const Pulleys& p) const noexcept;
   [[nodiscard]] elastic::Positions positions(const ActuatorState& state, double shaft) const noexcept;
   void book_motors(ActuatorState& state) const noexcept;
 
   ActuatorParams params_;
-  drive::MotorParams motor_;       // at the pulley
-  drive::Friction friction_;       // at the pulley
+  drive::MotorParams motor_;  // at the pulley
+  drive::Friction friction_;  // at the pulley
   drive::Friction shaft_friction_;
   int motors_;
   std::array<Prepared, 2> prepared_{};  // the two step lengths used last

@@ -19,22 +19,22 @@ struct Ledger {
   double shaft_friction = 0;  ///< heat of the output shaft's friction
   double delivered = 0;       ///< ∫τ dq given to the robot, in the host's own (midpoint) terms
   double integrator = 0;      ///< −(ΔH + Σ load̄ Δx + τ̄ Δq): what the segment means miss
-  double pending = 0;         ///< work of the step under way along the predicted path; the next step turns it into delivered + coupling
-  double coupling = 0;        ///< what the shaft's mispredicted path costs: see Actuator::settle
-  double kinetic = 0;         ///< now: Σ ½Jω² of the motors
-  double magnetic = 0;        ///< now: Σ ½LI²
-  double elastic = 0;         ///< now: H
-  double bristle = 0;         ///< now: presliding energy of the gearboxes' frictions
-  double shaft_bristle = 0;   ///< now: presliding energy of the shaft's friction
+  double pending = 0;   ///< work of the step under way along the predicted path; the next step turns it into delivered + coupling
+  double coupling = 0;  ///< what the shaft's mispredicted path costs: see Actuator::settle
+  double kinetic = 0;   ///< now: Σ ½Jω² of the motors
+  double magnetic = 0;  ///< now: Σ ½LI²
+  double elastic = 0;   ///< now: H
+  double bristle = 0;   ///< now: presliding energy of the gearboxes' frictions
+  double shaft_bristle = 0;  ///< now: presliding energy of the shaft's friction
   double stored_at_start = 0;
-  double supply_moved = 0;    ///< ∫|P_supply| dt, by steps
-  double delivered_moved = 0; ///< ∫|P_shaft| dt, by steps
+  double supply_moved = 0;     ///< ∫|P_supply| dt, by steps
+  double delivered_moved = 0;  ///< ∫|P_shaft| dt, by steps
 
   [[nodiscard]] double stored() const noexcept { return kinetic + magnetic + elastic + bristle + shaft_bristle; }
   /// Left side less right side of the balance, J: rounding only.
   [[nodiscard]] double imbalance() const noexcept {
-    return supply - (copper + conversion + viscous + motor_friction + shaft_friction + (stored() - stored_at_start) + delivered + pending +
-                     integrator + coupling);
+    return supply - (copper + conversion + viscous + motor_friction + shaft_friction + (stored() - stored_at_start) + delivered +
+                     pending + integrator + coupling);
   }
   /// ∫|P_supply| + ∫|P_shaft|, J: what the balance is measured against.
   [[nodiscard]] double moved() const noexcept { return supply_moved + delivered_moved; }

@@ -5,8 +5,8 @@
 // Each cycle the master sends, for every unit in id order, SET_INPUTS (10 bytes, no reply) and GET_MEASUREMENTS (6 bytes, reply
 // 12 bytes). A byte is 10 bits (8N1). With N units and B baud, unit k (0 = first) has its new references at
 //     t_k = t_cycle + (k·28 + 10)·10/B,
-// so at 2 Mbaud unit 12 hears 11·140 µs = 1.54 ms after unit 1. The cycle is max(N·28·10/B, 1 ms·N) unless it is set; 1 ms a unit is
-// the published guidance for hosts. This is the timing model; the bytes themselves come with the device twin.
+// so at 2 Mbaud unit 12 hears 11·140 µs = 1.54 ms after unit 1. The cycle is max(N·28·10/B, 1 ms·N) unless it is set; 1 ms a unit
+// is the published guidance for hosts. This is the timing model; the bytes themselves come with the device twin.
 //
 // Sources: NMMI/qbmove-maker-pro 6.1 (frame layout), NMMI/qbAPI (order of calls).
 #pragma once

@@ -13,8 +13,8 @@
 namespace vsa::drive {
 
 struct BridgeParams {
-  double supply_V = 12.0;   ///< ≥ 0; source of the default unknown, 24 V on one published robot
-  double dead_band = 0.3;   ///< [0, 1)
+  double supply_V = 12.0;      ///< ≥ 0; source of the default unknown, 24 V on one published robot
+  double dead_band = 0.3;      ///< [0, 1)
   bool brake_when_off = true;  ///< off: terminals shorted (true) or open (false). UNKNOWN for the maker pro.
   bool operator==(const BridgeParams&) const = default;
 };

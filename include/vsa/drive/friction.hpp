@@ -29,9 +29,9 @@ struct Friction : FrictionParams {
 };
 
 struct FrictionStep {
-  double displacement = 0;  ///< Δx, rad
-  double torque = 0;        ///< τ̄ on the part, N·m
-  double anchor_travel = 0; ///< Δz, rad
+  double displacement = 0;   ///< Δx, rad
+  double torque = 0;         ///< τ̄ on the part, N·m
+  double anchor_travel = 0;  ///< Δz, rad
 };
 
 /// Solves Δx = free + compliance·τ̄(Δx) in closed form (one scalar, clamped).

@@ -35,8 +35,8 @@ struct MotorParams {
 };
 
 struct GearboxParams {
-  double ratio = 1.0;     ///< n = motor turns per pulley turn, > 0
-  FrictionParams friction; ///< loss torque at the motor's shaft (eq. 5) and its presliding at the PULLEY
+  double ratio = 1.0;       ///< n = motor turns per pulley turn, > 0
+  FrictionParams friction;  ///< loss torque at the motor's shaft (eq. 5) and its presliding at the PULLEY
   bool operator==(const GearboxParams&) const = default;
 };
 

@@ -19,7 +19,7 @@
 namespace vsa::elastic {
 
 struct TwoSinhParams {
-  std::array<double, 2> k_Nm{};        ///< torque scale of each spring, > 0
+  std::array<double, 2> k_Nm{};       ///< torque scale of each spring, > 0
   std::array<double, 2> a_per_rad{};  ///< hardening rate of each spring, > 0
 };
 

@@ -11,8 +11,8 @@
 //   duty = (((pwm << 10)/100)·limit) >> 10               limit: percent, by supply voltage (table of 36 steps of 512 mV)
 // Gains are 16.16 fixed point in percent PWM per tick; shifts are arithmetic (floor). With kp = 0.1, 5.49° of error is full PWM.
 //
-// Order of a tick: encoders → motors → current filter → measOld := meas; refOld := ref; ref := refNew. A reference that arrives during
-// tick k is copied at the end of tick k+1's motor stage and acts at the next: 1–2 ms later.
+// Order of a tick: encoders → motors → current filter → measOld := meas; refOld := ref; ref := refNew. A reference that arrives
+// during tick k is copied at the end of tick k+1's motor stage and acts at the next: 1–2 ms later.
 //
 // Source: NMMI/qbmove-maker-pro 6.1.
 #pragma once
@@ -27,27 +27,27 @@ namespace vsa::firmware {
 inline constexpr std::int64_t kTickNs = 1'000'000;
 
 struct LoopParams {
-  std::int32_t kp = 6553, ki = 0, kd = 52428;           ///< 16.16 fixed point: 0.1, 0, 0.8 truncated as the firmware does
+  std::int32_t kp = 6553, ki = 0, kd = 52428;  ///< 16.16 fixed point: 0.1, 0, 0.8 truncated as the firmware does
   std::array<std::int32_t, 4> limits_raw{-30000, 30000, -30000, 30000};  ///< inf1, sup1, inf2, sup2
   bool limits_on = true;
-  std::array<int, 3> resolution{1, 1, 1};               ///< 0…8
-  bool supply_limit = true;                             ///< false: full duty at any supply (advanced unit)
+  std::array<int, 3> resolution{1, 1, 1};  ///< 0…8
+  bool supply_limit = true;                ///< false: full duty at any supply (advanced unit)
   bool operator==(const LoopParams&) const = default;
 };
 
 struct LoopState {
-  std::array<std::int32_t, 3> meas{}, meas_old{};       ///< multi-turn raw positions: motor 1, motor 2, shaft
+  std::array<std::int32_t, 3> meas{}, meas_old{};  ///< multi-turn raw positions: motor 1, motor 2, shaft
   std::array<std::int32_t, 3> last_sample{};
   std::array<std::int8_t, 3> turns{};
-  std::array<std::uint8_t, 3> rejected{};               ///< consecutive jumps discarded
+  std::array<std::uint8_t, 3> rejected{};  ///< consecutive jumps discarded
   std::array<std::int32_t, 2> ref{}, ref_old{}, ref_new{};
   std::array<std::int32_t, 2> error_sum{};
-  std::array<std::int32_t, 2> pwm{};                    ///< percent before the supply limit, ±100
-  std::array<std::int32_t, 2> duty{};                   ///< percent after it
-  std::array<std::int32_t, 2> current_filter{};         ///< the filter's memory, mA << 6
-  std::array<MilliAmp, 2> current{};                    ///< filtered, signed by pwm
+  std::array<std::int32_t, 2> pwm{};             ///< percent before the supply limit, ±100
+  std::array<std::int32_t, 2> duty{};            ///< percent after it
+  std::array<std::int32_t, 2> current_filter{};  ///< the filter's memory, mA << 6
+  std::array<MilliAmp, 2> current{};             ///< filtered, signed by pwm
   MilliVolt supply{};
-  std::int32_t limit_pct = 100;                         ///< supply-dependent limit in force
+  std::int32_t limit_pct = 100;  ///< supply-dependent limit in force
   bool motors_on = false;
   bool first_tick = true;
 };

@@ -9,8 +9,9 @@
 //     Δy = dt·v + (dt²/2)·(a_other + A τ̄)                                                                    (1)
 // and returns τ̄, the MEAN torque of the spring over the segment y → y + Δy (elastic::SegmentMean), with (1) solved for Δy.
 // Then τ̄·Δy = −ΔH exactly: an engine with that A gains exactly what the spring loses, at any step and any stiffness.
-//   A        1/(effective inertia about the joint) = (M⁻¹)_jj, 1/(kg·m²). The host may give it per joint; else the configured value.
-//   a_other  acceleration by all else (gravity, contacts, other joints), taken from the last step: (v − v_before)/dt − A τ̄_before.
+//   A        1/(effective inertia about the joint) = (M⁻¹)_jj, 1/(kg·m²). The host may give it per joint; else the configured
+//   value. a_other  acceleration by all else (gravity, contacts, other joints), taken from the last step: (v − v_before)/dt − A
+//   τ̄_before.
 // What (1) mispredicts is not hidden: it is the `coupling` entry of the energy ledger.
 #pragma once
 
@@ -32,20 +33,20 @@ using vsa::device::UnitConfig;
 
 /// One actuator of a robot, as the plug-in XML lists it.
 struct ActuatorConfig {
-  std::string name;                 ///< unique in the robot
-  std::string joint;                ///< scoped joint name, e.g. "module_1::shaft"
-  std::string preset;               ///< name of the actuator preset it was made from
-  UnitConfig unit;                  ///< validated parameters
-  std::size_t bus = 0;              ///< index into RobotConfig::buses
-  int id = 1;                       ///< device id on that bus, 1–254
+  std::string name;     ///< unique in the robot
+  std::string joint;    ///< scoped joint name, e.g. "module_1::shaft"
+  std::string preset;   ///< name of the actuator preset it was made from
+  UnitConfig unit;      ///< validated parameters
+  std::size_t bus = 0;  ///< index into RobotConfig::buses
+  int id = 1;           ///< device id on that bus, 1–254
   double initial_equilibrium_rad = 0;
-  double initial_preset = 0;        ///< in the law's preset unit
+  double initial_preset = 0;  ///< in the law's preset unit
 };
 
 struct BusConfig {
   std::string name;
   double baud_Hz = 2'000'000;
-  std::optional<double> cycle_s;    ///< none: automatic, max(wire time, 1 ms × units)
+  std::optional<double> cycle_s;  ///< none: automatic, max(wire time, 1 ms × units)
 };
 
 struct RobotConfig {
@@ -66,18 +67,18 @@ struct JointIn {
 struct ActuatorReading {
   double equilibrium_command_rad = 0;
   double preset_command = 0;
-  double equilibrium_rad = 0;       ///< attained, from the pulleys
-  double preset = 0;                ///< attained, from the pulleys
+  double equilibrium_rad = 0;  ///< attained, from the pulleys
+  double preset = 0;           ///< attained, from the pulleys
   double shaft_rad = 0;
   double shaft_speed_rad_per_s = 0;
-  double deflection_rad = 0;        ///< shaft − equilibrium
+  double deflection_rad = 0;  ///< shaft − equilibrium
   double stiffness_Nm_per_rad = 0;
-  double torque_Nm = 0;             ///< on the shaft by the actuator, mean over the last step
+  double torque_Nm = 0;  ///< on the shaft by the actuator, mean over the last step
   std::array<double, 2> motor_rad{};
   std::array<double, 2> motor_speed_rad_per_s{};
-  std::array<double, 2> motor_torque_Nm{};   ///< spring load on each pulley, mean over the last step
+  std::array<double, 2> motor_torque_Nm{};  ///< spring load on each pulley, mean over the last step
   std::array<double, 2> current_A{};
-  std::array<Ticks, 3> measured{};           ///< motor 1, motor 2, shaft as the bus master last read them
+  std::array<Ticks, 3> measured{};  ///< motor 1, motor 2, shaft as the bus master last read them
 };
 
 /// A command that was out of range is clamped as the device does and reported once per actuator.
@@ -132,7 +133,7 @@ class Robot {
   struct Snapshot;  ///< opaque, copyable value
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
   void restore(const Snapshot& snapshot);
-  void reset();     ///< back to the first sample
+  void reset();  ///< back to the first sample
 
  private:
   struct Impl;
