@@ -4,12 +4,12 @@
 # make test    set up, build, run the tests
 # make bench   run the benchmarks and print their table
 # make asan    the tests under the address and undefined-behaviour sanitizers
-# make test-long, make experiments   hours and minutes respectively; see docs
+# make experiments   how far the snake gets over its terrains (docs/snake.md); about 20 minutes
 JOBS ?= $(shell nproc)
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo test test-long bench asan tidy format check-format experiments clean
+.PHONY: all setup build demo test bench asan tidy format check-format experiments clean
 
 all: build
 
@@ -54,7 +54,7 @@ check-format:
 	@sh scripts/setup.sh tidy
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror
 
-# About 20 minutes on 2 cores: 8 starts each of the snake's gaits over three grounds, 60 s of simulated time.
+# 8 starts each of the snake's gaits over three grounds, 60 s of simulated time.
 experiments: build
 	@$(BUILD)/bin/snake_travel --jobs $(JOBS) --worlds flat --gaits sidewind_soft,sidewind,sidewind_stiff,steered_soft,steered,steered_stiff
 	@$(BUILD)/bin/snake_travel --jobs $(JOBS) --worlds rubble,hills --gaits sidewind,steered_soft,steered,steered_stiff
