@@ -82,6 +82,14 @@ void read_parameter(const Parameter& p, const Law& law, Resolver& resolver, devi
 
 /// What single values can't show.
 void check_together(const device::UnitConfig& unit, Resolver& resolver) {
+  if (const auto& law = unit.actuator.transmission; law && law->spring_count() == 0 && unit.actuator.tendon.friction > 0) {
+    resolver.problem(resolver.line_of("tendon.friction"), "tendon.friction", number_text(unit.actuator.tendon.friction),
+                     "the law names no spring that a tension could load", "0");
+  }
+  if (unit.actuator.tendon.friction > 0 && unit.actuator.tendon.presliding_J <= 0) {
+    resolver.problem(resolver.line_of("tendon.presliding_J"), "tendon.presliding_J", number_text(unit.actuator.tendon.presliding_J),
+                     "tendon.friction needs a presliding", "above 0");
+  }
   const auto& limits = unit.loop.limits_raw;
   if (limits[0] >= limits[1]) {
     resolver.problem(resolver.line_of("firmware.limit_low_raw"), "firmware.limit_low_raw", std::to_string(limits[0]),

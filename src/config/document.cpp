@@ -11,7 +11,7 @@
 namespace vsa::config {
 namespace {
 
-const std::vector<std::string> kGroups{"preset", "elastic", "drive", "shaft", "sensor", "firmware", "limits", "physics"};
+const std::vector<std::string> kGroups{"preset", "elastic", "drive", "tendon", "shaft", "sensor", "firmware", "limits", "physics"};
 const std::vector<std::string> kPresetKeys{"name", "title", "description"};
 const std::vector<std::string> kItemKeys{"value", "unit", "bounds", "source"};
 

@@ -22,6 +22,12 @@ std::shared_ptr<const elastic::Transmission> two_sinh(LawReader& reader) {
   return std::make_shared<elastic::TwoSinh>(elastic::TwoSinhParams{.k_Nm = {v[0], v[2]}, .a_per_rad = {v[1], v[3]}});
 }
 
+std::shared_ptr<const elastic::Transmission> two_sinh_linear(LawReader& reader) {
+  const std::vector<double> v = read_all(reader, "two_sinh_linear");
+  return std::make_shared<elastic::TwoSinh>(elastic::TwoSinhParams{
+      .k_Nm = {v[0], v[3]}, .a_per_rad = {v[1], v[4]}, .c_Nm_per_rad = {v[2], v[5]}, .linear_beyond_rad = v[6]});
+}
+
 std::shared_ptr<const elastic::Transmission> series_spring(LawReader& reader) {
   return std::make_shared<elastic::SeriesSpring>(read_all(reader, "series_spring")[0]);
 }
@@ -31,6 +37,7 @@ std::shared_ptr<const elastic::Transmission> series_spring(LawReader& reader) {
 LawRegistry LawRegistry::standard() {
   LawRegistry laws;
   laws.add("two_sinh", two_sinh);
+  laws.add("two_sinh_linear", two_sinh_linear);
   laws.add("series_spring", series_spring);
   return laws;
 }

@@ -57,7 +57,7 @@ void Unit::tick(UnitState& s, double shaft, const TickMail& mail) noexcept {
   const actuator::ActuatorParams& p = config_.actuator;
   firmware::TickInputs in;
   const std::array<double, 3> angle{s.actuator.motor[0].angle, s.actuator.motor[1].angle, shaft};
-  for (int i = 0; i < 3; ++i) in.encoder[i] = sensor::encoder_sample(p.encoder, angle[i]);
+  for (int i = 0; i < 3; ++i) in.encoder[i] = sensor::encoder_sample(p.encoder, angle[i] + (i == 2 ? p.shaft_zero_rad : 0.0));
   for (int i = 0; i < 2; ++i)
     in.current_adc[i] = sensor::current_adc(actuator_.motor_current(s.actuator, i, s.voltage[i], s.terminal));
   drive::BridgeParams bridge = p.bridge;

@@ -25,6 +25,13 @@ FrictionStep solve_coulomb(double coulomb, double free, double compliance) noexc
 
 }  // namespace
 
+Friction at_load(const Friction& p, double ratio, double load_Nm) noexcept {
+  Friction loaded = p;
+  loaded.coulomb_Nm += ratio * std::abs(load_Nm);
+  loaded.presliding_rad = p.stiffness > 0 ? loaded.coulomb_Nm / p.stiffness : 0.0;
+  return loaded;
+}
+
 FrictionStep follow_friction(const Friction& p, double u, double displacement) noexcept {
   FrictionStep step;
   step.displacement = displacement;

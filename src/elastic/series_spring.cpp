@@ -1,6 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/elastic/series_spring.hpp"
 
+#include <cmath>
+
 namespace vsa::elastic {
 
 Response SeriesSpring::evaluate(const Positions& at) const noexcept {
@@ -24,6 +26,11 @@ SegmentMean SeriesSpring::mean_over(const Positions& from, const Positions& to) 
   mean.slope.qx[0] = -0.5 * stiffness_;
   mean.slope.x0x0 = 0.5 * stiffness_;
   return mean;
+}
+
+std::array<double, 2> SeriesSpring::signed_energies(const Positions& at) const noexcept {
+  const double deflection = at.q - at.x[0];
+  return {0.5 * stiffness_ * deflection * std::abs(deflection), 0.0};
 }
 
 std::array<double, 2> SeriesSpring::references(const EquilibriumPreset& command) const noexcept {

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/elastic/two_sinh.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vsa::elastic {
@@ -37,50 +38,93 @@ Sinhc sinhc(double z) noexcept {
 
 }  // namespace
 
-TwoSinh::TwoSinh(const TwoSinhParams& params) noexcept : params_(params) {}
+TwoSinh::TwoSinh(const TwoSinhParams& params) noexcept : params_(params) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (std::isfinite(params_.linear_beyond_rad)) edge_[i] = inside(i, params_.linear_beyond_rad);
+  }
+}
+
+TwoSinh::Spring TwoSinh::inside(std::size_t i, double deflection) const noexcept {
+  const double k = params_.k_Nm[i], a = params_.a_per_rad[i], c = params_.c_Nm_per_rad[i];
+  const Hyperbolic h = hyperbolic(a * deflection);
+  return {k / a * h.cosh_less_1 + 0.5 * c * deflection * deflection, k * h.sinh + c * deflection, a * k * h.cosh + c};
+}
+
+TwoSinh::Spring TwoSinh::spring(std::size_t i, double deflection) const noexcept {
+  const double beyond = std::abs(deflection) - params_.linear_beyond_rad;
+  if (!(beyond > 0)) return inside(i, deflection);
+  const Spring& e = edge_[i];
+  return {e.energy + beyond * (e.torque + 0.5 * beyond * e.stiffness), std::copysign(e.torque + beyond * e.stiffness, deflection),
+          e.stiffness};
+}
+
+double TwoSinh::spring_energy(std::size_t i, double deflection) const noexcept {
+  const double beyond = std::abs(deflection) - params_.linear_beyond_rad;
+  if (beyond > 0) return edge_[i].energy + beyond * (edge_[i].torque + 0.5 * beyond * edge_[i].stiffness);
+  const double a = params_.a_per_rad[i];
+  return params_.k_Nm[i] / a * hyperbolic(a * deflection).cosh_less_1 + 0.5 * params_.c_Nm_per_rad[i] * deflection * deflection;
+}
+
+TwoSinh::Mean TwoSinh::mean_inside(std::size_t i, double begin, double end) const noexcept {
+  const double k = params_.k_Nm[i], a = params_.a_per_rad[i], half_c = 0.5 * params_.c_Nm_per_rad[i];
+  const Hyperbolic h = hyperbolic(0.5 * a * (begin + end));
+  const Sinhc s = sinhc(0.5 * a * (end - begin));
+  return {k * h.sinh * s.value + half_c * (begin + end), 0.5 * a * k * (h.cosh * s.value + h.sinh * s.slope) + half_c};
+}
+
+TwoSinh::Mean TwoSinh::mean(std::size_t i, double begin, double end) const noexcept {
+  const double d = params_.linear_beyond_rad;
+  if (std::abs(begin) <= d && std::abs(end) <= d) return mean_inside(i, begin, end);
+  if (std::abs(begin) >= d && std::abs(end) >= d && (begin < 0) == (end < 0)) {
+    return {0.5 * (spring(i, begin).torque + spring(i, end).torque), 0.5 * edge_[i].stiffness};
+  }
+  // Across an edge or two: piece by piece, each exact; then d(mean)/d(end) = (T(end) − mean)/(end − begin).
+  const double low = std::min(begin, end), high = std::max(begin, end);
+  double work = 0;
+  if (low < -d) work += 0.5 * (spring(i, low).torque - edge_[i].torque) * (-d - low);
+  if (high > d) work += 0.5 * (spring(i, high).torque + edge_[i].torque) * (high - d);
+  const double from = std::max(low, -d), to = std::min(high, d);
+  work += mean_inside(i, from, to).torque * (to - from);
+  const double torque = work / (high - low);
+  return {torque, (spring(i, end).torque - torque) / (end - begin)};
+}
 
 Response TwoSinh::evaluate(const Positions& at) const noexcept {
   Response r{};
-  for (int i = 0; i < 2; ++i) {
-    const double k = params_.k_Nm[i];
-    const double a = params_.a_per_rad[i];
-    const Hyperbolic h = hyperbolic(a * (at.q - at.x[i]));
-    const double stiffness = a * k * h.cosh;
-    r.energy += k / a * h.cosh_less_1;
-    r.torque -= k * h.sinh;
-    r.load[i] = k * h.sinh;
-    r.curvature.qq += stiffness;
-    r.curvature.qx[i] = -stiffness;
-    (i == 0 ? r.curvature.x0x0 : r.curvature.x1x1) = stiffness;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Spring s = spring(i, at.q - at.x[i]);
+    r.energy += s.energy;
+    r.load[i] = s.torque;
+    r.torque -= s.torque;
+    r.curvature.qq += s.stiffness;
+    r.curvature.qx[i] = -s.stiffness;
+    (i == 0 ? r.curvature.x0x0 : r.curvature.x1x1) = s.stiffness;
   }
   return r;
 }
 
 double TwoSinh::energy(const Positions& at) const noexcept {
-  double energy = 0;
-  for (int i = 0; i < 2; ++i) {
-    const double a = params_.a_per_rad[i];
-    energy += params_.k_Nm[i] / a * hyperbolic(a * (at.q - at.x[i])).cosh_less_1;
+  return spring_energy(0, at.q - at.x[0]) + spring_energy(1, at.q - at.x[1]);
+}
+
+std::array<double, 2> TwoSinh::signed_energies(const Positions& at) const noexcept {
+  std::array<double, 2> w{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double deflection = at.q - at.x[i];
+    w[i] = std::copysign(spring_energy(i, deflection), deflection);
   }
-  return energy;
+  return w;
 }
 
 SegmentMean TwoSinh::mean_over(const Positions& from, const Positions& to) const noexcept {
   SegmentMean mean;
-  for (int i = 0; i < 2; ++i) {
-    const double k = params_.k_Nm[i];
-    const double a = params_.a_per_rad[i];
-    const double begin = from.q - from.x[i];
-    const double end = to.q - to.x[i];
-    const Hyperbolic h = hyperbolic(0.5 * a * (begin + end));
-    const Sinhc c = sinhc(0.5 * a * (end - begin));
-    const double torque = k * h.sinh * c.value;
-    const double slope = 0.5 * a * k * (h.cosh * c.value + h.sinh * c.slope);
-    mean.torque -= torque;
-    mean.load[i] = torque;
-    mean.slope.qq += slope;
-    mean.slope.qx[i] = -slope;
-    (i == 0 ? mean.slope.x0x0 : mean.slope.x1x1) = slope;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Mean m = this->mean(i, from.q - from.x[i], to.q - to.x[i]);
+    mean.torque -= m.torque;
+    mean.load[i] = m.torque;
+    mean.slope.qq += m.slope;
+    mean.slope.qx[i] = -m.slope;
+    (i == 0 ? mean.slope.x0x0 : mean.slope.x1x1) = m.slope;
   }
   return mean;
 }

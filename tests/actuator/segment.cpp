@@ -24,11 +24,22 @@ ActuatorParams maker_pro() {
   return p;
 }
 
+/// With every loss: linear parts, tendon friction, gear loss.
+ActuatorParams lossy() {
+  ActuatorParams p = maker_pro();
+  p.transmission = std::make_shared<vsa::elastic::TwoSinh>(vsa::elastic::TwoSinhParams{{8e-4, 8e-4}, {12.3, 12.3}, {0.27, 0.27}});
+  p.gearbox.load_loss = 0.2;
+  p.tendon = {0.144, 2.6e-4};
+  return p;
+}
+
 TEST(Segment, EveryLossIsPositiveAndTheBalanceClosesWhateverHappens) {
   std::mt19937 rng(5);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int trial = 0; trial < 200; ++trial) {
-    ActuatorParams p = maker_pro();
+    ActuatorParams p = trial % 2 == 0 ? maker_pro() : lossy();
+    if (trial % 7 == 1) p.tendon.presliding_J = 1e-6;
+    if (trial % 11 == 1) p.gearbox.friction.coulomb_Nm = 0;
     if (trial % 3 == 1) p.motor.inductance_H = 1e-3;
     if (trial % 4 == 1) p.gearbox.friction.presliding_rad = 0;
     if (trial % 5 == 1) p.gearbox.ratio = 3.0;
@@ -45,9 +56,76 @@ TEST(Segment, EveryLossIsPositiveAndTheBalanceClosesWhateverHappens) {
       ASSERT_GE(l.viscous, last.viscous - 1e-12);
       ASSERT_GE(l.motor_friction, last.motor_friction - 1e-12);
       ASSERT_GE(l.shaft_friction, last.shaft_friction - 1e-12);
+      ASSERT_GE(l.tendon_friction, last.tendon_friction - 1e-10);  // w − z rounds to 1e-16 of w, much for a bristle of 1e-6 J
+      ASSERT_GE(l.tendon_bristle, 0.0);
       ASSERT_NEAR(l.conversion, 0.0, 1e-12);
       last = l;
     }
+  }
+}
+
+/// Moves the shaft of a unit with locked pulleys; the torque at its end.
+double push(Actuator& a, vsa::actuator::ActuatorState& s, double to, int steps) {
+  const double step = (to - s.shaft) / steps;
+  double torque = 0;
+  for (int n = 0; n < steps; ++n) torque = a.segment(s, 1e-3, {step, {0, 0}, Terminal::driven}).torque;
+  return torque;
+}
+
+TEST(Segment, TendonFrictionTakesItsShareOfTheTensionBothWays) {
+  ActuatorParams p = lossy();
+  p.gearbox = {1.0, {100.0, 0.0}};  // nothing moves the motors
+  Actuator a(p);
+  auto s = a.initial({0, 0}, 0.0);
+  push(a, s, 0.5, 5000);
+  const double loading = push(a, s, 0.5 + 1e-7, 1);
+  const double elastic = a.spring(s, s.shaft).torque;
+  EXPECT_NEAR(loading, elastic * (1 + 0.144), 1e-4 * std::abs(elastic));
+  push(a, s, 0.55, 500);
+  push(a, s, 0.5, 500);
+  const double unloading = push(a, s, 0.5 - 1e-7, 1);
+  EXPECT_NEAR(unloading, elastic * (1 - 0.144), 1e-4 * std::abs(elastic));
+}
+
+TEST(Segment, AClosedLoopOfTheShaftCostsTheTendonsTwiceTheirShareOfTheEnergy) {
+  // Both springs from 0 to H and back: heat 2μΣH, less the presliding at the turn, which w_max → 0 removes.
+  ActuatorParams p = lossy();
+  p.gearbox = {1.0, {100.0, 0.0}};
+  p.tendon.presliding_J = 1e-6;
+  Actuator a(p);
+  auto s = a.initial({0, 0}, 0.0);
+  push(a, s, 0.5, 5000);
+  const double stored = s.ledger.elastic;
+  push(a, s, 0.0, 5000);
+  EXPECT_NEAR(s.ledger.tendon_friction, 2 * 0.144 * stored, 1e-3 * stored);
+  EXPECT_LT(std::abs(s.ledger.integrator), 1e-9);
+}
+
+TEST(Segment, SmallSwingsInsideThePreslidingOfTheTendonsLoseNothing) {
+  ActuatorParams p = lossy();
+  p.gearbox = {1.0, {100.0, 0.0}};
+  Actuator a(p);
+  auto s = a.initial({0.5, -0.5}, 0.0);
+  for (int n = 0; n < 20; ++n) {
+    push(a, s, 1e-4, 20);
+    push(a, s, -1e-4, 20);
+  }
+  EXPECT_EQ(s.ledger.tendon_friction, 0.0);
+  EXPECT_GT(s.ledger.tendon_bristle, 0.0);
+}
+
+TEST(Segment, AGearLossHoldsMoreTheMoreItCarries) {
+  // Back-driven, a pulley slides until load = τ_c + λ·load: 0.4/(1 − 0.2) = 0.5 N·m, less the bristle's bend.
+  ActuatorParams p = maker_pro();
+  p.gearbox = {1.0, {0.4, 1e-3}, 0.2};
+  Actuator a(p);
+  for (const double load : {0.48, 0.9}) {
+    const double deflection = std::asinh(load / 0.022) / 6.85;
+    auto s = a.initial({-deflection, 0}, 0.0);
+    for (int n = 0; n < 3000; ++n) a.segment(s, 1e-3, {0, {0, 0}, Terminal::driven});
+    const double carried = a.spring(s, 0.0).load[0];
+    EXPECT_LE(carried, 0.4 / 0.8 + 1e-6) << load;
+    EXPECT_GT(carried, 0.46) << "it slides no further than its limit asks";
   }
 }
 
@@ -74,17 +152,19 @@ TEST(Segment, ALoadedMotorSettlesWhereFrictionHoldsIt) {
 
 TEST(Segment, TorqueSlopeIsTheDerivativeOfTheMeanTorque) {
   for (const double coulomb : {0.0, 0.8}) {
-    ActuatorParams p = maker_pro();
-    p.gearbox.friction.coulomb_Nm = coulomb;
-    Actuator a(p);
-    const auto start = a.initial({0.5, -0.5}, 0.1);
-    auto torque = [&](double dq) {
+    for (const bool losses : {false, true}) {
+      ActuatorParams p = losses ? lossy() : maker_pro();
+      p.gearbox.friction.coulomb_Nm = coulomb;
+      Actuator a(p);
+      const auto start = a.initial({0.5, -0.5}, 0.1);
+      auto torque = [&](double dq) {
+        auto s = start;
+        return a.segment(s, 1e-3, {dq, {5, 1}, Terminal::driven}).torque;
+      };
       auto s = start;
-      return a.segment(s, 1e-3, {dq, {5, 1}, Terminal::driven}).torque;
-    };
-    auto s = start;
-    const double slope = a.segment(s, 1e-3, {0.01, {5, 1}, Terminal::driven}).slope;
-    EXPECT_NEAR(slope, -(torque(0.01 + 1e-4) - torque(0.01 - 1e-4)) / 2e-4, 2e-2 * slope);
+      const double slope = a.segment(s, 1e-3, {0.01, {5, 1}, Terminal::driven}).slope;
+      EXPECT_NEAR(slope, -(torque(0.01 + 1e-4) - torque(0.01 - 1e-4)) / 2e-4, 2e-2 * slope);
+    }
   }
 }
 

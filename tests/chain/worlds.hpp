@@ -42,9 +42,9 @@ inline std::string flange_world(const FlangeWorld& w) {
     << "</preset><bus id='1'>b</bus><initial equilibrium_rad='0' preset_rad='" << w.preset_rad << "'/>";
   if (!w.losses) {
     // Locked pulleys: the bounds don't allow infinite inertia, so the gear ratio multiplies it.
-    s << over("drive.friction_Nm", 0) << over("drive.viscous_Nms_per_rad", 0) << over("shaft.friction_Nm", 0)
-      << over("drive.inertia_kgm2", 0.1) << over("drive.gear_ratio", 1000) << over("drive.supply_V", 0)
-      << over("drive.off_mode", 0);
+    s << over("drive.friction_Nm", 0) << over("drive.load_loss", 0) << over("tendon.friction", 0)
+      << over("drive.viscous_Nms_per_rad", 0) << over("shaft.friction_Nm", 0) << over("drive.inertia_kgm2", 0.1)
+      << over("drive.gear_ratio", 1000) << over("drive.supply_V", 0) << over("drive.off_mode", 0);
   } else {
     s << over("drive.friction_Nm", w.friction_Nm);
   }

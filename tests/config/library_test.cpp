@@ -37,7 +37,7 @@ class Environment {
 };
 
 TEST(Override, ReplacesAValueAndSaysSoInTheSource) {
-  const auto preset = shipped().load("qbmove_maker_pro", {{"drive.friction_Nm", "0.7"}, {"elastic.k1_Nm", "0.03"}});
+  const auto preset = shipped().load("qbmove_maker_pro_paper", {{"drive.friction_Nm", "0.7"}, {"elastic.k1_Nm", "0.03"}});
   EXPECT_EQ(preset.unit.actuator.gearbox.friction.coulomb_Nm, 0.7);
   EXPECT_EQ(entry(preset, "drive.friction_Nm").value, "0.7");
   expect_pieces(entry(preset, "drive.friction_Nm").source, {"override", "the preset has 0.8", "Table I"});
@@ -150,7 +150,7 @@ TEST(DataDirectory, FromTheEnvironmentIsTheOnlyOne) {
 
 TEST(LawRegistry, HasTheStandardLawsAndTakesMore) {
   config::LawRegistry laws = config::LawRegistry::standard();
-  EXPECT_EQ(laws.names(), (std::vector<std::string>{"series_spring", "two_sinh"}));
+  EXPECT_EQ(laws.names(), (std::vector<std::string>{"series_spring", "two_sinh", "two_sinh_linear"}));
   laws.add("mine", [](config::LawReader&) { return nullptr; });
   EXPECT_NE(laws.find("mine"), nullptr);
   EXPECT_EQ(laws.find("yours"), nullptr);

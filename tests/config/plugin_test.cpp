@@ -40,7 +40,7 @@ TEST(Plugin, TheFullExampleOfTheDocumentationIsRead) {
   EXPECT_EQ(shoulder.unit.actuator.gearbox.friction.coulomb_Nm, 0.7);
   EXPECT_EQ(robot.actuators[1].name, "module_2::shaft");
   EXPECT_EQ(robot.actuators[1].id, 2);
-  EXPECT_EQ(robot.actuators[1].unit.actuator.gearbox.friction.coulomb_Nm, 0.8);
+  EXPECT_EQ(robot.actuators[1].unit.actuator.gearbox, shipped().load("qbmove_maker_pro").unit.actuator.gearbox);
   EXPECT_EQ(robot.buses[0].name, "arm");
   EXPECT_EQ(robot.buses[0].baud_Hz, 2e6);
   EXPECT_FALSE(robot.buses[0].cycle_s.has_value());

@@ -24,8 +24,8 @@ class PresetBadInput : public testing::TestWithParam<BadPreset> {};
 TEST_P(PresetBadInput, IsRefusedWithWhatIsWrong) {
   const BadPreset& bad = GetParam();
   const Directory directory(std::string("bad_") + bad.name);
-  const std::string text = replaced(read(source_dir() / "presets/qbmove_maker_pro.toml"), bad.from, bad.to);
-  const auto file = directory.write("qbmove_maker_pro.toml", text);
+  const std::string text = replaced(read(source_dir() / "presets/qbmove_maker_pro_paper.toml"), bad.from, bad.to);
+  const auto file = directory.write("qbmove_maker_pro_paper.toml", text);
   const auto problems = problems_of([&] { (void)shipped().load_file(file); });
   EXPECT_EQ(problems.size(), bad.problems) << text_of(problems);
   expect_pieces(text_of(problems), bad.pieces);
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Form, PresetBadInput,
     testing::Values(
-        BadPreset{"not_toml", "[drive]", "[drive", {"qbmove_maker_pro.toml:18"}},
+        BadPreset{"not_toml", "[drive]", "[drive", {"qbmove_maker_pro_paper.toml:18"}},
         BadPreset{"twice", "[drive]", "[drive]\npolarity = { value = 1, source = \"x\" }", {"polarity"}},
         BadPreset{"bare_number", "polarity = { value = 1", "polarity = 1 #", {"drive.polarity = 1: must be a table"}},
         BadPreset{"unknown_key",
@@ -93,11 +93,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadPreset{"unknown_law",
                   "\"two_sinh\"",
                   "\"three_sinh\"",
-                  {"elastic.law = \"three_sinh\": unknown law", "series_spring, two_sinh"}},
+                  {"elastic.law = \"three_sinh\": unknown law", "series_spring, two_sinh, two_sinh_linear"}},
         BadPreset{"no_law", "law = \"two_sinh\"", "", {"elastic.law: is missing"}},
         BadPreset{"law_key_missing", "k1_Nm =", "k3_Nm =", {"elastic.k1_Nm: is missing", "elastic.k3_Nm: unknown key"}, 2},
         BadPreset{"law_unit", "bounds = [1e-6, 1.0]", "bounds = [1e-6, 1.0], units = 1", {"elastic.k1_Nm.units"}},
-        BadPreset{"name", "name = \"qbmove_maker_pro\"", "name = \"qbmove\"", {"differs from the file's name", "qbmove_maker_pro"}},
+        BadPreset{"name", "name = \"qbmove_maker_pro_paper\"", "name = \"qbmove\"", {"differs from the file's name", "qbmove_maker_pro_paper"}},
         BadPreset{"title_missing", "title =", "titel =", {"preset.titel", "did you mean title?", "preset.title: is missing"}, 2},
         BadPreset{
             "title_number", "title = \"qbmove maker pro (paper, Table I)\"", "title = 5", {"preset.title = 5: must be a text"}}),

@@ -16,9 +16,9 @@ namespace {
 
 using config::Preset;
 
-TEST(ShippedPresets, AreTheFourOfTheDocumentation) {
-  EXPECT_EQ(shipped().names(),
-            (std::vector<std::string>{"qbmove_advanced", "qbmove_maker_pro", "qbmove_maker_pro_datasheet", "sea_example"}));
+TEST(ShippedPresets, AreTheFiveOfTheDocumentation) {
+  EXPECT_EQ(shipped().names(), (std::vector<std::string>{"qbmove_advanced", "qbmove_maker_pro", "qbmove_maker_pro_datasheet",
+                                                         "qbmove_maker_pro_paper", "sea_example"}));
 }
 
 TEST(ShippedPresets, EveryOneLoadsAndEveryEntryHasMeaningBoundsAndSource) {
@@ -41,8 +41,8 @@ TEST(ShippedPresets, GiveEveryParameterThemselvesSoThatNoneDependsOnADefault) {
   }
 }
 
-TEST(ShippedPresets, TheMakerProHasTheValuesOfTableIWithTheErratumOnBackEmf) {
-  const Preset preset = shipped().load("qbmove_maker_pro");
+TEST(ShippedPresets, ThePapersMakerProHasTheValuesOfTableIWithTheErratumOnBackEmf) {
+  const Preset preset = shipped().load("qbmove_maker_pro_paper");
   const device::UnitConfig& u = preset.unit;
   const auto* springs = dynamic_cast<const elastic::TwoSinh*>(u.actuator.transmission.get());
   ASSERT_NE(springs, nullptr);
@@ -83,6 +83,14 @@ TEST(ShippedPresets, TheBackEmfConstantsSourceExplainsTheErratum) {
   for (const config::Entry& e : shipped().load("qbmove_maker_pro").entries) {
     if (e.key == "drive.back_emf_Vs_per_rad") expect_pieces(e.source, {"Erratum", "prints 0.3", "0.6299"});
   }
+}
+
+TEST(ShippedPresets, TheMakerProKeepsThePapersMotorAndTheFirmwaresBoundOnTheStiffness) {
+  const device::UnitConfig unit = shipped().load("qbmove_maker_pro").unit, paper = shipped().load("qbmove_maker_pro_paper").unit;
+  EXPECT_EQ(unit.actuator.motor, paper.actuator.motor);
+  EXPECT_EQ(unit.max_stiffness_raw, 3000 << 1);
+  EXPECT_EQ(unit.actuator.bridge.dead_band, 0.0);
+  EXPECT_GT(unit.actuator.tendon.friction, 0.0);
 }
 
 TEST(ShippedPresets, TheDataSheetsSpringsDiffer) {

@@ -30,6 +30,10 @@ struct Law {
 std::vector<Law> laws() {
   return {{"two equal sinh", std::make_shared<TwoSinh>(vsa::elastic::TwoSinhParams{{0.022, 0.022}, {6.85, 6.85}})},
           {"two unequal sinh", std::make_shared<TwoSinh>(vsa::elastic::TwoSinhParams{{0.0227, 0.0216}, {6.7328, 6.9602}})},
+          {"two sinh with linear parts",
+           std::make_shared<TwoSinh>(vsa::elastic::TwoSinhParams{{8e-4, 9e-4}, {12.3, 12.1}, {0.27, 0.25}})},
+          {"… and tangents beyond",
+           std::make_shared<TwoSinh>(vsa::elastic::TwoSinhParams{{8e-4, 9e-4}, {12.3, 12.1}, {0.27, 0.25}, 0.6})},
           {"series spring", std::make_shared<SeriesSpring>(10.0)}};
 }
 
@@ -99,6 +103,24 @@ TEST(ElasticLaws, TheSegmentMeansSlopeIsItsDerivativeAtTheEnd) {
         const double d0 = -(mu.load[0] - md.load[0]) / 2e-5;
         EXPECT_NEAR(hessian(m.slope, i, 0), dq, 1e-6 * (1 + std::abs(dq))) << l.name;
         EXPECT_NEAR(hessian(m.slope, i, 1), d0, 1e-6 * (1 + std::abs(d0))) << l.name;
+      }
+    }
+  }
+}
+
+TEST(ElasticLaws, SignedEnergiesSumToTheEnergyAndTheirSlopesAreTheTensions) {
+  std::mt19937 rng(4);
+  for (const Law& l : laws()) {
+    for (int n = 0; n < 200; ++n) {
+      const Positions at = random_place(rng);
+      const auto w = l.law->signed_energies(at);
+      const auto r = l.law->evaluate(at);
+      EXPECT_NEAR(std::abs(w[0]) + std::abs(w[1]), r.energy, 1e-13 * (1 + r.energy)) << l.name;
+      const double h = 1e-5;
+      const auto up = l.law->signed_energies({at.q + h, at.x}), down = l.law->signed_energies({at.q - h, at.x});
+      for (std::size_t i = 0; i < static_cast<std::size_t>(l.law->spring_count()); ++i) {
+        const double slope = (up[i] - down[i]) / (2 * h);
+        EXPECT_NEAR(slope, std::abs(r.load[i]), 1e-6 * (1 + slope)) << l.name << " spring " << i;
       }
     }
   }

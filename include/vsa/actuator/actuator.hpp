@@ -8,7 +8,16 @@
 // free_i and c_i come from the motor's exact step (drive/motor.hpp), load̄ from the law's segment mean, f̄ from the friction's closed
 // form. Newton on the law, friction exact in each iteration; for a convex potential the solution is unique.
 //
-// States: pulley angle, speed, current (2 each), friction anchors (3), shaft position of the last segment's end, energy ledger.
+// TENDON FRICTION, proportional to each spring's tension T_i, in the coordinate of the spring's energy:
+//     w_i = sign(δ_i) H_i,   ∂w_i/∂q = |T_i|
+// There a loss μ|T| is a friction of constant level μ, so Hayward's and Armstrong's law (drive/friction.hpp) holds with "angle" w,
+// "torque" μ and presliding w_max: shaft torque −μ s |T_i|, pulley load +μ s |T_i|, s = (w_i − z_i)/w_max within ±1. It is passive
+// in every branch as that law is: presliding stores ½(μ/w_max)(w − z)², sliding burns μ|T| per rad. Range: 0 ≤ μ < 1.
+//
+// GEAR LOSS: the limit of the gearbox's friction grows by λ·|load_i| of the last segment. Its bristle's stiffness stays, so a
+// growing limit adds no energy, and one that shrinks burns what it lets go.
+//
+// States: pulley angle, speed, current (2 each), friction anchors (5), shaft position of the last segment's end, energy ledger.
 #pragma once
 
 #include <array>
@@ -22,13 +31,22 @@
 
 namespace vsa::actuator {
 
+/// Friction proportional to the springs' tension, in the energy's own coordinate (see the top of this file).
+struct TendonParams {
+  double friction = 0;      ///< μ, loss torque a spring torque, [0, 1)
+  double presliding_J = 0;  ///< w_max: how much a spring's energy changes before that friction slides, ≥ 0
+  bool operator==(const TendonParams&) const = default;
+};
+
 struct ActuatorParams {
   std::shared_ptr<const elastic::Transmission> transmission;
   drive::MotorParams motor;  ///< at the motor's shaft; both motors alike
   drive::GearboxParams gearbox;
   drive::BridgeParams bridge;
   drive::FrictionParams shaft_friction;
+  TendonParams tendon;
   sensor::EncoderParams encoder;                ///< all three alike
+  double shaft_zero_rad = 0;                    ///< and this added to the shaft's reading
   double shaft_inertia_kgm2 = drive::kMissing;  ///< used as 1/A where a host can't tell the inverse inertia
   bool operator==(const ActuatorParams&) const = default;
 };
@@ -38,7 +56,8 @@ struct ActuatorState {
   std::array<double, 2> motor_anchor{};
   double shaft = 0;  ///< y, end of the last segment's path
   double shaft_anchor = 0;
-  std::array<double, 2> load{};  ///< mean spring load on each pulley over the last segment
+  std::array<double, 2> tendon_anchor{};  ///< z_w of each spring's friction, J
+  std::array<double, 2> load{};           ///< mean spring load on each pulley over the last segment
   Ledger ledger;
 };
 
@@ -85,15 +104,25 @@ class Actuator {
     drive::MotorStepper driven, open;
   };
   const drive::MotorStepper& stepper(double h_s, drive::Terminal terminal) noexcept;
+  /// What the frictions see at a segment's start.
+  struct Start {
+    std::array<drive::Friction, 2> gear{drive::FrictionParams{}, drive::FrictionParams{}};
+    std::array<double, 2> gear_u{};
+    std::array<double, 2> w{}, w_u{};  // the springs' signed energies, and their distance from the anchors
+  };
+  [[nodiscard]] Start start_of(ActuatorState& state) const noexcept;
+  void add_tendon_friction(const Start& start, const elastic::Positions& to, const std::array<double, 2>& deflection,
+                           elastic::SegmentMean& mean) const noexcept;
+  void move_tendons(ActuatorState& state, const Start& start) const noexcept;
   struct Pulleys {
     std::array<double, 2> dx{};  // displacements
     std::array<drive::FrictionStep, 2> friction{};
     elastic::SegmentMean mean;  // at the accepted displacements, linearly corrected
     double slope = 0;
   };
-  [[nodiscard]] Pulleys solve(const ActuatorState& state, const drive::MotorStepper& stepper,
+  [[nodiscard]] Pulleys solve(const ActuatorState& state, const Start& start, const drive::MotorStepper& stepper,
                               const SegmentInput& in) const noexcept;
-  void drive_motors(ActuatorState& state, const drive::MotorStepper& stepper, const SegmentInput& in,
+  void drive_motors(ActuatorState& state, const Start& start, const drive::MotorStepper& stepper, const SegmentInput& in,
                     const Pulleys& p) const noexcept;
   [[nodiscard]] elastic::Positions positions(const ActuatorState& state, double shaft) const noexcept;
   void book_motors(ActuatorState& state) const noexcept;
@@ -102,6 +131,7 @@ class Actuator {
   drive::MotorParams motor_;  // at the pulley
   drive::Friction friction_;  // at the pulley
   drive::Friction shaft_friction_;
+  drive::Friction tendon_;  // in the energy's coordinate: "torque" μ, "angle" J
   int motors_;
   std::array<Prepared, 2> prepared_{};  // the two step lengths used last
 };

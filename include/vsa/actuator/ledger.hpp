@@ -2,8 +2,8 @@
 //
 // Where the energy of one actuator went. Every entry has a formula of its own, none is a remainder, so that the balance
 //
-//   supply = copper + conversion + viscous + motor_friction + shaft_friction + (stored − stored at the start)
-//            + delivered + pending + integrator + coupling
+//   supply = copper + conversion + viscous + motor_friction + shaft_friction + tendon_friction
+//            + (stored − stored at the start) + delivered + pending + integrator + coupling
 //
 // is a test. Units: J, summed since the start or the last reset.
 #pragma once
@@ -11,30 +11,32 @@
 namespace vsa::actuator {
 
 struct Ledger {
-  double supply = 0;          ///< Σ ∫V I dt drawn from the supply; negative when motors feed back
-  double copper = 0;          ///< Σ ∫R I² dt
-  double conversion = 0;      ///< Σ (K_b − K_τ)∫Iω dt: zero where the two constants agree, as physics asks
-  double viscous = 0;         ///< Σ ∫b ω² dt
-  double motor_friction = 0;  ///< heat of the gearboxes' friction
-  double shaft_friction = 0;  ///< heat of the output shaft's friction
-  double delivered = 0;       ///< ∫τ dq given to the robot, in the host's own (midpoint) terms
-  double integrator = 0;      ///< −(ΔH + Σ load̄ Δx + τ̄ Δq): what the segment means miss
+  double supply = 0;           ///< Σ ∫V I dt drawn from the supply; negative when motors feed back
+  double copper = 0;           ///< Σ ∫R I² dt
+  double conversion = 0;       ///< Σ (K_b − K_τ)∫Iω dt: zero where the two constants agree, as physics asks
+  double viscous = 0;          ///< Σ ∫b ω² dt
+  double motor_friction = 0;   ///< heat of the gearboxes' friction
+  double shaft_friction = 0;   ///< heat of the output shaft's friction
+  double tendon_friction = 0;  ///< heat of the springs' tension-proportional friction
+  double delivered = 0;        ///< ∫τ dq given to the robot, in the host's own (midpoint) terms
+  double integrator = 0;       ///< −(ΔH + Σ load̄ Δx + τ̄ Δq): what the segment means miss
   double pending = 0;   ///< work of the step under way along the predicted path; the next step turns it into delivered + coupling
   double coupling = 0;  ///< what the shaft's mispredicted path costs: see Actuator::settle
   double kinetic = 0;   ///< now: Σ ½Jω² of the motors
   double magnetic = 0;  ///< now: Σ ½LI²
   double elastic = 0;   ///< now: H
   double bristle = 0;   ///< now: presliding energy of the gearboxes' frictions
-  double shaft_bristle = 0;  ///< now: presliding energy of the shaft's friction
+  double shaft_bristle = 0;   ///< now: presliding energy of the shaft's friction
+  double tendon_bristle = 0;  ///< now: presliding energy of the tendons' friction
   double stored_at_start = 0;
   double supply_moved = 0;     ///< ∫|P_supply| dt, by steps
   double delivered_moved = 0;  ///< ∫|P_shaft| dt, by steps
 
-  [[nodiscard]] double stored() const noexcept { return kinetic + magnetic + elastic + bristle + shaft_bristle; }
+  [[nodiscard]] double stored() const noexcept { return kinetic + magnetic + elastic + bristle + shaft_bristle + tendon_bristle; }
   /// Left side less right side of the balance, J: rounding only.
   [[nodiscard]] double imbalance() const noexcept {
-    return supply - (copper + conversion + viscous + motor_friction + shaft_friction + (stored() - stored_at_start) + delivered +
-                     pending + integrator + coupling);
+    return supply - (copper + conversion + viscous + motor_friction + shaft_friction + tendon_friction +
+                     (stored() - stored_at_start) + delivered + pending + integrator + coupling);
   }
   /// ∫|P_supply| + ∫|P_shaft|, J: what the balance is measured against.
   [[nodiscard]] double moved() const noexcept { return supply_moved + delivered_moved; }

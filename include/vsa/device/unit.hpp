@@ -20,9 +20,10 @@ inline constexpr int kMaxTicksPerStep = 17;  ///< host steps up to 16 ms
 struct UnitConfig {
   actuator::ActuatorParams actuator;
   firmware::LoopParams loop;
-  int polarity = 1;             ///< −1: motor wiring reversed against the encoder (qbmove advanced, with negative gains)
-  double preset_max = 0.785;    ///< accepted |preset|
-  double substep_max_s = 1e-3;  ///< longest physics segment, (0, 1 ms]
+  int polarity = 1;              ///< −1: motor wiring reversed against the encoder (qbmove advanced, with negative gains)
+  double preset_max = 0.785;     ///< accepted |preset|
+  int max_stiffness_raw = 6000;  ///< the unit's own bound on the preset of a position-and-stiffness command
+  double substep_max_s = 1e-3;   ///< longest physics segment, (0, 1 ms]
   bool operator==(const UnitConfig&) const = default;
 };
 

@@ -28,6 +28,10 @@ struct Friction : FrictionParams {
   double stiffness;  ///< τ_c/z_max, N·m/rad; 0 where there is no bristle
 };
 
+/// The friction under a load: τ_c grows by ratio·|load|, the bristle's stiffness stays (z_max grows with τ_c); without a bristle it
+/// is Coulomb friction. A caller whose limit shrinks below the bristle's bend turns the difference of energy to heat.
+[[nodiscard]] Friction at_load(const Friction& p, double ratio, double load_Nm) noexcept;
+
 struct FrictionStep {
   double displacement = 0;   ///< Δx, rad
   double torque = 0;         ///< τ̄ on the part, N·m

@@ -37,6 +37,7 @@ struct MotorParams {
 struct GearboxParams {
   double ratio = 1.0;       ///< n = motor turns per pulley turn, > 0
   FrictionParams friction;  ///< loss torque at the motor's shaft (eq. 5) and its presliding at the PULLEY
+  double load_loss = 0;     ///< λ ≥ 0: friction grows by λ·|load on the pulley|; a gear of efficiency η has λ = 1/η − 1
   bool operator==(const GearboxParams&) const = default;
 };
 

@@ -20,6 +20,8 @@ class SeriesSpring final : public Transmission {
   [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& command) const noexcept override;
   [[nodiscard]] EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override;
   [[nodiscard]] int motor_count() const noexcept override { return 1; }
+  [[nodiscard]] int spring_count() const noexcept override { return 1; }
+  [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override;
   [[nodiscard]] std::string_view preset_unit() const noexcept override { return ""; }
 
  private:

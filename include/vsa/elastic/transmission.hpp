@@ -76,6 +76,11 @@ class Transmission {
   [[nodiscard]] virtual EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept = 0;
 
   [[nodiscard]] virtual int motor_count() const noexcept { return 2; }
+  /// Springs whose tension a loss can be proportional to (actuator/actuator.hpp): spring i lies between input i and the shaft, with
+  /// deflection δ_i = q − x_i. 0: the law names none, and such a loss is refused.
+  [[nodiscard]] virtual int spring_count() const noexcept { return 0; }
+  /// w_i = sign(δ_i)·H_i: the energy of spring i with the sign of its deflection, J. ∂w_i/∂q = |T_i|, its tension's magnitude, N·m.
+  [[nodiscard]] virtual std::array<double, 2> signed_energies(const Positions&) const noexcept { return {}; }
   /// "rad" for the qbmove's half difference; "" where the law has no preset.
   [[nodiscard]] virtual std::string_view preset_unit() const noexcept { return "rad"; }
 
