@@ -16,20 +16,24 @@ struct EnergyColumn {
 };
 
 // "motor_kinetic" is the ledger's own kinetic energy (motors); "kinetic" is that of the bodies.
-inline constexpr std::array<EnergyColumn, 18> kEnergyColumns{{
+inline constexpr std::array<EnergyColumn, 22> kEnergyColumns{{
     {"supply", [](const Sample& s) { return s.ledger.supply; }},
     {"copper", [](const Sample& s) { return s.ledger.copper; }},
     {"conversion", [](const Sample& s) { return s.ledger.conversion; }},
     {"viscous", [](const Sample& s) { return s.ledger.viscous; }},
     {"motor_friction", [](const Sample& s) { return s.ledger.motor_friction; }},
     {"shaft_friction", [](const Sample& s) { return s.ledger.shaft_friction; }},
+    {"tendon_friction", [](const Sample& s) { return s.ledger.tendon_friction; }},
     {"delivered", [](const Sample& s) { return s.ledger.delivered; }},
+    {"pending", [](const Sample& s) { return s.ledger.pending; }},
     {"integrator", [](const Sample& s) { return s.ledger.integrator; }},
     {"coupling", [](const Sample& s) { return s.ledger.coupling; }},
     {"motor_kinetic", [](const Sample& s) { return s.ledger.kinetic; }},
     {"magnetic", [](const Sample& s) { return s.ledger.magnetic; }},
     {"elastic", [](const Sample& s) { return s.ledger.elastic; }},
     {"bristle", [](const Sample& s) { return s.ledger.bristle; }},
+    {"shaft_bristle", [](const Sample& s) { return s.ledger.shaft_bristle; }},
+    {"tendon_bristle", [](const Sample& s) { return s.ledger.tendon_bristle; }},
     {"stored_at_start", [](const Sample& s) { return s.ledger.stored_at_start; }},
     {"supply_moved", [](const Sample& s) { return s.ledger.supply_moved; }},
     {"delivered_moved", [](const Sample& s) { return s.ledger.delivered_moved; }},

@@ -68,6 +68,7 @@ export function energyPanels() {
         ['gear friction', 'motor_friction', 'dash'],
         ['viscous', 'viscous', 'dot'],
         ['shaft friction', 'shaft_friction', 'dashdot'],
+        ['tendon friction', 'tendon_friction', 'longdash'],
       ],
     },
     { title: 'Stored in the springs', unit: 'J', scale: 1, digits: 3, lines: [['elastic', 'elastic', 'solid']] },
