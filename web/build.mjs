@@ -1,37 +1,47 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// node build.mjs OUT.html: bundles src/ with three.js and Plotly into the replay page's template, one file that needs no other.
-// The packages' licence notices stay in the bundle.
+// node build.mjs DIR: bundles src/ into the templates of two pages, each one file that needs no other: DIR/replay.html (with three.js
+// and Plotly) and DIR/report.html (with Plotly). The packages' licence notices stay in the bundles.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { build, transform } from 'esbuild';
 
-const kMarker = '@VSA_REPLAY_DATA@';
+const kMarker = '@VSA_PAGE_DATA@';
+const kPages = [
+  { name: 'replay', html: 'index.html', entry: 'main.js', styles: ['base.css', 'style.css'] },
+  { name: 'report', html: 'report/index.html', entry: 'report/main.js', styles: ['base.css', 'report/style.css'] },
+];
+
 const out = process.argv[2];
 if (!out) {
-  console.error('usage: node build.mjs OUT.html');
+  console.error('usage: node build.mjs DIR');
   process.exit(2);
 }
-const source = (name) => readFileSync(join(import.meta.dirname ?? '.', 'src', name), 'utf8');
+const path = (name) => join(import.meta.dirname ?? '.', 'src', name);
+const source = (name) => readFileSync(path(name), 'utf8');
 
-const bundle = await build({
-  entryPoints: [join(import.meta.dirname ?? '.', 'src', 'main.js')],
-  bundle: true,
-  minify: true,
-  write: false,
-  format: 'iife',
-  target: 'es2020',
-  legalComments: 'inline',
-  logLevel: 'warning',
-});
-// Inside <script> only "</script" and "<!--" can end or change the element.
-const script = bundle.outputFiles[0].text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
-const style = (await transform(source('style.css'), { loader: 'css', minify: true })).code;
+async function script(entry) {
+  const bundle = await build({
+    entryPoints: [path(entry)],
+    bundle: true,
+    minify: true,
+    write: false,
+    format: 'iife',
+    target: 'es2020',
+    legalComments: 'inline',
+    logLevel: 'warning',
+  });
+  // Inside <script> only "</script" and "<!--" can end or change the element.
+  return bundle.outputFiles[0].text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
+}
+const style = async (names) => (await transform(names.map(source).join('\n'), { loader: 'css', minify: true })).code;
 
-const fill = (html, place, text) => {
-  if (html.split(place).length !== 2) throw new Error(`src/index.html must hold ${place} once`);
-  return html.replace(place, () => text);
-};
-const html = fill(fill(source('index.html'), '/*@STYLE@*/', style), '/*@SCRIPT@*/', script);
-if (html.split(kMarker).length !== 2) throw new Error(`the page must hold ${kMarker} once`);
-writeFileSync(out, html);
+for (const page of kPages) {
+  const fill = (html, place, text) => {
+    if (html.split(place).length !== 2) throw new Error(`src/${page.html} must hold ${place} once`);
+    return html.replace(place, () => text);
+  };
+  const html = fill(fill(source(page.html), '/*@STYLE@*/', await style(page.styles)), '/*@SCRIPT@*/', await script(page.entry));
+  if (html.split(kMarker).length !== 2) throw new Error(`the page must hold ${kMarker} once`);
+  writeFileSync(join(out, `${page.name}.html`), html);
+}

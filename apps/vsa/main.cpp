@@ -6,10 +6,14 @@
 #include <iostream>
 
 #include "actuators.hpp"
+#include "characterize.hpp"
 #include "command.hpp"
+#include "datasheet.hpp"
 #include "exit_codes.hpp"
+#include "identify.hpp"
 #include "interrupt.hpp"
 #include "run.hpp"
+#include "validate.hpp"
 #include "vsa/errors.hpp"
 
 namespace {
@@ -19,6 +23,8 @@ constexpr const char* kExamples = R"(Examples:
   vsa run models/worlds/snake_flat.sdf --realtime
   vsa command 20 35
   vsa actuators qbmove_maker_pro
+  vsa characterize qbmove_maker_pro
+  vsa datasheet qbmove_maker_pro
 
 Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 130 or 143 a run with a duration that a signal cut short.)";
 
@@ -42,6 +48,10 @@ int run_application(int argc, char** argv) {
   vsa::app::setup_run(app, exit_code);
   vsa::app::setup_command(app, exit_code);
   vsa::app::setup_actuators(app, exit_code);
+  vsa::app::setup_characterize(app, exit_code);
+  vsa::app::setup_identify(app, exit_code);
+  vsa::app::setup_validate(app, exit_code);
+  vsa::app::setup_datasheet(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

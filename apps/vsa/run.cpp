@@ -71,6 +71,8 @@ void setup_run(CLI::App& app, int& exit_code) {
   sub->add_option("WORLD", options->world, "SDF file, or a built-in world's name")->required();
   sub->add_option("--duration-s", options->duration_s, "Simulated seconds to run; default: until Ctrl-C")->check(number_given());
   sub->add_flag("--realtime", options->realtime, "Not faster than the wall clock; default: as fast as possible");
+  sub->add_option("--preset", options->preset, "Put this actuator preset on every actuator of the world");
+  sub->add_option("--set", options->set, "Override a parameter of every actuator: key=value");
   sub->add_option("--gait", options->gait, "Play this gait in simulated time");
   sub->add_option("--record", options->record, "Write CSV files and a replay page into this directory");
   CLI::Option* no_topics = sub->add_flag("--no-topics", options->no_topics, "Run without the transport");

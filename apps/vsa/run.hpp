@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vsa::app {
 
@@ -13,8 +14,10 @@ struct RunOptions {
   bool realtime = false;
   bool paused = false;
   bool no_topics = false;
-  std::string gait;    ///< a file, or a built-in gait's name; empty: none
-  std::string record;  ///< directory; empty: none
+  std::string preset;            ///< put on every actuator; empty: what the world says
+  std::vector<std::string> set;  ///< override its parameters: "drive.friction_Nm=0.7"
+  std::string gait;              ///< a file, or a built-in gait's name; empty: none
+  std::string record;            ///< directory; empty: none
 };
 
 /// `vsa run WORLD.sdf`. Sets the exit code when it was the subcommand.

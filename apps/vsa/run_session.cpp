@@ -8,6 +8,7 @@
 
 #include "find_file.hpp"
 #include "interrupt.hpp"
+#include "settings.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::app {
@@ -17,7 +18,15 @@ constexpr double kTravelWindow_s = 1.3;  // where no gait tells its period; clos
 constexpr double kTravelRate_Hz = 100;
 constexpr std::chrono::milliseconds kIdleWait{100};
 
-engine::World load_world(const std::string& name) { return engine::World::load(find_file(name, "world", "models/worlds", ".sdf")); }
+engine::World load_world(const RunOptions& options) {
+  engine::WorldOptions with;
+  with.actuator.overrides = parse_settings(options.set, "--set");
+  if (!options.preset.empty()) {
+    with.actuator.preset = options.preset;
+    static_cast<void>(with.presets.load(options.preset, with.actuator.overrides));  // its problems, once and by their own names
+  }
+  return engine::World::load(find_file(options.world, "world", "models/worlds", ".sdf"), std::move(with));
+}
 
 std::optional<engine::Gait> load_gait(const std::string& name) {
   if (name.empty()) return std::nullopt;
@@ -43,7 +52,7 @@ RunSession::RunSession(const RunOptions& options, Console& console)
     : console_(console),
       realtime_(options.realtime),
       duration_s_(options.duration_s),
-      world_(load_world(options.world)),
+      world_(load_world(options)),
       gait_(load_gait(options.gait)),
       robot_model_(world_.robot_count() > 0 ? top_level(world_.robot_model(0)) : ""),
       travel_window_s_(travel_window_s(gait_)),

@@ -108,12 +108,15 @@ class Finisher {
     }
   }
 
-  void check_initial(const ActuatorDraft& a, const host::ActuatorConfig& out) {
+  void check_initial(const ActuatorDraft& a, host::ActuatorConfig& out) {
     const auto& law = *out.unit.actuator.transmission;
     const std::string path = a.path + "/initial@";
     const std::string unit(law.preset_unit());
     const std::string right = unit.empty() ? "" : std::string(kPresetPrefix) + "_" + unit;
-    if (!a.initial_preset_key.empty() && a.initial_preset_key != right) {
+    if (a.replaced) {
+      const double limit = out.unit.preset_max;
+      out.initial_preset = a.initial_preset_key == right ? std::clamp(a.initial_preset, -limit, limit) : 0.0;
+    } else if (!a.initial_preset_key.empty() && a.initial_preset_key != right) {
       add(path + a.initial_preset_key, number_text(a.initial_preset),
           right.empty() ? "this actuator has no preset: leave it out" : "is not this actuator's preset", right);
     } else if (std::abs(a.initial_preset) > out.unit.preset_max) {
@@ -127,7 +130,7 @@ class Finisher {
   void check_references(const ActuatorDraft& a, const host::ActuatorConfig& out) {
     const auto& law = *out.unit.actuator.transmission;
     const firmware::LoopParams& loop = out.unit.loop;
-    const auto x = law.references({a.initial_equilibrium, a.initial_preset});
+    const auto x = law.references({out.initial_equilibrium_rad, out.initial_preset});
     for (std::size_t i = 0; i < static_cast<std::size_t>(law.motor_count()); ++i) {
       const double bits = 32768.0 * (1 << loop.resolution[i]);
       const double low = loop.limits_on ? loop.limits_raw[2 * i] : -bits;

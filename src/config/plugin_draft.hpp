@@ -27,6 +27,7 @@ struct ActuatorDraft {
   double initial_equilibrium = 0, initial_preset = 0;
   std::string initial_preset_key;  ///< "preset_rad"; empty: not given
   std::vector<Override> overrides;
+  bool replaced = false;  ///< the preset isn't the element's own: its initial preset may not fit
 };
 
 struct BusDraft {

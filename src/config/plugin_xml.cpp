@@ -148,9 +148,24 @@ class Parser {
   XmlReader xml_;
 };
 
+void replace(RobotDraft& robot, const Replacement& replacement) {
+  for (ActuatorDraft& a : robot.actuators) {
+    if (replacement.preset) {
+      a.preset = *replacement.preset;
+      a.overrides.clear();
+    }
+    for (const Override& o : replacement.overrides) {
+      std::erase_if(a.overrides, [&](const Override& own) { return own.key == o.key; });
+    }
+    a.overrides.insert(a.overrides.end(), replacement.overrides.begin(), replacement.overrides.end());
+    a.replaced = replacement.preset || !replacement.overrides.empty();
+  }
+}
+
 }  // namespace
 
-host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, const PresetLibrary& presets) {
+host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, const PresetLibrary& presets,
+                               const Replacement& replacement) {
   Problems problems;
   tinyxml2::XMLDocument document;
   const bool parsed = !xml.empty() && document.Parse(xml.data(), xml.size()) == tinyxml2::XML_SUCCESS;
@@ -163,7 +178,8 @@ host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, con
     problems.add(
         {std::string(where), root->NextSiblingElement()->Name(), "", "a second element at the top", "one <plugin> element"});
   }
-  const RobotDraft draft = Parser(where, problems).parse(*root);
+  RobotDraft draft = Parser(where, problems).parse(*root);
+  replace(draft, replacement);
   host::RobotConfig config = finish(draft, where, presets, problems);
   problems.throw_if_any();
   return config;

@@ -42,6 +42,7 @@ std::vector<std::pair<std::string, std::size_t>> joints_under(const WorldDescrip
 struct RobotBuilder {
   WorldDescription& world;
   const config::PresetLibrary& presets;
+  const config::Replacement& actuator;
   std::string file;
   Problems& problems;
 
@@ -68,7 +69,7 @@ struct RobotBuilder {
   std::optional<RobotSlot> build(const Plugin& plugin) {
     const std::string where = file + ": " + plugin.model;
     try {
-      host::RobotConfig config = config::parse_plugin(plugin.xml, where, presets);
+      host::RobotConfig config = config::parse_plugin(plugin.xml, where, presets, actuator);
       std::vector<std::size_t> joints = match(config, plugin, where);
       if (joints.size() != config.actuators.size()) return std::nullopt;
       const std::size_t n = joints.size();
@@ -99,7 +100,7 @@ void check_shared_joints(const std::vector<RobotSlot>& robots, const WorldDescri
 
 void World::Impl::add_robots(const std::string& file, Problems& problems) {
   if (!options.actuators) return;
-  RobotBuilder builder{world, options.presets, file, problems};
+  RobotBuilder builder{world, options.presets, options.actuator, file, problems};
   for (const Plugin& plugin : world.plugins) {
     std::optional<RobotSlot> slot = builder.build(plugin);
     if (!slot) continue;

@@ -115,11 +115,11 @@ std::string read_template(const std::filesystem::path& file) {
   const auto problem = [&](const std::string& message) { return InputError(Problem{file.string(), "", "", message, ""}); };
   errno = 0;
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw problem("can't read the replay page's template: " + std::system_category().message(errno));
+  if (!in) throw problem("can't read the page's template: " + std::system_category().message(errno));
   std::string text(std::istreambuf_iterator<char>(in), {});
   const std::size_t at = text.find(kPageMarker);
   if (at == std::string::npos || text.find(kPageMarker, at + 1) != std::string::npos) {
-    throw problem("not a template of the replay page: it must hold " + std::string(kPageMarker) + " once");
+    throw problem("not a page's template: it must hold " + std::string(kPageMarker) + " once");
   }
   return text;
 }
@@ -138,7 +138,7 @@ void write_page(const std::filesystem::path& file, std::string_view page_templat
   } catch (const std::exception& e) {
     std::error_code ignored;
     std::filesystem::remove(beside, ignored);
-    throw RecordError(file.string() + ": can't write the replay page: " + e.what());
+    throw RecordError(file.string() + ": can't write the page: " + e.what());
   }
 }
 

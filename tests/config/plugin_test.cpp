@@ -47,6 +47,53 @@ TEST(Plugin, TheFullExampleOfTheDocumentationIsRead) {
   EXPECT_EQ(robot.state_rate_Hz, 100);
 }
 
+TEST(Plugin, AReplacementPutsAnotherActuatorOnEveryJoint) {
+  const std::string xml = plugin(maker_pro("a",
+                                           "<initial equilibrium_rad='0.1' preset_rad='0.2'/>"
+                                           "<override key='drive.friction_Nm' value='0.7'/>") +
+                                 kElbow);
+  const config::Replacement other{"qbmove_advanced", {{"shaft.friction_Nm", "0.02"}}};
+  const host::RobotConfig robot = config::parse_plugin(xml, "arm.sdf", shipped(), other);
+  const device::UnitConfig expected = shipped().load("qbmove_advanced", other.overrides).unit;
+  for (const host::ActuatorConfig& a : robot.actuators) {
+    EXPECT_EQ(a.preset, "qbmove_advanced");
+    EXPECT_EQ(a.unit.actuator.gearbox, expected.actuator.gearbox) << "the element's override belongs to its own preset";
+    EXPECT_EQ(a.unit.actuator.shaft_friction.coulomb_Nm, 0.02);
+  }
+  EXPECT_EQ(robot.actuators[0].initial_preset, 0.2);
+  EXPECT_EQ(robot.actuators[0].initial_equilibrium_rad, 0.1);
+}
+
+TEST(Plugin, ReplacingValuesKeepThePresetAndWinOverTheElements) {
+  const std::string xml = plugin(maker_pro("a",
+                                           "<override key='drive.friction_Nm' value='0.7'/>"
+                                           "<override key='shaft.friction_Nm' value='0.02'/>"));
+  const auto robot = config::parse_plugin(xml, "arm.sdf", shipped(), {std::nullopt, {{"drive.friction_Nm", "0.4"}}});
+  EXPECT_EQ(robot.actuators[0].preset, "qbmove_maker_pro");
+  EXPECT_EQ(robot.actuators[0].unit.actuator.gearbox.friction.coulomb_Nm, 0.4);
+  EXPECT_EQ(robot.actuators[0].unit.actuator.shaft_friction.coulomb_Nm, 0.02);
+}
+
+TEST(Plugin, AnInitialPresetThatTheReplacementCannotHaveIsFitted) {
+  const std::string xml = plugin(maker_pro("a", "<initial preset_rad='0.5'/>"));
+  const auto initial = [&](const config::Replacement& r) {
+    return config::parse_plugin(xml, "arm.sdf", shipped(), r).actuators[0].initial_preset;
+  };
+  EXPECT_EQ(initial({"sea_example", {}}), 0) << "it has none";
+  EXPECT_EQ(initial({"qbmove_maker_pro", {{"limits.preset_max", "0.3"}}}), 0.3);
+  EXPECT_EQ(initial({"qbmove_maker_pro", {}}), 0.5);
+}
+
+TEST(Plugin, AReplacementsProblemsAreTold) {
+  const std::string xml = plugin(kElbow);
+  const auto told = [&](const config::Replacement& r) {
+    const auto list = problems_of([&] { (void)config::parse_plugin(xml, "arm.sdf", shipped(), r); });
+    return list.empty() ? std::string() : list[0].text();
+  };
+  EXPECT_NE(told({"nosuch", {}}).find("unknown preset"), std::string::npos);
+  EXPECT_NE(told({std::nullopt, {{"drive.friktion_Nm", "1"}}}).find("did you mean drive.friction_Nm"), std::string::npos);
+}
+
 TEST(Plugin, TheSmallestRobotIsOneJointAndOnePreset) {
   const host::RobotConfig robot = parse(plugin(kElbow));
   ASSERT_EQ(robot.buses.size(), 1u);

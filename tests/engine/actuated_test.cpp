@@ -57,6 +57,17 @@ TEST(Actuated, WithoutActuatorsNoTorqueActs) {
   EXPECT_NEAR(w.joint_angle("bench::module_1::shaft"), 3, 1e-9);
 }
 
+TEST(Actuated, AnotherActuatorCanBePutOnAWorld) {
+  const std::string sdf = bench(plugin(actuator("module_1::shaft", 1, "<initial preset_rad='0.2'/>")));
+  WorldOptions o = options();
+  o.actuator = {"sea_example", {{"elastic.stiffness_Nm_per_rad", "20"}}};
+  World w = World::load_string(sdf, o);
+  EXPECT_EQ(w.robot(0).config().actuators[0].preset, "sea_example");
+  EXPECT_EQ(w.read(w.actuators()[0]).stiffness_Nm_per_rad, 20);
+  o.actuator = {"nosuch", {}};
+  EXPECT_NE(problems_of(sdf, o).find("unknown preset"), std::string::npos);
+}
+
 std::vector<std::uint64_t> bits(const World& w) {
   std::vector<std::uint64_t> out;
   for (const double x : {w.joint_angle("bench::module_1::shaft"), w.joint_speed("bench::module_1::shaft"),

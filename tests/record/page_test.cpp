@@ -98,7 +98,7 @@ TEST(PageData, DropsEveryOtherFrameInsteadOfGrowingWithoutBound) {
 
 TEST(Page, IsTheTemplateWithTheDataInPlaceOfTheMarker) {
   const Scratch dir;
-  write_page(dir.path() / "replay.html", "<script>@VSA_REPLAY_DATA@</script>", "{\"a\":1}");
+  write_page(dir.path() / "replay.html", "<script>@VSA_PAGE_DATA@</script>", "{\"a\":1}");
   EXPECT_EQ(slurp(dir.path() / "replay.html"), "<script>{\"a\":1}</script>");
   EXPECT_FALSE(fs::exists(dir.path() / "replay.html.part"));
 }
@@ -107,7 +107,7 @@ TEST(Page, LeavesTheOldPageAloneWhenItCantBeWritten) {
   const Scratch dir;
   spew(dir.path() / "replay.html", "old");
   fs::create_symlink("/dev/full", dir.path() / "replay.html.part");
-  const std::string message = message_of<RecordError>([&] { write_page(dir.path() / "replay.html", "@VSA_REPLAY_DATA@", "{}"); });
+  const std::string message = message_of<RecordError>([&] { write_page(dir.path() / "replay.html", "@VSA_PAGE_DATA@", "{}"); });
   EXPECT_NE(message.find("No space left on device"), std::string::npos) << message;
   EXPECT_NE(message.find((dir.path() / "replay.html").string()), std::string::npos) << message;
   EXPECT_EQ(slurp(dir.path() / "replay.html"), "old");
@@ -119,7 +119,7 @@ TEST(Page, RefusesATemplateThatIsMissingOrNone) {
   EXPECT_NE(missing.find("No such file or directory"), std::string::npos) << missing;
   spew(dir.path() / "bad.html", "<html>");
   const std::string bad = message_of<InputError>([&] { (void)read_template(dir.path() / "bad.html"); });
-  EXPECT_NE(bad.find("it must hold @VSA_REPLAY_DATA@ once"), std::string::npos) << bad;
+  EXPECT_NE(bad.find("it must hold @VSA_PAGE_DATA@ once"), std::string::npos) << bad;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ class RecorderTest : public testing::Test {
  protected:
   void SetUp() override {
     options_.page_template = dir_.path() / "template.html";
-    spew(options_.page_template, "@VSA_REPLAY_DATA@");
+    spew(options_.page_template, "@VSA_PAGE_DATA@");
   }
   [[nodiscard]] static engine::World bench() {
     engine::WorldOptions options;

@@ -19,7 +19,7 @@ class RunRecordTest : public testing::Test {
  protected:
   void SetUp() override {
     options_.page_template = dir_.path() / "template.html";
-    spew(options_.page_template, "<html>@VSA_REPLAY_DATA@</html>");
+    spew(options_.page_template, "<html>@VSA_PAGE_DATA@</html>");
   }
   [[nodiscard]] RunRecord start() const { return {fake::tiny(), out(), options_}; }
   [[nodiscard]] fs::path out() const { return dir_.path() / "out"; }

@@ -1,45 +1,20 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// node page.test.mjs PAGES NPM [CHROMIUM]: opens the replay pages that test_record wrote (PAGES) in Debian's Chromium. playwright-core
-// comes from NPM/node_modules. Without Chromium it says so and ends with 77, which ctest reports as skipped.
+// node page.test.mjs PAGES NPM [CHROMIUM]: the replay pages that test_record wrote, in a browser (browser.mjs).
 import assert from 'node:assert/strict';
-import { existsSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { pathToFileURL } from 'node:url';
+import { launch, open as openPage } from './browser.mjs';
 
-const [pages, npm, given] = process.argv.slice(2);
-const chromiumPath = [given, process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser'].find((p) => p && existsSync(p));
-if (!chromiumPath) {
-  console.log('page test left out: no chromium (Debian: apt install chromium; elsewhere set CHROMIUM)');
-  process.exit(77);
-}
-const { chromium } = createRequire(join(npm, 'package.json'))('playwright-core');
-const kArguments = [
-  '--headless', '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
-];
 const kWebGl = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-const kPatience = { timeout: 90_000 }; // software rendering on a busy machine
 
 let browser;
 before(async () => {
-  browser = await chromium.launch({ executablePath: chromiumPath, args: [...kArguments, ...kWebGl], ...kPatience });
+  browser = await launch(...kWebGl);
 });
 after(() => browser?.close());
 
-/** Opens a page paused at its start; `wrong` fills with console errors, exceptions and requests that leave the file. */
-async function open(name, { from = browser, ...context } = {}) {
-  const tab = await (await from.newContext({ viewport: { width: 1000, height: 640 }, reducedMotion: 'reduce', ...context })).newPage();
-  tab.setDefaultTimeout(kPatience.timeout);
-  const url = pathToFileURL(join(pages, name, 'replay.html')).href;
-  const wrong = [];
-  tab.on('console', (m) => m.type() === 'error' && wrong.push(`console: ${m.text()}`));
-  tab.on('pageerror', (e) => wrong.push(`exception: ${e.stack}`));
-  tab.on('request', (r) => r.url() !== url && !/^(data|blob):/.test(r.url()) && wrong.push(`request: ${r.url()}`));
-  await tab.goto(url);
-  return { tab, wrong, close: () => tab.context().close() };
-}
+/** Opens a page paused at its start. */
+const open = (name, { from = browser, ...context } = {}) => openPage(from, name, 'replay.html', context);
 
 /** The 3-D picture as it is now, small: its pixels' colours. */
 const picture = (tab) =>
@@ -202,7 +177,7 @@ test('a phone shows it without scrolling sideways', { timeout: 120_000 }, async 
 });
 
 test('without WebGL it says so and the curves still work', { timeout: 120_000 }, async () => {
-  const plain = await chromium.launch({ executablePath: chromiumPath, args: [...kArguments, '--disable-3d-apis'], ...kPatience });
+  const plain = await launch('--disable-3d-apis');
   try {
     const { tab, wrong } = await open('snake', { from: plain });
     assert.match(await tab.textContent('#view-message'), /no WebGL/);

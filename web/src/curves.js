@@ -3,31 +3,11 @@
 // The curves: one small Plotly figure a panel, all on the same time axis, with a cursor at the replay's time.
 import Plotly from 'plotly.js-basic-dist-min';
 import { frameAt, valueAt } from './data.js';
+import { dashSample, element } from './marks.js';
 import { css, series } from './palette.js';
 
 const kPointsMax = 60000; // points drawn at once; beyond that frames are skipped
 const kMargin = { l: 46, r: 8, t: 6, b: 20 };
-
-const element = (tag, className, text) => {
-  const e = document.createElement(tag);
-  if (className) e.className = className;
-  if (text !== undefined) e.textContent = text;
-  return e;
-};
-
-function dashSample(dash, color) {
-  const ns = 'http://www.w3.org/2000/svg';
-  const svg = document.createElementNS(ns, 'svg');
-  svg.setAttribute('viewBox', '0 0 18 6');
-  svg.setAttribute('aria-hidden', 'true');
-  const line = document.createElementNS(ns, 'path');
-  line.setAttribute('d', 'M0 3h18');
-  line.setAttribute('stroke', color);
-  line.setAttribute('stroke-width', '2.4');
-  line.setAttribute('stroke-dasharray', { dash: '5 3', dot: '2 2.4', dashdot: '6 2 2 2' }[dash] ?? 'none');
-  svg.append(line);
-  return svg;
-}
 
 export class Curves {
   constructor(run, root, seek) {

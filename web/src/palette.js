@@ -13,10 +13,13 @@ export const okabeIto = {
   purple: '#cc79a7',
 };
 
+/** Paper is light whatever the screen is. */
+export const isDark = () => dark.matches && !document.documentElement.classList.contains('print');
+
 /** Lines on a dark ground need the light half of the palette first. */
 export function series() {
   const c = okabeIto;
-  return dark.matches
+  return isDark()
     ? [c.sky, c.orange, c.green, c.purple, '#f0e442', c.vermillion]
     : [c.blue, c.vermillion, c.green, c.orange, c.purple, c.sky];
 }

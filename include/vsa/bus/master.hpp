@@ -14,13 +14,14 @@
 #include <cstdint>
 #include <optional>
 
+#include "vsa/bus/timing.hpp"
+
 namespace vsa::bus {
 
 inline constexpr int kSetInputsBytes = 10;
 inline constexpr int kGetMeasurementsBytes = 6;
 inline constexpr int kMeasurementsReplyBytes = 12;
 inline constexpr int kBytesPerUnit = kSetInputsBytes + kGetMeasurementsBytes + kMeasurementsReplyBytes;
-inline constexpr int kBitsPerByte = 10;
 
 /// The schedule of one bus. All times are integer nanoseconds of simulated time.
 struct Schedule {

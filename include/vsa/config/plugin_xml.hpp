@@ -3,8 +3,10 @@
 // The <plugin name="vsa::Robot"> element, identical in every host, read from its XML text.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "vsa/config/preset.hpp"
 #include "vsa/host/robot.hpp"
@@ -13,9 +15,17 @@ namespace vsa::config {
 
 inline constexpr std::string_view kPluginName = "vsa::Robot";
 
+/// Puts another actuator on a robot that is already described: every <actuator> takes these instead of what its element says.
+struct Replacement {
+  std::optional<std::string> preset;  ///< given: the elements' own <override>s, which belong to their presets, are left out
+  std::vector<Override> overrides;    ///< come after the elements' own; of an equal key this one counts
+};
+
 /// Throws InputError with every problem at once; `where` (file or model name) leads each line. Checks keys, numbers, duplicate
 /// names, joints and bus ids, cycle times; whether a joint exists in the model is the host's to check, see check_joints().
-[[nodiscard]] host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, const PresetLibrary& presets);
+/// An initial preset that a replacing actuator can't have is clamped to its range, or 0 where its unit is another.
+[[nodiscard]] host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, const PresetLibrary& presets,
+                                             const Replacement& replacement = {});
 
 /// Adds a problem for every configured joint that isn't among `joints` (scoped names).
 void check_joints(const host::RobotConfig& config, const std::vector<std::string>& joints, std::string_view where,

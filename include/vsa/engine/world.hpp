@@ -20,6 +20,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vsa/config/plugin_xml.hpp"
 #include "vsa/config/preset.hpp"
 #include "vsa/host/robot.hpp"
 
@@ -28,6 +29,7 @@ namespace vsa::engine {
 struct WorldOptions {
   std::optional<double> step_s;  ///< none: the SDF's <physics><max_step_size>
   config::PresetLibrary presets{};
+  config::Replacement actuator{};                 ///< puts another actuator on the world's robots
   std::vector<std::filesystem::path> model_path;  ///< searched for model:// URIs after $SDF_PATH and the built-in models
   bool actuators = true;                          ///< false: no torques, for measuring the engine alone
 };

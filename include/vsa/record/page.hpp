@@ -14,7 +14,7 @@
 
 namespace vsa::record {
 
-inline constexpr std::string_view kPageMarker = "@VSA_REPLAY_DATA@";
+inline constexpr std::string_view kPageMarker = "@VSA_PAGE_DATA@";
 
 /// What stands around the numbers.
 struct PageText {

@@ -1,0 +1,33 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vsa::app {
+
+struct IdentifyOptions {
+  std::vector<std::string> recordings;  ///< CSV files: samples, or branch means (…_branches.csv)
+  std::string preset;                   ///< the actuator's, where start values and bounds come from
+  std::string parameters;               ///< "elastic.k1_Nm=elastic.k2_Nm,drive.dead_band"
+  std::vector<std::string> set;         ///< "drive.friction_Nm=0.7": held at another value than the preset's
+  std::string out;                      ///< directory; empty: identify_PRESET
+  std::string name = "identified";      ///< of the preset that is written: NAME.toml
+  double period_s = 38;                 ///< of the sweep, of all recordings
+  std::optional<double> amplitude_rad;  ///< of the sweep; none: by the rule in experiment/bench.hpp
+  double cycles = 1.5;                  ///< simulated; the first half is left out
+  int starts = 3;
+  int iterations = 20;
+  int profile = 0;                  ///< points of each parameter's profile; 0: none
+  std::string weights = "scatter";  ///< or "equal"
+  bool no_cross_validation = false;
+};
+
+/// `vsa identify RECORDING.csv… --preset NAME --parameters …`. Sets the exit code when it was the subcommand.
+void setup_identify(CLI::App& app, int& exit_code);
+/// Writes its files only when all is done; no preset file, and exit code 1, where the data don't determine every parameter.
+int run_identify(const IdentifyOptions& options);
+
+}  // namespace vsa::app

@@ -1,0 +1,48 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What `vsa identify` found, and what it leaves behind:
+//   results.json   everything below, units in the keys; what isn't determined is null
+//   report.html    estimates, curves, residuals, correlations, cross-validation, profiles
+//   NAME.toml      the whole preset with the identified values, ready for use
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vsa/identify/checks.hpp"
+#include "vsa/identify/uncertainty.hpp"
+#include "vsa/report/report.hpp"
+
+namespace vsa::app {
+
+struct Identification {
+  std::string command, name;
+  config::Preset preset;  ///< with --set, before
+  identify::Task task;
+  std::vector<identify::Point> points;
+  std::vector<double> residuals_before;  ///< at the preset's values
+  identify::Fit fit;                     ///< at the estimate
+  identify::Uncertainty uncertainty;
+  std::vector<identify::Misfit> misfits_before, misfits;
+  std::vector<identify::LeftOut> left_out;
+  std::vector<std::vector<identify::ProfilePoint>> profiles;  ///< one a parameter, or none
+  double period_s = 0;
+  std::size_t evaluations = 0;
+};
+
+/// One table each, units in the heads.
+[[nodiscard]] report::Table estimates_table(const Identification& r);
+[[nodiscard]] report::Table misfit_table(const Identification& r);
+[[nodiscard]] report::Table cross_validation_table(const Identification& r);
+
+/// Plain words for everything that the data don't tell, and for estimates at their bounds.
+[[nodiscard]] std::vector<std::string> warnings(const Identification& r);
+
+[[nodiscard]] std::string results_json(const Identification& r);
+[[nodiscard]] report::Report identification_report(const Identification& r);
+[[nodiscard]] std::string identification_text(const Identification& r);
+/// Throws InputError where the values don't make a preset.
+[[nodiscard]] std::string identified_preset(const Identification& r, const config::PresetLibrary& library);
+
+}  // namespace vsa::app

@@ -1,0 +1,113 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A host's side of the conversation: one request, one answer, on any Channel. Works against the simulated unit and real hardware.
+//
+// Before a request pending input is thrown away, as the public host libraries do. An answer counts if it is a right frame from the
+// unit asked and can be this command's; everything else on the line is passed over until the time-out.
+#pragma once
+
+#include <cassert>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "vsa/bus/channel.hpp"
+#include "vsa/bus/codec.hpp"
+#include "vsa/bus/messages.hpp"
+#include "vsa/bus/parameters.hpp"
+
+namespace vsa::bus {
+
+struct ClientOptions {
+  Wire wire{};
+  Channel::Time reply_timeout = std::chrono::milliseconds(20);
+  /// Until the first byte of the info text or parameter list, and of an answer that waits for the unit's memory to be written.
+  Channel::Time slow_timeout = std::chrono::seconds(2);
+  /// Dialect six's info text has no end but silence.
+  Channel::Time silence = std::chrono::milliseconds(50);
+  int attempts = 1;  ///< a request that got no answer is sent again until this many were sent; at least 1
+};
+
+enum class ClientError : std::uint8_t {
+  timeout,    ///< no answer, or none that could be read
+  closed,     ///< the channel is gone
+  refused,    ///< the unit answered "not done"
+  malformed,  ///< an answer came, but not as this dialect has it
+  bad_value,  ///< the value isn't of the parameter's type; nothing was sent
+};
+[[nodiscard]] const char* describe(ClientError error) noexcept;
+
+template <class T>
+class Result {
+ public:
+  Result(T value) noexcept : content_(std::move(value)) {}  // NOLINT: implicit on purpose, `return value;`
+  Result(ClientError error) noexcept : content_(error) {}   // NOLINT: likewise
+  [[nodiscard]] explicit operator bool() const noexcept { return std::holds_alternative<T>(content_); }
+  /// Only if there is a value.
+  [[nodiscard]] const T& operator*() const noexcept {
+    assert(*this);
+    return *std::get_if<T>(&content_);
+  }
+  [[nodiscard]] const T* operator->() const noexcept { return &**this; }
+  /// Only if there is no value.
+  [[nodiscard]] ClientError error() const noexcept { return *std::get_if<ClientError>(&content_); }
+
+ private:
+  std::variant<T, ClientError> content_;
+};
+
+struct Done {
+  bool operator==(const Done&) const = default;
+};
+
+class Client {
+ public:
+  Client(Channel& channel, ClientOptions options) : channel_(channel), options_(options) {}
+
+  [[nodiscard]] Result<PingReply> ping(std::uint8_t id);
+  /// Which dialect the unit speaks, by the length of its ping: firmware 7.0, which sends no serial number, looks like six.
+  [[nodiscard]] Result<Dialect> dialect(std::uint8_t id);
+  /// The ids of `first` … `last` that answer a ping. `each` is the time for one id.
+  [[nodiscard]] Result<std::vector<std::uint8_t>> scan(std::uint8_t first, std::uint8_t last, Channel::Time each);
+
+  /// Not answered by the unit: Done means sent.
+  [[nodiscard]] Result<Done> activate(std::uint8_t id, bool on);
+  [[nodiscard]] Result<bool> active(std::uint8_t id);
+  [[nodiscard]] Result<Done> set_inputs(std::uint8_t id, std::array<Ticks, 2> inputs);
+  [[nodiscard]] Result<Done> set_position_stiffness(std::uint8_t id, Ticks position, std::int16_t stiffness);
+  [[nodiscard]] Result<InputsReply> inputs(std::uint8_t id);
+  [[nodiscard]] Result<MeasurementsReply> measurements(std::uint8_t id);
+  [[nodiscard]] Result<CurrentsReply> currents(std::uint8_t id);
+  [[nodiscard]] Result<CurrentsAndMeasurementsReply> currents_and_measurements(std::uint8_t id);
+
+  [[nodiscard]] Result<std::string> info(std::uint8_t id);
+  /// The list as sent, header included; see decode_parameter_list and read_slot.
+  [[nodiscard]] Result<std::vector<std::uint8_t>> parameter_list(std::uint8_t id);
+  [[nodiscard]] Result<ParameterValues> parameters(std::uint8_t id);
+  /// Dialect six doesn't answer: Done means sent. It acts after `store`.
+  [[nodiscard]] Result<Done> set_parameter(std::uint8_t id, ParameterId parameter, const ParameterValue& value);
+  [[nodiscard]] Result<Done> store(std::uint8_t id);
+
+  /// Any other request that is answered by an acknowledgement: StoreDefaults, RestoreDefaults, InitMemory, Calibrate, SetZeros…
+  [[nodiscard]] Result<Done> acknowledge(std::uint8_t id, const Request& request);
+  /// Any request that isn't answered.
+  [[nodiscard]] Result<Done> send(std::uint8_t id, const Request& request);
+
+ private:
+  [[nodiscard]] Result<Frame> exchange(std::uint8_t id, const Request& request, Channel::Time timeout);
+  [[nodiscard]] Result<Frame> await_frame(std::uint8_t id, Command command, Channel::Time timeout);
+  [[nodiscard]] Result<Done> read_some(std::vector<std::uint8_t>& into, Channel::Time timeout);
+  [[nodiscard]] Result<std::vector<std::uint8_t>> long_packet(std::uint8_t id, const Request& request);
+  [[nodiscard]] bool drain();
+  template <class R>
+  [[nodiscard]] Result<typename R::Reply> ask(std::uint8_t id, const R& request);
+
+  Channel& channel_;
+  ClientOptions options_;
+};
+
+}  // namespace vsa::bus

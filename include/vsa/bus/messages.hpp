@@ -1,0 +1,218 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Every message of the unit as a type, and the codec between types and frames.
+//
+// Two dialects:
+//   six    firmware 6.1 (public source). PING answers nothing but itself; an acknowledgement is [v][v] with v = 1 or 0, without the
+//          command's number (so that "refused" looks like a ping's answer); setting a parameter isn't answered; info text and
+//          parameter list are longer than LEN can say: the text comes raw, the list with LEN = 1201 mod 256.
+//   seven  as the public client qbdevice-api 7.2.8 expects it: PING answers a serial number, an acknowledgement is
+//   [command][v][CHK],
+//          setting a parameter is acknowledged, SET_INPUTS_ACK and GET_CYCLE_TIME exist, long answers have LEN = bytes/32.
+// A request's payload is read as the unit reads it: at fixed offsets, whatever LEN said. `complete` tells whether LEN covered it.
+//
+// Sources: NMMI/qbmove-maker-pro 6.1 (command_processing.c), NMMI/qbAPI, qbdevice-api 7.2.8 in revyos-ros/qbdevice-ros2-release.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <variant>
+
+#include "vsa/bus/frame.hpp"
+#include "vsa/units.hpp"
+
+namespace vsa::bus {
+
+enum class Command : std::uint8_t {
+  ping = 0,
+  set_zeros = 1,
+  store_parameters = 3,
+  store_defaults = 4,
+  restore_defaults = 5,
+  get_info = 6,
+  bootloader = 9,
+  init_memory = 10,
+  calibrate = 11,
+  parameters = 12,  ///< index 0: list; from 1: set
+  activate = 128,
+  get_activate = 129,
+  set_inputs = 130,
+  get_inputs = 131,
+  get_measurements = 132,
+  get_currents = 133,
+  get_currents_and_measurements = 134,
+  set_position_stiffness = 135,
+  get_velocities = 137,
+  set_watchdog = 143,
+  set_baud_rate = 144,
+  set_inputs_acknowledged = 147,  ///< dialect seven
+  get_cycle_time = 150,           ///< dialect seven
+};
+
+enum class Dialect : std::uint8_t { six = 6, seven = 7 };
+
+/// How a unit speaks.
+struct Wire {
+  Dialect dialect = Dialect::six;
+  /// Firmware 6.1 writes the values of 134 (positions) and 137 four bytes apart instead of two: the first is right, the second
+  /// lands in the third's place, the third is lost, and two bytes are never written. true: two apart, as clients read them. Dialect
+  /// seven always has them two apart.
+  bool repair_layout = false;
+  /// Firmware 6.1 counts the checksum's bytes in 8 bits: the parameter list's CHK covers the first 1200 mod 256 = 176 bytes only.
+  /// true: all 1200. Dialect seven's client checks all.
+  bool repair_list_checksum = false;
+
+  [[nodiscard]] constexpr bool packed() const noexcept { return repair_layout || dialect == Dialect::seven; }
+  bool operator==(const Wire&) const = default;
+};
+
+// ---------------------------------------------------------------------------------------------------------------------- replies
+
+struct NoReply {
+  bool operator==(const NoReply&) const = default;
+};
+/// The answer is no frame: see encode_info, and encode_parameter_list in parameters.hpp.
+struct StreamReply {
+  bool operator==(const StreamReply&) const = default;
+};
+struct PingReply {
+  std::uint32_t serial_number = 0;  ///< dialect seven; six doesn't send it
+  bool operator==(const PingReply&) const = default;
+};
+struct Acknowledgement {
+  bool ok = true;
+  bool operator==(const Acknowledgement&) const = default;
+};
+struct ActivationReply {
+  std::uint8_t flags = 0;  ///< 3 on, 0 off
+  bool operator==(const ActivationReply&) const = default;
+};
+struct InputsReply {
+  std::array<Ticks, 2> inputs{};
+  bool operator==(const InputsReply&) const = default;
+};
+struct MeasurementsReply {
+  std::array<Ticks, 3> positions{};  ///< motor 1, motor 2, shaft
+  bool operator==(const MeasurementsReply&) const = default;
+};
+struct CurrentsReply {
+  std::array<std::int16_t, 2> currents_mA{};
+  bool operator==(const CurrentsReply&) const = default;
+};
+struct CurrentsAndMeasurementsReply {
+  std::array<std::int16_t, 2> currents_mA{};
+  std::array<Ticks, 3> positions{};  ///< the shaft's isn't sent in firmware 6.1's layout: decoded as 0
+  bool operator==(const CurrentsAndMeasurementsReply&) const = default;
+};
+struct VelocitiesReply {
+  std::array<std::int16_t, 3> velocities{};  ///< as above; firmware 6.1 never computes them
+  bool operator==(const VelocitiesReply&) const = default;
+};
+struct CycleTimeReply {
+  std::int16_t unknown = 0;  ///< the client skips it; no public source says what it is
+  std::int16_t cycle_time = 0;
+  bool operator==(const CycleTimeReply&) const = default;
+};
+
+// --------------------------------------------------------------------------------------------------------------------- requests
+// `code` is the command's number; `Reply` is dialect six's answer, except where the comment says otherwise.
+
+template <Command C, class R>
+struct Request0 {
+  static constexpr Command code = C;
+  using Reply = R;
+  bool operator==(const Request0&) const = default;
+};
+
+using Ping = Request0<Command::ping, PingReply>;
+using StoreParameters = Request0<Command::store_parameters, Acknowledgement>;
+using StoreDefaults = Request0<Command::store_defaults, Acknowledgement>;
+using RestoreDefaults = Request0<Command::restore_defaults, Acknowledgement>;
+using Bootloader = Request0<Command::bootloader, Acknowledgement>;
+using InitMemory = Request0<Command::init_memory, Acknowledgement>;
+using Calibrate = Request0<Command::calibrate, Acknowledgement>;
+using GetActivate = Request0<Command::get_activate, ActivationReply>;
+using GetInputs = Request0<Command::get_inputs, InputsReply>;
+using GetMeasurements = Request0<Command::get_measurements, MeasurementsReply>;
+using GetCurrents = Request0<Command::get_currents, CurrentsReply>;
+using GetCurrentsAndMeasurements = Request0<Command::get_currents_and_measurements, CurrentsAndMeasurementsReply>;
+using GetVelocities = Request0<Command::get_velocities, VelocitiesReply>;
+using GetCycleTime = Request0<Command::get_cycle_time, CycleTimeReply>;
+
+/// Dialect seven's client sends no offsets: the unit takes its present position as zero.
+struct SetZeros {
+  static constexpr Command code = Command::set_zeros;
+  using Reply = Acknowledgement;
+  std::optional<std::array<Ticks, 3>> offsets = std::array<Ticks, 3>{};
+  bool operator==(const SetZeros&) const = default;
+};
+struct GetInfo {
+  static constexpr Command code = Command::get_info;
+  using Reply = StreamReply;
+  std::uint16_t kind = 0;  ///< 0 all; the unit doesn't answer others
+  bool operator==(const GetInfo&) const = default;
+};
+struct GetParameterList {
+  static constexpr Command code = Command::parameters;
+  using Reply = StreamReply;
+  bool operator==(const GetParameterList&) const = default;
+};
+/// Values by parameters.hpp. Not answered in dialect six, acknowledged in seven.
+struct SetParameter {
+  static constexpr Command code = Command::parameters;
+  using Reply = Acknowledgement;
+  static constexpr std::size_t kMaxValueBytes = 16;
+  std::uint16_t index = 1;
+  std::array<std::uint8_t, kMaxValueBytes> value{};
+  std::uint8_t value_bytes = 0;  ///< sent; when a unit decodes, what LEN covered (the rest of `value` is stale, and it reads it)
+  bool operator==(const SetParameter&) const = default;
+};
+struct Activate {
+  static constexpr Command code = Command::activate;
+  using Reply = NoReply;
+  std::uint8_t flags = 0;  ///< 3 on, 0 off; written to the enable pins as it is
+  bool operator==(const Activate&) const = default;
+};
+struct SetInputs {
+  static constexpr Command code = Command::set_inputs;
+  using Reply = NoReply;
+  std::array<Ticks, 2> inputs{};
+  bool operator==(const SetInputs&) const = default;
+};
+struct SetInputsAcknowledged {
+  static constexpr Command code = Command::set_inputs_acknowledged;
+  using Reply = Acknowledgement;
+  std::array<Ticks, 2> inputs{};
+  bool operator==(const SetInputsAcknowledged&) const = default;
+};
+struct SetPositionStiffness {
+  static constexpr Command code = Command::set_position_stiffness;
+  using Reply = NoReply;
+  Ticks position{};
+  std::int16_t stiffness = 0;  ///< of 32768: the part of max_stiffness
+  bool operator==(const SetPositionStiffness&) const = default;
+};
+struct SetWatchdog {
+  static constexpr Command code = Command::set_watchdog;
+  using Reply = NoReply;
+  std::uint8_t period = 0;  ///< about 20 ms each; 0 disables
+  bool operator==(const SetWatchdog&) const = default;
+};
+struct SetBaudRate {
+  static constexpr Command code = Command::set_baud_rate;
+  using Reply = NoReply;
+  std::uint8_t divider = 3;  ///< 13: 460 800 baud; anything else: 2 000 000
+  bool operator==(const SetBaudRate&) const = default;
+};
+
+using Request = std::variant<Ping, SetZeros, StoreParameters, StoreDefaults, RestoreDefaults, GetInfo, Bootloader, InitMemory,
+                             Calibrate, GetParameterList, SetParameter, Activate, GetActivate, SetInputs, GetInputs,
+                             GetMeasurements, GetCurrents, GetCurrentsAndMeasurements, SetPositionStiffness, GetVelocities,
+                             SetWatchdog, SetBaudRate, SetInputsAcknowledged, GetCycleTime>;
+
+// The codec of these types is in codec.hpp.
+
+}  // namespace vsa::bus

@@ -1,0 +1,130 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The paper's three experiments (section IV) on the simulated benches: the same worlds and engine that users have.
+//
+//   stiffness    bench_load: the equilibrium sweeps θ_eq = A sin(2πt/T), a mass on a lever loads the shaft with −M g r sin q
+//   speed        bench_free: a square wave of the equilibrium, vertical axis, no load
+//   preset step  a step of the preset and back, unloaded (bench_free) and with the lever held out (bench_load)
+//
+// M g r is half the difference of the bench's gravitational energy between lever up and lever down, read from its links. Commands
+// go to host::Robot and from there over its bus, one a step. What the unit measures are the ticks that its bus master last read.
+// Each run loads its own world, is deterministic, and may run beside others in threads of its own.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "vsa/config/preset.hpp"
+#include "vsa/experiment/recording.hpp"
+
+namespace vsa::experiment {
+
+/// Which actuator stands on the bench.
+struct Specimen {
+  std::string preset;                       ///< its name, as in `vsa actuators`
+  std::vector<config::Override> overrides;  ///< replace single values of it
+  config::PresetLibrary library{};
+  std::optional<double> step_s;  ///< none: the bench's own
+};
+
+/// Looks into runs, and ends them, from another thread. One may watch several.
+struct Watch {
+  std::atomic<std::int64_t> simulated_ns{0};  ///< by all that it watches
+  std::atomic<bool> stop{false};              ///< true: they end by throwing Stopped
+};
+
+class Stopped : public std::runtime_error {
+ public:
+  Stopped() : std::runtime_error("the experiment was stopped") {}
+};
+
+/// One sample: what was asked, what is (simulated truth), what the unit itself reads.
+struct BenchSample {
+  double time_s = 0;
+  double equilibrium_command_rad = 0, preset_command = 0;
+  double equilibrium_rad = 0, preset = 0;  ///< attained, from the pulleys
+  double shaft_rad = 0, shaft_speed_rad_per_s = 0;
+  double torque_Nm = 0;  ///< of the actuator on the shaft
+  double stiffness_Nm_per_rad = 0;
+  double measured_shaft_rad = 0;       ///< by the unit's encoders
+  double measured_deflection_rad = 0;  ///< shaft − equilibrium by the unit's encoders; qbmove: shaft − mean of the pulleys
+  double measured_load_Nm = 0;         ///< external torque about +q: −M g r sin(measured shaft); 0 on bench_free
+  std::array<double, 2> motor_rad{}, current_A{};
+};
+
+struct BenchRun {
+  std::vector<BenchSample> samples;
+  double load_peak_Nm = 0;   ///< M g r of the bench; 0 on bench_free
+  double step_s = 0;         ///< of the engine
+  double amplitude_rad = 0;  ///< stiffness: A; speed: the step; preset step: the equilibrium that was held
+  std::string preset_unit;   ///< of the law; empty: it has no preset
+  int motors = 2;
+  std::vector<std::string> notices;  ///< commands that the unit clamped, angles that it did not reach
+};
+
+/// Throws InputError where the preset or an override is unknown, or `preset` is beyond the unit's limits or it has none.
+void check_preset(const Specimen& specimen, double preset);
+
+/// Deflection of the law alone under an external torque: −τ(θ_eq + δ) = load with the pulleys on the references of (0, preset).
+/// Throws InputError where the law can't carry it within a turn.
+[[nodiscard]] double law_deflection(const elastic::Transmission& law, double preset, double load_Nm);
+
+struct StiffnessOptions {
+  double preset = 0;
+  /// The preset is sent as the recordings' sender sent it: no larger than the unit's own max_stiffness (see sent_preset()).
+  bool limit_preset = true;
+  double period_s = 38.0;               ///< the recordings' period isn't published: a nuisance parameter, common to all presets
+  std::optional<double> amplitude_rad;  ///< none: by sweep_amplitude()
+  double lead_in_cycles = 1;            ///< simulated and left out of the samples
+  double cycles = 4;                    ///< in the samples
+  double sample_s = 0.01;
+};
+/// The preset that the stiffness experiment sends for a commanded one: min(preset, max_stiffness), 3000 ticks or 0.5752 rad for the
+/// maker pro; the same where the law's preset isn't in rad. The makers' Simulink block clamped it there when the recordings were
+/// made (NMMI/qbmove-simulink, November 2013; 4000 ticks from March 2014), as 3000 ticks is the firmware's default. Evidence: a
+/// free limit is identified as 0.579 ± 0.004 rad from the recordings (docs/validation.md).
+[[nodiscard]] double sent_preset(const Specimen& specimen, double preset);
+
+/// The amplitude for any preset by one rule, as an experimenter would find it: with it, the first quarter of the sweep at this
+/// period brings the shaft to the angle that data/README.md tells for the recordings (94° at preset 0, 90° at 0.46, 81° at 0.6903
+/// rad; the parabola through them, its value at 0.6903 beyond), within 0.25°. A law without a preset counts as preset 0. Where the
+/// unit can't lift the lever so far, the amplitude is 1 rad more than the law alone asks for, and `reached_rad` tells.
+struct SweepAmplitude {
+  double amplitude_rad = 0, target_rad = 0, reached_rad = 0;
+};
+[[nodiscard]] SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s, bool limit_preset = true);
+[[nodiscard]] BenchRun run_stiffness(const Specimen& specimen, const StiffnessOptions& options, Watch* watch = nullptr);
+/// As the hardware recorded it: torque from the measured shaft angle, measured deflection.
+[[nodiscard]] LoadRecording as_recording(const BenchRun& run, double preset);
+
+struct SpeedOptions {
+  double preset = 0;
+  double step_rad = 1.57;
+  double hold_s = 2.0;  ///< half a period of the square wave
+  int steps = 4;        ///< up, down, up, down; the first is commanded at time 0
+  double sample_s = 0.001;
+};
+[[nodiscard]] BenchRun run_speed(const Specimen& specimen, const SpeedOptions& options, Watch* watch = nullptr);
+
+struct PresetStepOptions {
+  double preset = 0.75;  ///< 0 → preset at time 0, → 0 after hold_s
+  bool loaded = false;   ///< the lever held out so that the shaft carries about M g r all the time, see run_preset_step()
+  double hold_s = 2.0;
+  double sample_s = 0.001;
+};
+/// Loaded: while the preset steps the equilibrium stays, so that the lever rises by about δ(0) − δ(preset), the law's deflections
+/// under M g r. At preset 0 it is lifted to 90° less half of that and so ends as far beyond: the load stays within a few percent of
+/// M g r. Where the unit can't lift it so far, a notice tells.
+[[nodiscard]] BenchRun run_preset_step(const Specimen& specimen, const PresetStepOptions& options, Watch* watch = nullptr);
+
+/// How much each simulates, about: what Watch::simulated_ns counts up to. How long finding an amplitude or a lift takes shows only
+/// then.
+[[nodiscard]] double simulated_s(const StiffnessOptions& options);
+[[nodiscard]] double simulated_s(const SpeedOptions& options);
+[[nodiscard]] double simulated_s(const PresetStepOptions& options);
+
+}  // namespace vsa::experiment

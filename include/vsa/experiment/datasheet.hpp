@@ -1,0 +1,49 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The computed numbers of a data sheet, in the spirit of Grioli et al., "Variable Stiffness Actuators: the User's Point of View"
+// (IJRR 2015): what law and drive alone tell (workspace.hpp). How long a change of stiffness takes and how fast a step is are
+// simulated (bench.hpp).
+//
+// Not here, because no parameter tells it: mass, size, and what the motors may give for long (heat).
+#pragma once
+
+#include <vector>
+
+#include "vsa/config/preset.hpp"
+#include "vsa/experiment/workspace.hpp"
+
+namespace vsa::experiment {
+
+/// The actuator at one attained preset, computed.
+struct PresetColumn {
+  double preset = 0;
+  double stiffness_at_rest_Nm_per_rad = 0;
+  Reach peak;       ///< at standstill, begins to move the load
+  Reach holding;    ///< at standstill, both motors at full voltage
+  Reach unpowered;  ///< at standstill, held by friction; NaN: the springs turn the motors back
+  double no_load_speed_rad_per_s = 0;
+  BestPower power;
+  double energy_at_rest_J = 0;
+  std::vector<WorkspacePoint> boundary;
+  std::vector<LawPoint> curve;
+};
+
+/// The position loop's errors, one motor without load.
+struct LoopErrors {
+  double moves_rad = 0;  ///< where the voltage overcomes dead band and friction; NaN: never
+  double full_rad = 0;   ///< where the output is full
+};
+
+struct DataSheet {
+  config::Preset preset;
+  MotorLine line;
+  LoopErrors errors;
+  double attainable_preset = 0;
+  double stiffest_Nm_per_rad = 0;     ///< at rest with that preset
+  std::vector<PresetColumn> columns;  ///< from 0 to 90 % of the attainable preset; one for a law without
+  double most_energy_J = 0;           ///< over all reachable presets and loads
+};
+
+[[nodiscard]] DataSheet data_sheet(const config::Preset& preset);
+
+}  // namespace vsa::experiment

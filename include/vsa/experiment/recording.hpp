@@ -1,0 +1,82 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Load-test recordings: external torque against deflection, and the branch means that they are compared by.
+//
+//   load_torque_Nm   external torque on the shaft about +q; equal to −τ at rest, so that a positive load gives a positive
+//   deflection deflection_rad   δ = shaft − mean of the two pulleys, as the unit's own encoders read it
+//
+// CSV columns, in any order: load_torque_Nm, deflection_rad, and optionally time_s or sample (increasing). Other columns are
+// ignored if their names end in a unit ("preset_rad", "current_1_A"). A column without its unit, or with another, is an error that
+// names the column that was expected.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vsa::experiment {
+
+struct LoadRecording {
+  double preset = 0;                ///< commanded, in the law's preset unit; from the file's name (stiffness_preset_P.PPPPrad…)
+  std::string preset_unit = "rad";  ///< as the file's name has it
+  std::string source;               ///< file, or what made it
+  std::vector<double> time_s;       ///< empty where the recording has no time base
+  std::vector<double> torque_Nm;
+  std::vector<double> deflection_rad;
+};
+
+/// The rising-torque and the falling-torque branch on a torque grid. Each value is the height at its grid point of a straight line
+/// fitted to the branch's samples within half a grid step (all cycles pooled); the scatter is that of the residuals, their root
+/// mean square. Samples on both sides of the grid point are needed: nothing is extrapolated.
+struct Branches {
+  std::vector<double> torque_Nm;
+  std::vector<double> rising_rad, falling_rad;        ///< NaN where a branch has no samples
+  std::vector<double> sd_rising_rad, sd_falling_rad;  ///< scatter about the line
+};
+
+/// Torque's direction is judged between turning points: a maximum counts as one when the torque has since fallen by
+/// `turn_fraction` of the largest |τ|, a minimum likewise. So noise and encoder steps don't flip it, and no time base is needed;
+/// on the shipped recordings any fraction between 0.02 and 0.3 gives the same branches.
+/// Half cycles are counted by sign changes of the torque, at most one between two turning points.
+struct BranchOptions {
+  double grid_Nm = 0.05;
+  double max_Nm = 1.4;
+  double skip_cycles = 0.5;    ///< a multiple of 0.5; the first half cycle is left out
+  double turn_fraction = 0.1;  ///< of the largest |τ|
+};
+
+/// Throws InputError with every problem (the first twenty): unreadable file, missing or unknown unit, fewer than two samples, not a
+/// number, time that doesn't increase, torque beyond ±limit_Nm, no preset in the file's name.
+[[nodiscard]] LoadRecording read_load_recording(const std::filesystem::path& csv, double limit_Nm = 10.0);
+/// Written beside it first, then renamed. Throws InputError.
+void write_load_recording(const LoadRecording& recording, const std::filesystem::path& csv);
+
+[[nodiscard]] Branches branches(const LoadRecording& recording, const BranchOptions& options = {});
+/// The same from a file of branch means: load_torque_Nm,deflection_rising_rad,deflection_falling_rad,sd_rising_rad,sd_falling_rad.
+/// An empty cell is a branch without samples there.
+[[nodiscard]] Branches read_branches(const std::filesystem::path& csv);
+
+/// Root mean square of (a − b) over both branches, on the points that both have. Throws InputError where the grids share none.
+struct Difference {
+  double both_rad = 0, rising_rad = 0, falling_rad = 0;  ///< NaN for a branch without a common point
+  std::size_t points = 0;
+};
+[[nodiscard]] Difference difference(const Branches& a, const Branches& b);
+
+/// A quantity over time: columns time_s (strictly increasing) and `column`.
+struct TimeSeries {
+  std::vector<double> time_s, value;
+};
+[[nodiscard]] TimeSeries read_series(const std::filesystem::path& csv, std::string_view column);
+
+/// The commanded preset in a file's name and its unit: "stiffness_preset_0.6903rad_samples.csv" → 0.6903, "rad".
+struct NamedPreset {
+  double value = 0;
+  std::string unit;
+};
+/// Throws InputError where the name has none.
+[[nodiscard]] NamedPreset preset_of_name(const std::filesystem::path& csv);
+
+}  // namespace vsa::experiment

@@ -1,0 +1,108 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What an actuator can do at constant speed, from its law and its drive alone: torque, speed and stiffness that go together.
+//
+//   V     = bridge(1, limit)                                    full voltage: supply, firmware's limit, driver's drop
+//   M⁺(ω) = (K_τ V/R − τ_c − (K_τ K_b/R + b) ω)/(1 + λ)         most that a motor gives to its pulley, driving it at ω ≥ 0
+//   M⁻(ω) = −(K_τ V/R + τ_c + (K_τ K_b/R + b) ω)                most that it brakes it with; friction helps
+//
+// all at the pulley; τ_c Coulomb friction, λ the friction that grows with the load (K_τ, K_b, b, τ_c after the gearbox). The
+// bridge's dead band has no part in V: full output gives full voltage.
+//
+// While the shaft turns at ω against a load it stays behind its equilibrium by d, and the law's inputs follow the equilibrium with
+// ẋ_i = r_i ω, r_i = ∂x_ref,i/∂θ. Motor i carries M_i = −load_i(q₀ − d, x_ref(0, p)). (ω, p) is reachable with every lag from 0 up
+// to d for which
+//
+//   M⁻(|r_i ω|) ≤ sign(r_i ω) M_i ≤ M⁺(|r_i ω|)  for all motors;    an input that stands (r_i = 0):  (1 − λ)|M_i| ≤ K_τ V/R + τ_c
+//
+// Torque at the shaft: τ(q₀ − d) − τ_shaft; stiffness: σ there. At the largest p the motors hold each other: pretension costs
+// torque. Holding (ω = 0, friction helps): (1 − λ)|M_i| ≤ K_τ V/R + τ_c, without voltage ≤ τ_c, and the shaft's friction adds.
+//
+// Valid for rotary inputs and steady motion: no heat, no inertia, no controller error (the attained preset, not the commanded one).
+// Friction along the springs (tendon.*) changes the deflection at which a torque passes, not the torque that the motors can pass.
+#pragma once
+
+#include <vector>
+
+#include "vsa/device/unit.hpp"
+
+namespace vsa::experiment {
+
+/// A motor with its gearbox at full voltage, at the pulley.
+struct MotorLine {
+  double full_duty = 0;         ///< of the supply, at full output
+  double voltage_V = 0;         ///< V
+  double stall_Nm = 0;          ///< K_τ V/R, before friction
+  double stall_current_A = 0;   ///< V/R
+  double friction_Nm = 0;       ///< τ_c
+  double back_Nms_per_rad = 0;  ///< K_τ K_b/R + b
+  double load_loss = 0;         ///< λ
+
+  [[nodiscard]] double most_Nm(double speed_rad_per_s) const noexcept;   ///< M⁺; negative beyond the no-load speed
+  [[nodiscard]] double least_Nm(double speed_rad_per_s) const noexcept;  ///< M⁻
+  [[nodiscard]] double no_load_speed_rad_per_s() const noexcept;         ///< where M⁺ is 0; 0: friction holds the motor
+};
+[[nodiscard]] MotorLine motor_line(const device::UnitConfig& unit);
+
+enum class Task {
+  move,      ///< turn against the load at a speed; at speed 0: begin to
+  hold,      ///< stand still, both motors at full voltage
+  unpowered  ///< stand still without voltage, by friction alone
+};
+
+/// The end of the reachable range: the largest load. NaN where not even an unloaded shaft is reachable.
+struct Reach {
+  double deflection_rad = 0;        ///< d ≥ 0
+  double torque_Nm = 0;             ///< at the shaft, in the direction of motion
+  double stiffness_Nm_per_rad = 0;  ///< σ there
+  double energy_J = 0;              ///< H there
+};
+
+/// One point of the boundary of the torque–speed–stiffness workspace.
+struct WorkspacePoint {
+  double speed_rad_per_s = 0;
+  Reach reach;
+};
+
+/// Output power at its largest along a boundary.
+struct BestPower {
+  double power_W = 0, torque_Nm = 0, speed_rad_per_s = 0;
+};
+[[nodiscard]] BestPower best_power(const std::vector<WorkspacePoint>& boundary);
+
+/// The law under an external load at a preset, pulleys held: what a torque–deflection curve shows.
+struct LawPoint {
+  double deflection_rad = 0, load_Nm = 0, stiffness_Nm_per_rad = 0;
+};
+
+class Workspace {
+ public:
+  explicit Workspace(const device::UnitConfig& unit);
+
+  [[nodiscard]] const MotorLine& line() const noexcept { return line_; }
+  /// The largest preset that both motors can wind the unloaded springs to, at most the unit's limit; 0 for a law without preset.
+  [[nodiscard]] double attainable_preset() const;
+  /// `direction` +1 or −1: which way the shaft is driven; they differ for unequal springs.
+  [[nodiscard]] Reach reach(double preset, double speed_rad_per_s, Task task = Task::move, int direction = 1) const;
+  /// The largest speed of the unloaded shaft.
+  [[nodiscard]] double no_load_speed(double preset) const;
+  /// From standstill to the no-load speed, evenly spaced.
+  [[nodiscard]] std::vector<WorkspacePoint> boundary(double preset, int points) const;
+  /// Between the largest loads that the motors move in both directions.
+  [[nodiscard]] std::vector<LawPoint> law_curve(double preset, int points) const;
+  [[nodiscard]] double stiffness_at_rest(double preset) const;
+  /// H with the shaft unloaded.
+  [[nodiscard]] double energy_at_rest(double preset) const;
+  /// σ with the pulleys held under an external load; NaN beyond what the motors move.
+  [[nodiscard]] double stiffness_under(double preset, double load_Nm) const;
+
+ private:
+  [[nodiscard]] elastic::Response at(double preset, double lag_rad, int direction) const;
+  [[nodiscard]] bool carries(const elastic::Response& r, const std::array<double, 2>& rates, double speed, Task task) const;
+  [[nodiscard]] bool winds(double preset) const;
+
+  device::UnitConfig unit_;
+  MotorLine line_;
+};
+
+}  // namespace vsa::experiment

@@ -1,0 +1,50 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Bounded least squares with Ceres' trust region (Levenberg–Marquardt), from several deterministic starts. Why Ceres and not NLopt:
+// the problem is a sum of squares whose Jacobian costs 2n + 1 simulations that run side by side; a trust region on it needs about
+// ten of them, NLopt's derivative-free methods hundreds of simulations, and its gradient methods don't see the squares.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "vsa/identify/residuals.hpp"
+
+namespace vsa::identify {
+
+struct FitOptions {
+  int starts = 3;            ///< local solutions: one from the preset's values, the others from the best of 4 × as many trials
+  int iterations = 20;       ///< of each
+  double effect_rad = 1e-3;  ///< of a difference step
+  double tolerance = 1e-3;   ///< relative decrease of the cost at which a solution ends
+  std::function<void(const std::string&)> progress;
+};
+
+struct StartResult {
+  std::vector<double> from, to;
+  std::vector<double> steps;  ///< of the differences
+  double rms_rad = 0;
+  int iterations = 0;
+  bool converged = false;
+};
+
+struct Fit {
+  std::vector<double> values;
+  std::vector<bool> at_bound;
+  std::vector<double> residuals;              ///< unweighted
+  std::vector<std::vector<double>> jacobian;  ///< columns, unweighted
+  std::vector<double> steps;
+  double cost = 0, rms_rad = 0;
+  std::vector<StartResult> starts;  ///< the best is first
+};
+
+/// Throws what the model throws at the preset's own values, and std::runtime_error where no start can be evaluated.
+[[nodiscard]] Fit fit(const Residuals& residuals, const FitOptions& options);
+/// Residuals, Jacobian and bounds at `fit.values`, with `fit.steps` as the first guess of the steps.
+void evaluate_at(Fit& fit, const Residuals& residuals, double effect_rad);
+/// One local solution. `fixed[k]`: parameter k keeps its value.
+[[nodiscard]] StartResult solve(const Residuals& residuals, const std::vector<double>& from, const std::vector<bool>& fixed,
+                                const FitOptions& options);
+
+}  // namespace vsa::identify

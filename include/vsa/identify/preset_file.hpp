@@ -1,0 +1,25 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A complete preset file with the identified values: every other value, every bound and source as it was.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vsa/identify/task.hpp"
+
+namespace vsa::identify {
+
+/// A changed value and what its source shall say.
+struct Identified {
+  std::string key;
+  double value = 0;
+  std::string source;
+};
+
+/// TOML text of a preset called `name`. `settings` are the overrides that the identification ran with. The text has been read back
+/// by `library` before it is returned: throws InputError if it isn't a valid preset.
+[[nodiscard]] std::string preset_text(const config::Preset& preset, const std::string& name, const std::vector<Identified>& changes,
+                                      const config::PresetLibrary& library);
+
+}  // namespace vsa::identify

@@ -1,0 +1,60 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What is to be identified: parameters with bounds, recordings with their branches, and a model that predicts those branches.
+//
+//   residual r_ij = model_i(θ)_j − data_i,j   [rad], recording i, point j (torque grid × rising, falling)
+//   θ̂ = argmin Σ_i w_i² Σ_j r_ij²  within the bounds
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "vsa/config/preset.hpp"
+#include "vsa/experiment/recording.hpp"
+
+namespace vsa::identify {
+
+/// One unknown: one key of the preset, or several that are to be equal.
+struct Parameter {
+  std::string name;               ///< as the user wrote it: "elastic.k1_Nm=elastic.k2_Nm"
+  std::vector<std::string> keys;  ///< "elastic.k1_Nm", "elastic.k2_Nm"
+  std::string unit;
+  double start = 0, min = 0, max = 0;
+};
+
+struct Observation {
+  std::string name;  ///< the recording's file
+  double preset = 0;
+  experiment::Branches data;
+  double weight = 1;  ///< w, 1/rad; see scatter_weight()
+};
+
+/// The branches that observation number i would show. Called from several threads at once; may throw where the values make no
+/// sense. `values` are in the order of Task::parameters.
+using Model = std::function<experiment::Branches(const std::vector<double>& values, std::size_t observation)>;
+
+struct Task {
+  std::vector<Parameter> parameters;
+  std::vector<Observation> observations;
+  Model model;
+  /// Called, from one thread, before each local solution with its start: what the model holds constant on the way (the sweep's
+  /// amplitude). May be empty.
+  std::function<void(const std::vector<double>& values)> prepare;
+};
+
+/// "a.x,b.y=c.z" → parameters with unit, start and bounds of the preset. Tied keys: the bounds' intersection, the first key's
+/// start. Throws InputError for every key that is unknown, twice, no real number, or tied to one of another unit.
+[[nodiscard]] std::vector<Parameter> parse_parameters(const std::string& text, const config::Preset& preset);
+
+/// The overrides that give a preset these values.
+[[nodiscard]] std::vector<config::Override> overrides(const std::vector<Parameter>& parameters, const std::vector<double>& values);
+
+/// 1 / root mean square of the recording's own scatter about its branches, so that a curve counts as much as it is known.
+[[nodiscard]] double scatter_weight(const experiment::Branches& data);
+
+/// Rounded to `digits` significant decimal digits.
+[[nodiscard]] double rounded(double value, int digits);
+
+}  // namespace vsa::identify

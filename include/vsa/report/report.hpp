@@ -1,0 +1,72 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A report: one self-contained HTML page with headings, text, tables and interactive curves, that needs no network and prints well.
+// The template (web/, built into share/vsa/web/report.html) carries the program; the data go where its marker is, as JSON. What
+// came from a user's file is data to the page, never markup.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace vsa::report {
+
+struct Curve {
+  enum class Style { line, dashed, dotted, markers, band };
+  std::string name;
+  std::vector<double> x, y;   ///< equally long; what isn't finite is a gap
+  std::vector<double> error;  ///< empty, or one a point: error bars (band: half width, needed)
+  Style style = Style::line;
+  int color = 0;      ///< index into the page's colour-blind-safe palette; equal index, equal colour; −1: grey, for references
+  std::string group;  ///< curves of one group share a legend entry
+};
+
+struct Chart {
+  std::string title, x_label, y_label;  ///< labels with units: "deflection [rad]"
+  std::vector<Curve> curves;
+  std::string caption;
+  bool y_log = false;
+};
+
+struct Table {
+  std::string title;
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+  std::string caption;
+};
+
+struct Text {
+  std::string text;  ///< a paragraph
+};
+
+/// A number that stands out: {"preset 0", "0.0087 rad", "bound 0.020 rad", good}.
+struct Figure {
+  std::string label, value, note;
+  enum class Verdict { none, good, bad } verdict = Verdict::none;
+};
+struct Figures {
+  std::vector<Figure> figures;
+};
+
+using Block = std::variant<Text, Table, Chart, Figures>;
+
+struct Section {
+  std::string title;
+  std::vector<Block> blocks;  ///< charts of a section stand side by side where there is room
+};
+
+struct Report {
+  std::string title, subtitle;
+  std::vector<Section> sections;
+  std::string footer;     ///< the command that made it, versions
+  bool one_page = false;  ///< a data sheet: laid out to print on one A4 page
+};
+
+/// The page's data. Throws std::invalid_argument where a curve's x, y and error differ in length.
+[[nodiscard]] std::string to_json(const Report& report);
+
+/// Beside it first, then renamed, so that there is never half a page. Throws record::RecordError / InputError as write_page does.
+void write_report(const Report& report, const std::filesystem::path& file);
+
+}  // namespace vsa::report

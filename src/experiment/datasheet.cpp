@@ -1,0 +1,71 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/experiment/datasheet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "vsa/units.hpp"
+
+namespace vsa::experiment {
+namespace {
+
+constexpr double kShares[] = {0, 0.25, 0.5, 0.75, 0.9};  // of the attainable preset; all of it leaves no torque for a load
+constexpr int kEnergyPoints = 61;
+constexpr int kBoundaryPoints = 81;
+constexpr int kCurvePoints = 101;
+
+PresetColumn column(const Workspace& workspace, double preset) {
+  PresetColumn c;
+  c.preset = preset;
+  c.stiffness_at_rest_Nm_per_rad = workspace.stiffness_at_rest(preset);
+  c.peak = workspace.reach(preset, 0, Task::move);
+  c.holding = workspace.reach(preset, 0, Task::hold);
+  c.unpowered = workspace.reach(preset, 0, Task::unpowered);
+  c.no_load_speed_rad_per_s = workspace.no_load_speed(preset);
+  c.energy_at_rest_J = workspace.energy_at_rest(preset);
+  c.boundary = workspace.boundary(preset, kBoundaryPoints);
+  c.power = best_power(c.boundary);
+  c.curve = workspace.law_curve(preset, kCurvePoints);
+  return c;
+}
+
+LoopErrors loop_errors(const device::UnitConfig& unit, const MotorLine& line) {
+  const double gain = std::abs(unit.loop.kp) / 65536.0 / 100.0;  // of full output a raw tick
+  LoopErrors e;
+  e.full_rad = gain > 0 ? radians(Raw{1}) / gain : std::numeric_limits<double>::quiet_NaN();
+  // The voltage grows with the output, so bisection finds where it is enough.
+  const double share = line.stall_Nm > 0 ? line.friction_Nm / line.stall_Nm : 2.0;
+  double low = 0, high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double mid = 0.5 * (low + high);
+    (drive::bridge_voltage(unit.actuator.bridge, mid, line.full_duty) > share * line.voltage_V ? high : low) = mid;
+  }
+  e.moves_rad = share < 1 ? high * e.full_rad : std::numeric_limits<double>::quiet_NaN();
+  return e;
+}
+
+}  // namespace
+
+DataSheet data_sheet(const config::Preset& preset) {
+  const Workspace workspace(preset.unit);
+  DataSheet sheet;
+  sheet.preset = preset;
+  sheet.line = workspace.line();
+  sheet.errors = loop_errors(preset.unit, sheet.line);
+  sheet.attainable_preset = workspace.attainable_preset();
+  sheet.stiffest_Nm_per_rad = workspace.stiffness_at_rest(sheet.attainable_preset);
+  const bool one = sheet.attainable_preset == 0;
+  for (const double share : kShares) {
+    if (share == 0 || !one) sheet.columns.push_back(column(workspace, share * sheet.attainable_preset));
+  }
+  for (int i = 0; i < (one ? 1 : kEnergyPoints); ++i) {
+    const double p = sheet.attainable_preset * i / (kEnergyPoints - 1);
+    for (const double e : {workspace.reach(p, 0).energy_J, workspace.energy_at_rest(p)}) {
+      sheet.most_energy_J = std::fmax(sheet.most_energy_J, e);
+    }
+  }
+  return sheet;
+}
+
+}  // namespace vsa::experiment

@@ -1,0 +1,154 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/experiment/workspace.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "vsa/experiment/bench.hpp"
+#include "vsa/units.hpp"
+
+namespace vsa::experiment {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDutyScale = 101.0;  // the PWM counter's period, as in device/unit.cpp
+constexpr double kLagStep_rad = 2e-3;
+constexpr double kLagMost_rad = 2 * kPi;
+
+/// The last value in [0, most] up to which ok() holds everywhere on a grid of `step`, then by bisection. ok(0) must hold.
+template <class Ok>
+double last_good(double most, double step, const Ok& ok) {
+  double good = 0;
+  while (good < most && ok(std::min(most, good + step))) good = std::min(most, good + step);
+  if (good >= most) return most;
+  double bad = std::min(most, good + step);
+  for (double mid = 0.5 * (good + bad); mid > good && mid < bad; mid = 0.5 * (good + bad)) (ok(mid) ? good : bad) = mid;
+  return good;
+}
+
+/// The firmware's limit, chosen by the supply as its converter reads it.
+double full_duty(const device::UnitConfig& unit) {
+  const auto supply = sensor::supply_from_adc(sensor::supply_adc(unit.actuator.bridge.supply_V));
+  return (unit.loop.supply_limit ? firmware::supply_limit_pct(supply) : 100) / kDutyScale;
+}
+
+}  // namespace
+
+double MotorLine::most_Nm(double speed) const noexcept {
+  return (stall_Nm - friction_Nm - back_Nms_per_rad * speed) / (1 + load_loss);
+}
+double MotorLine::least_Nm(double speed) const noexcept { return -(stall_Nm + friction_Nm + back_Nms_per_rad * speed); }
+double MotorLine::no_load_speed_rad_per_s() const noexcept { return std::max(0.0, (stall_Nm - friction_Nm) / back_Nms_per_rad); }
+
+MotorLine motor_line(const device::UnitConfig& unit) {
+  const drive::MotorParams m = drive::at_pulley(unit.actuator.motor, unit.actuator.gearbox.ratio);
+  MotorLine line;
+  line.full_duty = full_duty(unit);
+  line.voltage_V = drive::bridge_voltage(unit.actuator.bridge, 1.0, line.full_duty);
+  line.stall_current_A = line.voltage_V / m.resistance_Ohm;
+  line.stall_Nm = m.torque_constant_Nm_per_A * line.stall_current_A;
+  line.back_Nms_per_rad = m.torque_constant_Nm_per_A * m.back_emf_Vs_per_rad / m.resistance_Ohm + m.viscous_Nms_per_rad;
+  line.friction_Nm = drive::at_pulley(unit.actuator.gearbox.friction, unit.actuator.gearbox.ratio).coulomb_Nm;
+  line.load_loss = unit.actuator.gearbox.load_loss;
+  return line;
+}
+
+BestPower best_power(const std::vector<WorkspacePoint>& boundary) {
+  BestPower best;
+  for (const WorkspacePoint& p : boundary) {
+    const double power = p.speed_rad_per_s * p.reach.torque_Nm;
+    if (power > best.power_W) best = {power, p.reach.torque_Nm, p.speed_rad_per_s};
+  }
+  return best;
+}
+
+Workspace::Workspace(const device::UnitConfig& unit) : unit_(unit), line_(motor_line(unit)) {}
+
+elastic::Response Workspace::at(double preset, double lag_rad, int direction) const {
+  const elastic::Transmission& law = *unit_.actuator.transmission;
+  const auto x = law.references({0.0, preset});
+  return law.evaluate({law.attained(x).equilibrium - direction * lag_rad, x});
+}
+
+bool Workspace::carries(const elastic::Response& r, const std::array<double, 2>& rates, double speed, Task task) const {
+  for (int i = 0; i < unit_.actuator.transmission->motor_count(); ++i) {
+    const double torque = -r.load[i], helped = (1 - line_.load_loss) * std::abs(torque);
+    if (task == Task::unpowered) {
+      if (helped > line_.friction_Nm) return false;
+    } else if (task == Task::hold || rates[i] == 0) {
+      if (helped > line_.stall_Nm + line_.friction_Nm) return false;
+    } else {
+      const double pulley = std::abs(rates[i]) * speed, along = std::copysign(1.0, rates[i]) * torque;
+      if (along > line_.most_Nm(pulley) || along < line_.least_Nm(pulley)) return false;
+    }
+  }
+  return true;
+}
+
+Reach Workspace::reach(double preset, double speed, Task task, int direction) const {
+  const elastic::Transmission& law = *unit_.actuator.transmission;
+  const auto ahead = law.references({0.5, preset}), behind = law.references({-0.5, preset});
+  const std::array<double, 2> rates{direction * (ahead[0] - behind[0]), direction * (ahead[1] - behind[1])};
+  const auto ok = [&](double lag) { return carries(at(preset, lag, direction), rates, speed, task); };
+  if (!ok(0)) return {kNaN, kNaN, kNaN, kNaN};
+  const double lag = last_good(kLagMost_rad, kLagStep_rad, ok);
+  const elastic::Response r = at(preset, lag, direction);
+  const double shaft = unit_.actuator.shaft_friction.coulomb_Nm;
+  const double torque = direction * r.torque + (task == Task::move ? -shaft : shaft);
+  return {lag, torque, r.curvature.qq, r.energy};
+}
+
+bool Workspace::winds(double preset) const {
+  const elastic::Response r = at(preset, 0, 1);
+  for (int i = 0; i < unit_.actuator.transmission->motor_count(); ++i) {
+    if (std::abs(r.load[i]) > line_.most_Nm(0)) return false;
+  }
+  return true;
+}
+
+double Workspace::attainable_preset() const {
+  if (unit_.actuator.transmission->preset_unit().empty() || !winds(0)) return 0;
+  return last_good(unit_.preset_max, unit_.preset_max / 500, [this](double p) { return winds(p); });
+}
+
+double Workspace::no_load_speed(double preset) const {
+  const auto turns = [&](double speed) { return reach(preset, speed).torque_Nm >= 0; };  // NaN: no
+  if (!turns(0)) return 0;
+  const double most = 2 * line_.no_load_speed_rad_per_s() + 1e-9;
+  return last_good(most, most / 20, turns);
+}
+
+std::vector<WorkspacePoint> Workspace::boundary(double preset, int points) const {
+  const double fastest = no_load_speed(preset);
+  std::vector<WorkspacePoint> out;
+  for (int i = 0; i < points; ++i) {
+    const double speed = fastest * i / (points - 1);
+    out.push_back({speed, reach(preset, speed)});
+  }
+  return out;
+}
+
+std::vector<LawPoint> Workspace::law_curve(double preset, int points) const {
+  // A shaft that is driven forwards lags: its deflection is negative.
+  const double low = -reach(preset, 0, Task::move, 1).deflection_rad, high = reach(preset, 0, Task::move, -1).deflection_rad;
+  std::vector<LawPoint> out;
+  for (int i = 0; i < points; ++i) {
+    const double deflection = low + (high - low) * i / (points - 1);
+    const elastic::Response r = at(preset, deflection, -1);
+    out.push_back({deflection, -r.torque, r.curvature.qq});
+  }
+  return out;
+}
+
+double Workspace::stiffness_at_rest(double preset) const { return at(preset, 0, 1).curvature.qq; }
+double Workspace::energy_at_rest(double preset) const { return at(preset, 0, 1).energy; }
+
+double Workspace::stiffness_under(double preset, double load_Nm) const {
+  const int direction = load_Nm < 0 ? 1 : -1;
+  const Reach most = reach(preset, 0, Task::move, direction);
+  if (!(direction * at(preset, most.deflection_rad, direction).torque >= std::abs(load_Nm))) return kNaN;
+  return at(preset, law_deflection(*unit_.actuator.transmission, preset, load_Nm), -1).curvature.qq;
+}
+
+}  // namespace vsa::experiment

@@ -1,0 +1,82 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/identify/preset_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "vsa/config/schema.hpp"
+#include "vsa/config/text.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::identify {
+namespace {
+
+/// A basic TOML string. What isn't allowed in one is written as an escape.
+std::string toml_string(std::string_view text) {
+  std::string out = "\"";
+  for (char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+const config::Parameter* schema_of(const std::string& key) {
+  const auto all = config::parameters();
+  const auto it = std::find_if(all.begin(), all.end(), [&](const config::Parameter& p) { return p.key == key; });
+  return it == all.end() ? nullptr : &*it;
+}
+
+bool is_word(const config::Entry& e) {
+  const config::Parameter* p = schema_of(e.key);
+  return p != nullptr && p->kind == config::Kind::word;
+}
+
+/// "0 … 100" → "[0, 100]"
+std::string bounds_text(const std::string& bounds) {
+  std::string out = bounds;
+  constexpr std::string_view kMark = " … ";
+  if (const std::size_t at = out.find(kMark); at != std::string::npos) out.replace(at, kMark.size(), ", ");
+  return '[' + out + ']';
+}
+
+std::string entry_text(const config::Entry& e, const Identified* change) {
+  const std::string value = change != nullptr ? config::number_text(change->value) : is_word(e) ? toml_string(e.value) : e.value;
+  const std::string source = toml_string(change != nullptr ? change->source : e.source);
+  const std::string name = e.key.substr(e.key.find('.') + 1);
+  if (e.unit.empty()) return fmt::format("{} = {{ value = {}, source = {} }}\n", name, value, source);
+  return fmt::format("{} = {{ value = {}, unit = {}, bounds = {}, source = {} }}\n", name, value, toml_string(e.unit),
+                     bounds_text(e.bounds), source);
+}
+
+}  // namespace
+
+std::string preset_text(const config::Preset& preset, const std::string& name, const std::vector<Identified>& changes,
+                        const config::PresetLibrary& library) {
+  std::vector<std::string> groups{"elastic"};
+  std::map<std::string, std::string> body;
+  for (const config::Entry& e : preset.entries) {
+    const std::string group = e.key.substr(0, e.key.find('.'));
+    if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
+    const auto it = std::find_if(changes.begin(), changes.end(), [&](const Identified& c) { return c.key == e.key; });
+    body[group] += entry_text(e, it == changes.end() ? nullptr : &*it);
+  }
+  std::string out = "# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0\n\n[preset]\n";
+  out += fmt::format("name = {}\ntitle = {}\n", toml_string(name), toml_string(preset.title + ", identified"));
+  if (!preset.description.empty()) out += fmt::format("description = {}\n", toml_string(preset.description));
+  for (const std::string& group : groups) {
+    out += fmt::format("\n[{}]\n", group);
+    if (group == "elastic") out += fmt::format("law = {}\n", toml_string(preset.law));
+    out += body[group];
+  }
+  (void)library.load_text(out, name + ".toml");
+  return out;
+}
+
+}  // namespace vsa::identify

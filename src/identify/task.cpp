@@ -1,0 +1,131 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/identify/task.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "vsa/config/schema.hpp"
+#include "vsa/config/text.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::identify {
+namespace {
+
+struct Range {
+  double min, max;
+};
+
+/// "0 … 100", as config::range_text writes it.
+std::optional<Range> read_range(std::string_view text) {
+  constexpr std::string_view kMark = " … ";
+  const std::size_t at = text.find(kMark);
+  if (at == std::string_view::npos) return std::nullopt;
+  const auto min = config::parse_number(text.substr(0, at)), max = config::parse_number(text.substr(at + kMark.size()));
+  return min && max ? std::optional<Range>({*min, *max}) : std::nullopt;
+}
+
+const config::Entry* find(const config::Preset& preset, const std::string& key) {
+  const auto it = std::find_if(preset.entries.begin(), preset.entries.end(), [&](const config::Entry& e) { return e.key == key; });
+  return it == preset.entries.end() ? nullptr : &*it;
+}
+
+/// Words, switches and whole numbers have no derivative. A law's keys aren't in the table: all of them are numbers.
+bool real_number(const std::string& key) {
+  for (const config::Parameter& p : config::parameters()) {
+    if (p.key == key) return p.kind == config::Kind::number;
+  }
+  return true;
+}
+
+std::vector<std::string> keys_of(const config::Preset& preset) {
+  std::vector<std::string> keys;
+  for (const config::Entry& e : preset.entries) keys.push_back(e.key);
+  return keys;
+}
+
+/// Adds one key of the preset to a parameter: the first gives start and unit.
+void add_key(Parameter& parameter, const std::string& key, const config::Preset& preset, Problems& problems) {
+  const config::Entry* entry = find(preset, key);
+  if (entry == nullptr) {
+    problems.add({"--parameters", key, "", "preset " + preset.name + " has no such key", config::nearest(key, keys_of(preset))});
+    return;
+  }
+  const auto value = config::parse_number(entry->value);
+  const auto range = read_range(entry->bounds);
+  if (!real_number(key) || !value || !range) {
+    problems.add(
+        {"--parameters", key, entry->value, "isn't a real number, so it can't be identified", "keys with a unit and bounds"});
+    return;
+  }
+  if (parameter.keys.empty()) {
+    parameter.unit = entry->unit;
+    parameter.start = *value;
+    parameter.min = range->min;
+    parameter.max = range->max;
+  } else if (parameter.unit != entry->unit) {
+    problems.add({"--parameters", key, entry->unit, "tied to a key of another unit", parameter.unit});
+  }
+  parameter.min = std::max(parameter.min, range->min);
+  parameter.max = std::min(parameter.max, range->max);
+  parameter.keys.push_back(key);
+}
+
+}  // namespace
+
+std::vector<Parameter> parse_parameters(const std::string& text, const config::Preset& preset) {
+  Problems problems;
+  std::vector<Parameter> out;
+  std::vector<std::string> seen;
+  for (const std::string& part : config::split(text, ',')) {
+    Parameter parameter;
+    parameter.name = std::string(config::trim(part));
+    for (const std::string& piece : config::split(part, '=')) {
+      const std::string key(config::trim(piece));
+      if (key.empty()) {
+        problems.add({"--parameters", "", text, "a key is missing", "group.key,group.key=group.key,…"});
+      } else if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
+        problems.add({"--parameters", key, "", "named twice", "once"});
+      } else {
+        add_key(parameter, key, preset, problems);
+      }
+      seen.push_back(key);
+    }
+    if (!parameter.keys.empty() && !(parameter.start >= parameter.min && parameter.start <= parameter.max)) {
+      problems.add({"--parameters", parameter.name, config::number_text(parameter.start), "outside its bounds",
+                    config::range_text(parameter.min, parameter.max)});
+    } else if (!parameter.keys.empty() && !(parameter.min < parameter.max)) {
+      problems.add({"--parameters", parameter.name, "", "its bounds leave one value", "bounds with room between them"});
+    }
+    out.push_back(std::move(parameter));
+  }
+  problems.throw_if_any();
+  return out;
+}
+
+std::vector<config::Override> overrides(const std::vector<Parameter>& parameters, const std::vector<double>& values) {
+  std::vector<config::Override> out;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    for (const std::string& key : parameters[k].keys) out.push_back({key, config::number_text(values[k])});
+  }
+  return out;
+}
+
+double scatter_weight(const experiment::Branches& data) {
+  constexpr double kLeastScatter_rad = 2e-4;  // no recording of a 12-bit encoder is known better
+  double sum = 0, n = 0;
+  for (const auto* scatter : {&data.sd_rising_rad, &data.sd_falling_rad}) {
+    for (double s : *scatter) {
+      if (!std::isfinite(s)) continue;
+      sum += s * s;
+      n += 1;
+    }
+  }
+  return 1.0 / std::max(kLeastScatter_rad, n > 0 ? std::sqrt(sum / n) : 0.0);
+}
+
+double rounded(double value, int digits) { return config::parse_number(fmt::format("{:.{}e}", value, digits - 1)).value_or(value); }
+
+}  // namespace vsa::identify

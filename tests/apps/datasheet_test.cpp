@@ -1,0 +1,119 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "subprocess.hpp"
+
+namespace {
+
+using vsa::test::read_file;
+using vsa::test::run_vsa;
+using vsa::test::Scratch;
+
+void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
+  for (const auto& part : parts) EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in:\n" << text;
+}
+
+/// What a written page holds beside the program.
+std::string data_of(const std::filesystem::path& page) {
+  const std::string html = read_file(page);
+  const std::size_t at = html.find("id=\"data\">");
+  return at == std::string::npos ? "no page" : html.substr(at, html.find("</script>", at) - at);
+}
+
+/// The words of the first line that holds `what`, from there on.
+std::vector<std::string> words_after(const std::string& text, const std::string& what) {
+  const std::size_t at = text.find(what);
+  if (at == std::string::npos) return {};
+  std::istringstream line(text.substr(at + what.size(), text.find('\n', at) - at - what.size()));
+  std::vector<std::string> out;
+  for (std::string word; line >> word;) out.push_back(word);
+  return out;
+}
+
+TEST(Datasheet, HasTheNumbersOfLawAndDrive) {
+  const Scratch scratch;
+  const auto result = run_vsa({"datasheet", "qbmove_maker_pro_paper", "--out", scratch / "sheet.html"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(result.err.empty()) << "no progress in a pipe: " << result.err;
+  const std::string html = data_of(scratch / "sheet.html");
+  // With V = 12 V · 61/101 and M = K_τ V/R − τ_c: σ from 2 a k to 2 a √(k² + M²), τ = 2 M − τ_shaft; full output at 100 %/(0.1
+  // %/tick).
+  expect_holds(html, {"\"one_page\":true", "\"Stiffness and preset\"", "\"Step of the preset\"", "\"3.43 N·m\"", "\"0.301 … 23.6\"",
+                      "two_sinh", "k1 = 0.022 N·m", "vsa datasheet qbmove_maker_pro_paper"});
+  expect_holds(result.out, {"2.87 / 5.49", "stiffness variation time", "written: " + (scratch / "sheet.html").string()});
+  EXPECT_FALSE(std::filesystem::exists(scratch / "sheet.html.part"));
+}
+
+TEST(Datasheet, AgreesWithCharacterize) {
+  const Scratch scratch;
+  const auto sheet = run_vsa({"datasheet", "qbmove_maker_pro", "--out", scratch / "sheet.html"});
+  const auto measured = run_vsa(
+      {"characterize", "qbmove_maker_pro", "--experiment", "speed", "--experiment", "preset-step", "--out", scratch / "measured"});
+  ASSERT_EQ(sheet.exit_code, 0) << sheet.err;
+  ASSERT_EQ(measured.exit_code, 0) << measured.err;
+  const auto speeds = words_after(sheet.out, "mean speed 10–90 %, preset 0 / 0.75");  // "4.38 / 3.72 rad/s …"
+  const auto stiff = words_after(measured.out, "\n0.75 ");                            // rise, ω shaft, …
+  const auto soft = words_after(measured.out, "\n0 ");
+  ASSERT_GE(speeds.size(), 3U) << sheet.out;
+  ASSERT_GE(stiff.size(), 2U) << measured.out;
+  ASSERT_GE(soft.size(), 2U) << measured.out;
+  EXPECT_NEAR(std::stod(speeds[0]), std::stod(soft[1]), 0.006);
+  EXPECT_NEAR(std::stod(speeds[2]), std::stod(stiff[1]), 0.006);
+  const auto times = words_after(sheet.out, "stiffness variation time 10–90 %, no load, up / down");
+  const auto none = words_after(measured.out, "\nnone ");  // load, 0 → 0.75 → 0, attained, rise, resting, fall
+  ASSERT_GE(times.size(), 3U) << sheet.out;
+  ASSERT_GE(none.size(), 10U) << measured.out;
+  EXPECT_NEAR(std::stod(times[0]), std::stod(none[7]), 0.0011);
+  EXPECT_NEAR(std::stod(times[2]), std::stod(none[9]), 0.0011);
+}
+
+TEST(Datasheet, OfAnActuatorWithoutPresetLeavesOutWhatHasNoMeaning) {
+  const Scratch scratch;
+  const auto result = run_vsa({"datasheet", "sea_example", "--out", scratch / "sheet.html"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string html = data_of(scratch / "sheet.html");
+  for (const char* part : {"\"Stiffness and preset\"", "\"Step of the preset\"", "By stiffness preset", "variation"}) {
+    EXPECT_EQ(html.find(part), std::string::npos) << part;
+  }
+  expect_holds(html, {"\"10 N·m/rad\"", "\"Torque and speed\""});
+  expect_holds(result.out, {"no-load speed"});
+}
+
+TEST(Datasheet, FollowsTheParametersThatAreSet) {
+  const Scratch scratch;
+  const auto result = run_vsa({"datasheet", "sea_example", "--set", "elastic.stiffness_Nm_per_rad=20", "--set", "drive.supply_V=0",
+                               "--out", scratch / "s.html"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  expect_holds(data_of(scratch / "s.html"), {"\"20 N·m/rad\"", "with elastic.stiffness_Nm_per_rad = 20, drive.supply_V = 0"});
+}
+
+TEST(Datasheet, RefusesBadInputAndWritesNothing) {
+  const Scratch scratch;
+  const auto refused = [](const std::vector<std::string>& arguments, const std::vector<std::string>& parts) {
+    const auto result = run_vsa(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    expect_holds(result.err, parts);
+  };
+  refused({"datasheet"}, {"PRESET"});
+  refused({"datasheet", "qbmove_9000"}, {"qbmove_9000", "sea_example"});
+  refused({"datasheet", "sea_example", "--set", "drive.supply_V", "--out", scratch / "s.html"}, {"--set", "key=value"});
+  refused({"datasheet", "sea_example", "--set", "drive.supply_V=many", "--out", scratch / "s.html"}, {"drive.supply_V", "many"});
+  refused({"datasheet", "sea_example", "--out", scratch / "nowhere" / "s.html"}, {"--out", "directory"});
+  refused({"datasheet", "sea_example", "--out", (scratch / "nowhere").parent_path()}, {"--out", "is a directory"});
+  EXPECT_FALSE(std::filesystem::exists(scratch / "s.html"));
+}
+
+TEST(Datasheet, AFullDiskIsAFailureThatLeavesNoHalfPage) {
+  const Scratch scratch;
+  vsa::test::Surroundings full;
+  full.largest_file = 10'000;
+  const auto result = run_vsa({"datasheet", "sea_example", "--out", scratch / "s.html"}, full);
+  EXPECT_EQ(result.exit_code, 1);
+  expect_holds(result.err, {"s.html"});
+  EXPECT_FALSE(std::filesystem::exists(scratch / "s.html"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "s.html.part"));
+}
+
+}  // namespace

@@ -1,0 +1,86 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What the benches refuse, and the small tools that they use.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "bench_support.hpp"
+#include "vsa/elastic/series_spring.hpp"
+#include "vsa/elastic/two_sinh.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/experiment/parallel.hpp"
+
+namespace vsa::experiment {
+namespace {
+
+/// Everything wrong, as one text; empty: nothing.
+template <class F>
+std::string problems_of(F&& f) {
+  try {
+    static_cast<void>(f());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Bench, OptionsOutOfRangeAreToldTogether) {
+  StiffnessOptions o;
+  o.period_s = std::nan("");
+  o.amplitude_rad = 11;
+  o.cycles = 0;
+  const std::string text = problems_of([&] { return run_stiffness(specimen(), o); });
+  for (const char* key : {"period_s", "amplitude_rad", "cycles"}) EXPECT_NE(text.find(key), std::string::npos) << text;
+  SpeedOptions square = short_square();
+  square.hold_s = -1;
+  square.steps = 0;
+  const std::string other = problems_of([&] { return run_speed(specimen(), square); });
+  for (const char* key : {"hold_s", "steps"}) EXPECT_NE(other.find(key), std::string::npos) << other;
+}
+
+TEST(Bench, PresetsThatTheActuatorDoesNotHaveAreRefused) {
+  for (const double preset : {-0.1, 0.8, std::nan("")}) {
+    const std::string text = problems_of([&] { return run_stiffness(specimen(), short_sweep(preset)); });
+    EXPECT_NE(text.find("0 … 0.785 rad"), std::string::npos) << text;
+  }
+  EXPECT_NE(problems_of([&] { return run_stiffness(specimen("sea_example"), short_sweep(0.2)); }).find("no stiffness preset"),
+            std::string::npos);
+  EXPECT_NE(problems_of([] { return run_preset_step(specimen("sea_example"), {}); }).find("no stiffness preset"),
+            std::string::npos);
+  EXPECT_NE(problems_of([] { return run_speed(specimen("nosuch"), {}); }).find("unknown preset"), std::string::npos);
+}
+
+TEST(LawDeflection, IsTheLawTurnedRound) {
+  elastic::TwoSinhParams params;
+  params.k_Nm = {0.022, 0.022};
+  params.a_per_rad = {6.85, 6.85};
+  const elastic::TwoSinh law(params);
+  for (const double preset : {0.0, 0.3, 0.7}) {
+    for (const double load : {-1.4715, -0.2, 0.4, 1.4715}) {
+      const double scale = 2 * 0.022 * std::cosh(6.85 * preset);
+      EXPECT_NEAR(law_deflection(law, preset, load), std::asinh(load / scale) / 6.85, 1e-12);
+    }
+  }
+  EXPECT_NEAR(law_deflection(elastic::SeriesSpring(10), 0, 1.5), 0.15, 1e-12);
+  EXPECT_THROW(static_cast<void>(law_deflection(elastic::SeriesSpring(0.1), 0, 5)), InputError);
+}
+
+TEST(Parallel, EveryJobRunsOnceAndTheFirstFailureIsThrown) {
+  for (const unsigned threads : {1u, 2u, 7u, 0u}) {
+    std::vector<int> calls(20, 0);
+    EXPECT_THROW(run_in_parallel(20, threads,
+                                 [&](std::size_t i) {
+                                   ++calls[i];
+                                   if (i == 13) throw std::invalid_argument("13");
+                                   if (i == 4) throw std::out_of_range("4");
+                                 }),
+                 std::out_of_range);
+    EXPECT_EQ(calls, std::vector<int>(20, 1));
+  }
+  run_in_parallel(0, 3, [](std::size_t) { FAIL(); });
+}
+
+}  // namespace
+}  // namespace vsa::experiment

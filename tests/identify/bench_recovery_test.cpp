@@ -1,0 +1,80 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Known parameters from recordings of the simulated bench itself: full dynamics, encoders, noise. Coarse and short: a sweep six
+// times as fast as the recordings', two parameters.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "closed_form.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/identify/bench_model.hpp"
+#include "vsa/identify/uncertainty.hpp"
+
+namespace vsa::identify {
+namespace {
+
+constexpr const char* kPreset = "qbmove_maker_pro";
+constexpr const char* kKeys = "tendon.friction,sensor.shaft_zero_rad";
+
+SweepOptions fast() {
+  SweepOptions o;
+  o.period_s = 6;
+  o.amplitude_rad = 1.9;
+  return o;
+}
+
+experiment::Specimen specimen() {
+  experiment::Specimen s;
+  s.preset = kPreset;
+  s.library = test::shipped();
+  return s;
+}
+
+Observation noisy_recording(const std::vector<double>& truth, double preset, unsigned seed) {
+  experiment::Specimen unit = specimen();
+  unit.overrides = overrides(parse_parameters(kKeys, test::shipped().load(kPreset)), truth);
+  experiment::LoadRecording r = simulated_recording(unit, preset, fast());
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0.0, 0.002);
+  for (double& d : r.deflection_rad) d += noise(random);
+  Observation out{"simulated", preset, experiment::branches(r), 1};
+  out.weight = scatter_weight(out.data);
+  return out;
+}
+
+TEST(BenchRecovery, FindsKnownParametersWithinItsOwnIntervals) {
+  const std::vector<double> truth{0.10, 0.004};
+  Task task;
+  task.parameters = parse_parameters(kKeys, test::shipped().load(kPreset));
+  ASSERT_GT(std::abs(task.parameters[0].start - truth[0]), 0.02) << "the start must not be the answer";
+  for (double preset : {0.0, 0.6}) task.observations.push_back(noisy_recording(truth, preset, 7));
+  use_bench(task, specimen(), fast());
+  const Residuals residuals(task, 0);
+  FitOptions o;
+  o.starts = 1;
+  o.iterations = 6;
+  const Fit f = fit(residuals, o);
+  const Uncertainty u = uncertainty(residuals, f);
+  EXPECT_FALSE(u.deficient());
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    EXPECT_GE(truth[k], u.low[k]) << task.parameters[k].name << " = " << f.values[k];
+    EXPECT_LE(truth[k], u.high[k]) << task.parameters[k].name << " = " << f.values[k];
+  }
+  EXPECT_LT(u.standard_error[0], 0.02);
+  EXPECT_LT(u.standard_error[1], 0.001);
+}
+
+TEST(BenchModel, RefusesASweepWithoutAWholeCycleAndAPresetBeyondTheUnit) {
+  Task task;
+  task.parameters = parse_parameters(kKeys, test::shipped().load(kPreset));
+  task.observations = {{"x", 0.0, test::closed_form(test::kTruth, 0), 1}};
+  SweepOptions o = fast();
+  o.cycles = 1.0;
+  EXPECT_THROW(use_bench(task, specimen(), o), InputError);
+  task.observations[0].preset = 3.0;
+  EXPECT_THROW(use_bench(task, specimen(), fast()), InputError);
+}
+
+}  // namespace
+}  // namespace vsa::identify

@@ -1,0 +1,163 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What the data can't tell is said; profiles and cross-validation show what they should.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "closed_form.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/identify/checks.hpp"
+#include "vsa/identify/uncertainty.hpp"
+
+namespace vsa::identify {
+namespace {
+
+using test::closed_form;
+using test::kTruth;
+using test::paper_preset;
+using test::task_of;
+
+const std::vector<double> kPresets{0.0, 0.45, 0.69};
+
+/// Noise that any fit leaves, so that an interval has a width.
+std::vector<experiment::Branches> noisy(const std::vector<double>& presets, double sd = 0.001) {
+  std::mt19937 random(11);
+  std::vector<experiment::Branches> out;
+  for (double p : presets) {
+    out.push_back(closed_form(kTruth, p));
+    test::add_errors(out.back().rising_rad, sd, 0, random);
+    test::add_errors(out.back().falling_rad, sd, 0, random);
+  }
+  return out;
+}
+
+/// k1 and k2 apart, where only their sum acts; the rest known.
+Task untied() {
+  Task task = task_of(parse_parameters("elastic.k1_Nm,elastic.k2_Nm,shaft.friction_Nm", paper_preset()), kPresets, noisy(kPresets));
+  task.model = [](const std::vector<double>& v, std::size_t o) {
+    return closed_form({0.5 * (v[0] + v[1]), kTruth[1], v[2], kTruth[3]}, kPresets[o]);
+  };
+  return task;
+}
+
+TEST(Deficiency, TwoParametersOfWhichOnlyTheSumActsAreNamed) {
+  const Task task = untied();
+  const Residuals residuals(task, 2);
+  const Fit f = fit(residuals, {});
+  EXPECT_NEAR(0.5 * (f.values[0] + f.values[1]), kTruth[0], 1e-3) << "their sum is found all the same";
+  const Uncertainty u = uncertainty(residuals, f);
+  ASSERT_TRUE(u.deficient());
+  ASSERT_EQ(u.unseparated.size(), 1u);
+  EXPECT_EQ(u.unseparated[0], (std::vector<std::size_t>{0, 1}));
+  EXPECT_TRUE(std::isinf(u.standard_error[0]) && std::isinf(u.standard_error[1]));
+  EXPECT_TRUE(std::isfinite(u.standard_error[2])) << "the third is determined";
+  EXPECT_GT(u.condition, 1e3);
+}
+
+TEST(Deficiency, AtOnePresetTheShortfallAndTheSpringAreOne) {
+  const std::vector<double> one{0.69};
+  const Task task = task_of(parse_parameters(test::kFour, paper_preset()), one, noisy(one));
+  const Residuals residuals(task, 2);
+  const Uncertainty u = uncertainty(residuals, fit(residuals, {}));
+  ASSERT_EQ(u.unseparated.size(), 1u);
+  EXPECT_EQ(u.unseparated[0], (std::vector<std::size_t>{0, 1}));
+}
+
+TEST(Deficiency, AParameterWithoutEffectIsNamed) {
+  Task task = task_of(parse_parameters("elastic.k1_Nm=elastic.k2_Nm,drive.supply_V", paper_preset()), kPresets, noisy(kPresets));
+  task.model = [](const std::vector<double>& v, std::size_t o) {
+    return closed_form({v[0], kTruth[1], kTruth[2], kTruth[3]}, kPresets[o]);
+  };
+  const Residuals residuals(task, 2);
+  const Uncertainty u = uncertainty(residuals, fit(residuals, {}));
+  EXPECT_EQ(u.without_effect, std::vector<std::size_t>{1});
+  EXPECT_TRUE(std::isinf(u.standard_error[1]));
+  EXPECT_TRUE(std::isfinite(u.standard_error[0]));
+}
+
+TEST(Deficiency, AWellPosedTaskHasNone) {
+  const Task task = task_of(parse_parameters(test::kFour, paper_preset()), kPresets, noisy(kPresets));
+  const Residuals residuals(task, 2);
+  const Uncertainty u = uncertainty(residuals, fit(residuals, {}));
+  EXPECT_FALSE(u.deficient());
+  EXPECT_LT(u.condition, 50);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(u.correlation[i][i], 1.0, 1e-9);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(u.correlation[i][k], u.correlation[k][i], 1e-9);
+  }
+}
+
+TEST(Profile, IsLowestAtTheEstimateAndRisesToBothSides) {
+  const Task task = task_of(parse_parameters(test::kFour, paper_preset()), kPresets, noisy(kPresets, 0.003));
+  const Residuals residuals(task, 2);
+  const Fit f = fit(residuals, {});
+  const Uncertainty u = uncertainty(residuals, f);
+  const auto curve = profile(residuals, f, 2, f.values[2] - 4 * u.standard_error[2], f.values[2] + 4 * u.standard_error[2], 5, {});
+  ASSERT_EQ(curve.size(), 5u);
+  EXPECT_NEAR(curve[2].value, f.values[2], 1e-9);
+  EXPECT_GT(curve[0].rms_rad, curve[1].rms_rad);
+  EXPECT_GT(curve[1].rms_rad, curve[2].rms_rad);
+  EXPECT_LT(curve[2].rms_rad, curve[3].rms_rad);
+  EXPECT_LT(curve[3].rms_rad, curve[4].rms_rad);
+}
+
+TEST(CrossValidation, OfATrueModelPredictsTheLeftOutPresetAboutAsWellAsTheRest) {
+  const Task task = task_of(parse_parameters(test::kFour, paper_preset()), kPresets, noisy(kPresets, 0.003));
+  const Residuals residuals(task, 2);
+  const Fit f = fit(residuals, {});
+  const auto left = leave_one_preset_out(task, f, {}, 2);
+  ASSERT_EQ(left.size(), 3u);
+  for (const LeftOut& l : left) {
+    EXPECT_LT(l.rms_rad, 2 * l.rms_rad_of_all) << l.preset << " " << l.rms_rad_of_all;
+    EXPECT_EQ(l.misfits.size(), 1u);
+  }
+}
+
+TEST(CrossValidation, OfAWrongModelFails) {
+  std::vector<experiment::Branches> data = noisy(kPresets);
+  for (double& v : data[2].rising_rad) v *= 1.5;  // one preset that obeys another law
+  for (double& v : data[2].falling_rad) v *= 1.5;
+  const Task task = task_of(parse_parameters(test::kFour, paper_preset()), kPresets, data);
+  const Residuals residuals(task, 2);
+  const auto left = leave_one_preset_out(task, fit(residuals, {}), {}, 2);
+  EXPECT_GT(left[2].rms_rad, 10 * 0.001);
+  EXPECT_GT(left[2].rms_rad, left[2].rms_rad_of_all);
+}
+
+TEST(CrossValidation, NeedsTwoPresetsAndTakesTwoRecordingsOfOne) {
+  const std::vector<double> twice{0.45, 0.45};
+  const Task one = task_of(parse_parameters("shaft.friction_Nm", paper_preset()), twice, noisy(twice));
+  Task task = one;
+  task.model = [](const std::vector<double>& v, std::size_t) { return closed_form({kTruth[0], kTruth[1], v[0], kTruth[3]}, 0.45); };
+  const Residuals residuals(task, 2);
+  const Fit f = fit(residuals, {});
+  EXPECT_NEAR(f.values[0], kTruth[2], 1e-3);
+  EXPECT_EQ(misfits(residuals, f.residuals).size(), 2u);
+  EXPECT_TRUE(leave_one_preset_out(task, f, {}, 2).empty());
+}
+
+TEST(Failures, OfTheModelAtTheStartAreToldAndElsewhereSteppedAround) {
+  Task task = task_of(parse_parameters(test::kFour, paper_preset()), kPresets, noisy(kPresets));
+  const Model fine = task.model;
+  task.model = [fine](const std::vector<double>& v, std::size_t o) {
+    if (v[2] > 0.035) throw InputError({"", "shaft.friction_Nm", "", "too much", "less"});
+    return fine(v, o);
+  };
+  const Residuals residuals(task, 2);
+  EXPECT_NEAR(fit(residuals, {}).values[2], kTruth[2], 2e-3);
+  task.parameters[2].start = 0.04;
+  EXPECT_THROW((void)fit(residuals, {}), InputError);
+}
+
+TEST(Failures, ARecordingWithoutBranchesAndNoneAtAllAreTold) {
+  Task task = task_of(parse_parameters(test::kFour, paper_preset()), {0.0}, noisy({0.0}));
+  for (double& v : task.observations[0].data.rising_rad) v = std::nan("");
+  for (double& v : task.observations[0].data.falling_rad) v = std::nan("");
+  EXPECT_THROW(Residuals(task, 1), InputError);
+  task.observations.clear();
+  EXPECT_THROW(Residuals(task, 1), InputError);
+}
+
+}  // namespace
+}  // namespace vsa::identify

@@ -1,0 +1,99 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The --parameters text and the preset file that comes out.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "closed_form.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/identify/preset_file.hpp"
+
+namespace vsa::identify {
+namespace {
+
+using test::paper_preset;
+using test::shipped;
+
+std::vector<std::string> told(const std::string& text) {
+  std::vector<std::string> out;
+  try {
+    (void)parse_parameters(text, paper_preset());
+  } catch (const InputError& error) {
+    for (const Problem& p : error.problems()) out.push_back(p.text());
+  }
+  return out;
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Parameters, HaveStartUnitAndBoundsOfThePreset) {
+  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm, shaft.friction_Nm", paper_preset());
+  ASSERT_EQ(p.size(), 2u);
+  EXPECT_EQ(p[0].keys, (std::vector<std::string>{"elastic.k1_Nm", "elastic.k2_Nm"}));
+  EXPECT_EQ(p[0].unit, "N·m");
+  EXPECT_EQ(p[0].start, 0.0227);
+  EXPECT_EQ(p[0].min, 1e-6);
+  EXPECT_EQ(p[1].name, "shaft.friction_Nm");
+  EXPECT_GT(p[1].max, p[1].start);
+}
+
+TEST(Parameters, ThatAreWrongAreAllToldAtOnce) {
+  EXPECT_EQ(told("elastic.k1_Nm,shaft.frictoin_Nm,drive.off_mode,sensor.encoder_bits,elastic.k1_Nm").size(), 4u);
+  EXPECT_TRUE(has(told("shaft.frictoin_Nm").at(0), "shaft.friction_Nm")) << "the nearest key is offered";
+  EXPECT_TRUE(has(told("drive.off_mode").at(0), "isn't a real number"));
+  EXPECT_TRUE(has(told("firmware.limits_on").at(0), "isn't a real number"));
+  EXPECT_TRUE(has(told("sensor.encoder_bits").at(0), "isn't a real number")) << "a whole number has no derivative";
+  EXPECT_TRUE(has(told("elastic.k1_Nm,elastic.k1_Nm").at(0), "twice"));
+  EXPECT_TRUE(has(told("elastic.k1_Nm=elastic.a1_per_rad").at(0), "another unit"));
+  EXPECT_TRUE(has(told("elastic.k1_Nm,,shaft.friction_Nm").at(0), "a key is missing"));
+  EXPECT_TRUE(has(told("").at(0), "a key is missing"));
+}
+
+TEST(Parameters, BecomeOverridesOfEveryTiedKey) {
+  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm,shaft.friction_Nm", paper_preset());
+  const auto o = overrides(p, {0.03, 0.02});
+  ASSERT_EQ(o.size(), 3u);
+  EXPECT_EQ(o[1].key, "elastic.k2_Nm");
+  EXPECT_EQ(o[1].value, "0.03");
+  EXPECT_EQ(o[2].value, "0.02");
+}
+
+TEST(Rounding, KeepsSignificantDigits) {
+  EXPECT_EQ(rounded(0.0123456, 3), 0.0123);
+  EXPECT_EQ(rounded(-98765.0, 2), -99000.0);
+  EXPECT_EQ(rounded(0.0, 4), 0.0);
+}
+
+TEST(ScatterWeight, IsTheInverseOfTheScatter) { EXPECT_NEAR(scatter_weight(test::closed_form(test::kTruth, 0)), 1 / 0.003, 1e-6); }
+
+/// Every shipped preset can be written with a changed value and reads back equal in all else.
+TEST(PresetFile, KeepsWhatWasntIdentified) {
+  const config::PresetLibrary library = shipped();
+  for (const std::string& name : library.names()) {
+    const config::Preset before = library.load(name);
+    const std::string text =
+        preset_text(before, "new_one", {{"shaft.friction_Nm", 0.0123, "identified: vsa \"identify\" \\ x"}}, library);
+    const config::Preset after = library.load_text(text, "new_one.toml");
+    ASSERT_EQ(after.entries.size(), before.entries.size()) << name;
+    EXPECT_EQ(after.law, before.law);
+    EXPECT_EQ(after.name, "new_one");
+    for (const config::Entry& e : before.entries) {
+      const auto it =
+          std::find_if(after.entries.begin(), after.entries.end(), [&](const config::Entry& x) { return x.key == e.key; });
+      ASSERT_NE(it, after.entries.end()) << e.key;
+      EXPECT_EQ(it->unit, e.unit);
+      EXPECT_EQ(it->bounds, e.bounds);
+      const bool changed = e.key == "shaft.friction_Nm";
+      EXPECT_EQ(it->value, changed ? "0.0123" : e.value) << e.key;
+      EXPECT_EQ(it->source, changed ? "identified: vsa \"identify\" \\ x" : e.source) << e.key;
+    }
+  }
+}
+
+TEST(PresetFile, OfAValueBeyondItsBoundsIsRefused) {
+  EXPECT_THROW((void)preset_text(paper_preset(), "new_one", {{"shaft.friction_Nm", -1.0, "x"}}, shipped()), InputError);
+}
+
+}  // namespace
+}  // namespace vsa::identify

@@ -1,0 +1,35 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What the page tests share: node SOME.test.mjs PAGES NPM [CHROMIUM] opens PAGES/NAME/FILE in Debian's Chromium. playwright-core comes
+// from NPM/node_modules. Without Chromium it says so and ends with 77, which ctest reports as skipped.
+import { existsSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const [pages, npm, given] = process.argv.slice(2);
+const chromiumPath = [given, process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser'].find((p) => p && existsSync(p));
+if (!chromiumPath) {
+  console.log('page test left out: no chromium (Debian: apt install chromium; elsewhere set CHROMIUM)');
+  process.exit(77);
+}
+const { chromium } = createRequire(join(npm, 'package.json'))('playwright-core');
+const kArguments = [
+  '--headless', '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+];
+const kPatience = { timeout: 90_000 }; // software rendering on a busy machine
+
+export const launch = (...more) => chromium.launch({ executablePath: chromiumPath, args: [...kArguments, ...more], ...kPatience });
+
+/** Opens PAGES/name/file; `wrong` fills with console errors, exceptions and requests that leave the file. */
+export async function open(browser, name, file, context = {}) {
+  const tab = await (await browser.newContext({ viewport: { width: 1000, height: 640 }, reducedMotion: 'reduce', ...context })).newPage();
+  tab.setDefaultTimeout(kPatience.timeout);
+  const url = pathToFileURL(join(pages, name, file)).href;
+  const wrong = [];
+  tab.on('console', (m) => m.type() === 'error' && wrong.push(`console: ${m.text()}`));
+  tab.on('pageerror', (e) => wrong.push(`exception: ${e.stack}`));
+  tab.on('request', (r) => r.url().split('#')[0] !== url && !/^(data|blob):/.test(r.url()) && wrong.push(`request: ${r.url()}`));
+  await tab.goto(url);
+  return { tab, wrong, close: () => tab.context().close() };
+}
