@@ -53,7 +53,7 @@ class Cost : public ceres::CostFunction {
     std::vector<std::vector<double>> jacobian;  ///< empty: not yet
   };
 
-  /// With bounds Ceres searches along each step and asks for the gradient there, then for the Jacobian at the same place again.
+  /// Ceres asks for the residuals first and, where it stays, for the Jacobian.
   Known& known(const std::vector<double>& x) const {
     constexpr std::size_t kKept = 4;
     const auto it = std::find_if(known_.begin(), known_.end(), [&](const Known& k) { return k.at == x; });
@@ -70,12 +70,25 @@ class Cost : public ceres::CostFunction {
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     if (here.jacobian.empty()) here.jacobian = residuals_.jacobian(x, here.residuals, step_, free_);
     if (here.jacobian.empty()) return false;
-    for (std::size_t i = 0; i < here.residuals.size(); ++i) {
-      for (std::size_t j = 0; j < free_.size(); ++j) {
-        jacobians[0][i * free_.size() + j] = residuals_.weight(i) * here.jacobian[j][i] * step_[free_[j]];
+    for (std::size_t j = 0; j < free_.size(); ++j) {
+      const double kept = pushes_out(x, here, j) ? 0.0 : 1.0;
+      for (std::size_t i = 0; i < here.residuals.size(); ++i) {
+        jacobians[0][i * free_.size() + j] = kept * residuals_.weight(i) * here.jacobian[j][i] * step_[free_[j]];
       }
     }
     return true;
+  }
+
+  /// At a bound, with the cost falling beyond it: the parameter rests there while the others move.
+  [[nodiscard]] bool pushes_out(const std::vector<double>& x, const Known& here, std::size_t j) const {
+    const Parameter& p = residuals_.task().parameters[free_[j]];
+    const double value = x[free_[j]];
+    if (value > p.min && value < p.max) return false;
+    double gradient = 0;
+    for (std::size_t i = 0; i < here.residuals.size(); ++i) {
+      gradient += residuals_.weight(i) * residuals_.weight(i) * here.residuals[i] * here.jacobian[j][i];
+    }
+    return value <= p.min ? gradient > 0 : gradient < 0;
   }
 
   const Residuals& residuals_;
@@ -84,6 +97,33 @@ class Cost : public ceres::CostFunction {
   std::vector<double> step_;
   mutable std::deque<Known> known_;
   mutable std::exception_ptr failure_;
+};
+
+/// Keeps the unknowns within their bounds by ending each step there. Ceres' own bounds would search along every step, with a
+/// Jacobian at each trial: many simulations, and a rough cost misleads it.
+class Box : public ceres::Manifold {
+ public:
+  Box(std::vector<double> min, std::vector<double> max) : min_(std::move(min)), max_(std::move(max)) {}
+  int AmbientSize() const override { return static_cast<int>(min_.size()); }
+  int TangentSize() const override { return AmbientSize(); }
+  bool Plus(const double* x, const double* delta, double* out) const override {
+    for (std::size_t i = 0; i < min_.size(); ++i) out[i] = std::clamp(x[i] + delta[i], min_[i], max_[i]);
+    return true;
+  }
+  bool Minus(const double* y, const double* x, double* out) const override {
+    for (std::size_t i = 0; i < min_.size(); ++i) out[i] = y[i] - x[i];
+    return true;
+  }
+  bool PlusJacobian(const double*, double* out) const override { return identity(out); }
+  bool MinusJacobian(const double*, double* out) const override { return identity(out); }
+
+ private:
+  bool identity(double* out) const {
+    for (std::size_t i = 0; i < min_.size() * min_.size(); ++i) out[i] = i % (min_.size() + 1) == 0 ? 1.0 : 0.0;
+    return true;
+  }
+
+  std::vector<double> min_, max_;
 };
 
 double radical_inverse(unsigned index, unsigned base) {
@@ -135,8 +175,8 @@ ceres::Solver::Options solver_options(const FitOptions& o) {
   s.linear_solver_type = ceres::DENSE_QR;
   s.max_num_iterations = o.iterations;
   s.function_tolerance = o.tolerance;
-  s.parameter_tolerance = 1e-6;
-  s.gradient_tolerance = 0;  // the gradient is rough: what counts is the decrease
+  s.parameter_tolerance = std::min(1e-4, o.tolerance);  // of unknowns counted in difference steps
+  s.gradient_tolerance = 0;                             // the gradient is rough: what counts is the decrease
   s.logging_type = ceres::SILENT;
   s.num_threads = 1;
   return s;
@@ -164,14 +204,17 @@ StartResult solve(const Residuals& residuals, const std::vector<double>& from, c
   for (std::size_t k : free) u.push_back(from[k] / step[k]);
   ceres::Problem::Options owning;
   owning.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  owning.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   Cost cost(residuals, from, free, step);
+  std::vector<double> min, max;
+  for (std::size_t k : free) {
+    min.push_back(task.parameters[k].min / step[k]);
+    max.push_back(task.parameters[k].max / step[k]);
+  }
+  Box box(min, max);
   ceres::Problem problem(owning);
   problem.AddResidualBlock(&cost, nullptr, u.data());
-  for (std::size_t j = 0; j < free.size(); ++j) {
-    const Parameter& p = task.parameters[free[j]];
-    problem.SetParameterLowerBound(u.data(), static_cast<int>(j), p.min / step[free[j]]);
-    problem.SetParameterUpperBound(u.data(), static_cast<int>(j), p.max / step[free[j]]);
-  }
+  problem.SetManifold(u.data(), &box);
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(o), &problem, &summary);
   cost.throw_failure();

@@ -15,12 +15,21 @@ namespace {
 
 constexpr double kSameTorque_Nm = 1e-9;
 
-/// The model's value at the data's grid point; both grids rise.
-double model_at(const experiment::Branches& model, const Point& p, double torque) {
-  const auto it = std::lower_bound(model.torque_Nm.begin(), model.torque_Nm.end(), torque - kSameTorque_Nm);
-  if (it == model.torque_Nm.end() || *it > torque + kSameTorque_Nm) return std::nan("");
-  const std::size_t i = static_cast<std::size_t>(it - model.torque_Nm.begin());
-  return p.rising ? model.rising_rad[i] : model.falling_rad[i];
+/// The model's branch at a torque. Where its sweep ends short of it, the line through its last two points goes on: a point more or
+/// less must not be a cliff for the optimiser. NaN: the branch has fewer than two points.
+double model_at(const experiment::Branches& model, bool rising, double torque) {
+  const std::vector<double>& value = rising ? model.rising_rad : model.falling_rad;
+  std::vector<std::size_t> known;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (std::isfinite(value[i])) known.push_back(i);
+  }
+  if (known.size() < 2) return std::nan("");
+  const auto below = [&](std::size_t i, double t) { return model.torque_Nm[i] < t; };
+  const auto it = std::lower_bound(known.begin(), known.end(), torque - kSameTorque_Nm, below);
+  const std::size_t next = std::clamp<std::size_t>(static_cast<std::size_t>(it - known.begin()), 1, known.size() - 1);
+  const std::size_t a = known[next - 1], b = known[next];
+  const double slope = (value[b] - value[a]) / (model.torque_Nm[b] - model.torque_Nm[a]);
+  return value[b] + slope * (torque - model.torque_Nm[b]);
 }
 
 }  // namespace
@@ -70,7 +79,7 @@ std::vector<std::vector<double>> Residuals::at_all(const std::vector<std::vector
     if (std::count(begin, begin + static_cast<std::ptrdiff_t>(observations), 1) > 0) continue;
     for (const Point& p : points_) {
       const experiment::Branches& data = task_.observations[p.observation].data;
-      const double value = model_at(runs[m * observations + p.observation], p, data.torque_Nm[p.grid]);
+      const double value = model_at(runs[m * observations + p.observation], p.rising, data.torque_Nm[p.grid]);
       const double measured = p.rising ? data.rising_rad[p.grid] : data.falling_rad[p.grid];
       out[m].push_back(std::isfinite(value) ? value - measured : kMissing_rad);
     }
@@ -111,7 +120,7 @@ std::vector<std::vector<double>> Residuals::jacobian(const std::vector<double>& 
 std::vector<double> Residuals::steps(const std::vector<double>& values, const std::vector<double>& here, double effect_rad,
                                      std::vector<double> first) const {
   constexpr int kRounds = 4;
-  constexpr double kNear = 2.5;  // a step this close to the right one is right
+  constexpr double kNear = 2.0;  // a step this close to the right one is right
   std::vector<double> step = std::move(first);
   for (std::size_t k = step.size(); k < values.size(); ++k) {
     const Parameter& p = task_.parameters[k];

@@ -20,7 +20,7 @@ constexpr const char* kKeys = "tendon.friction,sensor.shaft_zero_rad";
 SweepOptions fast() {
   SweepOptions o;
   o.period_s = 6;
-  o.amplitude_rad = 1.9;
+  o.amplitude_rad = 2.2;
   return o;
 }
 

@@ -1,8 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Bounded least squares with Ceres' trust region (Levenberg–Marquardt), from several deterministic starts. Why Ceres and not NLopt:
-// the problem is a sum of squares whose Jacobian costs 2n + 1 simulations that run side by side; a trust region on it needs about
-// ten of them, NLopt's derivative-free methods hundreds of simulations, and its gradient methods don't see the squares.
+// Bounded least squares with Ceres' trust region (Levenberg–Marquardt, steps ended at the bounds), from several deterministic
+// starts. Why Ceres and not NLopt: the problem is a sum of squares whose Jacobian costs 2n + 1 simulations that run side by side; a
+// trust region on it needs about ten of them, NLopt's derivative-free methods hundreds of simulations, and its gradient methods
+// don't see the squares.
 #pragma once
 
 #include <functional>
@@ -16,7 +17,7 @@ namespace vsa::identify {
 struct FitOptions {
   int starts = 3;            ///< local solutions: one from the preset's values, the others from the best of 4 × as many trials
   int iterations = 20;       ///< of each
-  double effect_rad = 1e-3;  ///< of a difference step
+  double effect_rad = 2e-3;  ///< of a difference step
   double tolerance = 1e-3;   ///< relative decrease of the cost at which a solution ends
   std::function<void(const std::string&)> progress;
 };

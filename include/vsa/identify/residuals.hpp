@@ -18,7 +18,7 @@ struct Point {
   std::size_t grid = 0;  ///< index into the data's torque grid
 };
 
-/// A model that has no sample where the data have one counts as this far off.
+/// A model whose branch has fewer than two points counts as this far off.
 inline constexpr double kMissing_rad = 0.2;
 
 class Residuals {

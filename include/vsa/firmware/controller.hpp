@@ -1,0 +1,124 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The unit's 1 kHz integer controller, all modes. One tick, in this order:
+//
+//   encoders 0, 1, 2 → motor 0 → motor 1 → supply and currents → measOld := meas; refOld := ref; ref := refNew
+//
+// A motor's drive uses this tick's positions, and the currents and the supply limit of the last tick.
+//
+//   e     = ref − meas                            modes 0, 3   (input mode 1: ref = measOld of encoder 3, within the limits)
+//   e     = ref + shaft − meas                    modes 4, 5   (advanced: shaft − ref − meas)
+//   Σe    clamped to ±100000, shared by modes 0, 3, 4, 5; never cleared
+//   P(k)  = (k·e) >> 16, or (k·(e >> 8)) >> 8 when |e| > 2¹⁷
+//   0, 4  pwm = P(kp) + ((ki >> 6)·Σe >> 10) + (kd·(measOld − meas) >> 16)
+//   3, 5  i   = P(kp) + (ki·Σe >> 16) + (kd·(measOld − meas) >> 16), clamped to ± limit
+//         pwm = (kp·ε >> 16) + (ki·Σε >> 16) + (kd·(iOld − i_meas) >> 16),  ε = i − i_meas, Σε clamped to ±100000.
+//         iOld is the same sample as i_meas, so the last term is 0 (Repairs::double_loop_current_derivative).
+//   2     i   = ref >> resolution, clamped;  pwm = (kp·ε >> 16) + (ki·(Σε >> 6) >> 10) + (kd·(ε − ε_before) >> 16)
+//         advanced: i is a reference of its own, and nothing is done while off or before the first supply reading
+//   1     pwm = ref >> resolution                 advanced: a reference of its own
+//   else  pwm = 0, direction as it was
+//   direction = pwm ≥ 0;  pwm clamped to ±100 (advanced: then the rate limit);  except in mode 1
+//   duty  = (((pwm << 10)/100)·limit) >> 10       the division truncates, the shift floors: +1 % is lost, −1 % isn't
+//
+// Gains are 16.16 fixed point; shifts are arithmetic (floor); int32 wraps; `−limit` and |jump| have 16 bits.
+//
+// Encoder: 12-bit sample in the upper bits of 16 plus the offset, cut to 16 bits; a jump beyond 49152 is the wrap of the turn, one
+// beyond 16384 is discarded nine times, then believed. Turns are an int8, 0 at power-up. A word with wrong parity is not looked at.
+// Current: ((adc − 1638)·25771 >> 13) mA · sign(duty), sign(0) = +1; filter y := (1021·y + 3·(x << 6)) >> 10, current = y >> 6.
+// Supply: (adc − 1638)·1952 >> 7 mV; at 0 or below, currents read 0, and limit and filters stay.
+//
+// Source: NMMI/qbmove-maker-pro 6.1 (interruptions.c, utils.c); NMMI/qbmove-advanced 6.1.6.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "vsa/firmware/memory.hpp"
+#include "vsa/firmware/model.hpp"
+#include "vsa/units.hpp"
+
+namespace vsa::firmware {
+
+inline constexpr std::int64_t kTickNs = 1'000'000;
+
+enum class ControlMode : std::uint8_t {
+  position = 0,
+  pwm = 1,
+  current = 2,
+  position_current = 3,
+  deflection = 4,
+  deflection_current = 5,
+};
+
+/// What the electronics hand to a tick.
+struct TickInputs {
+  std::array<std::int32_t, 3> encoder{};  ///< samples within the turn, raw (sensor::encoder_sample): −32768…32767
+  std::array<int, 2> current_adc{};
+  int supply_adc = 0;
+  std::array<bool, 3> encoder_ok{true, true, true};  ///< the word's parity
+};
+
+/// The rest of a set of references.
+struct Orders {
+  std::uint8_t onoff = 0;                    ///< 3 on, 0 off: what GET_ACTIVATE reports. The enable pins are the program's
+  std::array<std::int32_t, 2> current_mA{};  ///< advanced, mode 2
+  std::array<std::int32_t, 2> pwm{};         ///< advanced, mode 1
+};
+
+/// As at power-up.
+struct ControllerState {
+  std::array<std::int32_t, 3> meas{}, meas_old{};  ///< multi-turn raw positions: motor 1, motor 2, shaft
+  std::array<std::int32_t, 3> last_sample{};
+  std::array<std::int8_t, 3> turns{};
+  std::array<std::uint8_t, 3> rejected{};  ///< consecutive jumps discarded
+  std::array<std::int32_t, 2> ref{}, ref_old{}, ref_new{};
+  Orders orders{}, orders_old{}, orders_new{};
+  std::array<std::int32_t, 2> error_sum{}, current_error_sum{}, current_error_before{};
+  std::array<std::int32_t, 2> pwm{};              ///< percent before the supply limit, ±100
+  std::array<std::int32_t, 2> duty{};             ///< percent that goes out, signed by the direction pin
+  std::array<bool, 2> forward{};                  ///< direction pins
+  std::array<std::int8_t, 2> current_sign{1, 1};  ///< of the duty, for the current reading
+  std::array<std::int32_t, 2> rate_before{};      ///< advanced: the rate limit's memory; as it is, only [0]
+  std::array<std::int32_t, 2> current_filter{};   ///< the filter's memory, mA << 6
+  std::array<MilliAmp, 2> current{}, current_old{}, current_before{};
+  MilliVolt supply{};
+  std::int32_t limit_pct = 0;  ///< supply-dependent limit in force
+  bool supply_seen = false;
+  bool first_tick = true;      ///< no sample of the third encoder was good yet: samples are taken as they are
+  bool reset_samples = false;  ///< SET_ZEROS: the next reading starts from 0
+};
+
+/// Percent of full duty that keeps about 8 V at the motor: 100 up to 8 V, 61 at 12 V, 43 at 24 V, 0 above 25.5 V.
+[[nodiscard]] std::int32_t supply_limit_pct(MilliVolt supply) noexcept;
+
+/// The two sets that the loop reads.
+struct LoopMemory {
+  const Memory& stored;
+  const Memory& current;
+};
+
+/// The laws; no state of its own.
+struct Controller {
+  Model model = Model::maker_pro;
+  bool supply_table = true;  ///< false: full duty at any supply (the advanced unit)
+  Repairs repairs{};
+
+  void read_encoder(LoopMemory m, ControllerState& s, const TickInputs& in, int i) const noexcept;
+  void drive_motor(LoopMemory m, ControllerState& s, int i) const noexcept;
+  void read_analog(ControllerState& s, const TickInputs& in) const noexcept;
+  static void end_tick(ControllerState& s) noexcept;
+
+  /// All of it.
+  void tick(LoopMemory m, ControllerState& s, const TickInputs& in) const noexcept;
+
+ private:
+  [[nodiscard]] bool advanced() const noexcept { return model == Model::advanced; }
+  std::int32_t position_error(LoopMemory m, ControllerState& s, int i) const noexcept;
+  std::int32_t position_law(LoopMemory m, ControllerState& s, int i) const noexcept;
+  std::int32_t double_law(LoopMemory m, ControllerState& s, int i) const noexcept;
+  std::int32_t current_law(LoopMemory m, ControllerState& s, int i) const noexcept;
+  void limit_rate(LoopMemory m, ControllerState& s, int i) const noexcept;
+};
+
+}  // namespace vsa::firmware

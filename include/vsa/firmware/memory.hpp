@@ -1,0 +1,79 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The unit's parameter memory. Four copies of one set:
+//
+//   stored    what commands write (the program's g_mem)
+//   current   what the loop uses (c_mem)
+//   user      the EEPROM's first page: what a power-up loads
+//   factory   the EEPROM's page of defaults
+//
+//   store(page)  current := stored, page := stored. So STORE_DEFAULT, too, makes everything current, and leaves the user page as it
+//   was. restore      stored := factory, then store(user); an empty factory page: initialise initialise   stored := the values
+//   below, then store(user), store(factory); max steps and baud rate stay what they are recall       (power-up) stored := user,
+//   current := stored; an empty user page: restore
+//
+// At once act: resolutions (in all conversions) and offsets, which the program reads from `stored`, the max_stiffness that info
+// text and calibration use, and which control mode ACTIVATE and SET_INPUTS look at. Everything else acts after a store. The ID that
+// a unit listens to is the current one; its answers carry the stored one.
+//
+// Source: NMMI/qbmove-maker-pro 6.1, command_processing.c, globals.h. Sizes: 111 bytes, 7 EEPROM rows of 16.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "vsa/firmware/model.hpp"
+
+namespace vsa::firmware {
+
+/// 16.16 fixed point.
+struct Gains {
+  std::int32_t p = 0, i = 0, d = 0;
+  bool operator==(const Gains&) const = default;
+};
+
+struct Memory {
+  bool valid = false;                        ///< false: never written (an empty EEPROM page)
+  std::uint8_t id = 0;                       ///< 1…; 0 is broadcast
+  Gains position;                            ///< modes 0 and 4: % PWM a raw tick
+  Gains current;                             ///< mode 2: % PWM a mA
+  Gains double_position;                     ///< modes 3 and 5: mA a raw tick
+  Gains double_current;                      ///< modes 3 and 5: % PWM a mA
+  std::int16_t current_limit_mA = 0;         ///< modes 2, 3, 5
+  std::uint8_t startup_activation = 0;       ///< written to the enable pins at power-up: 3 on
+  std::uint8_t input_mode = 0;               ///< 0 bus, 1 third encoder
+  std::uint8_t control_mode = 0;             ///< 0…5; others: no output
+  std::array<std::uint8_t, 3> resolution{};  ///< ticks = raw >> resolution
+  std::array<std::int32_t, 3> offset{};      ///< raw
+  std::array<float, 3> multiplier{};
+  std::uint8_t limits_on = 0;
+  std::array<std::int32_t, 2> limit_low{}, limit_high{};  ///< raw
+  std::uint16_t max_stiffness = 0;                        ///< raw; set by calibration
+  std::uint8_t baud_rate = 0;
+  std::uint8_t watchdog_period = 0;                           ///< of the counter; 0 disables
+  std::int32_t max_step_negative = 0, max_step_positive = 0;  ///< not used by the program
+  std::uint8_t max_pwm_rate = 255;  ///< advanced unit: % a tick. Not in its initial values; 255 never limits
+  std::uint32_t serial_number = 0;  ///< dialect seven
+  bool operator==(const Memory&) const = default;
+};
+
+struct MemoryState {
+  Memory stored, current;
+  Memory user, factory;
+  bool operator==(const MemoryState&) const = default;
+};
+
+enum class Page : std::uint8_t { user, factory };
+
+inline constexpr int kMemoryRows = 7;  ///< EEPROM rows that one store writes
+
+/// What INIT_MEM writes over `was`.
+[[nodiscard]] Memory initial_memory(Model model, const Memory& was = {}) noexcept;
+
+/// Each returns the EEPROM rows it wrote: that is the time it takes.
+int store(MemoryState& m, Page page) noexcept;
+int restore(MemoryState& m, Model model) noexcept;
+int initialise(MemoryState& m, Model model) noexcept;
+int recall(MemoryState& m, Model model) noexcept;
+
+}  // namespace vsa::firmware

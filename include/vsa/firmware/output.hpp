@@ -1,0 +1,44 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What a unit's program gives out: bytes for the bus, and events for its surroundings. The caller owns it and clears it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace vsa::firmware {
+
+struct Reply {
+  std::uint16_t begin = 0, size = 0;  ///< in Output::bytes
+  std::int64_t delay_ns = 0;          ///< after the call's time: EEPROM and earlier replies; the turn-around is the bus's
+};
+
+struct Output {
+  /// Enough for all that 32 buffered bytes can ask for: ten info texts, or six frames.
+  static constexpr std::size_t kBytes = 16384;
+  static constexpr std::size_t kReplies = 16;
+
+  std::array<std::uint8_t, kBytes> bytes;
+  std::array<Reply, kReplies> replies;
+  std::uint16_t used = 0;
+  std::uint8_t count = 0;
+  bool baud_changed = false;  ///< the state's baud_divider holds from now on, also for the replies that follow
+  bool bootloader = false;    ///< the unit leaves for its bootloader: silent in 2 s, until the next power-up
+
+  Output() noexcept {}  // the bytes stay as they are: clearing 16 kB a tick would cost more than the tick
+  void clear() noexcept { used = count = 0, baud_changed = bootloader = false; }
+
+  [[nodiscard]] std::span<const std::uint8_t> view(const Reply& r) const noexcept { return {bytes.data() + r.begin, r.size}; }
+  /// Where the next reply's bytes go.
+  [[nodiscard]] std::span<std::uint8_t> room() noexcept { return std::span{bytes}.subspan(used); }
+  /// The first `size` bytes of room() are a reply.
+  void commit(std::size_t size, std::int64_t delay_ns) noexcept {
+    if (size == 0 || count == kReplies) return;
+    replies[count++] = {used, static_cast<std::uint16_t>(size), delay_ns};
+    used = static_cast<std::uint16_t>(used + size);
+  }
+};
+
+}  // namespace vsa::firmware

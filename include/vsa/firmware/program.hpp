@@ -1,0 +1,150 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The unit's whole program: bytes in, bytes and duty out, one tick a millisecond.
+//
+// Frames are handled when their last byte arrives; replies come from the last completed tick. A tick has two halves: `begin_tick`
+// samples the encoders and drives the motors, `end_tick` reads supply and currents, calibrates, and makes the new references and
+// measurements valid. The device's own loop spends an unknown part of the millisecond between them; bytes handed over in between
+// see the tick before, as on the device. `tick` does both at once.
+//
+// While the program stores or sends it does nothing else: bytes wait in the receive buffer (32), ticks that begin and end in that
+// time don't happen, and the one that is late runs at its own time (the device: at the end of the wait, less than 1 ms later).
+// PWM is 0 from the beginning of a store to the next tick. `wake_ns` says when waiting bytes are due.
+//
+// Times: EEPROM_row_write is 10 ms (UNKNOWN on the unit; seven rows a store, so 70 ms; hosts wait 1 s); replies take their wire
+// time.
+//
+// Sources: NMMI/qbmove-maker-pro 6.1 (main.c, interruptions.c, command_processing.c); NMMI/qbmove-advanced 6.1.6. Dialect seven has
+// no public firmware: its answers are what qbdevice-api 7.2.8 expects (docs/4-firmware.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "vsa/bus/frame.hpp"
+#include "vsa/bus/messages.hpp"
+#include "vsa/firmware/controller.hpp"
+#include "vsa/firmware/memory.hpp"
+#include "vsa/firmware/model.hpp"
+#include "vsa/firmware/output.hpp"
+#include "vsa/firmware/receive_buffer.hpp"
+#include "vsa/firmware/watchdog.hpp"
+
+namespace vsa::firmware {
+
+struct ProgramParams {
+  Model model = Model::maker_pro;
+  bus::Dialect dialect = bus::Dialect::six;
+  Repairs repairs{};
+  std::int64_t row_write_ns = 10'000'000;  ///< EEPROM row of 16 bytes
+  std::uint32_t loop_time_us = 0;          ///< info text's "debug": the loop's run time, UNKNOWN
+  std::int16_t cycle_time_us = 1000;       ///< dialect seven, GET_CYCLE_TIME
+  bool operator==(const ProgramParams&) const = default;
+};
+
+/// CALIBRATE: every 100 ms a step. Motors to 0, a second's wait, then 91 raw (0.5°) apart a step with PD 0.1/0.3 until a current is
+/// above +1000 mA; that reference is max_stiffness. Motors to 0, a second's wait, store both pages. The maker pro doesn't hear its
+/// bus from the first step to the end; the advanced unit (6.1.6) does, and keeps its own gains.
+struct Calibration {
+  enum class Stage : std::uint8_t { stop, start, go_apart, finish, wait_before, wait_after };
+  Stage stage = Stage::stop;
+  std::uint16_t divider = 1;  ///< ticks to 100; keeps its value between calibrations
+  std::uint8_t pauses = 0;
+  Gains saved{};
+};
+
+/// GET_COUNTERS of the advanced unit, in the order of its reply. Some are never counted.
+struct Counters {
+  enum Which : std::uint8_t {
+    activate,
+    set_inputs,
+    set_position_stiffness,
+    measurements,
+    currents,
+    currents_measurements,
+    velocities,
+    get_activate,
+    inputs,
+    info,
+    set_zeros,
+    parameters,
+    ping,
+    stores,
+    store_default,
+    restores,
+    init,
+    bootloader,
+    calibrate,
+    counters,
+    kCount
+  };
+  std::array<std::uint16_t, kCount> value{};
+};
+
+struct ProgramState {
+  ControllerState loop;
+  MemoryState memory;
+  bus::UnitReceiver receiver;
+  ReceiveBuffer buffer;
+  Watchdog watchdog;
+  Calibration calibration;
+  Counters counters;
+  std::int64_t busy_until_ns = 0;
+  std::uint8_t enable = 0;        ///< enable pins: bit 0 motor 1, bit 1 motor 2
+  std::uint8_t baud_divider = 3;  ///< of 6 MHz: 2 Mbaud
+  bool activation_waits = false;  ///< Repairs::activation_with_references
+  bool bytes_waiting = false;
+  bool receiver_off = false;
+  bool in_bootloader = false;
+};
+
+/// What the bridge gets: percent of full duty, signed; nothing while a motor's enable pin is off.
+struct Drive {
+  std::array<std::int32_t, 2> duty_pct{};
+  std::array<bool, 2> enabled{};
+};
+
+class Program {
+ public:
+  explicit Program(const ProgramParams& params) noexcept;
+  [[nodiscard]] const ProgramParams& params() const noexcept { return params_; }
+  [[nodiscard]] const Controller& controller() const noexcept { return controller_; }
+  [[nodiscard]] const bus::Wire& wire() const noexcept { return wire_; }
+
+  /// A unit with an empty EEPROM, switched on: it has written its initial values and is ready.
+  [[nodiscard]] ProgramState fresh(std::int64_t now_ns) const noexcept;
+  /// Power comes back: the EEPROM's pages are what stays. The references are 0, and so are the turns.
+  void power_up(ProgramState& s, std::int64_t now_ns) const noexcept;
+
+  void receive(ProgramState& s, std::uint8_t byte, std::int64_t now_ns, Output& out) const noexcept;
+  /// Looks at bytes that waited. Harmless at any time.
+  void poll(ProgramState& s, std::int64_t now_ns, Output& out) const noexcept;
+  /// When `poll` has something to do; none: nothing waits.
+  [[nodiscard]] std::optional<std::int64_t> wake_ns(const ProgramState& s) const noexcept;
+
+  void begin_tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, Output& out) const noexcept;
+  void end_tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, Output& out) const noexcept;
+  void tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, Output& out) const noexcept;
+
+  [[nodiscard]] Drive drive(const ProgramState& s) const noexcept;
+
+ private:
+  [[nodiscard]] bool skips(const ProgramState& s, std::int64_t now_ns) const noexcept;
+  void calibrate(ProgramState& s, std::int64_t now_ns) const noexcept;
+  void calibration_step(ProgramState& s, std::int64_t now_ns) const noexcept;
+  void finish_calibration(ProgramState& s, std::int64_t now_ns) const noexcept;
+  void drain(ProgramState& s, std::int64_t now_ns, Output& out) const noexcept;
+
+  ProgramParams params_;
+  Controller controller_;
+  bus::Wire wire_;
+};
+
+/// The baud rate of a divider: 2 000 000, or 461 538 for 13 (called 460 800).
+[[nodiscard]] constexpr double baud_Hz(std::uint8_t divider) noexcept { return 6'000'000.0 / divider; }
+
+/// From now on the program stores: PWM 0, and busy for the rows' time.
+void begin_store(const ProgramParams& p, ProgramState& s, int rows, std::int64_t now_ns) noexcept;
+
+}  // namespace vsa::firmware

@@ -1,0 +1,41 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The serial port's receive buffer: a ring of 32 bytes that an interrupt fills while the program is busy. When it runs over, the
+// write index passes the read index, so that one byte seems to be there; the main loop then clears it.
+//
+// Source: the port's generated driver in NMMI/qbmove-advanced (UART_RS485_INT.c).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace vsa::firmware {
+
+struct ReceiveBuffer {
+  static constexpr std::uint8_t kSize = 32;
+
+  std::array<std::uint8_t, kSize> bytes{};
+  std::uint8_t read = 0, write = 0;
+  bool full = false;
+  bool overflow = false;
+
+  void push(std::uint8_t byte) noexcept {
+    bytes[write] = byte;
+    overflow = overflow || full;
+    write = static_cast<std::uint8_t>((write + 1) % kSize);
+    full = full || read == write;
+  }
+  [[nodiscard]] bool empty() const noexcept { return read == write && !full; }
+  std::uint8_t pop() noexcept {
+    const std::uint8_t byte = bytes[read];
+    read = static_cast<std::uint8_t>((read + 1) % kSize);
+    full = false;
+    return byte;
+  }
+  void clear() noexcept {
+    read = write = 0;
+    full = overflow = false;
+  }
+};
+
+}  // namespace vsa::firmware

@@ -1,0 +1,79 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/firmware/arithmetic.hpp"
+#include "vsa/firmware/controller.hpp"
+
+namespace vsa::firmware {
+namespace {
+
+constexpr std::int32_t kTurnJump = 49152;     // a jump past this is the wrap of the turn
+constexpr std::int32_t kSuspectJump = 16384;  // a quarter turn in a tick is not believed …
+constexpr std::uint8_t kBelieveAfter = 10;    // … unless it stays for ten ticks
+constexpr std::int32_t kAdcOffset = 1638;
+constexpr std::int32_t kFilterAlpha = 3;  // of 1024 a tick: τ ≈ 341 ms
+
+/// Percent PWM that gives about 8 V, by supply in steps of 512 mV from 8 V. The makers measured these; the last is never reached.
+constexpr std::array<std::uint8_t, 36> kEightVoltPwm{100, 76, 71, 69, 67, 65, 63, 61, 60, 58, 57, 56, 55, 54, 53, 52, 51, 50,
+                                                     49,  49, 48, 47, 47, 46, 45, 45, 45, 44, 44, 43, 43, 43, 43, 42, 42, 42};
+
+/// The advanced unit reads the motors' words the other way round, and the shaft's with its offset negated.
+std::int32_t with_offset(bool advanced, std::int32_t sample, std::int32_t offset, int i) noexcept {
+  if (!advanced) return cut_16(wrap_add(sample, offset));
+  const std::int32_t value = wrap_add(wrap_sub(0, sample), offset);
+  return cut_16(i == 2 ? wrap_sub(0, value) : value);
+}
+
+std::int32_t adc_counts(int adc) noexcept { return cut_16(adc - kAdcOffset); }
+
+}  // namespace
+
+void Controller::read_encoder(LoopMemory m, ControllerState& s, const TickInputs& in, int i) const noexcept {
+  if (s.reset_samples) {
+    if (!advanced() || repairs.zeros_reset_samples) s.last_sample = {};
+    s.reset_samples = false;
+  }
+  if (!in.encoder_ok[i]) return;
+  const std::int32_t sample = with_offset(advanced(), in.encoder[i], m.stored.offset[i], i);
+  if (s.first_tick) {
+    s.last_sample[i] = sample;
+    s.first_tick = i != 2;
+  }
+  const std::int32_t jump = sample - s.last_sample[i];
+  const std::int32_t size = repairs.jump_check_in_16_bits ? (jump < 0 ? -jump : jump) : abs_16(jump);
+  if (jump > kTurnJump) {
+    s.turns[i] = static_cast<std::int8_t>(s.turns[i] - 1);
+  } else if (jump < -kTurnJump) {
+    s.turns[i] = static_cast<std::int8_t>(s.turns[i] + 1);
+  } else if (size > kSuspectJump && ++s.rejected[i] < kBelieveAfter) {
+    return;
+  }
+  s.rejected[i] = 0;
+  s.last_sample[i] = sample;
+  std::int32_t position = wrap_add(sample, wrap_shl(s.turns[i], 16));
+  const float multiplier = m.current.multiplier[i];
+  if (multiplier != 1.0F) position = truncate(static_cast<float>(position) * multiplier);
+  s.meas[i] = position;
+}
+
+void Controller::read_analog(ControllerState& s, const TickInputs& in) const noexcept {
+  s.supply = {wrap_mul(adc_counts(in.supply_adc), 1952) >> 7};
+  if (s.supply.value <= 0) {
+    s.current = {};
+    return;
+  }
+  s.supply_seen = true;
+  s.limit_pct = supply_table ? supply_limit_pct(s.supply) : 100;
+  for (int i = 0; i < 2; ++i) {
+    const std::int32_t mA = s.current_sign[i] * (wrap_mul(adc_counts(in.current_adc[i]), 25771) >> 13);
+    const std::int32_t old = wrap_mul(s.current_filter[i], 1024 - kFilterAlpha);
+    s.current_filter[i] = wrap_add(old, wrap_mul(wrap_shl(mA, 6), kFilterAlpha)) >> 10;
+    s.current[i] = {s.current_filter[i] >> 6};
+  }
+}
+
+std::int32_t supply_limit_pct(MilliVolt supply) noexcept {
+  if (supply.value > 25500) return 0;
+  if (supply.value < 8000) return 100;
+  return kEightVoltPwm[static_cast<std::size_t>((supply.value - 8000) >> 9)];
+}
+
+}  // namespace vsa::firmware
