@@ -49,11 +49,17 @@ void Actuator::place(ActuatorState& s, double shaft) const noexcept {
   s.shaft = s.shaft_anchor = shaft;
   const elastic::Response r = params_.transmission->evaluate(positions(s, shaft));
   s.load = r.load;
-  s.tendon_anchor = params_.transmission->signed_energies(positions(s, shaft));
+  s.tendon_anchor = s.spring_w = params_.transmission->signed_energies(positions(s, shaft));
   s.ledger = {};
   s.ledger.elastic = r.energy;
   book_motors(s);
   s.ledger.stored_at_start = s.ledger.stored();
+}
+
+double Actuator::energy_at(ActuatorState& s, double shaft) const noexcept {
+  if (tendon_.coulomb_Nm <= 0) return params_.transmission->energy(positions(s, shaft));
+  s.spring_w = params_.transmission->signed_energies(positions(s, shaft));
+  return std::abs(s.spring_w[0]) + std::abs(s.spring_w[1]);
 }
 
 void Actuator::book_motors(ActuatorState& s) const noexcept {
@@ -93,7 +99,7 @@ Actuator::Start Actuator::start_of(ActuatorState& s) const noexcept {
     }
   }
   if (tendon_.coulomb_Nm > 0) {
-    start.w = params_.transmission->signed_energies(positions(s, s.shaft));
+    start.w = s.spring_w;
     for (int i = 0; i < 2; ++i) start.w_u[i] = start.w[i] - s.tendon_anchor[i];
   }
   return start;
@@ -122,7 +128,7 @@ void Actuator::add_tendon_friction(const Start& start, const elastic::Positions&
 }
 
 void Actuator::move_tendons(ActuatorState& s, const Start& start) const noexcept {
-  const std::array<double, 2> w = params_.transmission->signed_energies(positions(s, s.shaft));
+  const std::array<double, 2>& w = s.spring_w;
   s.ledger.tendon_bristle = 0;
   for (int i = 0; i < params_.transmission->spring_count(); ++i) {
     const drive::FrictionStep step = drive::follow_friction(tendon_, start.w_u[i], w[i] - start.w[i]);
@@ -215,7 +221,7 @@ SegmentResult Actuator::segment(ActuatorState& s, double h_s, const SegmentInput
   const double before_J = s.ledger.elastic + s.ledger.tendon_bristle + s.ledger.tendon_friction;
   drive_motors(s, start, prepared, in, p);
   s.shaft += in.dq;
-  const double elastic = params_.transmission->energy(positions(s, s.shaft));
+  const double elastic = energy_at(s, s.shaft);
   double work = p.mean.torque * in.dq;
   for (int i = 0; i < motors_; ++i) work += p.mean.load[i] * (s.motor[i].angle - before[i]);
   if (tendon_.coulomb_Nm > 0) move_tendons(s, start);
@@ -245,10 +251,10 @@ void Actuator::settle(ActuatorState& s, double actual, double applied_torque, do
   } else {
     s.shaft_anchor = actual;
   }
-  l.elastic = params_.transmission->energy(positions(s, actual));
+  l.elastic = energy_at(s, actual);
   l.shaft_bristle = drive::bristle_energy(shaft_friction_, s.shaft - s.shaft_anchor);
   if (tendon_.coulomb_Nm > 0) {
-    const std::array<double, 2> w = params_.transmission->signed_energies(positions(s, actual));
+    const std::array<double, 2>& w = s.spring_w;
     l.tendon_bristle = 0;
     for (int i = 0; i < params_.transmission->spring_count(); ++i) {
       const double u = std::clamp(w[i] - s.tendon_anchor[i], -tendon_.presliding_rad, tendon_.presliding_rad);

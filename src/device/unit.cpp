@@ -83,7 +83,9 @@ Unit::Walk Unit::walk(UnitState& s, const Path& path, std::span<const TickMail> 
   std::size_t ticks = 0;
   for (std::int64_t now = 0; now < path.dt_ns;) {
     const std::int64_t into_tick = (path.t_ns + now) % kTickNs;
-    if (into_tick == 0) {
+    if (into_tick == 0 && now == 0) {
+      ++ticks;  // done by step(): it doesn't depend on the path
+    } else if (into_tick == 0) {
       tick(s, path.q0 + static_cast<double>(now) * 1e-9 * end_speed, ticks < mail.size() ? mail[ticks] : TickMail{});
       ++ticks;
     }
@@ -111,6 +113,9 @@ double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const Sha
   const double c = 0.5 * dt * dt * in.inverse_inertia;
   const double free = dt * in.speed + 0.5 * dt * dt * other;
   const double u = y - s.actuator.shaft_anchor;
+
+  // A tick at the step's start sees the shaft where it is, so it happens once and not in every trial of the path.
+  if (t_ns % kTickNs == 0) tick(s, in.angle, mail.empty() ? TickMail{} : mail[0]);
 
   const UnitState start = s;
   double dy = s.started ? free + c * s.applied_torque : free;

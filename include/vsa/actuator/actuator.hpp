@@ -57,6 +57,7 @@ struct ActuatorState {
   double shaft = 0;  ///< y, end of the last segment's path
   double shaft_anchor = 0;
   std::array<double, 2> tendon_anchor{};  ///< z_w of each spring's friction, J
+  std::array<double, 2> spring_w{};       ///< the springs' signed energies now, J; where there is tendon friction
   std::array<double, 2> load{};           ///< mean spring load on each pulley over the last segment
   Ledger ledger;
 };
@@ -126,6 +127,8 @@ class Actuator {
                     const Pulleys& p) const noexcept;
   [[nodiscard]] elastic::Positions positions(const ActuatorState& state, double shaft) const noexcept;
   void book_motors(ActuatorState& state) const noexcept;
+  /// H; where there is tendon friction the springs' signed energies are kept too.
+  [[nodiscard]] double energy_at(ActuatorState& state, double shaft) const noexcept;
 
   ActuatorParams params_;
   drive::MotorParams motor_;  // at the pulley

@@ -80,6 +80,7 @@ class Transmission {
   /// deflection δ_i = q − x_i. 0: the law names none, and such a loss is refused.
   [[nodiscard]] virtual int spring_count() const noexcept { return 0; }
   /// w_i = sign(δ_i)·H_i: the energy of spring i with the sign of its deflection, J. ∂w_i/∂q = |T_i|, its tension's magnitude, N·m.
+  /// A law that names springs keeps all its energy in them: Σ|w_i| = H.
   [[nodiscard]] virtual std::array<double, 2> signed_energies(const Positions&) const noexcept { return {}; }
   /// "rad" for the qbmove's half difference; "" where the law has no preset.
   [[nodiscard]] virtual std::string_view preset_unit() const noexcept { return "rad"; }
