@@ -97,7 +97,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadPreset{"no_law", "law = \"two_sinh\"", "", {"elastic.law: is missing"}},
         BadPreset{"law_key_missing", "k1_Nm =", "k3_Nm =", {"elastic.k1_Nm: is missing", "elastic.k3_Nm: unknown key"}, 2},
         BadPreset{"law_unit", "bounds = [1e-6, 1.0]", "bounds = [1e-6, 1.0], units = 1", {"elastic.k1_Nm.units"}},
-        BadPreset{"name", "name = \"qbmove_maker_pro_paper\"", "name = \"qbmove\"", {"differs from the file's name", "qbmove_maker_pro_paper"}},
+        BadPreset{"name",
+                  "name = \"qbmove_maker_pro_paper\"",
+                  "name = \"qbmove\"",
+                  {"differs from the file's name", "qbmove_maker_pro_paper"}},
         BadPreset{"title_missing", "title =", "titel =", {"preset.titel", "did you mean title?", "preset.title: is missing"}, 2},
         BadPreset{
             "title_number", "title = \"qbmove maker pro (paper, Table I)\"", "title = 5", {"preset.title = 5: must be a text"}}),
