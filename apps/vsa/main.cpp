@@ -10,9 +10,12 @@
 #include "command.hpp"
 #include "datasheet.hpp"
 #include "exit_codes.hpp"
+#include "get.hpp"
 #include "identify.hpp"
 #include "interrupt.hpp"
+#include "ping.hpp"
 #include "run.hpp"
+#include "set.hpp"
 #include "validate.hpp"
 #include "vsa/errors.hpp"
 
@@ -48,6 +51,9 @@ int run_application(int argc, char** argv) {
   vsa::app::setup_run(app, exit_code);
   vsa::app::setup_command(app, exit_code);
   vsa::app::setup_actuators(app, exit_code);
+  vsa::app::setup_ping(app, exit_code);
+  vsa::app::setup_get(app, exit_code);
+  vsa::app::setup_set(app, exit_code);
   vsa::app::setup_characterize(app, exit_code);
   vsa::app::setup_identify(app, exit_code);
   vsa::app::setup_validate(app, exit_code);
