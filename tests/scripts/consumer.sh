@@ -9,6 +9,8 @@ cmake -Wno-dev -S "$source/examples/library" -B "$work/build" -G Ninja -DCMAKE_B
 cmake --build "$work/build"
 cmake -Wno-dev -S "$source/examples/snake_gait_topics" -B "$work/topics" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null
 cmake --build "$work/topics"
+cmake -Wno-dev -S "$source/examples/serial_client" -B "$work/serial" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null
+cmake --build "$work/serial"
 "$work/build/one_actuator"
 VSA_DATA_DIR="$work/prefix/share/vsa" "$work/build/move_a_joint" | tee "$work/output"
 grep -qE '^shaft (0.9|1.0)' "$work/output"
