@@ -2,6 +2,7 @@
 #
 # make demo    set up, build, let the snake crawl over its terrain, say where the page lies
 # make test    set up, build, run the tests
+# make test-long   the tests that take minutes
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make bench   run the benchmarks and print their table
 # make asan    the tests under the address and undefined-behaviour sanitizers
@@ -10,7 +11,7 @@ JOBS ?= $(shell nproc)
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo test validate bench asan tidy format check-format experiments clean
+.PHONY: all setup build demo test test-long validate bench asan tidy format check-format experiments clean
 
 all: build
 
@@ -30,7 +31,13 @@ test:
 	@sh scripts/setup.sh test
 	@cmake --preset release > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
-	@ctest --test-dir $(BUILD) --output-on-failure -j 1
+	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -LE long
+
+test-long:
+	@sh scripts/setup.sh test
+	@cmake --preset release > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -L long
 
 validate: setup
 	@cmake --preset release > /dev/null
@@ -46,7 +53,7 @@ asan:
 	@sh scripts/setup.sh test
 	@cmake --preset asan > /dev/null
 	@cmake --build build/asan -j $(JOBS) -- --quiet
-	@ctest --test-dir build/asan --output-on-failure -j 1
+	@ctest --test-dir build/asan --output-on-failure -j 1 -LE long
 
 tidy:
 	@sh scripts/setup.sh tidy

@@ -47,7 +47,7 @@ void add_port_options(CLI::App& sub, UnitPortOptions& options) {
   sub.add_option("--timeout-ms", options.timeout_ms, "Time for an answer")->capture_default_str()->check(number_given());
 }
 
-std::vector<std::uint8_t> parse_ids(const std::string& text) {
+std::vector<std::uint8_t> parse_ids(const std::string& text, const std::string& flag) {
   std::vector<std::uint8_t> ids;
   std::string_view left = text;
   while (true) {
@@ -56,7 +56,7 @@ std::vector<std::uint8_t> parse_ids(const std::string& text) {
     const auto first = id_in(part.substr(0, dash));
     const auto last = dash == std::string_view::npos ? first : id_in(part.substr(dash + 1));
     if (!first || !last || *first > *last) {
-      throw InputError({"", "--id", text, "names no units", "ids from 1 to 254, such as 3 or 1-12 or 1,3,5"});
+      throw InputError({"", flag, text, "names no units", "ids from 1 to 254, such as 3 or 1-12 or 1,3,5"});
     }
     for (unsigned id = *first; id <= *last; ++id) ids.push_back(static_cast<std::uint8_t>(id));
     if (part.size() == left.size()) return ids;

@@ -25,7 +25,7 @@ struct UnitPortOptions {
 
 void add_port_options(CLI::App& sub, UnitPortOptions& options);
 /// Throws InputError.
-[[nodiscard]] std::vector<std::uint8_t> parse_ids(const std::string& text);
+[[nodiscard]] std::vector<std::uint8_t> parse_ids(const std::string& text, const std::string& flag = "--id");
 
 /// A unit didn't answer, or not as it should: the command fails (exit code 1).
 class NoAnswer : public std::runtime_error {

@@ -9,8 +9,9 @@
 // port open, answers that nobody read are thrown away, a lock it left (TIOCEXCL) is taken off, and raw mode is set again.
 //
 // What a pseudo-terminal can't do: a second opener can't be told apart; both write to the same units and share what comes back.
-// A client that opens in the microseconds between another's end and our look may find that one's answers; host libraries throw
-// pending input away before they ask. The baud rate that a client sets isn't looked at, and bytes take no time on the way.
+// In the microseconds between a client's end and our look, the next one may find that one's answers (host libraries throw pending
+// input away before they ask) or its lock (EBUSY). The baud rate that a client sets isn't looked at, and bytes take no time on the
+// way.
 #pragma once
 
 #include <cstddef>
