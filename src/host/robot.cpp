@@ -226,7 +226,7 @@ ActuatorReading Robot::read(std::size_t actuator) const {
     r.motor_rad[m] = u.actuator.motor[m].angle;
     r.motor_speed_rad_per_s[m] = u.actuator.motor[m].speed;
     r.motor_torque_Nm[m] = u.actuator.load[m];
-    r.current_A[m] = unit.physics().motor_current(u.actuator, m, u.voltage[m], u.terminal);
+    r.current_A[m] = unit.physics().motor_current(u.actuator, m, u.held.voltage[m], u.held.terminal);
   }
   r.measured = slot.measured;
   return r;

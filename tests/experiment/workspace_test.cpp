@@ -96,7 +96,7 @@ TEST(MotorLine, TakesTheVoltageThatTheUnitGivesAtFullOutput) {
       const std::array<device::TickMail, 1> none{};
       unit.step(s, 0, 1'000'000, {0, 0, 0}, far);
       for (int k = 1; k < 4; ++k) unit.step(s, k * 1'000'000, 1'000'000, {0, 0, 0}, none);
-      EXPECT_NEAR(s.voltage[0], motor_line(u).voltage_V, 1e-9) << supply << " V, limit " << limited;
+      EXPECT_NEAR(s.held.voltage[0], motor_line(u).voltage_V, 1e-9) << supply << " V, limit " << limited;
     }
   }
 }

@@ -2,8 +2,10 @@
 //
 // One emulated unit: firmware tick (1 kHz, sample and hold) and physics, driven by a host's steps.
 //
-// A host step [t, t + dt) is cut at every firmware tick and at substep_max_s. At a tick, the encoders are sampled on the predicted
-// path, the position loop runs, and the bridge holds its voltage until the next tick.
+// A host step [t, t + dt) is cut at every firmware tick and at substep_max_s. At a tick, the encoders are sampled on the path first
+// predicted, the position loop runs, and the bridge holds its voltage until the next tick. Each tick happens once; the physics
+// between them is then solved for the path that the shaft really takes (host/robot.hpp), with those voltages. A path within the
+// step differs from its first prediction by less than an encoder's step at 1 ms (docs/6-bus-and-device.md).
 #pragma once
 
 #include <array>
@@ -27,11 +29,16 @@ struct UnitConfig {
   bool operator==(const UnitConfig&) const = default;
 };
 
+/// What the bridges hold from one tick to the next.
+struct Held {
+  std::array<double, 2> voltage;
+  drive::Terminal terminal;
+};
+
 struct UnitState {
   actuator::ActuatorState actuator;
   firmware::LoopState loop;
-  std::array<double, 2> voltage{};
-  drive::Terminal terminal = drive::Terminal::driven;
+  Held held{{}, drive::Terminal::driven};
   bool supply_on = true;
   // what was promised to the host in the last step
   double start_y = 0;
@@ -73,14 +80,12 @@ class Unit {
   [[nodiscard]] const actuator::Actuator& physics() const noexcept { return actuator_; }
 
  private:
-  struct Path {
-    double y0, dy, q0, speed;
+  struct Step {
     std::int64_t t_ns, dt_ns;
+    double angle, speed;  // of the shaft, as the host has it
+    double dy;            // prediction of its path
   };
-  struct Walk {
-    double torque = 0, slope = 0;
-  };
-  Walk walk(UnitState& state, const Path& path, std::span<const TickMail> mail) noexcept;
+  void run_ticks(UnitState& state, const Step& step, std::span<const TickMail> mail, std::span<Held> held) noexcept;
   void tick(UnitState& state, double shaft, const TickMail& mail) noexcept;
 
   UnitConfig config_;
