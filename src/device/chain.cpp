@@ -154,7 +154,9 @@ void Chain::collect(std::size_t station, std::int64_t heard_ps) {
   for (int r = 0; r < out_.count; ++r) {
     const firmware::Reply& reply = out_.replies[r];
     const std::int64_t due = heard_ps + (reply.delay_ns + ear.wiring.late_ns) * kPsPerNs + config_.turn_around_ps;
-    const std::int64_t start = std::max(due, ear.free_ps);
+    std::int64_t start = std::max(due, ear.free_ps);
+    // What the others heard of this slice of time stands: less than a byte, and only where bytes are spoilt anyway.
+    if (state_.mode == Mode::bits) start = std::max(start, state_.now_ps);
     ear.free_ps = start + ear.receiver.rate.bytes_ps(reply.size);
     if (ear.wiring.clean())
       say(static_cast<int>(station), start, out_.view(reply), ear.receiver.rate);

@@ -32,7 +32,7 @@ bool Chain::step_bits(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost
   if (now >= until_ps) return false;
   std::int64_t next = std::min(until_ps, std::max(next_wake_ps(), now));
   if (host_ps > now) next = std::min(next, host_ps);
-  int speaking = 0;
+  bool speaking = false;
   std::int64_t slowest_baud = state_.host_ear.rate.baud_Hz;
   for (const ChainState::Ear& ear : state_.ears) slowest_baud = std::min(slowest_baud, ear.receiver.rate.baud_Hz);
   const std::int64_t linger = bus::LineRate{slowest_baud}.bytes_ps(1);
@@ -41,10 +41,9 @@ bool Chain::step_bits(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost
     if (s.start_ps > now) next = std::min(next, s.start_ps);
     if (s.start_ps > now || s.end_ps <= now) continue;
     next = std::min(next, byte_end_ps(s, now));
-    ++speaking;
+    speaking = true;
   }
-  if (speaking == 0) next = std::min(next, state_.speeches.front().end_ps + linger);
-  if (speaking > 1) next = std::min(next, now + config_.rate.bits_ps(1));
+  if (!speaking) next = std::min(next, state_.speeches.front().end_ps + linger);
   state_.now_ps = std::max(next, now);
   listen_bits(state_.now_ps, host);
   const bool woke = next_wake_ps() <= state_.now_ps;
@@ -52,6 +51,10 @@ bool Chain::step_bits(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost
   while (!state_.speeches.empty() && state_.speeches.front().end_ps + linger <= state_.now_ps) drop_first();
   if (state_.speeches.empty()) state_.mode = Mode::frames;
   return woke || state_.now_ps > now || state_.mode == Mode::frames;
+}
+
+bool Chain::speaks(int listener) const noexcept {
+  return std::any_of(state_.speeches.begin(), state_.speeches.end(), [&](const Speech& s) { return s.speaker == listener; });
 }
 
 void Chain::speakers_for(int listener) {
@@ -68,14 +71,32 @@ bool Chain::speaks_over(int listener, bus::LineRate rate, std::int64_t byte_end_
                      [&](const Speech& s) { return s.speaker == listener && s.start_ps < end && s.end_ps > begin; });
 }
 
+/// Those who only listen, from the same time at the same rate, hear the same: it is found once.
 void Chain::listen_bits(std::int64_t until_ps, bus::LineHost& host) {
-  std::array<bus::HeardByte, 8> heard;
+  constexpr int kNobody = -2;
+  struct Slice {
+    bus::LineReceiver from, to;
+    std::array<bus::HeardByte, 8> heard;
+    std::size_t count = 0;
+    bool known = false;
+  } shared, own;
+  const auto listen = [&](Slice& slice, int listener, const bus::LineReceiver& receiver) {
+    speakers_for(listener);
+    slice.from = slice.to = receiver;
+    slice.count = bus::listen(slice.to, speakers_, slice.heard, until_ps);
+    slice.known = true;
+  };
   const auto listen_as = [&](int listener, bus::LineReceiver& receiver, auto take) {
-    for (std::size_t n = heard.size(); n == heard.size();) {
-      speakers_for(listener);  // again: an answer may have moved the bytes
-      n = bus::listen(receiver, speakers_, heard, until_ps);
-      for (std::size_t k = 0; k < n; ++k)
-        if (!speaks_over(listener, receiver.rate, heard[k].end_ps)) take(heard[k]);
+    const bool silent = !speaks(listener);
+    for (bool more = true; more;) {
+      const bool again = silent && shared.known && shared.from == receiver;
+      Slice& slice = silent ? shared : own;
+      if (!again) listen(slice, silent ? kNobody : listener, receiver);
+      const Slice now = slice;
+      receiver = now.to;
+      more = now.count == now.heard.size();
+      for (std::size_t k = 0; k < now.count; ++k)
+        if (silent || !speaks_over(listener, receiver.rate, now.heard[k].end_ps)) take(now.heard[k]);
     }
   };
   for (std::size_t i = 0; i < stations_.size(); ++i) {

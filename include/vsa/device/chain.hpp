@@ -116,6 +116,7 @@ class Chain {
   bool step_bits(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost& host);
   void listen_bits(std::int64_t until_ps, bus::LineHost& host);
   void enter_bits() noexcept;
+  [[nodiscard]] bool speaks(int listener) const noexcept;
   [[nodiscard]] bool speaks_over(int listener, bus::LineRate rate, std::int64_t byte_end_ps) const noexcept;
   void speakers_for(int listener);
   void find_rates() noexcept;
