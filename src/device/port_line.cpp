@@ -33,8 +33,8 @@ std::int64_t PortLine::line_now_ns() {
 
 std::int64_t PortLine::move_to_tick(std::int64_t sim_ns) {
   if (!started_) {
-    now_ns_ = sim_line_ns_ = sim_ns;
-    sim_offset_ns_ = 0;
+    now_ns_ = sim_line_ns_ = std::max(now_ns_, sim_ns);
+    sim_offset_ns_ = now_ns_ - sim_ns;
     line_now_ns();
   }
   const std::int64_t wall = wall_ns() + wall_offset_ns_;
@@ -84,9 +84,9 @@ void PortLine::set_rate(std::int64_t baud_Hz) {
 }
 
 void PortLine::forget() {
-  const std::lock_guard lock(mutex_);
   started_ = false;
-  now_ns_ = sim_line_ns_ = sim_offset_ns_ = 0;
+  now_ns_ = chain_.state().now_ps / kPsPerNs;
+  sim_line_ns_ = sim_offset_ns_ = 0;
   waiting_.clear();
   heard_.clear();
   taken_ = 0;

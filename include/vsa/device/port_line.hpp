@@ -55,7 +55,9 @@ class PortLine final : public bus::SerialLine, private bus::LineHost {
     const std::lock_guard lock(mutex_);
     return work();
   }
-  /// After a restore or reset: time begins anew, nothing is under way to the client.
+  void lock() const { mutex_.lock(); }
+  void unlock() const { mutex_.unlock(); }
+  /// Under the lock, after a restore or reset: time begins anew, nothing is under way to the client.
   void forget();
   /// Bytes of the client that were lost because too many waited.
   [[nodiscard]] std::uint64_t lost() const;
