@@ -174,8 +174,10 @@ bool VirtualPort::Server::clients_left() {
     return true;
   }
   try {
-    pair_ = TerminalPair();
-    link_.point_to(pair_.device());
+    // The old one goes last: until then an opener is told that it is busy.
+    TerminalPair fresh;
+    link_.point_to(fresh.device());
+    pair_ = std::move(fresh);
   } catch (const std::exception&) {
     return false;
   }
