@@ -168,8 +168,8 @@ TEST(GetAndSet, ParametersAreCheckedSentStoredAndReadBack) {
   Emulated units({"--units", "2"});
   ASSERT_TRUE(units.ready);
   expect(units.vsa({"get", "parameters"}), 0, {"position_pid", "control_mode", "position", "limits", "1500 mA"});
-  expect(units.vsa({"set", "position_pid", "0.2", "0", "0.5"}, {"--store"}), 0, {"P 0.2", "D 0.5", "stored"});
-  expect(units.vsa({"get", "position_pid"}), 0, {"P 0.2"});
+  expect(units.vsa({"set", "position_pid", "0.25", "0", "0.5"}, {"--store"}), 0, {"P 0.25", "D 0.5", "stored"});
+  expect(units.vsa({"get", "position_pid"}), 0, {"P 0.25"});
   expect(units.vsa({"set", "control_mode", "deflection"}, {"--store"}), 0, {"deflection, stored"});
   expect(units.vsa({"set", "limits", "-90", "90", "-45", "45"}, {"--store"}), 0, {"-90.00°", "45.00°"});
   expect(units.vsa({"set", "id", "9"}, {"--id", "2", "--store"}), 0, {"id = 9"});
@@ -213,6 +213,43 @@ TEST(Faults, AreOnTheUnitsThatAreNamed) {
   Emulated low({"--supply-V", "7"});
   ASSERT_TRUE(low.ready);
   expect(low.vsa({"get", "info"}), 0, {"PWM Limit: 100"});
+}
+
+/// The bench's world with a serial port on its robot's bus.
+std::string world_with_port(const std::string& port) {
+  const std::string model = vsa::test::read_file(std::string(VSA_SOURCE_DIR) + "/models/qbmove_bench_free/model.sdf");
+  const std::size_t begin = model.find("<model ");
+  std::string robot = model.substr(begin, model.rfind("</model>") + 8 - begin);
+  const std::string bus = "cycle_s=\"auto\"/>";
+  const std::size_t at = robot.find(bus);
+  if (begin == std::string::npos || at == std::string::npos) throw std::runtime_error("the model's text has changed");
+  robot.replace(at, bus.size(), "cycle_s=\"auto\"><serial_port>" + port + "</serial_port></bus>");
+  return "<sdf version='1.7'><world name='w'><physics name='step' type='ode'><max_step_size>0.001</max_step_size></physics>" +
+         robot + "</world></sdf>";
+}
+
+TEST(RunWithAPort, AClientMovesTheRobotInTheSimulator) {
+  const Scratch scratch;
+  const std::string port = (scratch / "arm").string();
+  const std::string world = (scratch / "world.sdf").string();
+  write_file(world, world_with_port(port));
+  Subprocess run({"run", world, "--no-topics", "--realtime"});
+  ASSERT_TRUE(run.read_until([](const Result& r) { return r.err.find("vsa ping") != std::string::npos; }));
+  expect(run_vsa({"set", port, "equilibrium", "30", "10", "--timeout-ms", "2000"}), 0, {"motor 1 40."});
+  double at = 0;
+  std::string last;
+  for (const auto end = std::chrono::steady_clock::now() + vsa::test::kPatience;
+       at < 25 && std::chrono::steady_clock::now() < end;) {
+    last = run_vsa({"get", port, "measurements", "--timeout-ms", "2000"}).out;
+    std::smatch match;
+    if (std::regex_search(last, match, std::regex("shaft ([0-9.-]+)°"))) at = std::stod(match[1]);
+  }
+  EXPECT_NEAR(at, 30, 5) << last;
+  expect(run_vsa({"run", world, "--no-topics", "--duration-s", "0.1"}), 2, {"another program serves"});
+  run.send(SIGTERM);
+  const Result ended = run.wait();
+  expect(ended, 0, {"serial port", port, "exchanges"});
+  EXPECT_FALSE(std::filesystem::is_symlink(port));
 }
 
 /// Opens the port, says half a frame, waits to be killed.
