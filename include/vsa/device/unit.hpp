@@ -4,8 +4,8 @@
 //
 // A host step [t, t + dt) is cut at every firmware tick and at substep_max_s. At a tick, the encoders are sampled on the path first
 // predicted, the position loop runs, and the bridge holds its voltage until the next tick. Each tick happens once; the physics
-// between them is then solved for the path that the shaft really takes (host/robot.hpp), with those voltages. A path within the
-// step differs from its first prediction by less than an encoder's step at 1 ms (docs/6-bus-and-device.md).
+// between them is then solved for the path that the shaft really takes (host/robot.hpp), with those voltages. Only ticks inside
+// a step depend on the prediction, whose error is of second order in the step.
 #pragma once
 
 #include <array>
