@@ -87,7 +87,7 @@ const drive::MotorStepper& Actuator::stepper(double h_s, drive::Terminal termina
 }
 
 void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentInput& in) noexcept {
-  seg.stepper = &stepper(h_s, in.terminal);
+  for (int i = 0; i < 2; ++i) seg.stepper[i] = &stepper(h_s, in.terminal[i]);
   seg.in = in;
   seg.tried = false;
   for (int i = 0; i < motors_; ++i) {
@@ -103,7 +103,7 @@ void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentIn
       s.motor_anchor[i] = s.motor[i].angle - kept;
       u = kept;
     }
-    seg.free[i] = seg.stepper->free_displacement(s.motor[i], in.voltage[i]);
+    seg.free[i] = seg.stepper[i]->free_displacement(s.motor[i], in.voltage[i]);
   }
   if (tendon_.coulomb_Nm > 0) {
     seg.w = s.spring_w;
@@ -148,9 +148,9 @@ void Actuator::move_tendons(ActuatorState& s, const Segment& seg) const noexcept
 }
 
 SegmentResult Actuator::foresee(const ActuatorState& s, Segment& seg) const noexcept {
-  const double c = seg.stepper->compliance();
   SegmentResult r{s.end.torque, s.end.slope.qq};
   for (int i = 0; i < motors_; ++i) {
+    const double c = seg.stepper[i]->compliance();
     // load̄ ≈ end.load − qx·dq − κ·dx, at dq = 0.
     const double qx = s.end.slope.qx[i];
     const double yield = 1.0 / (1.0 + c * std::max(load_curvature(s.end.slope, i), 0.0));
@@ -167,10 +167,10 @@ SegmentResult Actuator::foresee(const ActuatorState& s, Segment& seg) const noex
 }
 
 bool Actuator::correction(Segment& seg, std::array<double, 2>& step) const noexcept {
-  const double c = seg.stepper->compliance();
   bool accepted = true;
   seg.slope = seg.mean.slope.qq;
   for (int i = 0; i < motors_; ++i) {
+    const double c = seg.stepper[i]->compliance();
     // load(dx) ≈ load − κ·step; κ > −1/(2c) keeps the linear problem monotone where a law isn't convex.
     const double kappa = std::max(load_curvature(seg.mean.slope, i), -0.5 / c);
     const double yield = 1.0 / (1.0 + c * kappa);
@@ -219,12 +219,12 @@ void Actuator::drive_motors(ActuatorState& s, const Segment& seg) const noexcept
   Ledger& l = s.ledger;
   for (int i = 0; i < motors_; ++i) {
     drive::MotorState& m = s.motor[i];
-    const double voltage = seg.in.terminal == drive::Terminal::driven ? seg.in.voltage[i] : 0.0;
-    if (seg.in.terminal == drive::Terminal::open && motor_.inductance_H) {
+    const double voltage = seg.in.terminal[i] == drive::Terminal::driven ? seg.in.voltage[i] : 0.0;
+    if (seg.in.terminal[i] == drive::Terminal::open && motor_.inductance_H) {
       l.copper += 0.5 * *motor_.inductance_H * m.current * m.current;  // an opened winding burns what it stored
       m.current = 0;
     }
-    const drive::MotorStep step = seg.stepper->step(m, voltage, seg.mean.load[i] + seg.friction[i].torque);
+    const drive::MotorStep step = seg.stepper[i]->step(m, voltage, seg.mean.load[i] + seg.friction[i].torque);
     l.motor_friction += drive::friction_heat(seg.gear[i], seg.gear_u[i], seg.friction[i]);
     l.supply += voltage * step.charge;
     l.supply_moved += std::abs(voltage * step.charge);

@@ -69,6 +69,18 @@ ReceiverEvent UnitReceiver::push(std::uint8_t byte, std::uint8_t own_id) noexcep
   return ReceiverEvent::none;
 }
 
+ReceiverEvent UnitReceiver::push_frame(std::span<const std::uint8_t> bytes, std::uint8_t own_id) noexcept {
+  last = {};
+  pending_id = bytes[2];
+  mine = pending_id == own_id || pending_id == kBroadcastId;
+  received = wanted = bytes[3];
+  if (!mine) return ReceiverEvent::skipped;
+  std::copy(bytes.begin() + kHeaderBytes, bytes.end(), frame.body.begin());
+  frame.id = pending_id;
+  frame.length = wanted;
+  return checksum(bytes.subspan(kHeaderBytes)) == 0 ? ReceiverEvent::frame : ReceiverEvent::bad_checksum;
+}
+
 std::size_t HostReceiver::push(std::span<const std::uint8_t> bytes) noexcept {
   const std::size_t count = std::min(bytes.size(), room());
   std::copy_n(bytes.begin(), count, buffer_.begin() + static_cast<std::ptrdiff_t>(size_));

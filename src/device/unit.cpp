@@ -15,13 +15,6 @@ using firmware::kTickNs;
 constexpr int kMaxIterations = 80;
 constexpr double kRelativeTolerance = 1e-4;
 constexpr double kAbsoluteTolerance_Nm = 1e-6;
-constexpr double kDutyScale = 101.0;  // the PWM counter's period
-
-std::int16_t to_ticks(double rad, int resolution) noexcept {
-  const double raw = std::nearbyint(rad / (2.0 * kPi) * kRawPerTurn);
-  const double ticks = std::floor(raw / static_cast<double>(1 << resolution));
-  return static_cast<std::int16_t>(std::clamp(ticks, -32768.0, 32767.0));
-}
 
 double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 
@@ -98,101 +91,61 @@ class PathTrials {
 
 }  // namespace
 
-Unit::Unit(UnitConfig config)
-    : config_(std::move(config)), shaft_friction_(config_.actuator.shaft_friction), actuator_(config_.actuator) {}
-
-int Unit::ticks_in(std::int64_t t_ns, std::int64_t dt_ns) noexcept {
-  const std::int64_t first = (t_ns + kTickNs - 1) / kTickNs;
-  const std::int64_t end = (t_ns + dt_ns + kTickNs - 1) / kTickNs;
-  return static_cast<int>(end - first);
-}
-
-std::array<Ticks, 2> Unit::inputs_for(double equilibrium_rad, double preset) const noexcept {
-  const double kept = std::clamp(preset, -config_.preset_max, config_.preset_max);
-  const auto x = config_.actuator.transmission->references({equilibrium_rad, kept});
-  return {Ticks{to_ticks(x[0], config_.loop.resolution[0])}, Ticks{to_ticks(x[1], config_.loop.resolution[1])}};
-}
-
-UnitState Unit::initial(double equilibrium_rad, double preset, double shaft_rad) const noexcept {
-  UnitState s;
-  firmware::set_inputs(config_.loop, s.loop, inputs_for(equilibrium_rad, preset));
-  s.loop.ref = s.loop.ref_old = s.loop.ref_new;
-  s.loop.motors_on = true;
-  s.loop.limit_pct = config_.loop.supply_limit
-                         ? firmware::supply_limit_pct(sensor::supply_from_adc(sensor::supply_adc(config_.actuator.bridge.supply_V)))
-                         : 100;
-  const double rad_per_raw = radians(Raw{1});
-  s.actuator = actuator_.initial({s.loop.ref[0] * rad_per_raw, s.loop.ref[1] * rad_per_raw}, shaft_rad);
-  return s;
-}
-
-void Unit::tick(UnitState& s, double shaft, const TickMail& mail) noexcept {
-  if (mail.has_inputs) firmware::set_inputs(config_.loop, s.loop, mail.inputs);
-  const actuator::ActuatorParams& p = config_.actuator;
-  firmware::TickInputs in;
-  const std::array<double, 3> angle{s.actuator.motor[0].angle, s.actuator.motor[1].angle, shaft};
-  for (int i = 0; i < 3; ++i) in.encoder[i] = sensor::encoder_sample(p.encoder, angle[i] + (i == 2 ? p.shaft_zero_rad : 0.0));
-  for (int i = 0; i < 2; ++i)
-    in.current_adc[i] = sensor::current_adc(actuator_.motor_current(s.actuator, i, s.held.voltage[i], s.held.terminal));
-  drive::BridgeParams bridge = p.bridge;
-  if (!s.supply_on) bridge.supply_V = 0.0;
-  in.supply_adc = sensor::supply_adc(bridge.supply_V);
-  // The duty goes out before this tick's supply reading changes the limit.
-  const std::int32_t limit = config_.loop.supply_limit ? s.loop.limit_pct : 100;
-  firmware::tick(config_.loop, s.loop, in);
-  const bool off = !s.loop.motors_on;
-  s.held.terminal = off && !bridge.brake_when_off ? drive::Terminal::open : drive::Terminal::driven;
-  for (int i = 0; i < 2; ++i) {
-    const double output = limit > 0 ? s.loop.duty[i] / static_cast<double>(limit) : 0.0;
-    s.held.voltage[i] = off ? 0.0 : config_.polarity * drive::bridge_voltage(bridge, output, limit / kDutyScale);
-  }
-}
-
-void Unit::run_ticks(UnitState& s, const Step& step, std::span<const TickMail> mail, std::span<Held> held) noexcept {
-  std::size_t ticks = 0, intervals = 0;
-  const auto next_mail = [&] { return ticks < mail.size() ? mail[ticks] : TickMail{}; };
-  std::int64_t until = kTickNs - step.t_ns % kTickNs;
-  if (until == kTickNs) tick(s, step.angle, next_mail()), ++ticks;
-  held[intervals++] = s.held;
-  if (until >= step.dt_ns) return;
-  const actuator::ActuatorState start = s.actuator;
-  const auto substep_ns = substep(config_);
-  // What the host will do with the shaft if the prediction holds: q' = q + dt·v'.
-  const double end_speed = 2.0 * step.dy / seconds(step.dt_ns) - step.speed;
-  for (std::int64_t now = 0; until < step.dt_ns; until += kTickNs) {
-    for (; now < until; now = std::min(now + substep_ns, until)) {
-      const std::int64_t h_ns = std::min(substep_ns, until - now);
-      const double share = static_cast<double>(h_ns) / static_cast<double>(step.dt_ns);
-      actuator_.segment(s.actuator, seconds(h_ns), {step.dy * share, s.held.voltage, s.held.terminal});
-    }
-    tick(s, step.angle + seconds(now) * end_speed, next_mail());
-    ++ticks;
-    held[intervals++] = s.held;
-  }
-  s.actuator = start;
-}
-
-double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in, std::span<const TickMail> mail) noexcept {
+void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept {
   const double dt = seconds(dt_ns);
-  const double y = in.angle - 0.5 * dt * in.speed;
+  plan.t_ns = t_ns;
+  plan.dt_ns = dt_ns;
+  plan.in = in;
+  plan.y = in.angle - 0.5 * dt * in.speed;
   if (!s.started) {
-    actuator_.place(s.actuator, y);
+    actuator_.place(s.actuator, plan.y);
   } else {
-    actuator_.settle(s.actuator, y, s.applied_torque, y - s.start_y, s.path_work);
+    actuator_.settle(s.actuator, plan.y, s.applied_torque, plan.y - s.start_y, s.path_work);
   }
   const double other = s.started ? (in.speed - s.last_speed) / s.last_dt - in.inverse_inertia * s.applied_torque : 0.0;
-  const double c = 0.5 * dt * dt * in.inverse_inertia;
-  const double free = dt * in.speed + 0.5 * dt * dt * other;
-  const double u = y - s.actuator.shaft_anchor;
+  plan.c = 0.5 * dt * dt * in.inverse_inertia;
+  plan.free = dt * in.speed + 0.5 * dt * dt * other;
+  plan.dy = s.started ? plan.free + plan.c * s.applied_torque : plan.free;
+  plan.walked_ns = 0;
+  plan.held_count = 0;
+  if (t_ns % kTickNs != 0) plan.held[plan.held_count++] = s.held;
+}
 
-  double dy = s.started ? free + c * s.applied_torque : free;
-  std::array<Held, kMaxTicksPerStep + 1> held;
-  run_ticks(s, {t_ns, dt_ns, in.angle, in.speed, dy}, mail, held);
+firmware::TickInputs Unit::sample(UnitState& s, StepPlan& plan, std::int64_t at_ns) noexcept {
+  const std::int64_t until = at_ns - plan.t_ns;
+  if (until > 0 && plan.walked_ns == 0) plan.start = s.actuator;
+  const auto substep_ns = substep(config_);
+  while (plan.walked_ns < until) {
+    const std::int64_t h_ns = std::min(substep_ns, until - plan.walked_ns);
+    const double share = static_cast<double>(h_ns) / static_cast<double>(plan.dt_ns);
+    actuator_.segment(s.actuator, seconds(h_ns), {plan.dy * share, s.held.voltage, s.held.terminal});
+    plan.walked_ns += h_ns;
+  }
+  // What the host will do with the shaft if the prediction holds: q' = q + dt·v'.
+  const double end_speed = 2.0 * plan.dy / seconds(plan.dt_ns) - plan.in.speed;
+  return read_sensors(s, plan.in.angle + seconds(plan.walked_ns) * end_speed);
+}
 
-  PathTrials trials(actuator_, s.actuator, held, {t_ns, dt_ns, substep(config_)});
+double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept {
+  StepPlan plan;
+  begin_step(s, plan, t_ns, dt_ns, in);
+  for (std::int64_t at = first_tick_ns(t_ns); at < t_ns + dt_ns; at += kTickNs) {
+    const firmware::TickInputs sensors = sample(s, plan, at);
+    out_.clear();
+    if (s.faults.powered) program_.tick(s.program, sensors, at, out_);
+    hold(s, plan);
+  }
+  return end_step(s, plan);
+}
+
+double Unit::end_step(UnitState& s, StepPlan& plan) noexcept {
+  if (plan.walked_ns > 0) s.actuator = plan.start;
+  const double c = plan.c, u = plan.y - s.actuator.shaft_anchor;
+  double dy = plan.dy;
+  PathTrials trials(actuator_, s.actuator, {plan.held.data(), plan.held_count}, {plan.t_ns, plan.dt_ns, substep(config_)});
   if (const auto foreseen = trials.foresee()) {
     const double yield = 1.0 / (1.0 + c * std::max(foreseen->slope, 0.0));
-    dy = drive::solve_friction(shaft_friction_, u, (free + c * foreseen->torque) * yield, c * yield).displacement;
+    dy = drive::solve_friction(shaft_friction_, u, (plan.free + c * foreseen->torque) * yield, c * yield).displacement;
   }
   double low = -std::numeric_limits<double>::infinity(), high = -low, last_move = high;
   double torque = 0;
@@ -204,7 +157,7 @@ double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const Sha
     // Newton on the spring, exact on the friction.
     const double slope = std::max(path.slope, 0.0);
     const double yield = 1.0 / (1.0 + c * slope);
-    const auto next = drive::solve_friction(shaft_friction_, u, (free + c * (path.torque + slope * dy)) * yield, c * yield);
+    const auto next = drive::solve_friction(shaft_friction_, u, (plan.free + c * (path.torque + slope * dy)) * yield, c * yield);
     const double move = next.displacement - dy;
     torque = path.torque - slope * move + next.torque;
     // The linear correction leaves an error of second order; the stiffer the step (c·slope), the more of it reaches the shaft.
@@ -222,10 +175,10 @@ double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const Sha
   const double spring_work = path.torque * walked;
   const auto rub = actuator_.shaft_friction(s.actuator, walked);
   s.path_work = s.actuator.ledger.pending = spring_work + rub.torque * walked;
-  s.start_y = y;
+  s.start_y = plan.y;
   s.applied_torque = torque;
-  s.last_speed = in.speed;
-  s.last_dt = dt;
+  s.last_speed = plan.in.speed;
+  s.last_dt = seconds(plan.dt_ns);
   s.started = true;
   return torque;
 }

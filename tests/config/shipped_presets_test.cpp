@@ -69,14 +69,12 @@ TEST(ShippedPresets, ThePapersMakerProHasTheValuesOfTableIWithTheErratumOnBackEm
 }
 
 TEST(ShippedPresets, TheMakerProsFirmwareIsThePublishedDefault) {
-  const firmware::LoopParams got = shipped().load("qbmove_maker_pro").unit.loop, want;
-  EXPECT_EQ(got.kp, want.kp);
-  EXPECT_EQ(got.ki, want.ki);
-  EXPECT_EQ(got.kd, want.kd);
-  EXPECT_EQ(got.limits_raw, want.limits_raw);
-  EXPECT_EQ(got.limits_on, want.limits_on);
-  EXPECT_EQ(got.resolution, want.resolution);
-  EXPECT_EQ(got.supply_limit, want.supply_limit);
+  const device::UnitConfig unit = shipped().load("qbmove_maker_pro").unit;
+  EXPECT_EQ(unit.memory, firmware::initial_memory(firmware::Model::maker_pro));
+  EXPECT_EQ(unit.program.model, firmware::Model::maker_pro);
+  EXPECT_EQ(unit.program.dialect, bus::Dialect::six);
+  EXPECT_EQ(unit.program.repairs, firmware::Repairs{});
+  EXPECT_TRUE(unit.supply_limited());
 }
 
 TEST(ShippedPresets, TheBackEmfConstantsSourceExplainsTheErratum) {
@@ -88,7 +86,7 @@ TEST(ShippedPresets, TheBackEmfConstantsSourceExplainsTheErratum) {
 TEST(ShippedPresets, TheMakerProKeepsThePapersMotorAndTheFirmwaresBoundOnTheStiffness) {
   const device::UnitConfig unit = shipped().load("qbmove_maker_pro").unit, paper = shipped().load("qbmove_maker_pro_paper").unit;
   EXPECT_EQ(unit.actuator.motor, paper.actuator.motor);
-  EXPECT_EQ(unit.max_stiffness_raw, 3000 << 1);
+  EXPECT_EQ(unit.memory.max_stiffness, 3000 << 1);
   EXPECT_EQ(unit.actuator.bridge.dead_band, 0.0);
   EXPECT_GT(unit.actuator.tendon.friction, 0.0);
 }
@@ -101,12 +99,11 @@ TEST(ShippedPresets, TheDataSheetsSpringsDiffer) {
   EXPECT_EQ(springs->params().a_per_rad, (std::array<double, 2>{6.7328, 6.9602}));
 }
 
-TEST(ShippedPresets, TheAdvancedUnitHasInvertedGainsAndPolarityAndNoSupplyLimit) {
+TEST(ShippedPresets, TheAdvancedUnitRunsItsOwnProgramWithItsGainsAndWithoutASupplyLimit) {
   const device::UnitConfig u = shipped().load("qbmove_advanced").unit;
-  EXPECT_EQ(u.loop.kp, -6553);
-  EXPECT_EQ(u.loop.kd, -52428);
-  EXPECT_EQ(u.polarity, -1);
-  EXPECT_FALSE(u.loop.supply_limit);
+  EXPECT_EQ(u.program.model, firmware::Model::advanced);
+  EXPECT_EQ(u.memory, firmware::initial_memory(firmware::Model::advanced));
+  EXPECT_FALSE(u.supply_limited());
   EXPECT_EQ(u.actuator.motor.inertia_kgm2, 0.0233);
 }
 

@@ -66,7 +66,7 @@ struct ActuatorState {
 struct SegmentInput {
   double dq = 0;  ///< shaft displacement along the path
   std::array<double, 2> voltage{};
-  drive::Terminal terminal = drive::Terminal::driven;
+  std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
 };
 
 struct SegmentResult {
@@ -78,7 +78,7 @@ struct SegmentResult {
 class Segment {
  private:
   friend class Actuator;
-  const drive::MotorStepper* stepper = nullptr;
+  std::array<const drive::MotorStepper*, 2> stepper{};
   SegmentInput in;
   bool tried = false;
   // what the frictions see at the start
