@@ -30,6 +30,7 @@ class Finisher {
       give_ids();
       check_cycles();
     }
+    check_ports();
     return std::move(config_);
   }
 
@@ -177,6 +178,15 @@ class Finisher {
       if (id > kMaxId) add(a.path + "/bus", "", "the bus is full", "at most " + std::to_string(kMaxId) + " units on a bus");
       used.emplace(id, a.path);
       config_.actuators[i].id = id;
+    }
+  }
+
+  void check_ports() {
+    std::map<std::string, std::string> ports;
+    for (const BusDraft& bus : draft_.buses) {
+      if (!bus.serial_port) continue;
+      const auto [at, fresh] = ports.emplace(*bus.serial_port, bus.path);
+      if (!fresh) add(bus.path + "/serial_port", '"' + *bus.serial_port + '"', at->second + " has this port", "one bus a port");
     }
   }
 

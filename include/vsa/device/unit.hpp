@@ -5,8 +5,8 @@
 //
 // A host step [t, t + dt) is cut at every firmware tick and at substep_max_s. At a tick, the encoders are sampled on the path first
 // predicted, the program runs, and the bridges hold their voltages until the next tick. Each tick happens once; the physics between
-// them is then solved for the path that the shaft really takes (host/robot.hpp), with those voltages. A path within the step
-// differs from its first prediction by less than an encoder's step at 1 ms (docs/6-bus-and-device.md).
+// them is then solved for the path that the shaft really takes (host/robot.hpp), with those voltages. Only ticks inside a step
+// depend on the prediction, whose error is of second order in the step.
 //
 // Whoever has several units on a line runs the ticks himself, all units' first tick before anyone's second, with the bytes between
 // (device/chain.hpp):

@@ -128,6 +128,8 @@ class Robot {
   bool follow(std::size_t actuator, Channel channel, std::vector<Knot> knots);
 
   [[nodiscard]] ActuatorReading read(std::size_t actuator) const;
+  /// The references that the unit received last, as they came over its bus.
+  [[nodiscard]] std::array<Ticks, 2> received_inputs(std::size_t actuator) const;
   [[nodiscard]] actuator::Ledger ledger(std::size_t actuator) const;  ///< energy ledger since the start or the last reset
   [[nodiscard]] actuator::Ledger ledger() const;                      ///< summed over all actuators
   [[nodiscard]] std::vector<Notice> take_notices();                   ///< since the last call
