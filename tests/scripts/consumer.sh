@@ -22,7 +22,7 @@ emulate=$!
 trap 'kill $emulate 2> /dev/null || true' EXIT
 until grep -q Ctrl-C "$work/emulated"; do kill -0 $emulate; sleep 0.05; done
 "$work/serial/serial_client" "$work/port" | tee "$work/moved"
-grep -qE '^asked for 10°: the shaft is at (9|10|11)' "$work/moved"
+grep -qE '^asked for 10°: the shaft is at (7|8|9|10|11|12)' "$work/moved"
 kill $emulate
 wait $emulate
 test ! -e "$work/port"
