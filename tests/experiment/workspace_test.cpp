@@ -92,10 +92,8 @@ TEST(MotorLine, TakesTheVoltageThatTheUnitGivesAtFullOutput) {
       u.program.supply_table = limited;
       device::Unit unit(u);
       device::UnitState s = unit.initial(0, 0, 0);
-      const std::array<device::TickMail, 1> far{device::TickMail{true, unit.inputs_for(2, 0)}};
-      const std::array<device::TickMail, 1> none{};
-      unit.step(s, 0, 1'000'000, {0, 0, 0}, far);
-      for (int k = 1; k < 4; ++k) unit.step(s, k * 1'000'000, 1'000'000, {0, 0, 0}, none);
+      unit.set_inputs(s, unit.inputs_for(2, 0));
+      for (int k = 0; k < 4; ++k) unit.step(s, k * 1'000'000, 1'000'000, {0, 0, 0});
       EXPECT_NEAR(s.held.voltage[0], motor_line(u).voltage_V, 1e-9) << supply << " V, limit " << limited;
     }
   }
@@ -190,7 +188,7 @@ TEST(Workspace, IsWhatTheSimulatedUnitGivesToAShaftThatTurnsSteadily) {
   for (const double speed : {0.5, 1.5, 3.0}) {
     test::OneJoint joint(unit, -2.8, 0, 0, 1'000'000);
     joint.q -= 0.7;
-    joint.v = speed;  // without inertia the shaft's motion is prescribed
+    joint.v = speed;                                                   // without inertia the shaft's motion is prescribed
     joint.unit.set_inputs(joint.state, {Ticks{32767}, Ticks{32767}});  // one turn ahead
     while (joint.q < 4) joint.step();
     const double lag = joint.state.actuator.motor[0].angle - joint.q;
