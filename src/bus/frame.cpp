@@ -16,13 +16,6 @@ std::uint8_t checksum(std::span<const std::uint8_t> bytes) noexcept {
   return sum;
 }
 
-void FrameBytes::push(std::uint8_t byte) noexcept {
-  if (size < bytes.size())
-    bytes[size++] = byte;
-  else
-    overflowed = true;
-}
-
 FrameBytes encode_frame(std::uint8_t id, std::uint8_t command, std::span<const std::uint8_t> payload) noexcept {
   FrameBytes out;
   if (payload.size() > kMaxPayload) return out;

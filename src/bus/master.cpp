@@ -42,11 +42,15 @@ Schedule make_schedule(int units, double baud_Hz, std::optional<double> cycle_s)
 }
 
 Master::Master(const Schedule& schedule, std::vector<std::uint8_t> ids, MasterClient& client)
-    : schedule_(schedule), ids_(std::move(ids)), client_(client) {}
+    : schedule_(schedule),
+      slot_ps_(schedule.slot_ps()),
+      get_ps_(schedule.frame_ps(0, true)),
+      ids_(std::move(ids)),
+      client_(client) {}
 
 std::int64_t Master::next_ps() const noexcept {
   if (ids_.empty()) return kNeverPs;
-  return state_.cycle_start_ps + schedule_.frame_ps(state_.frame / 2, state_.frame % 2 != 0);
+  return state_.cycle_start_ps + state_.frame / 2 * slot_ps_ + (state_.frame % 2 != 0 ? get_ps_ : 0);
 }
 
 FrameBytes Master::speak() noexcept {
@@ -63,15 +67,22 @@ FrameBytes Master::speak() noexcept {
   return encode_request({}, id, GetMeasurements{});
 }
 
-void Master::hear(std::uint8_t byte, std::int64_t) noexcept {
-  state_.receiver.push({&byte, 1});
-  Frame frame;
-  while (state_.receiver.next(frame)) {
-    const auto unit = std::find(ids_.begin(), ids_.end(), frame.id);
-    if (unit == ids_.end()) continue;
-    if (const auto reply = decode_reply<MeasurementsReply>({}, Command::get_measurements, frame))
-      client_.measured(static_cast<int>(unit - ids_.begin()), reply->positions);
+void Master::hear(std::uint8_t byte, std::int64_t end_ps) noexcept { hear_all({&byte, 1}, end_ps, schedule_.rate); }
+
+void Master::hear_all(std::span<const std::uint8_t> bytes, std::int64_t, LineRate) noexcept {
+  while (!bytes.empty()) {
+    const std::size_t taken = state_.receiver.push(bytes);
+    bytes = bytes.subspan(taken);
+    while (state_.receiver.next(heard_)) take();
+    if (taken == 0) return;  // can't be: what is full holds a frame, or noise that next drops
   }
+}
+
+void Master::take() noexcept {
+  const auto unit = std::find(ids_.begin(), ids_.end(), heard_.id);
+  if (unit == ids_.end()) return;
+  if (const auto reply = decode_reply<MeasurementsReply>({}, Command::get_measurements, heard_))
+    client_.measured(static_cast<int>(unit - ids_.begin()), reply->positions);
 }
 
 }  // namespace vsa::bus

@@ -98,8 +98,7 @@ bool Chain::step_frames(std::int64_t until_ps, std::int64_t host_ps, bus::LineHo
     stations_[i].program->receive_frame(*stations_[i].state, frame, now_ns, out_);
     collect(i, s.end_ps);
   }
-  if (s.speaker == ChainState::kHost) return true;
-  for (std::size_t k = 0; k < frame.size(); ++k) host.hear(frame[k], s.start_ps + s.rate.bytes_ps(static_cast<int>(k) + 1));
+  if (s.speaker != ChainState::kHost) host.hear_all(frame, s.end_ps, s.rate);
   return true;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMaxId = 254;
 
-std::vector<Unit> checked(std::vector<EmulatedUnit>& given) {
+std::vector<std::shared_ptr<Unit>> checked(const std::vector<EmulatedUnit>& given) {
   Problems problems;
   if (given.empty()) problems.add({"", "units", "0", "nothing to emulate", "at least one"});
   for (std::size_t i = 0; i < given.size(); ++i) {
@@ -24,9 +24,12 @@ std::vector<Unit> checked(std::vector<EmulatedUnit>& given) {
     if (!std::isfinite(given[i].shaft_rad)) problems.add({"", key + ".shaft_rad", "", "isn't a number", "a finite angle"});
   }
   problems.throw_if_any();
-  std::vector<Unit> units;
-  units.reserve(given.size());
-  for (EmulatedUnit& unit : given) units.emplace_back(std::move(unit.config));
+  std::vector<std::shared_ptr<Unit>> units;
+  for (const EmulatedUnit& unit : given) {
+    const auto equal = [&](const std::shared_ptr<Unit>& other) { return other->config() == unit.config; };
+    const auto known = std::find_if(units.begin(), units.end(), equal);
+    units.push_back(known != units.end() ? *known : std::make_shared<Unit>(unit.config));
+  }
   return units;
 }
 
@@ -38,20 +41,20 @@ Emulation::Emulation(std::vector<EmulatedUnit> units, const LineConfig& line,
       states_([&] {
         std::vector<UnitState> states;
         for (std::size_t i = 0; i < units.size(); ++i)
-          states.push_back(units_[i].switched_on(units[i].shaft_rad, static_cast<std::uint8_t>(units[i].id), 0));
+          states.push_back(units_[i]->switched_on(units[i].shaft_rad, static_cast<std::uint8_t>(units[i].id), 0));
         return states;
       }()),
       chain_(line, stations()),
       port_(chain_, std::move(now)) {
   for (std::size_t i = 0; i < units.size(); ++i)
-    shafts_.push_back({units[i].shaft_rad, 0, units[i].held ? 0.0 : 1.0 / units_[i].config().actuator.shaft_inertia_kgm2});
+    shafts_.push_back({units[i].shaft_rad, 0, units[i].held ? 0.0 : 1.0 / units_[i]->config().actuator.shaft_inertia_kgm2});
   plans_.resize(units.size());
   inputs_.resize(units.size());
 }
 
 std::vector<Station> Emulation::stations() {
   std::vector<Station> out;
-  for (std::size_t i = 0; i < units_.size(); ++i) out.push_back({&units_[i].program(), &states_[i].program});
+  for (std::size_t i = 0; i < units_.size(); ++i) out.push_back({&units_[i]->program(), &states_[i].program});
   return out;
 }
 
@@ -63,19 +66,19 @@ void Emulation::step() {
   take_faults();
   for (std::size_t i = 0; i < units_.size(); ++i) {
     const Shaft& shaft = shafts_[i];
-    units_[i].begin_step(states_[i], plans_[i], now_ns_, firmware::kTickNs, {shaft.angle, shaft.speed, shaft.inverse_inertia});
-    inputs_[i] = units_[i].sample(states_[i], plans_[i], now_ns_);
+    units_[i]->begin_step(states_[i], plans_[i], now_ns_, firmware::kTickNs, {shaft.angle, shaft.speed, shaft.inverse_inertia});
+    inputs_[i] = units_[i]->sample(states_[i], plans_[i], now_ns_);
   }
   port_.ticks(now_ns_, [this](std::int64_t line_ns) {
     for (std::size_t i = 0; i < units_.size(); ++i) {
       chain_.tick(i, inputs_[i], line_ns);
-      units_[i].hold(states_[i], plans_[i]);
+      units_[i]->hold(states_[i], plans_[i]);
     }
   });
   constexpr double dt = static_cast<double>(firmware::kTickNs) * 1e-9;
   for (std::size_t i = 0; i < units_.size(); ++i) {
     Shaft& shaft = shafts_[i];
-    const double torque = units_[i].end_step(states_[i], plans_[i]);
+    const double torque = units_[i]->end_step(states_[i], plans_[i]);
     if (shaft.inverse_inertia > 0) shaft.speed += dt * shaft.inverse_inertia * torque;
     shaft.angle += dt * shaft.speed;
   }

@@ -35,7 +35,12 @@ struct FrameBytes {
   std::uint8_t size = 0;
   bool overflowed = false;
 
-  void push(std::uint8_t byte) noexcept;
+  void push(std::uint8_t byte) noexcept {
+    if (size < bytes.size())
+      bytes[size++] = byte;
+    else
+      overflowed = true;
+  }
   /// Lives as long as this does: in a range-for over a temporary, iterate over the FrameBytes itself.
   [[nodiscard]] std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
   [[nodiscard]] const std::uint8_t* begin() const noexcept { return bytes.data(); }

@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "vsa/bus/frame.hpp"
+#include "vsa/bus/timing.hpp"
 
 namespace vsa::bus {
 
@@ -22,6 +24,11 @@ class LineHost {
   virtual FrameBytes speak() noexcept = 0;
   /// A byte it hears, at the end of its stop bit.
   virtual void hear(std::uint8_t byte, std::int64_t end_ps) noexcept = 0;
+  /// Bytes back to back that nobody disturbed; the last one ends at `end_ps`.
+  virtual void hear_all(std::span<const std::uint8_t> bytes, std::int64_t end_ps, LineRate rate) noexcept {
+    for (std::size_t k = 0; k < bytes.size(); ++k)
+      hear(bytes[k], end_ps - rate.bytes_ps(static_cast<std::int64_t>(bytes.size() - k - 1)));
+  }
 
  protected:
   LineHost() = default;

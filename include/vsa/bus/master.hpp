@@ -92,12 +92,17 @@ class Master final : public LineHost {
   [[nodiscard]] std::int64_t next_ps() const noexcept override;
   FrameBytes speak() noexcept override;
   void hear(std::uint8_t byte, std::int64_t end_ps) noexcept override;
+  void hear_all(std::span<const std::uint8_t> bytes, std::int64_t end_ps, LineRate rate) noexcept override;
 
  private:
+  void take() noexcept;
+
   Schedule schedule_;
+  std::int64_t slot_ps_, get_ps_;  // of the schedule
   std::vector<std::uint8_t> ids_;
   MasterClient& client_;
   MasterState state_;
+  Frame heard_;  // scratch
 };
 
 }  // namespace vsa::bus

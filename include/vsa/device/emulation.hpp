@@ -9,6 +9,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -57,7 +59,7 @@ class Emulation {
   void take_faults();
   void step();
 
-  std::vector<Unit> units_;
+  std::vector<std::shared_ptr<Unit>> units_;  // equal ones share an instance
   std::vector<UnitState> states_;
   std::vector<Shaft> shafts_;
   std::vector<StepPlan> plans_;
