@@ -82,7 +82,10 @@ double Unit::supply_V(const UnitState& s) const noexcept {
 firmware::TickInputs Unit::read_sensors(UnitState& s, double shaft) const noexcept {
   const actuator::ActuatorParams& p = config_.actuator;
   firmware::TickInputs in;
-  const std::array<double, 3> angle{s.actuator.motor[0].angle, s.actuator.motor[1].angle, shaft + p.shaft_zero_rad};
+  // The advanced program turns the motors' words round and not the shaft's, and on the wire all three; in deflection mode the
+  // motors follow the shaft only if its encoder counts the other way. So its magnet must be mounted like that.
+  const double shaft_sign = inverted(config_) ? -1.0 : 1.0;
+  const std::array<double, 3> angle{s.actuator.motor[0].angle, s.actuator.motor[1].angle, shaft_sign * (shaft + p.shaft_zero_rad)};
   for (std::size_t i = 0; i < 3; ++i) {
     const EncoderFault& fault = s.faults.encoder[i];
     const double noise = fault.noise_rad > 0 ? fault.noise_rad * (2.0 * s.dice.uniform() - 1.0) : 0.0;
