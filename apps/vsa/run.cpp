@@ -25,7 +25,10 @@ that Ctrl-C cuts short exits with 130. Either way the record is complete up to t
 
 Examples:
   vsa run snake_flat --gait sidewind --duration-s 20 --record out
-  vsa run snake_rubble --realtime)";
+  vsa run snake_rubble --realtime
+  vsa run snake_flat --gait sidewind --duration-s 20 --fault "joint_6 unplugged=1"
+
+Faults, the last said of an actuator holds: off lost_byte=P flipped_byte=P late_s=T stuck=motor_1|motor_2|shaft noise_rad=A supply_V=U unplugged=1|2 seed=N)";
 
 void check(const RunOptions& options) {
   if (options.duration_s && !(*options.duration_s > 0 && *options.duration_s <= kLongest_s)) {
@@ -73,6 +76,7 @@ void setup_run(CLI::App& app, int& exit_code) {
   sub->add_flag("--realtime", options->realtime, "Not faster than the wall clock; default: as fast as possible");
   sub->add_option("--preset", options->preset, "Put this actuator preset on every actuator of the world");
   sub->add_option("--set", options->set, "Override a parameter of every actuator: key=value");
+  sub->add_option("--fault", options->faults, "Break something from the start: \"ACTUATOR FAULT …\" or \"all FAULT …\"");
   sub->add_option("--gait", options->gait, "Play this gait in simulated time");
   sub->add_option("--record", options->record, "Write CSV files and a replay page into this directory");
   CLI::Option* no_topics = sub->add_flag("--no-topics", options->no_topics, "Run without the transport");

@@ -14,10 +14,11 @@ struct RunOptions {
   bool realtime = false;
   bool paused = false;
   bool no_topics = false;
-  std::string preset;            ///< put on every actuator; empty: what the world says
-  std::vector<std::string> set;  ///< override its parameters: "drive.friction_Nm=0.7"
-  std::string gait;              ///< a file, or a built-in gait's name; empty: none
-  std::string record;            ///< directory; empty: none
+  std::string preset;               ///< put on every actuator; empty: what the world says
+  std::vector<std::string> set;     ///< override its parameters: "drive.friction_Nm=0.7"
+  std::vector<std::string> faults;  ///< "joint_6 unplugged=1", vsa/config/faults_text.hpp
+  std::string gait;                 ///< a file, or a built-in gait's name; empty: none
+  std::string record;               ///< directory; empty: none
 };
 
 /// `vsa run WORLD.sdf`. Sets the exit code when it was the subcommand.

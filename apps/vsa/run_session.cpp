@@ -10,6 +10,8 @@
 #include "find_file.hpp"
 #include "interrupt.hpp"
 #include "settings.hpp"
+#include "vsa/config/faults_text.hpp"
+#include "vsa/errors.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::app {
@@ -45,6 +47,27 @@ record::RecorderOptions recorder_options() {
   return options;
 }
 
+/// Each text goes to the robots that have its actuator.
+void break_robots(engine::World& world, const std::vector<std::string>& faults) {
+  Problems problems;
+  for (const std::string& text : faults) {
+    const std::string who = text.substr(0, text.find(' '));
+    bool known = false;
+    try {
+      for (std::size_t i = 0; i < world.robot_count(); ++i) {
+        const bool last = i + 1 == world.robot_count() && !known;
+        if (who != "all" && !world.robot(i).find(who) && !last) continue;
+        known = true;
+        (void)config::apply_faults(world.robot(i), text, "--fault");
+      }
+    } catch (const InputError& error) {
+      problems.add_all(error);
+    }
+    if (world.robot_count() == 0) problems.add({"", "--fault", text, "the world has no actuator", ""});
+  }
+  problems.throw_if_any();
+}
+
 std::string top_level(const std::string& scoped) { return scoped.substr(0, scoped.find("::")); }
 
 }  // namespace
@@ -52,6 +75,7 @@ std::string top_level(const std::string& scoped) { return scoped.substr(0, scope
 RunSession::RunSession(const RunOptions& options, Console& console)
     : console_(console),
       realtime_(options.realtime),
+      faults_(options.faults),
       duration_s_(options.duration_s),
       world_(load_world(options)),
       gait_(load_gait(options.gait)),
@@ -61,6 +85,7 @@ RunSession::RunSession(const RunOptions& options, Console& console)
       travel_(travel_window_s_, 1 / kTravelRate_Hz),
       travel_cadence_(kTravelRate_Hz) {
   for (const auto& warning : world_.warnings()) console_.line("warning: " + warning);
+  break_robots(world_, faults_);
   if (gait_) gait_->bind(world_);
   const auto report = [&console](const std::string& line) { console.line(line); };
   if (!options.no_topics) server_.emplace(world_, control_, report);
@@ -117,6 +142,7 @@ void RunSession::keep_time() {
 
 void RunSession::reset() {
   world_.reset();
+  break_robots(world_, faults_);
   ++resets_;
   if (gait_) gait_->reset();
   travel_.restart();

@@ -45,6 +45,7 @@ class RunSession {
 
   Console& console_;
   bool realtime_;
+  std::vector<std::string> faults_;
   std::optional<double> duration_s_;
   engine::World world_;
   std::optional<engine::Gait> gait_;

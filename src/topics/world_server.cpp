@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "messages.hpp"
+#include "topics/fault_service.hpp"
 #include "vsa/topics/ignition_port.hpp"
 #include "vsa/topics/transport.hpp"
 
@@ -98,6 +99,7 @@ struct WorldServer::Impl {
   std::shared_ptr<ControlService> service;
   std::vector<host::RobotTopics> robots;  // destroyed after the port that calls them
   IgnitionPort port;
+  std::vector<FaultService> faults;
   Node node;
   Node::Publisher clock, stats;
   bool clock_wanted = false, stats_wanted = false;
@@ -164,6 +166,7 @@ WorldServer::WorldServer(engine::World& world, RunControl& control, host::RobotT
   impl_->robots.reserve(world.robot_count());
   for (std::size_t i = 0; i < world.robot_count(); ++i) {
     impl_->robots.emplace_back(world.robot(i), world.robot_model(i), impl_->port, report);
+    impl_->faults.emplace_back(world.robot(i), world.robot_model(i));
   }
   impl_->rate_mark.sim_ns = world.time_ns();
 }

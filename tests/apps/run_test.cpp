@@ -47,6 +47,25 @@ void expect_readable_record(const fs::path& directory, std::size_t lines) {
   }
 }
 
+TEST(Run, BreaksAUnitFromTheStartAndRefusesWhatItCantBreak) {
+  const Scratch scratch;
+  const auto record = [&](const char* name, std::vector<std::string> more) {
+    std::vector<std::string> args{"run", "snake_flat", "--no-topics", "--gait", "sidewind", "--duration-s", "0.5", "--record"};
+    args.push_back((scratch / name).string());
+    args.insert(args.end(), more.begin(), more.end());
+    return run_vsa(args);
+  };
+  ASSERT_EQ(record("whole", {}).exit_code, 0);
+  const auto broken = record("broken", {"--fault", "joint_6 unplugged=1"});
+  ASSERT_EQ(broken.exit_code, 0) << broken.err;
+  EXPECT_NE(read_file(scratch / "whole" / "energy.csv"), read_file(scratch / "broken" / "energy.csv"));
+  const auto refused = record("refused", {"--fault", "joint_60 off", "--fault", "all stuck=elbow"});
+  EXPECT_EQ(refused.exit_code, 2);
+  for (const char* part : {"--fault", "joint_60", "stuck=elbow", "motor_1, motor_2, shaft"})
+    EXPECT_NE(refused.err.find(part), std::string::npos) << part << " isn't in\n" << refused.err;
+  EXPECT_FALSE(fs::exists(scratch / "refused"));
+}
+
 TEST(Run, TellsWhatHappenedAndWhereTheRecordLies) {
   const Scratch scratch;
   const auto result = run_vsa(

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <ignition/msgs/boolean.pb.h>
 #include <ignition/msgs/clock.pb.h>
+#include <ignition/msgs/stringmsg.pb.h>
 #include <ignition/msgs/world_control.pb.h>
 #include <ignition/msgs/world_stats.pb.h>
 
@@ -65,6 +66,26 @@ TEST_F(WorldServer, RunsPausesAndRunsToATime) {
   ASSERT_TRUE(served.wait_for([goal_ns](const auto& world) { return world.time_ns() >= goal_ns; }));
   ASSERT_TRUE(served.wait_for([this](const auto&) { return served.control.paused(); }));
   EXPECT_EQ(served.time_ns(), goal_ns);
+}
+
+TEST_F(WorldServer, BreaksAUnitOnRequestAndSaysWhatItWontDo) {
+  served.start();
+  const auto ask_for = [this](const std::string& words) {
+    msgs::StringMsg request, reply;
+    request.set_data(words);
+    bool result = false;
+    const bool done = other.Request("/model/bench_arm/vsa/faults", request, 20000U, reply, result);
+    return done && result ? reply.data() : std::string("no answer");
+  };
+  msgs::WorldControl run;
+  ASSERT_EQ(ask(run), true);
+  EXPECT_EQ(ask_for("joint_1 off"), "ok: joint_1");
+  ASSERT_TRUE(served.wait_for([](const auto& world) { return !world.robot(0).faults(0).powered; }));
+  const std::string refused = ask_for("joint_1 supply_V=lots");
+  EXPECT_EQ(refused.rfind("refused: ", 0), 0U) << refused;
+  EXPECT_NE(refused.find("supply_V=lots"), std::string::npos) << refused;
+  EXPECT_EQ(ask_for("all none"), "ok: joint_1");
+  ASSERT_TRUE(served.wait_for([](const auto& world) { return world.robot(0).faults(0).powered; }));
 }
 
 TEST_F(WorldServer, ResetsToTheFirstSample) {

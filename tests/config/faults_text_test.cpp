@@ -1,0 +1,79 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/config/faults_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/one_joint.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::config {
+namespace {
+
+std::string refusal(std::string_view words) {
+  try {
+    (void)read_faults(words, "--fault");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST(FaultsText, EveryFaultIsReadAndWrittenBack) {
+  const std::string text =
+      "off lost_byte=0.01 flipped_byte=0.02 late_s=0.005 stuck=motor_2 stuck=shaft noise_rad=0.1 supply_V=7.5 unplugged=1 seed=9";
+  const device::Faults f = read_faults(text, "");
+  EXPECT_FALSE(f.powered);
+  EXPECT_EQ(f.lost_byte, 0.01);
+  EXPECT_EQ(f.flipped_byte, 0.02);
+  EXPECT_EQ(f.late_s, 0.005);
+  EXPECT_FALSE(f.encoder[0].stuck);
+  EXPECT_TRUE(f.encoder[1].stuck && f.encoder[2].stuck);
+  for (const auto& e : f.encoder) EXPECT_EQ(e.noise_rad, 0.1);
+  EXPECT_EQ(f.supply_V, 7.5);
+  EXPECT_TRUE(f.motor_unplugged[0] && !f.motor_unplugged[1]);
+  EXPECT_EQ(f.seed, 9U);
+  EXPECT_EQ(faults_text(f), text);
+  EXPECT_EQ(read_faults(" none\t", ""), device::Faults{});
+  EXPECT_EQ(faults_text(device::Faults{}), "none");
+}
+
+TEST(FaultsText, WhatIsWrongIsNamedAllAtOnce) {
+  const std::string all = refusal("of late_s=soon stuck=elbow unplugged=3 seed=-1 supply_V lost_byte=1.5");
+  for (const char* part :
+       {"of", "late_s=soon", "stuck=elbow", "motor_1, motor_2, shaft", "unplugged=3", "seed=-1", "supply_V", "1.5"})
+    EXPECT_NE(all.find(part), std::string::npos) << part << "\n" << all;
+  EXPECT_NE(refusal(""), "taken");
+  EXPECT_NE(refusal("noise_rad=nan"), "taken");
+  EXPECT_NE(refusal(std::string_view("supply_V=7\0", 11)), "taken");
+}
+
+TEST(FaultsText, OneActuatorOrAllAreBrokenOrNoneWhereSomethingIsWrong) {
+  host::RobotConfig config;
+  config.buses.push_back({"arm", 2'000'000, std::nullopt});
+  for (const int id : {1, 2})
+    config.actuators.push_back(
+        {"m" + std::to_string(id), "j" + std::to_string(id), "maker_pro", test::maker_pro(), 0, id, 0.0, 0.2});
+  host::Robot robot(config);
+  auto step = [&robot, t = std::int64_t{0}]() mutable {
+    const std::vector<host::JointIn> still(2);
+    std::vector<double> torque(2);
+    robot.advance(t, 1'000'000, still, torque);
+    t += 1'000'000;
+  };
+  EXPECT_EQ(apply_faults(robot, "m2 supply_V=7", "").size(), 1U);
+  step();
+  EXPECT_EQ(robot.faults(0), device::Faults{});
+  EXPECT_EQ(robot.faults(1).supply_V, 7.0);
+  EXPECT_EQ(apply_faults(robot, " all off", "").size(), 2U);
+  step();
+  EXPECT_FALSE(robot.faults(0).powered || robot.faults(1).powered);
+  EXPECT_NE(robot.faults(0).seed, robot.faults(1).seed);
+  EXPECT_THROW((void)apply_faults(robot, "m3 none", ""), InputError);
+  EXPECT_THROW((void)apply_faults(robot, "all none stuck=x", ""), InputError);
+  EXPECT_THROW((void)apply_faults(robot, "", ""), InputError);
+  step();
+  EXPECT_FALSE(robot.faults(0).powered);
+}
+
+}  // namespace
+}  // namespace vsa::config
