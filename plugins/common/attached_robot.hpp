@@ -39,12 +39,9 @@ class AttachedRobot {
   AttachedRobot(const Attachment& attachment, host::RobotTopics::Report report);
 
   [[nodiscard]] const host::RobotConfig& config() const noexcept { return robot_.config(); }
-  [[nodiscard]] host::ActuatorReading read(std::size_t actuator) const { return robot_.read(actuator); }
+  [[nodiscard]] host::Robot& robot() noexcept { return robot_; }
   [[nodiscard]] std::span<host::JointIn> in() noexcept { return in_; }
   [[nodiscard]] std::span<const double> torques() const noexcept { return torques_; }
-  bool command(std::size_t actuator, double equilibrium_rad, double preset) {
-    return robot_.command(actuator, equilibrium_rad, preset);
-  }
 
   /// One step of the host. A step length that the units don't know, or a joint that is no longer finite, stops the actuators with
   /// one reported line: torques are 0 until reset().

@@ -3,8 +3,10 @@
 // The plug-in as Gazebo Classic loads it from a world file.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
+#include <functional>
 
 #include "classic_world.hpp"
 
@@ -39,6 +41,16 @@ long resident_kB() {
   return kB;
 }
 
+/// Gazebo takes requests five times a wall second. False: not within 20 s of these.
+bool run_until(ClassicWorld& w, const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    w.run(20);
+  }
+  return true;
+}
+
 TEST(GazeboClassic, ALoadHangsFromTheModulesSpringsAndNotFromNothing) {
   ClassicWorld w(world_sdf("hanging", include("qbmove_bench_load", "bench", kLeverLevel)));
   const auto q = w.record("bench", 2000);
@@ -50,7 +62,8 @@ TEST(GazeboClassic, ALoadHangsFromTheModulesSpringsAndNotFromNothing) {
 }
 
 TEST(GazeboClassic, AModuleTurnsToItsInitialEquilibrium) {
-  const std::string model = bench_model("equilibrium_rad=\"0\"", "equilibrium_rad=\"0.8\"");
+  // Stiff, so that the shaft's friction holds it back by little.
+  const std::string model = bench_model("equilibrium_rad=\"0\" preset_rad=\"0.2\"", "equilibrium_rad=\"0.8\" preset_rad=\"0.6\"");
   ClassicWorld w(world_sdf("turning", model, false));
   w.run(1);
   EXPECT_LT(std::abs(w.angle("qbmove_bench_load")), 0.1) << "it starts where SDF puts it";
@@ -78,7 +91,8 @@ TEST(GazeboClassic, AfterAResetTheRunIsThatOfAFreshWorld) {
   const auto first = w.record("bench", 700);
   w.world->Reset();
   const auto second = w.record("bench", 700);
-  EXPECT_EQ(first, second);
+  // Not bit for bit: ODE starts its solver from the last step's forces, a reset or not.
+  for (std::size_t i = 0; i < first.size(); ++i) ASSERT_NEAR(first[i], second[i], 1e-6) << i;
 }
 
 TEST(GazeboClassic, ATimeSetBackLeavesTheActuatorsAsTheyAre) {
@@ -106,18 +120,20 @@ TEST(GazeboClassic, ABadElementIsOneMessageAndAModelWithoutTorques) {
   model = replaced(model, "<preset>qbmove_maker_pro</preset>", "<preset>qbmove_maker_pro</preset><stifness>3</stifness>");
   testing::internal::CaptureStderr();
   ClassicWorld w(world_sdf("bad", model));
+  w.run(1);
   const std::string log = testing::internal::GetCapturedStderr();
   EXPECT_NE(log.find("stays without torques"), std::string::npos) << log;
   EXPECT_NE(log.find("stifness"), std::string::npos) << log;
-  const auto before = w.world->Iterations();
+  const auto before = w.world->SimTime();
   w.run(1000);
-  EXPECT_EQ(w.world->Iterations(), before + 1000) << "the server lives on";
+  EXPECT_EQ((w.world->SimTime() - before).Double(), 1.0) << "the server lives on";
   EXPECT_EQ(w.joint("qbmove_bench_load")->GetForce(0), 0.0);
 }
 
 TEST(GazeboClassic, AnUnknownJointIsAnsweredWithTheJointsThereAre) {
   testing::internal::CaptureStderr();
   ClassicWorld w(world_sdf("unknown", bench_model("<joint>shaft</joint>", "<joint>shift</joint>")));
+  w.run(1);
   const std::string log = testing::internal::GetCapturedStderr();
   EXPECT_NE(log.find("did you mean shaft?"), std::string::npos) << log;
 }
@@ -144,11 +160,10 @@ TEST(GazeboClassic, ModelsSpawnedAndRemovedWhileTheWorldRunsLeakNothing) {
   long early = 0;
   for (int cycle = 0; cycle < 100; ++cycle) {
     w.world->InsertModelString(spawned);
+    ASSERT_TRUE(run_until(w, [&] { return w.world->ModelByName("comes") != nullptr; })) << cycle;
     w.run(20);
-    ASSERT_TRUE(w.world->ModelByName("comes")) << cycle;
     w.world->RemoveModel("comes");
-    w.run(5);
-    ASSERT_FALSE(w.world->ModelByName("comes")) << cycle;
+    ASSERT_TRUE(run_until(w, [&] { return w.world->ModelByName("comes") == nullptr; })) << cycle;
     if (cycle == 20) early = resident_kB();
   }
   EXPECT_LT(resident_kB() - early, 20'000) << "kB in 80 cycles";
