@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <gazebo/common/Console.hh>
+#include <gazebo/common/Events.hh>
+#include <gazebo/physics/Joint.hh>
+#include <gazebo/physics/Model.hh>
+#include <gazebo/physics/PhysicsEngine.hh>
+#include <gazebo/physics/World.hh>
 #include <utility>
 
 #include "vsa/errors.hpp"
@@ -14,6 +19,8 @@ namespace {
 using gazebo::physics::Base;
 using gazebo::physics::JointPtr;
 using gazebo::physics::ModelPtr;
+
+constexpr int kRefreshSteps = 16;  // inverse inertias only serve the robot's prediction
 
 struct NamedJoint {
   std::string name;  ///< relative to the plug-in's model
@@ -44,27 +51,37 @@ void ClassicRobot::attach(const sdf::ElementPtr& element) {
   Attachment attachment{
       element->ToString(""), model_->GetWorld()->Name() + ": " + model_->GetScopedName(), model_->GetScopedName(), {}};
   for (const NamedJoint& k : known) attachment.joints.push_back(k.name);
-  robot_ =
-      std::make_unique<AttachedRobot>(attachment, [](const std::string& line) { gzwarn << "vsa::Robot: " << line << std::endl; });
+  const auto report = [](const std::string& line) { gzwarn << "vsa::Robot: " << line << std::endl; };
+  robot_ = std::make_unique<AttachedRobot>(attachment, report);
+  own_port_ = std::make_unique<GazeboPort>(model_->GetWorld()->Name());
+  own_topics_.emplace(robot_->robot(), attachment.model, *own_port_, report);
   for (const host::ActuatorConfig& a : robot_->config().actuators) {
     joints_.push_back(std::find_if(known.begin(), known.end(), [&](const NamedJoint& k) { return k.name == a.joint; })->joint);
   }
+  tree_ = std::make_unique<ModelTree>(model_, joints_);
   connection_ = gazebo::event::Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo& info) { update(info); });
 }
 
 void ClassicRobot::update(const gazebo::common::UpdateInfo& info) {
   if (info.worldName != model_->GetWorld()->Name()) return;
+  if (steps_to_refresh_-- <= 0) {
+    tree_->update();
+    steps_to_refresh_ = kRefreshSteps - 1;
+  }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    robot_->in()[i] = {joints_[i]->Position(0), joints_[i]->GetVelocity(0), std::nullopt};
+    robot_->in()[i] = {joints_[i]->Position(0), joints_[i]->GetVelocity(0), tree_->inverse(i)};
   }
   robot_->step(std::llround(model_->GetWorld()->Physics()->GetMaxStepSize() * 1e9));
   for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i]->SetForce(0, robot_->torques()[i]);
   // Gazebo has counted this step already.
-  robot_->publish_step(info.simTime.sec * std::int64_t{1'000'000'000} + info.simTime.nsec);
+  const std::int64_t now_ns = info.simTime.sec * std::int64_t{1'000'000'000} + info.simTime.nsec;
+  robot_->publish_step(now_ns);
+  own_topics_->update(now_ns);
 }
 
 void ClassicRobot::Reset() {
   if (robot_) robot_->reset();
+  steps_to_refresh_ = 0;
 }
 
 GZ_REGISTER_MODEL_PLUGIN(ClassicRobot)

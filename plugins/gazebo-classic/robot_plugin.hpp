@@ -7,12 +7,16 @@
 #pragma once
 
 #include <gazebo/common/Plugin.hh>
-#include <gazebo/physics/physics.hh>
+#include <gazebo/common/UpdateInfo.hh>
+#include <gazebo/physics/PhysicsTypes.hh>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "attached_robot.hpp"
+#include "gazebo_port.hpp"
+#include "model_tree.hpp"
 
 namespace vsa::plugins {
 
@@ -31,6 +35,10 @@ class ClassicRobot : public gazebo::ModelPlugin {
   gazebo::physics::ModelPtr model_;
   std::vector<gazebo::physics::JointPtr> joints_;  ///< of the actuators
   std::unique_ptr<AttachedRobot> robot_;
+  std::unique_ptr<ModelTree> tree_;
+  int steps_to_refresh_ = 0;
+  std::optional<host::RobotTopics> own_topics_;  ///< on Gazebo's own transport; before the port, which must go first
+  std::unique_ptr<GazeboPort> own_port_;
   gazebo::event::ConnectionPtr connection_;  ///< gone before the robot is
 };
 
