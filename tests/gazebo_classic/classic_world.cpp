@@ -26,6 +26,8 @@ int free_port() {
   return ntohs(address.sin_port);
 }
 
+int worlds_made = 0;
+
 /// Gazebo, as a test wants it: on loopback, nothing downloaded, our plug-in and our models.
 class Server : public testing::Environment {
  public:
@@ -69,6 +71,12 @@ ClassicWorld::ClassicWorld(const std::string& sdf, const std::string& engine) {
   std::string text = sdf;
   const auto at = text.find("type='ode'");
   if (engine != "ode" && at != std::string::npos) text.replace(at, 10, "type='" + engine + "'");
+  // A name of its own: requests to remove the models of the last world may still be under way, and would reach a world of that
+  // name.
+  const std::string name = "<world name='";
+  if (const auto world_at = text.find(name); world_at != std::string::npos) {
+    text.insert(world_at + name.size(), "w" + std::to_string(worlds_made++) + "_");
+  }
   const std::string file = testing::TempDir() + "/vsa_" + std::to_string(getpid()) + ".world";
   std::ofstream(file) << text;
   world = gazebo::loadWorld(file);
