@@ -5,7 +5,6 @@
 
 #ifdef VSA_GZ_TRANSPORT
 #include <gz/common/Console.hh>
-#include <gz/plugin/Register.hh>
 #include <gz/sim/EntityComponentManager.hh>
 #include <gz/sim/EventManager.hh>
 #include <gz/sim/System.hh>
@@ -54,7 +53,6 @@ namespace math = gz::math;
 #include <ignition/gazebo/components/ParentEntity.hh>
 #include <ignition/gazebo/components/ParentLinkName.hh>
 #include <ignition/gazebo/components/Pose.hh>
-#include <ignition/plugin/Register.hh>
 
 #define VSA_ADD_PLUGIN IGNITION_ADD_PLUGIN
 #define VSA_ADD_PLUGIN_ALIAS IGNITION_ADD_PLUGIN_ALIAS

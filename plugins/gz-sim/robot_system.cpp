@@ -111,13 +111,3 @@ void SimRobot::Reset(const sim::UpdateInfo&, sim::EntityComponentManager&) {
 #endif
 
 }  // namespace vsa::plugins
-
-#ifdef VSA_HAS_RESET
-VSA_ADD_PLUGIN(vsa::plugins::SimRobot, vsa::plugins::sim::System, vsa::plugins::SimRobot::ISystemConfigure,
-               vsa::plugins::SimRobot::ISystemReset, vsa::plugins::SimRobot::ISystemPreUpdate,
-               vsa::plugins::SimRobot::ISystemPostUpdate)
-#else
-VSA_ADD_PLUGIN(vsa::plugins::SimRobot, vsa::plugins::sim::System, vsa::plugins::SimRobot::ISystemConfigure,
-               vsa::plugins::SimRobot::ISystemPreUpdate, vsa::plugins::SimRobot::ISystemPostUpdate)
-#endif
-VSA_ADD_PLUGIN_ALIAS(vsa::plugins::SimRobot, "vsa::Robot")

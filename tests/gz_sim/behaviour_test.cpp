@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <sdf/sdf.hh>
 
 #include "../gazebo_bench/bench_script.hpp"
 #include "entities.hpp"
@@ -59,7 +60,8 @@ std::string bench_model(const std::string& name, const std::string& pose) {
 }
 
 std::string world_sdf(const std::string& inside, double step_s = 1e-3) {
-  return "<sdf version='1.7'><world name='test'><physics name='step' type='dart'><max_step_size>" + std::to_string(step_s) +
+  return "<sdf version='1.7'><world name='test'><gravity>0 0 -9.81</gravity><physics name='step' type='dart'><max_step_size>" +
+         std::to_string(step_s) +
          "</max_step_size><real_time_factor>0</real_time_factor></physics><plugin filename='" VSA_SIM_LIBRARY
          "-physics-system' name='" VSA_SIM_CLASS "Physics'/>" +
          inside + "</world></sdf>";
