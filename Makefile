@@ -2,6 +2,7 @@
 #
 # make demo    set up, build, let the snake crawl over its terrain, say where the page lies
 # make test    set up, build, run the tests
+# make test-long   the tests that take minutes
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make bench   run the benchmarks and print their table
 # make asan    the tests under the address and undefined-behaviour sanitizers
@@ -12,7 +13,7 @@ JOBS ?= $(shell nproc)
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo test validate bench test-gazebo test-gz asan tidy format check-format experiments clean
+.PHONY: all setup build demo test test-long validate bench test-gazebo test-gz asan tidy format check-format experiments clean
 
 all: build
 
@@ -32,7 +33,13 @@ test:
 	@sh scripts/setup.sh test
 	@cmake --preset release > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
-	@ctest --test-dir $(BUILD) --output-on-failure -j 1
+	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -LE long
+
+test-long:
+	@sh scripts/setup.sh test
+	@cmake --preset release > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -L long
 
 test-gazebo:
 	@sh scripts/setup.sh classic
@@ -59,7 +66,7 @@ asan:
 	@sh scripts/setup.sh test
 	@cmake --preset asan > /dev/null
 	@cmake --build build/asan -j $(JOBS) -- --quiet
-	@ctest --test-dir build/asan --output-on-failure -j 1
+	@ctest --test-dir build/asan --output-on-failure -j 1 -LE long
 
 tidy:
 	@sh scripts/setup.sh tidy

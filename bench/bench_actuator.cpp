@@ -29,11 +29,9 @@ void actuator_step_1ms(benchmark::State& state) {
   auto s = unit.initial(0, 0.6109, 0);
   double q = 0, v = 0, t = 0;
   std::int64_t n = 0;
-  vsa::device::TickMail mail;
   for (auto _ : state) {
-    mail.has_inputs = n % 12 == 0;
-    if (mail.has_inputs) mail.inputs = unit.inputs_for(1.047 * std::sin(4.71 * t), 0.6109);
-    const double torque = unit.step(s, n * 1'000'000, 1'000'000, {q, v, 200.0}, {&mail, 1});
+    if (n % 12 == 0) unit.set_inputs(s, unit.inputs_for(1.047 * std::sin(4.71 * t), 0.6109));
+    const double torque = unit.step(s, n * 1'000'000, 1'000'000, {q, v, 200.0});
     v += 1e-3 * (torque - 0.5 * std::sin(q) - 0.02 * v) * 200.0;
     q += 1e-3 * v;
     t += 1e-3;

@@ -28,12 +28,16 @@ void Console::line(const std::string& text) {
 }
 
 void Console::progress(double now_s, std::optional<double> total_s, double factor) {
+  if (terminal_) status(progress_text(now_s, total_s, factor));
+}
+
+void Console::status(const std::string& text) {
   if (!terminal_) return;
   const auto now = std::chrono::steady_clock::now();
   if (now < next_) return;
   next_ = now + std::chrono::milliseconds(100);
   const std::lock_guard lock(mutex_);
-  std::fputs(("\r\033[K" + progress_text(now_s, total_s, factor)).c_str(), stderr);
+  std::fputs(("\r\033[K" + text).c_str(), stderr);
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -22,6 +22,8 @@ class Console {
 
   /// Redraws at most 10 times a second; on anything but a terminal it does nothing. `total_s` none: the run has no end.
   void progress(double now_s, std::optional<double> total_s, double factor);
+  /// The same for any text.
+  void status(const std::string& text);
   void wipe();
 
  private:

@@ -119,7 +119,7 @@ report::Table electrical_table(const SheetData& d) {
   report::Table out{"Electronics, control, limits", {"quantity", "value", "unit", "from"}, {}, ""};
   auto& rows = out.rows;
   rows.push_back({"supply", number(u.actuator.bridge.supply_V), "V", kPreset});
-  rows.push_back({"full voltage at a motor", number(s.line.voltage_V), "V", u.loop.supply_limit ? "firmware" : kDrive});
+  rows.push_back({"full voltage at a motor", number(s.line.voltage_V), "V", u.supply_limited() ? "firmware" : kDrive});
   rows.push_back(
       {"motors / current of each when stalled", fmt::format("{} / {}", motors, number(s.line.stall_current_A)), "A", kDrive});
   rows.push_back({"friction of a motor with gears", number(s.line.friction_Nm), "N·m", kPreset});
@@ -128,11 +128,11 @@ report::Table electrical_table(const SheetData& d) {
                   "°", kDrive});
   rows.push_back({"encoders", number(u.actuator.encoder.bits), "bit", kPreset});
   rows.push_back({"resolution measured / reported",
-                  pair(360.0 / std::pow(2.0, u.actuator.encoder.bits), 360.0 / (65536 >> u.loop.resolution[0])), "°", "firmware"});
+                  pair(360.0 / std::pow(2.0, u.actuator.encoder.bits), 360.0 / (65536 >> u.memory.resolution[0])), "°", "firmware"});
   rows.push_back({"current sense, a count", number(25771.0 / 8192.0), "mA", kDevice});
-  if (u.loop.limits_on) {
+  if (u.memory.limits_on != 0) {
     rows.push_back({"travel of the motors",
-                    range(u.loop.limits_raw[0] * 360 / kRawPerTurn, u.loop.limits_raw[1] * 360 / kRawPerTurn), "°", "firmware"});
+                    range(u.reference_range_raw(0)[0] * 360 / kRawPerTurn, u.reference_range_raw(0)[1] * 360 / kRawPerTurn), "°", "firmware"});
   }
   if (d.has_preset()) {
     rows.push_back(

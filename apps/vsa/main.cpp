@@ -9,10 +9,14 @@
 #include "characterize.hpp"
 #include "command.hpp"
 #include "datasheet.hpp"
+#include "emulate.hpp"
 #include "exit_codes.hpp"
+#include "get.hpp"
 #include "identify.hpp"
 #include "interrupt.hpp"
+#include "ping.hpp"
 #include "run.hpp"
+#include "set.hpp"
 #include "validate.hpp"
 #include "vsa/errors.hpp"
 
@@ -25,6 +29,8 @@ constexpr const char* kExamples = R"(Examples:
   vsa actuators qbmove_maker_pro
   vsa characterize qbmove_maker_pro
   vsa datasheet qbmove_maker_pro
+  vsa emulate qbmove_maker_pro --units 12
+  vsa ping qbmove_maker_pro
 
 Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 130 or 143 a run with a duration that a signal cut short.)";
 
@@ -48,6 +54,10 @@ int run_application(int argc, char** argv) {
   vsa::app::setup_run(app, exit_code);
   vsa::app::setup_command(app, exit_code);
   vsa::app::setup_actuators(app, exit_code);
+  vsa::app::setup_emulate(app, exit_code);
+  vsa::app::setup_ping(app, exit_code);
+  vsa::app::setup_get(app, exit_code);
+  vsa::app::setup_set(app, exit_code);
   vsa::app::setup_characterize(app, exit_code);
   vsa::app::setup_identify(app, exit_code);
   vsa::app::setup_validate(app, exit_code);

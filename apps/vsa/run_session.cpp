@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "find_file.hpp"
 #include "interrupt.hpp"
@@ -63,6 +64,7 @@ RunSession::RunSession(const RunOptions& options, Console& console)
   if (gait_) gait_->bind(world_);
   const auto report = [&console](const std::string& line) { console.line(line); };
   if (!options.no_topics) server_.emplace(world_, control_, report);
+  ports_.emplace(world_, report);
   // Last, so that a run that is refused has not touched an earlier record.
   if (!options.record.empty()) recorder_.emplace(world_, options.record, recorder_options());
   if (duration_s_) end_ns_ = world_.time_ns() + std::llround(*duration_s_ * 1e9);
@@ -99,12 +101,18 @@ void RunSession::step() {
     travel_.add(world_.center_of_mass(robot_model_));
   }
   if (server_) server_->stepped();
-  if (realtime_ && !pace_.hold(world_.time_ns()) && !told_late_) {
-    told_late_ = true;
-    console_.line("warning: this machine can't keep up with real time in this world");
-  }
+  keep_time();
   constexpr std::uint64_t kLookAtClock = 16;  // steps between two looks at the wall clock for the progress line
   if (steps_ % kLookAtClock == 0) console_.progress(world_.time_s(), duration_s_, speed_factor());
+}
+
+/// Without --realtime nothing waits, but a client on a serial port lives by the wall clock and wants to know.
+void RunSession::keep_time() {
+  if (!realtime_ && (ports_->empty() || told_late_)) return;
+  RealTimePace::Clock::time_point due;
+  const bool in_time = realtime_ ? pace_.hold(world_.time_ns()) : pace_.keeps_up(world_.time_ns(), RealTimePace::Clock::now(), due);
+  if (in_time || std::exchange(told_late_, true)) return;
+  console_.line("warning: this machine can't keep up with real time in this world");
 }
 
 void RunSession::reset() {
@@ -160,6 +168,8 @@ std::vector<record::Statistic> RunSession::statistics() const {
 std::vector<record::Statistic> RunSession::finish(const std::string& note) {
   wall_.pause();
   std::vector<record::Statistic> out = statistics();
+  const auto ports = ports_->statistics();
+  out.insert(out.end(), ports.begin(), ports.end());
   if (recorder_) {
     const auto page = recorder_->finish(out, note);
     out.push_back({"replay page", page.string()});

@@ -11,6 +11,7 @@
 
 #include "console.hpp"
 #include "pace.hpp"
+#include "robot_ports.hpp"
 #include "run.hpp"
 #include "travel.hpp"
 #include "vsa/engine/gait.hpp"
@@ -38,6 +39,7 @@ class RunSession {
   void step();
   void reset();
   void idle();
+  void keep_time();
   [[nodiscard]] double speed_factor() const;
   [[nodiscard]] std::vector<record::Statistic> statistics() const;
 
@@ -51,6 +53,7 @@ class RunSession {
   topics::RunControl control_;
   std::optional<record::Recorder> recorder_;
   std::optional<topics::WorldServer> server_;
+  std::optional<RobotPorts> ports_;
   Travel travel_;
   record::Cadence travel_cadence_;
   RealTimePace pace_;

@@ -16,12 +16,12 @@ int main() {
   config.actuator.shaft_friction = {0.01, 0.03};
   vsa::device::Unit unit(config);
   auto state = unit.initial(0.0, 0.4, 0.0);  // equilibrium, preset, shaft: rad
-  vsa::firmware::set_inputs(config.loop, state.loop, unit.inputs_for(0.8, 0.4));
+  unit.set_inputs(state, unit.inputs_for(0.8, 0.4));
 
   const double inertia = 0.005, dt = 1e-3;
   double q = 0, v = 0;
   for (int n = 0; n < 2000; ++n) {
-    const double torque = unit.step(state, n * 1'000'000LL, 1'000'000, {q, v, 1 / inertia}, {});
+    const double torque = unit.step(state, n * 1'000'000LL, 1'000'000, {q, v, 1 / inertia});
     v += dt * (torque - 0.3 * std::sin(q)) / inertia;
     q += dt * v;
   }

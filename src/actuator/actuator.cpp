@@ -18,10 +18,12 @@ constexpr double kAbsoluteTolerance_Nm = 1e-6;
 double load_curvature(const elastic::Hessian& h, int i) noexcept { return i == 0 ? h.x0x0 : h.x1x1; }
 
 /// The mean, carried from the displacements it was evaluated at to nearby ones.
-void correct(elastic::SegmentMean& mean, const std::array<double, 2>& step) noexcept {
-  mean.torque -= mean.slope.qx[0] * step[0] + mean.slope.qx[1] * step[1];
-  mean.load[0] -= mean.slope.x0x0 * step[0] + mean.slope.x0x1 * step[1];
-  mean.load[1] -= mean.slope.x0x1 * step[0] + mean.slope.x1x1 * step[1];
+elastic::SegmentMean carried(elastic::SegmentMean mean, double dq, const std::array<double, 2>& dx) noexcept {
+  const elastic::Hessian& h = mean.slope;
+  mean.torque -= h.qq * dq + h.qx[0] * dx[0] + h.qx[1] * dx[1];
+  mean.load[0] -= h.qx[0] * dq + h.x0x0 * dx[0] + h.x0x1 * dx[1];
+  mean.load[1] -= h.qx[1] * dq + h.x0x1 * dx[0] + h.x1x1 * dx[1];
+  return mean;
 }
 
 }  // namespace
@@ -32,7 +34,8 @@ Actuator::Actuator(ActuatorParams params)
       friction_(drive::at_pulley(params_.gearbox.friction, params_.gearbox.ratio)),
       shaft_friction_(params_.shaft_friction),
       tendon_(drive::FrictionParams{params_.tendon.friction, params_.tendon.presliding_J}),
-      motors_(params_.transmission->motor_count()) {}
+      motors_(params_.transmission->motor_count()),
+      springs_(params_.transmission->spring_count()) {}
 
 elastic::Positions Actuator::positions(const ActuatorState& s, double shaft) const noexcept {
   return {shaft, {s.motor[0].angle, s.motor[1].angle}};
@@ -49,6 +52,7 @@ void Actuator::place(ActuatorState& s, double shaft) const noexcept {
   s.shaft = s.shaft_anchor = shaft;
   const elastic::Response r = params_.transmission->evaluate(positions(s, shaft));
   s.load = r.load;
+  s.end = {r.torque, r.load, {}};
   s.tendon_anchor = s.spring_w = params_.transmission->signed_energies(positions(s, shaft));
   s.ledger = {};
   s.ledger.elastic = r.energy;
@@ -82,14 +86,16 @@ const drive::MotorStepper& Actuator::stepper(double h_s, drive::Terminal termina
   return terminal == drive::Terminal::driven ? prepared_[0].driven : prepared_[0].open;
 }
 
-Actuator::Start Actuator::start_of(ActuatorState& s) const noexcept {
-  Start start;
+void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentInput& in) noexcept {
+  for (int i = 0; i < 2; ++i) seg.stepper[i] = &stepper(h_s, in.terminal[i]);
+  seg.in = in;
+  seg.tried = false;
   for (int i = 0; i < motors_; ++i) {
     // The limit of the gears' friction follows the load of the last segment; its bristle's stiffness doesn't, so that a limit that
     // grows adds no energy and one that shrinks burns what it lets go.
-    drive::Friction& gear = start.gear[i];
+    drive::Friction& gear = seg.gear[i];
     gear = drive::at_load(friction_, params_.gearbox.load_loss, s.load[i]);
-    double& u = start.gear_u[i];
+    double& u = seg.gear_u[i];
     u = s.motor[i].angle - s.motor_anchor[i];
     if (gear.stiffness > 0 && std::abs(u) > gear.presliding_rad) {
       const double kept = std::copysign(gear.presliding_rad, u);
@@ -97,26 +103,29 @@ Actuator::Start Actuator::start_of(ActuatorState& s) const noexcept {
       s.motor_anchor[i] = s.motor[i].angle - kept;
       u = kept;
     }
+    seg.free[i] = seg.stepper[i]->free_displacement(s.motor[i], in.voltage[i]);
   }
   if (tendon_.coulomb_Nm > 0) {
-    start.w = s.spring_w;
-    for (int i = 0; i < 2; ++i) start.w_u[i] = start.w[i] - s.tendon_anchor[i];
+    seg.w = s.spring_w;
+    for (int i = 0; i < 2; ++i) seg.w_u[i] = seg.w[i] - s.tendon_anchor[i];
   }
-  return start;
 }
 
-void Actuator::add_tendon_friction(const Start& start, const elastic::Positions& to, const std::array<double, 2>& deflection,
-                                   elastic::SegmentMean& mean) const noexcept {
-  const std::array<double, 2> w = params_.transmission->signed_energies(to);
-  for (int i = 0; i < params_.transmission->spring_count(); ++i) {
-    const drive::FrictionStep step = drive::follow_friction(tendon_, start.w_u[i], w[i] - start.w[i]);
-    // Mean tension over the segment, Δw/Δδ; by the elastic mean where the spring doesn't pass through zero.
-    const bool same_side = (w[i] < 0) == (start.w[i] < 0);
-    const double tension = same_side ? std::abs(mean.load[i]) : std::abs((w[i] - start.w[i]) / deflection[i]);
+void Actuator::add_tendon_friction(const Segment& seg, const elastic::Positions& to, elastic::SegmentMean& mean) const noexcept {
+  for (int i = 0; i < springs_; ++i) {
+    const double deflection = seg.in.dq - seg.dx[i];
+    const double end = to.q - to.x[i];
+    // The mean tension times the deflection's change is the energy's change: w at the end costs no call of the law.
+    const double energy = std::max(std::abs(seg.w[i]) + mean.load[i] * deflection, 0.0);
+    const double w = std::copysign(energy, end);
+    const drive::FrictionStep step = drive::follow_friction(tendon_, seg.w_u[i], w - seg.w[i]);
+    // Mean |tension| over the segment, Δw/Δδ; by the elastic mean where the spring doesn't pass through zero.
+    const bool same_side = (w < 0) == (seg.w[i] < 0);
+    const double tension = same_side ? std::abs(mean.load[i]) : std::abs((w - seg.w[i]) / deflection);
     double& xx = i == 0 ? mean.slope.x0x0 : mean.slope.x1x1;
-    const double tension_slope = w[i] < 0 ? -xx : xx;
-    const double end_tension = tension + deflection[i] * tension_slope;
-    const bool sliding = std::abs(start.w_u[i] + (w[i] - start.w[i])) > tendon_.presliding_rad;
+    const double tension_slope = w < 0 ? -xx : xx;
+    const double end_tension = tension + deflection * tension_slope;
+    const bool sliding = std::abs(seg.w_u[i] + (w - seg.w[i])) > tendon_.presliding_rad;
     const double torque = step.torque * tension;
     const double slope = (sliding ? 0.0 : 0.5 * tendon_.stiffness * end_tension * tension) - step.torque * tension_slope;
     mean.torque += torque;
@@ -127,79 +136,96 @@ void Actuator::add_tendon_friction(const Start& start, const elastic::Positions&
   }
 }
 
-void Actuator::move_tendons(ActuatorState& s, const Start& start) const noexcept {
+void Actuator::move_tendons(ActuatorState& s, const Segment& seg) const noexcept {
   const std::array<double, 2>& w = s.spring_w;
   s.ledger.tendon_bristle = 0;
-  for (int i = 0; i < params_.transmission->spring_count(); ++i) {
-    const drive::FrictionStep step = drive::follow_friction(tendon_, start.w_u[i], w[i] - start.w[i]);
-    s.ledger.tendon_friction += drive::friction_heat(tendon_, start.w_u[i], step);
+  for (int i = 0; i < springs_; ++i) {
+    const drive::FrictionStep step = drive::follow_friction(tendon_, seg.w_u[i], w[i] - seg.w[i]);
+    s.ledger.tendon_friction += drive::friction_heat(tendon_, seg.w_u[i], step);
     s.tendon_anchor[i] += step.anchor_travel;
     s.ledger.tendon_bristle += drive::bristle_energy(tendon_, w[i] - s.tendon_anchor[i]);
   }
 }
 
-Actuator::Pulleys Actuator::solve(const ActuatorState& s, const Start& start, const drive::MotorStepper& stepper,
-                                  const SegmentInput& in) const noexcept {
-  const double c = stepper.compliance();
-  const elastic::Positions from = positions(s, s.shaft);
-  std::array<double, 2> free{};
-  const std::array<double, 2>& u = start.gear_u;
-  Pulleys p;
+SegmentResult Actuator::foresee(const ActuatorState& s, Segment& seg) const noexcept {
+  SegmentResult r{s.end.torque, s.end.slope.qq};
   for (int i = 0; i < motors_; ++i) {
-    free[i] = stepper.free_displacement(s.motor[i], in.voltage[i]);
-    p.dx[i] = drive::solve_friction(start.gear[i], u[i], free[i] + c * s.load[i], c).displacement;
+    const double c = seg.stepper[i]->compliance();
+    // load̄ ≈ end.load − qx·dq − κ·dx, at dq = 0.
+    const double qx = s.end.slope.qx[i];
+    const double yield = 1.0 / (1.0 + c * std::max(load_curvature(s.end.slope, i), 0.0));
+    const auto found = drive::solve_friction(seg.gear[i], seg.gear_u[i], (seg.free[i] + c * s.end.load[i]) * yield, c * yield);
+    const double bristle = found.anchor_travel != 0.0 ? 0.0 : 0.5 * seg.gear[i].stiffness;
+    seg.dx[i] = found.displacement;
+    seg.gain[i] = -qx * c * yield / (1.0 + c * yield * bristle);
+    r.torque -= qx * seg.dx[i];
+    r.slope += qx * seg.gain[i];
   }
+  seg.in.dq = 0;
+  seg.tried = true;
+  return r;
+}
+
+bool Actuator::correction(Segment& seg, std::array<double, 2>& step) const noexcept {
+  bool accepted = true;
+  seg.slope = seg.mean.slope.qq;
+  for (int i = 0; i < motors_; ++i) {
+    const double c = seg.stepper[i]->compliance();
+    // load(dx) ≈ load − κ·step; κ > −1/(2c) keeps the linear problem monotone where a law isn't convex.
+    const double kappa = std::max(load_curvature(seg.mean.slope, i), -0.5 / c);
+    const double yield = 1.0 / (1.0 + c * kappa);
+    const double target = (seg.free[i] + c * (seg.mean.load[i] + kappa * seg.dx[i])) * yield;
+    seg.friction[i] = drive::solve_friction(seg.gear[i], seg.gear_u[i], target, c * yield);
+    step[i] = seg.friction[i].displacement - seg.dx[i];
+    accepted = accepted && std::abs(kappa * step[i]) <= kRelativeTolerance * std::abs(seg.mean.load[i]) + kAbsoluteTolerance_Nm;
+    const double bristle = seg.friction[i].anchor_travel != 0.0 ? 0.0 : 0.5 * seg.gear[i].stiffness;
+    seg.gain[i] = -seg.mean.slope.qx[i] * c * yield / (1.0 + c * yield * bristle);
+    seg.slope += seg.mean.slope.qx[i] * seg.gain[i];
+  }
+  return accepted;
+}
+
+SegmentResult Actuator::attempt(const ActuatorState& s, Segment& seg, double dq) const noexcept {
+  if (!seg.tried) foresee(s, seg);
+  for (int i = 0; i < motors_; ++i) seg.dx[i] += seg.gain[i] * (dq - seg.in.dq);
+  seg.in.dq = dq;
+  const elastic::Positions from = positions(s, s.shaft);
   double last_residual = std::numeric_limits<double>::infinity();
-  std::array<double, 2> last_dx = p.dx;
+  std::array<double, 2> last_dx = seg.dx;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const elastic::Positions to{from.q + in.dq, {from.x[0] + p.dx[0], from.x[1] + p.dx[1]}};
-    p.mean = params_.transmission->mean_over(from, to);
-    if (tendon_.coulomb_Nm > 0) add_tendon_friction(start, to, {in.dq - p.dx[0], in.dq - p.dx[1]}, p.mean);
-    p.slope = p.mean.slope.qq;
+    const elastic::Positions to{from.q + dq, {from.x[0] + seg.dx[0], from.x[1] + seg.dx[1]}};
+    seg.mean = params_.transmission->mean_over(from, to);
+    if (tendon_.coulomb_Nm > 0) add_tendon_friction(seg, to, seg.mean);
     std::array<double, 2> step{};
-    double residual = 0;
-    bool accepted = true;
-    for (int i = 0; i < motors_; ++i) {
-      // load(dx) ≈ load − κ·step; κ > −1/(2c) keeps the linear problem monotone where a law isn't convex.
-      const double kappa = std::max(load_curvature(p.mean.slope, i), -0.5 / c);
-      const double yield = 1.0 / (1.0 + c * kappa);
-      const double target = (free[i] + c * (p.mean.load[i] + kappa * p.dx[i])) * yield;
-      p.friction[i] = drive::solve_friction(start.gear[i], u[i], target, c * yield);
-      step[i] = p.friction[i].displacement - p.dx[i];
-      residual = std::max(residual, std::abs(step[i]));
-      accepted = accepted && std::abs(kappa * step[i]) <= kRelativeTolerance * std::abs(p.mean.load[i]) + kAbsoluteTolerance_Nm;
-      const double bristle = p.friction[i].anchor_travel != 0.0 ? 0.0 : 0.5 * start.gear[i].stiffness;
-      p.slope -= p.mean.slope.qx[i] * p.mean.slope.qx[i] * c * yield / (1.0 + c * yield * bristle);
-    }
-    if (accepted || iteration + 1 == kMaxIterations) {
-      for (int i = 0; i < 2; ++i) p.dx[i] += step[i];
-      correct(p.mean, step);
-      return p;
+    if (correction(seg, step) || iteration + 1 == kMaxIterations) {
+      for (int i = 0; i < 2; ++i) seg.dx[i] += step[i];
+      seg.mean = carried(seg.mean, 0.0, step);
+      break;
     }
     // A hardening spring can throw Newton far out; halve until the correction shrinks.
+    const double residual = std::max(std::abs(step[0]), std::abs(step[1]));
     const bool worse = !(residual < last_residual);
     for (int i = 0; i < 2; ++i) {
-      const double next = worse ? 0.5 * (p.dx[i] + last_dx[i]) : p.dx[i] + step[i];
-      if (!worse) last_dx[i] = p.dx[i];
-      p.dx[i] = next;
+      const double next = worse ? 0.5 * (seg.dx[i] + last_dx[i]) : seg.dx[i] + step[i];
+      if (!worse) last_dx[i] = seg.dx[i];
+      seg.dx[i] = next;
     }
     if (!worse) last_residual = residual;
   }
-  return p;
+  return {seg.mean.torque, seg.slope};
 }
 
-void Actuator::drive_motors(ActuatorState& s, const Start& start, const drive::MotorStepper& stepper, const SegmentInput& in,
-                            const Pulleys& p) const noexcept {
+void Actuator::drive_motors(ActuatorState& s, const Segment& seg) const noexcept {
   Ledger& l = s.ledger;
   for (int i = 0; i < motors_; ++i) {
     drive::MotorState& m = s.motor[i];
-    const double voltage = in.terminal == drive::Terminal::driven ? in.voltage[i] : 0.0;
-    if (in.terminal == drive::Terminal::open && motor_.inductance_H) {
+    const double voltage = seg.in.terminal[i] == drive::Terminal::driven ? seg.in.voltage[i] : 0.0;
+    if (seg.in.terminal[i] == drive::Terminal::open && motor_.inductance_H) {
       l.copper += 0.5 * *motor_.inductance_H * m.current * m.current;  // an opened winding burns what it stored
       m.current = 0;
     }
-    const drive::MotorStep step = stepper.step(m, voltage, p.mean.load[i] + p.friction[i].torque);
-    l.motor_friction += drive::friction_heat(start.gear[i], start.gear_u[i], p.friction[i]);
+    const drive::MotorStep step = seg.stepper[i]->step(m, voltage, seg.mean.load[i] + seg.friction[i].torque);
+    l.motor_friction += drive::friction_heat(seg.gear[i], seg.gear_u[i], seg.friction[i]);
     l.supply += voltage * step.charge;
     l.supply_moved += std::abs(voltage * step.charge);
     l.copper += motor_.resistance_Ohm * step.int_II;
@@ -208,27 +234,32 @@ void Actuator::drive_motors(ActuatorState& s, const Start& start, const drive::M
     m.angle += step.displacement;
     m.speed = step.speed;
     m.current = motor_.inductance_H ? step.current : 0.0;
-    s.motor_anchor[i] += p.friction[i].anchor_travel;
-    s.load[i] = p.mean.load[i];
+    s.motor_anchor[i] += seg.friction[i].anchor_travel;
+    s.load[i] = seg.mean.load[i];
   }
+  s.end = carried(seg.mean, seg.in.dq, seg.dx);
 }
 
-SegmentResult Actuator::segment(ActuatorState& s, double h_s, const SegmentInput& in) noexcept {
-  const drive::MotorStepper& prepared = stepper(h_s, in.terminal);
-  const Start start = start_of(s);
-  const Pulleys p = solve(s, start, prepared, in);
+void Actuator::finish(ActuatorState& s, const Segment& seg) const noexcept {
   const std::array<double, 2> before{s.motor[0].angle, s.motor[1].angle};
   const double before_J = s.ledger.elastic + s.ledger.tendon_bristle + s.ledger.tendon_friction;
-  drive_motors(s, start, prepared, in, p);
-  s.shaft += in.dq;
+  drive_motors(s, seg);
+  s.shaft += seg.in.dq;
   const double elastic = energy_at(s, s.shaft);
-  double work = p.mean.torque * in.dq;
-  for (int i = 0; i < motors_; ++i) work += p.mean.load[i] * (s.motor[i].angle - before[i]);
-  if (tendon_.coulomb_Nm > 0) move_tendons(s, start);
+  double work = seg.mean.torque * seg.in.dq;
+  for (int i = 0; i < motors_; ++i) work += seg.mean.load[i] * (s.motor[i].angle - before[i]);
+  if (tendon_.coulomb_Nm > 0) move_tendons(s, seg);
   s.ledger.elastic = elastic;
   s.ledger.integrator -= (elastic + s.ledger.tendon_bristle + s.ledger.tendon_friction - before_J) + work;
   book_motors(s);
-  return {p.mean.torque, p.slope};
+}
+
+SegmentResult Actuator::segment(ActuatorState& s, double h_s, const SegmentInput& in) noexcept {
+  Segment seg;
+  begin(s, seg, h_s, in);
+  const SegmentResult result = attempt(s, seg, in.dq);
+  finish(s, seg);
+  return result;
 }
 
 drive::FrictionStep Actuator::shaft_friction(ActuatorState& s, double displacement) const noexcept {
@@ -256,7 +287,7 @@ void Actuator::settle(ActuatorState& s, double actual, double applied_torque, do
   if (tendon_.coulomb_Nm > 0) {
     const std::array<double, 2>& w = s.spring_w;
     l.tendon_bristle = 0;
-    for (int i = 0; i < params_.transmission->spring_count(); ++i) {
+    for (int i = 0; i < springs_; ++i) {
       const double u = std::clamp(w[i] - s.tendon_anchor[i], -tendon_.presliding_rad, tendon_.presliding_rad);
       s.tendon_anchor[i] = w[i] - u;
       l.tendon_bristle += drive::bristle_energy(tendon_, u);

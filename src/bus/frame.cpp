@@ -16,13 +16,6 @@ std::uint8_t checksum(std::span<const std::uint8_t> bytes) noexcept {
   return sum;
 }
 
-void FrameBytes::push(std::uint8_t byte) noexcept {
-  if (size < bytes.size())
-    bytes[size++] = byte;
-  else
-    overflowed = true;
-}
-
 FrameBytes encode_frame(std::uint8_t id, std::uint8_t command, std::span<const std::uint8_t> payload) noexcept {
   FrameBytes out;
   if (payload.size() > kMaxPayload) return out;
@@ -67,6 +60,18 @@ ReceiverEvent UnitReceiver::push(std::uint8_t byte, std::uint8_t own_id) noexcep
       return ReceiverEvent::skipped;
   }
   return ReceiverEvent::none;
+}
+
+ReceiverEvent UnitReceiver::push_frame(std::span<const std::uint8_t> bytes, std::uint8_t own_id) noexcept {
+  last = {};
+  pending_id = bytes[2];
+  mine = pending_id == own_id || pending_id == kBroadcastId;
+  received = wanted = bytes[3];
+  if (!mine) return ReceiverEvent::skipped;
+  std::copy(bytes.begin() + kHeaderBytes, bytes.end(), frame.body.begin());
+  frame.id = pending_id;
+  frame.length = wanted;
+  return checksum(bytes.subspan(kHeaderBytes)) == 0 ? ReceiverEvent::frame : ReceiverEvent::bad_checksum;
 }
 
 std::size_t HostReceiver::push(std::span<const std::uint8_t> bytes) noexcept {

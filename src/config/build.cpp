@@ -90,10 +90,10 @@ void check_together(const device::UnitConfig& unit, Resolver& resolver) {
     resolver.problem(resolver.line_of("tendon.presliding_J"), "tendon.presliding_J", number_text(unit.actuator.tendon.presliding_J),
                      "tendon.friction needs a presliding", "above 0");
   }
-  const auto& limits = unit.loop.limits_raw;
-  if (limits[0] >= limits[1]) {
-    resolver.problem(resolver.line_of("firmware.limit_low_raw"), "firmware.limit_low_raw", std::to_string(limits[0]),
-                     "must be below firmware.limit_high_raw", "below " + std::to_string(limits[1]));
+  const std::int32_t low = unit.memory.limit_low[0], high = unit.memory.limit_high[0];
+  if (low >= high) {
+    resolver.problem(resolver.line_of("firmware.limit_low_raw"), "firmware.limit_low_raw", std::to_string(low),
+                     "must be below firmware.limit_high_raw", "below " + std::to_string(high));
   }
 }
 

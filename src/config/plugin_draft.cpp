@@ -30,6 +30,7 @@ class Finisher {
       give_ids();
       check_cycles();
     }
+    check_ports();
     return std::move(config_);
   }
 
@@ -42,7 +43,7 @@ class Finisher {
     std::set<std::string> seen;
     for (const BusDraft& b : draft_.buses) {
       if (!seen.insert(b.name).second) add(b.path + "@name", '"' + b.name + '"', "two buses have this name", "unique names");
-      config_.buses.push_back({b.name, b.baud_Hz, b.cycle_s});
+      config_.buses.push_back({b.name, b.baud_Hz, b.cycle_s, b.serial_port});
     }
     if (draft_.buses.empty()) config_.buses.emplace_back().name = kDefaultBus;
     used_.resize(config_.buses.size());
@@ -129,12 +130,9 @@ class Finisher {
   /// The firmware would clamp the references; where the unit starts must be what the file says.
   void check_references(const ActuatorDraft& a, const host::ActuatorConfig& out) {
     const auto& law = *out.unit.actuator.transmission;
-    const firmware::LoopParams& loop = out.unit.loop;
     const auto x = law.references({out.initial_equilibrium_rad, out.initial_preset});
     for (std::size_t i = 0; i < static_cast<std::size_t>(law.motor_count()); ++i) {
-      const double bits = 32768.0 * (1 << loop.resolution[i]);
-      const double low = loop.limits_on ? loop.limits_raw[2 * i] : -bits;
-      const double high = loop.limits_on ? loop.limits_raw[2 * i + 1] : bits - 1;
+      const auto [low, high] = out.unit.reference_range_raw(static_cast<int>(i));
       const double raw = x[i] * kRawPerTurn / (2 * kPi);
       if (raw >= low - 0.5 && raw <= high + 0.5) continue;
       add(a.path + "/initial", number_text(x[i]) + " rad",
@@ -180,6 +178,15 @@ class Finisher {
       if (id > kMaxId) add(a.path + "/bus", "", "the bus is full", "at most " + std::to_string(kMaxId) + " units on a bus");
       used.emplace(id, a.path);
       config_.actuators[i].id = id;
+    }
+  }
+
+  void check_ports() {
+    std::map<std::string, std::string> ports;
+    for (const BusDraft& bus : draft_.buses) {
+      if (!bus.serial_port) continue;
+      const auto [at, fresh] = ports.emplace(*bus.serial_port, bus.path);
+      if (!fresh) add(bus.path + "/serial_port", '"' + *bus.serial_port + '"', at->second + " has this port", "one bus a port");
     }
   }
 

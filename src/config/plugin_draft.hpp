@@ -34,6 +34,7 @@ struct BusDraft {
   std::string path, name;
   double baud_Hz = 2'000'000;
   std::optional<double> cycle_s;
+  std::optional<std::string> serial_port;
 };
 
 struct RobotDraft {

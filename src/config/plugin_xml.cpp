@@ -17,6 +17,7 @@ using tinyxml2::XMLElement;
 constexpr double kMaxAngle = 1e6;  // what a command may be depends on the firmware's limits, checked with the preset
 constexpr double kMinBaud = 9600, kMaxBaud = 10e6;
 constexpr double kMaxCycle_s = 10;
+constexpr std::size_t kLongestPort = 100;  // a socket or link name has at most 107 bytes
 constexpr double kMinRate_Hz = 1e-3, kMaxRate_Hz = 1000;
 
 class Parser {
@@ -118,6 +119,19 @@ class Parser {
     if (key && value) draft.overrides.push_back({*key, *value});
   }
 
+  /// A name for a link, or a whole path; characters that every shell and client takes as they are.
+  void check_port(const std::string& path, const std::string& port) {
+    const auto good = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+    };
+    const bool whole = !port.empty() && port.front() == '/';
+    const std::string_view name = std::string_view(port).substr(port.rfind('/') + 1);
+    const bool chars = std::all_of(port.begin(), port.end(), [&](char c) { return good(c) || (whole && c == '/'); });
+    if (chars && !name.empty() && name != "." && name != ".." && port.size() <= kLongestPort) return;
+    xml_.add(path, '"' + port + '"', "can't be the name of a serial port",
+             "1 … " + std::to_string(kLongestPort) + " letters, digits, and _ - . (or an absolute path of such names)");
+  }
+
   BusDraft bus(const XMLElement& e) {
     BusDraft draft;
     draft.name = xml_.attribute(e, "name").value_or("");
@@ -139,8 +153,8 @@ class Parser {
       }
     }
     if (const XMLElement* port = xml_.only(e, draft.path, "serial_port")) {
-      xml_.add(draft.path + "/serial_port", '"' + xml_.text(*port, draft.path + "/serial_port") + '"',
-               "this version has no virtual serial port: leave the element out and command through topics");
+      draft.serial_port = xml_.text(*port, draft.path + "/serial_port");
+      check_port(draft.path + "/serial_port", *draft.serial_port);
     }
     return draft;
   }

@@ -9,15 +9,20 @@ namespace {
 using Unit = device::UnitConfig;
 
 constexpr std::string_view kFirmware = "the published firmware, NMMI/qbmove-maker-pro 6.1";
+constexpr std::string_view kDefect = "the published programs have this defect";
 constexpr std::string_view kSensor = "AS5045 magnetic encoder, as the qbmove has";
 constexpr std::string_view kPulleySide = "numbers given at the driving pulley need no ratio";
 
-void set_resolution(Unit& u, double v) {
-  for (int& bits : u.loop.resolution) bits = static_cast<int>(v);
-}
+void set_resolution(Unit& u, double v) { u.memory.resolution.fill(static_cast<std::uint8_t>(v)); }
 
-void set_limit_low(Unit& u, double v) { u.loop.limits_raw[0] = u.loop.limits_raw[2] = static_cast<std::int32_t>(v); }
-void set_limit_high(Unit& u, double v) { u.loop.limits_raw[1] = u.loop.limits_raw[3] = static_cast<std::int32_t>(v); }
+void set_limit_low(Unit& u, double v) { u.memory.limit_low.fill(static_cast<std::int32_t>(v)); }
+void set_limit_high(Unit& u, double v) { u.memory.limit_high.fill(static_cast<std::int32_t>(v)); }
+
+/// Before the other firmware keys: they overwrite what the model's program begins with.
+void set_model(Unit& u, double v) {
+  u.program.model = v == 0 ? firmware::Model::maker_pro : firmware::Model::advanced;
+  u.memory = firmware::initial_memory(u.program.model);
+}
 
 // Bounds are what the models accept and a real actuator could have; a preset narrows them to what its device could have.
 constexpr Parameter kTable[] = {
@@ -67,25 +72,62 @@ constexpr Parameter kTable[] = {
      "0", "ideal calibration", [](Unit& u, double v) { u.actuator.encoder.zero_rad = v; }},
     {"sensor.shaft_zero_rad", "rad", Kind::number, -3.2, 3.2, "", "added to the shaft's reading alone", Need::defaulted, "0",
      "ideal calibration", [](Unit& u, double v) { u.actuator.shaft_zero_rad = v; }},
+    {"firmware.model", "", Kind::word, 0, 0, "maker_pro|advanced", "which program the unit runs", Need::defaulted, "maker_pro",
+     "the program of most published units", set_model},
+    {"firmware.dialect", "", Kind::word, 0, 0, "6|7", "which messages it speaks: firmware 6, or 7 as its public client expects",
+     Need::defaulted, "6", "the published firmware is 6.1",
+     [](Unit& u, double v) { u.program.dialect = v == 0 ? bus::Dialect::six : bus::Dialect::seven; }},
     {"firmware.kp_pct_per_tick", "%/tick", Kind::number, -100, 100, "", "proportional gain, % PWM a raw tick (65536 a turn)",
-     Need::defaulted, "0.1", kFirmware, [](Unit& u, double v) { u.loop.kp = fixed_16_16(v); }},
+     Need::defaulted, "0.1", kFirmware, [](Unit& u, double v) { u.memory.position.p = fixed_16_16(v); }},
     {"firmware.ki_pct_per_tick", "%/tick", Kind::number, -100, 100, "", "integral gain, each 1 ms sample", Need::defaulted, "0",
-     kFirmware, [](Unit& u, double v) { u.loop.ki = fixed_16_16(v); }},
+     kFirmware, [](Unit& u, double v) { u.memory.position.i = fixed_16_16(v); }},
     {"firmware.kd_pct_per_tick", "%/tick", Kind::number, -100, 100, "", "derivative gain on the measurement, each 1 ms sample",
-     Need::defaulted, "0.8", kFirmware, [](Unit& u, double v) { u.loop.kd = fixed_16_16(v); }},
+     Need::defaulted, "0.8", kFirmware, [](Unit& u, double v) { u.memory.position.d = fixed_16_16(v); }},
     {"firmware.limit_low_raw", "raw", Kind::integer, -8388608, 8388607, "", "lowest reference of both motors, 65536 a turn",
      Need::defaulted, "-30000", kFirmware, set_limit_low},
     {"firmware.limit_high_raw", "raw", Kind::integer, -8388608, 8388607, "", "highest reference of both motors, 65536 a turn",
      Need::defaulted, "30000", kFirmware, set_limit_high},
     {"firmware.limits_on", "", Kind::toggle, 0, 1, "", "references are clamped to the limits", Need::defaulted, "true", kFirmware,
-     [](Unit& u, double v) { u.loop.limits_on = v != 0; }},
+     [](Unit& u, double v) { u.memory.limits_on = v != 0 ? 1 : 0; }},
     {"firmware.max_stiffness_raw", "raw", Kind::integer, 0, 32767, "",
      "largest preset of the position-and-stiffness command, 65536 a turn", Need::defaulted, "6000", kFirmware,
-     [](Unit& u, double v) { u.max_stiffness_raw = static_cast<int>(v); }},
+     [](Unit& u, double v) { u.memory.max_stiffness = static_cast<std::uint16_t>(v); }},
     {"firmware.resolution", "bit", Kind::integer, 0, 8, "", "right shift from raw to reported ticks, motors and shaft",
      Need::defaulted, "1", kFirmware, set_resolution},
     {"firmware.supply_limit", "", Kind::toggle, 0, 1, "", "duty limited by supply voltage, to about 8 V at the motor",
-     Need::defaulted, "true", kFirmware, [](Unit& u, double v) { u.loop.supply_limit = v != 0; }},
+     Need::defaulted, "true", kFirmware, [](Unit& u, double v) { u.program.supply_table = v != 0; }},
+    {"firmware.repair_layout_134", "", Kind::toggle, 0, 1, "", "replies 134 and 137 with their values two bytes apart",
+     Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.layout_134 = v != 0; }},
+    {"firmware.repair_list_checksum", "", Kind::toggle, 0, 1, "", "the parameter list's checksum over all of it", Need::defaulted,
+     "false", kDefect, [](Unit& u, double v) { u.program.repairs.list_checksum = v != 0; }},
+    {"firmware.repair_list_mode_5", "", Kind::toggle, 0, 1, "", "the list's text of mode 5 cut to its place", Need::defaulted,
+     "false", kDefect, [](Unit& u, double v) { u.program.repairs.list_mode_5 = v != 0; }},
+    {"firmware.repair_acknowledge_set_parameter", "", Kind::toggle, 0, 1, "", "setting a parameter is acknowledged",
+     Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.acknowledge_set_parameter = v != 0; }},
+    {"firmware.repair_watchdog_stops_motors", "", Kind::toggle, 0, 1, "",
+     "the watchdog switches the motors off, not only the reported flag", Need::defaulted, "false", kDefect,
+     [](Unit& u, double v) { u.program.repairs.watchdog_stops_motors = v != 0; }},
+    {"firmware.repair_watchdog_short_periods", "", Kind::toggle, 0, 1, "", "watchdog periods 1 and 2 last at least one clock",
+     Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.watchdog_short_periods = v != 0; }},
+    {"firmware.repair_startup_activation_reported", "", Kind::toggle, 0, 1, "", "with start-up activation the flag reads on",
+     Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.startup_activation_reported = v != 0; }},
+    {"firmware.repair_activation_with_references", "", Kind::toggle, 0, 1, "",
+     "the motors go on when the references are where they stand", Need::defaulted, "false", kDefect,
+     [](Unit& u, double v) { u.program.repairs.activation_with_references = v != 0; }},
+    {"firmware.repair_double_loop_current_derivative", "", Kind::toggle, 0, 1, "", "modes 3 and 5 have a derivative of the current",
+     Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.double_loop_current_derivative = v != 0; }},
+    {"firmware.repair_jump_check_in_16_bits", "", Kind::toggle, 0, 1, "", "jumps of exactly 32768 and 49152 raw are held back, too",
+     Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.jump_check_in_16_bits = v != 0; }},
+    {"firmware.repair_short_frames_refused", "", Kind::toggle, 0, 1, "", "requests that are too short are ignored", Need::defaulted,
+     "false", kDefect, [](Unit& u, double v) { u.program.repairs.short_frames_refused = v != 0; }},
+    {"firmware.repair_info_gains", "", Kind::toggle, 0, 1, "", "the info text of mode 5 has the gains in force", Need::defaulted,
+     "false", kDefect, [](Unit& u, double v) { u.program.repairs.info_gains = v != 0; }},
+    {"firmware.repair_calibration_both_motors", "", Kind::toggle, 0, 1, "", "calibration sees the second motor's current",
+     Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.calibration_both_motors = v != 0; }},
+    {"firmware.repair_pwm_rate_per_motor", "", Kind::toggle, 0, 1, "", "advanced: the duty's rate limit keeps one memory a motor",
+     Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.pwm_rate_per_motor = v != 0; }},
+    {"firmware.repair_zeros_reset_samples", "", Kind::toggle, 0, 1, "", "advanced: SET_ZEROS resets the last samples",
+     Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.zeros_reset_samples = v != 0; }},
     {"limits.preset_max", kPresetUnit, Kind::number, 0, 100, "",
      "largest accepted magnitude of the preset; absent where the law has no preset", Need::required, "", "",
      [](Unit& u, double v) { u.preset_max = v; }},

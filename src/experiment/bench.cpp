@@ -156,7 +156,7 @@ double law_deflection(const elastic::Transmission& law, double preset, double lo
 double sent_preset(const Specimen& specimen, double preset) {
   const device::UnitConfig unit = specimen.library.load(specimen.preset, specimen.overrides).unit;
   if (unit.actuator.transmission->preset_unit() != "rad") return preset;
-  return std::min(preset, radians(Raw{unit.max_stiffness_raw}));
+  return std::min(preset, radians(Raw{unit.memory.max_stiffness}));
 }
 
 SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s, bool limit_preset) {

@@ -105,7 +105,7 @@ BenchRun Bench::record(double duration_s, double start_s, double sample_s, const
 
 BenchSample Bench::sample(double time_s) const {
   const host::ActuatorReading r = world_.read(actuator_);
-  const auto& resolution = config_->unit.loop.resolution;
+  const auto& resolution = config_->unit.memory.resolution;
   BenchSample s;
   s.time_s = time_s;
   s.equilibrium_command_rad = r.equilibrium_command_rad;

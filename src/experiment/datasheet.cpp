@@ -31,7 +31,7 @@ PresetColumn column(const Workspace& workspace, double preset) {
 }
 
 LoopErrors loop_errors(const device::UnitConfig& unit, const MotorLine& line) {
-  const double gain = std::abs(unit.loop.kp) / 65536.0 / 100.0;  // of full output a raw tick
+  const double gain = std::abs(unit.memory.position.p) / 65536.0 / 100.0;  // of full output a raw tick
   LoopErrors e;
   e.full_rad = gain > 0 ? radians(Raw{1}) / gain : std::numeric_limits<double>::quiet_NaN();
   // The voltage grows with the output, so bisection finds where it is enough.

@@ -30,7 +30,7 @@ double last_good(double most, double step, const Ok& ok) {
 /// The firmware's limit, chosen by the supply as its converter reads it.
 double full_duty(const device::UnitConfig& unit) {
   const auto supply = sensor::supply_from_adc(sensor::supply_adc(unit.actuator.bridge.supply_V));
-  return (unit.loop.supply_limit ? firmware::supply_limit_pct(supply) : 100) / kDutyScale;
+  return (unit.supply_limited() ? firmware::supply_limit_pct(supply) : 100) / kDutyScale;
 }
 
 }  // namespace

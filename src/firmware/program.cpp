@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "firmware/commands.hpp"
+#include "vsa/firmware/arithmetic.hpp"
 
 namespace vsa::firmware {
 namespace {
@@ -14,13 +15,21 @@ constexpr std::uint8_t kBothMotors = 3;
 
 Program::Program(const ProgramParams& params) noexcept
     : params_(params),
-      controller_{params.model, params.model == Model::maker_pro, params.repairs},
+      controller_{params.model, params.supply_table.value_or(params.model == Model::maker_pro), params.repairs},
       wire_{params.dialect, params.repairs.layout_134, params.repairs.list_checksum} {}
 
 ProgramState Program::fresh(std::int64_t now_ns) const noexcept {
   ProgramState s;
   power_up(s, now_ns);
   s.busy_until_ns = now_ns;
+  return s;
+}
+
+ProgramState Program::fresh(std::int64_t now_ns, const Memory& shipped) const noexcept {
+  ProgramState s;
+  s.memory.user = s.memory.factory = shipped;
+  s.memory.user.valid = s.memory.factory.valid = true;
+  power_up(s, now_ns);
   return s;
 }
 
@@ -41,6 +50,20 @@ void Program::receive(ProgramState& s, std::uint8_t byte, std::int64_t now_ns, O
   s.buffer.push(byte);
   s.bytes_waiting = true;
   poll(s, now_ns, out);
+}
+
+void Program::receive_frame(ProgramState& s, std::span<const std::uint8_t> frame, std::int64_t now_ns, Output& out) const noexcept {
+  if (s.in_bootloader) return;
+  s.buffer.pass(frame.size());
+  s.watchdog.run_to(now_ns);
+  s.watchdog.heard_byte();
+  if (s.receiver.push_frame(frame, s.memory.current.id) == bus::ReceiverEvent::frame)
+    execute_frame({params_, controller_, wire_, now_ns, s, out});
+}
+
+void Program::shift_time(ProgramState& s, std::int64_t by_ns) noexcept {
+  s.busy_until_ns += by_ns;
+  s.watchdog.next_clock_ns += by_ns;
 }
 
 std::optional<std::int64_t> Program::wake_ns(const ProgramState& s) const noexcept {
@@ -106,6 +129,22 @@ Drive Program::drive(const ProgramState& s) const noexcept {
   d.duty_pct = s.loop.duty;
   for (int i = 0; i < 2; ++i) d.enabled[i] = ((s.enable >> i) & 1) != 0;
   return d;
+}
+
+void settle(const Program& program, ProgramState& s, const TickInputs& in) noexcept {
+  ControllerState& c = s.loop;
+  const LoopMemory m{s.memory.stored, s.memory.current};
+  c.ref = c.ref_old = c.ref_new;
+  for (int i = 0; i < 3; ++i) program.controller().read_encoder(m, c, in, i);
+  for (int i = 0; i < 2; ++i) {
+    constexpr std::int32_t kTurn = 65536, kHalf = kTurn / 2;
+    c.turns[i] = static_cast<std::int8_t>((wrap_sub(c.ref[i], c.meas[i]) + kHalf) >> 16);
+    c.meas[i] = wrap_add(c.meas[i], c.turns[i] * kTurn);
+  }
+  c.meas_old = c.meas;
+  c.first_tick = true;
+  program.controller().read_analog(c, in);
+  c.orders.onoff = c.orders_old.onoff = c.orders_new.onoff = s.enable = kBothMotors;
 }
 
 void begin_store(const ProgramParams& p, ProgramState& s, int rows, std::int64_t now_ns) noexcept {

@@ -23,14 +23,20 @@ inline Order make_order(std::size_t actuator, Robot::Channel channel, std::vecto
   return {actuator, channel, std::make_shared<const std::vector<Robot::Knot>>(std::move(knots))};
 }
 
-/// Commands from any thread, in order of arrival. The stepping thread takes no lock while nothing waits, and allocates nothing: it
+struct FaultOrder {
+  std::size_t actuator;
+  device::Faults faults;
+};
+
+/// Orders from any thread, in order of arrival. The stepping thread takes no lock while nothing waits, and allocates nothing: it
 /// swaps two vectors.
-class CommandQueue {
+template <class T>
+class Queue {
  public:
   /// All of them, so that no step falls between.
-  void push(std::vector<Order> orders) {
+  void push(std::vector<T> orders) {
     const std::lock_guard lock(mutex_);
-    for (Order& order : orders) waiting_.push_back(std::move(order));
+    for (T& order : orders) waiting_.push_back(std::move(order));
     any_.store(true, std::memory_order_release);
   }
 
@@ -42,7 +48,7 @@ class CommandQueue {
       std::swap(waiting_, taken_);
       any_.store(false, std::memory_order_relaxed);
     }
-    for (Order& order : taken_) take(order);
+    for (T& order : taken_) take(order);
     taken_.clear();
   }
 
@@ -54,11 +60,14 @@ class CommandQueue {
 
  private:
   std::mutex mutex_;
-  std::vector<Order> waiting_, taken_;
+  std::vector<T> waiting_, taken_;
   std::atomic<bool> any_{false};
 };
 
-enum class NoticeKind { preset, limits };
+using CommandQueue = Queue<Order>;
+using FaultQueue = Queue<FaultOrder>;
+
+enum class NoticeKind { preset, limits, port };
 
 struct RangeNotice {
   std::size_t actuator;
@@ -66,10 +75,10 @@ struct RangeNotice {
   double value;
 };
 
-/// At most two notices an actuator between resets, so room for them is made once.
+/// At most three notices an actuator between resets, so room for them is made once.
 class NoticeList {
  public:
-  void reserve(std::size_t actuators) { list_.reserve(2 * actuators); }
+  void reserve(std::size_t actuators) { list_.reserve(3 * actuators); }
   void push_back(const RangeNotice& notice) noexcept {
     const std::lock_guard lock(mutex_);
     if (list_.size() < list_.capacity()) list_.push_back(notice);

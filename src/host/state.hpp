@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/bus_line.hpp"
 #include "vsa/host/robot.hpp"
 
 namespace vsa::host {
@@ -46,22 +47,19 @@ struct Track {
 struct ActuatorSlot {
   device::UnitState unit;
   Track equilibrium, preset;
-  std::int64_t cycle = 0;  ///< the next bus cycle whose frame this unit hasn't had
-  bool sent = false;       ///< that frame is on the wire, with the contents below
-  std::array<Ticks, 2> sent_inputs{};
-  std::int64_t reply_due_ns = -1;  ///< when the unit answers GET_MEASUREMENTS; −1: answered
   double shaft_rad = 0;
   std::array<Ticks, 3> measured{};
-  bool noted_preset = false, noted_limits = false;
+  bool noted_preset = false, noted_limits = false, noted_port = false;
 };
 
 struct RobotState {
-  std::int64_t time_ns = 0;
+  std::int64_t time_ns = 0;  ///< where the next step is expected
   std::vector<ActuatorSlot> actuators;
 };
 
 struct Robot::Snapshot {
   RobotState state;
+  std::vector<BusState> buses;
 };
 
 }  // namespace vsa::host

@@ -49,7 +49,10 @@ TEST(Segment, EveryLossIsPositiveAndTheBalanceClosesWhateverHappens) {
     auto last = s.ledger;
     for (int n = 0; n < 50; ++n) {
       const double h = std::pow(10.0, -4 + unit(rng));
-      a.segment(s, h, {1e-2 * unit(rng), {8 * unit(rng), 8 * unit(rng)}, n % 7 == 0 ? Terminal::open : Terminal::driven});
+      a.segment(s, h,
+                {1e-2 * unit(rng),
+                 {8 * unit(rng), 8 * unit(rng)},
+                 {n % 7 == 0 ? Terminal::open : Terminal::driven, n % 11 == 0 ? Terminal::open : Terminal::driven}});
       a.shaft_friction(s, 0.0);
       const auto& l = s.ledger;
       ASSERT_GE(l.copper, last.copper - 1e-12);
@@ -68,7 +71,7 @@ TEST(Segment, EveryLossIsPositiveAndTheBalanceClosesWhateverHappens) {
 double push(Actuator& a, vsa::actuator::ActuatorState& s, double to, int steps) {
   const double step = (to - s.shaft) / steps;
   double torque = 0;
-  for (int n = 0; n < steps; ++n) torque = a.segment(s, 1e-3, {step, {0, 0}, Terminal::driven}).torque;
+  for (int n = 0; n < steps; ++n) torque = a.segment(s, 1e-3, {step, {0, 0}, {Terminal::driven, Terminal::driven}}).torque;
   return torque;
 }
 
@@ -122,7 +125,7 @@ TEST(Segment, AGearLossHoldsMoreTheMoreItCarries) {
   for (const double load : {0.48, 0.9}) {
     const double deflection = std::asinh(load / 0.022) / 6.85;
     auto s = a.initial({-deflection, 0}, 0.0);
-    for (int n = 0; n < 3000; ++n) a.segment(s, 1e-3, {0, {0, 0}, Terminal::driven});
+    for (int n = 0; n < 3000; ++n) a.segment(s, 1e-3, {0, {0, 0}, {Terminal::driven, Terminal::driven}});
     const double carried = a.spring(s, 0.0).load[0];
     EXPECT_LE(carried, 0.4 / 0.8 + 1e-6) << load;
     EXPECT_GT(carried, 0.46) << "it slides no further than its limit asks";
@@ -134,7 +137,7 @@ TEST(Segment, LockedPulleysDeflectAsTheClosedFormSays) {
   p.gearbox.friction = {100.0, 0.0};  // nothing moves the motors
   Actuator a(p);
   auto s = a.initial({0.4, -0.4}, 0.0);
-  for (int n = 0; n < 300; ++n) a.segment(s, 1e-3, {1e-3, {0, 0}, Terminal::driven});
+  for (int n = 0; n < 300; ++n) a.segment(s, 1e-3, {1e-3, {0, 0}, {Terminal::driven, Terminal::driven}});
   EXPECT_DOUBLE_EQ(s.motor[0].angle, 0.4);
   EXPECT_NEAR(a.spring(s, s.shaft).torque, -2 * 0.022 * std::cosh(6.85 * 0.4) * std::sinh(6.85 * 0.3), 1e-10);
 }
@@ -144,7 +147,7 @@ TEST(Segment, ALoadedMotorSettlesWhereFrictionHoldsIt) {
   ActuatorParams p = maker_pro();
   Actuator a(p);
   auto s = a.initial({0.0, 0.0}, 0.75);
-  for (int n = 0; n < 4000; ++n) a.segment(s, 1e-3, {0, {0, 0}, Terminal::driven});
+  for (int n = 0; n < 4000; ++n) a.segment(s, 1e-3, {0, {0, 0}, {Terminal::driven, Terminal::driven}});
   EXPECT_NEAR(s.motor[0].speed, 0.0, 1e-6);
   EXPECT_LE(std::abs(a.spring(s, s.shaft).load[0]), 0.8 + 1e-9);
   EXPECT_GT(s.motor[0].angle, 0.03);
@@ -159,10 +162,10 @@ TEST(Segment, TorqueSlopeIsTheDerivativeOfTheMeanTorque) {
       const auto start = a.initial({0.5, -0.5}, 0.1);
       auto torque = [&](double dq) {
         auto s = start;
-        return a.segment(s, 1e-3, {dq, {5, 1}, Terminal::driven}).torque;
+        return a.segment(s, 1e-3, {dq, {5, 1}, {Terminal::driven, Terminal::driven}}).torque;
       };
       auto s = start;
-      const double slope = a.segment(s, 1e-3, {0.01, {5, 1}, Terminal::driven}).slope;
+      const double slope = a.segment(s, 1e-3, {0.01, {5, 1}, {Terminal::driven, Terminal::driven}}).slope;
       EXPECT_NEAR(slope, -(torque(0.01 + 1e-4) - torque(0.01 - 1e-4)) / 2e-4, 2e-2 * slope);
     }
   }
@@ -174,7 +177,7 @@ TEST(Segment, SolvesSpringsThatHardenExponentially) {
   for (const double jump : {-1.5, -0.8, 0.8, 1.5}) {
     auto s = a.initial({0.785, -0.785}, 0.0);
     const double stored = s.ledger.stored();
-    const auto r = a.segment(s, 4e-3, {jump, {0, 0}, Terminal::driven});
+    const auto r = a.segment(s, 4e-3, {jump, {0, 0}, {Terminal::driven, Terminal::driven}});
     ASSERT_TRUE(std::isfinite(r.torque)) << jump;
     EXPECT_GE(r.slope, 0.0);
     const double work = -r.torque * jump;  // put in by whoever moved the shaft

@@ -51,7 +51,7 @@ TEST(Override, WorksForWordsSwitchesWholeNumbersAndAbsentOptionalKeys) {
                                                           {"sensor.encoder_bits", "14"},
                                                           {"drive.inductance_H", "1e-3"}});
   EXPECT_FALSE(preset.unit.actuator.bridge.brake_when_off);
-  EXPECT_FALSE(preset.unit.loop.limits_on);
+  EXPECT_EQ(preset.unit.memory.limits_on, 0);
   EXPECT_EQ(preset.unit.polarity, -1);
   EXPECT_EQ(preset.unit.actuator.encoder.bits, 14);
   EXPECT_EQ(preset.unit.actuator.motor.inductance_H, 1e-3);
@@ -95,8 +95,8 @@ TEST(Default, StandsInForAKeyThatTheFileLeavesOutAndIsListedAsOne) {
   const std::size_t from = text.find("[firmware]"), to = text.find("[limits]");
   text.erase(from, to - from);
   const auto preset = shipped().load_file(directory.write("qbmove_maker_pro.toml", text));
-  EXPECT_EQ(preset.unit.loop.kp, 6553);
-  EXPECT_EQ(preset.unit.loop.limits_raw, firmware::LoopParams{}.limits_raw);
+  EXPECT_EQ(preset.unit.memory.position.p, 6553);
+  EXPECT_EQ(preset.unit.memory, firmware::initial_memory(firmware::Model::maker_pro));
   EXPECT_EQ(entry(preset, "firmware.kp_pct_per_tick").value, "0.1");
   expect_pieces(entry(preset, "firmware.kp_pct_per_tick").source, {"default: ", "6.1"});
 }

@@ -259,8 +259,17 @@ INSTANTIATE_TEST_SUITE_P(
         BadPlugin{"cycle_short",
                   plugin("<bus name='b' cycle_s='0.00013'/>" + maker_pro("a")),
                   {"is shorter than the time on the wire of 1 units", "at least 0.00014 s"}},
-        BadPlugin{
-            "port", plugin("<bus name='b'><serial_port>vsa</serial_port></bus>" + maker_pro("a")), {"no virtual serial port"}}),
+        BadPlugin{"port_empty", plugin("<bus name='b'><serial_port></serial_port></bus>" + maker_pro("a")), {"bus[b]/serial_port"}},
+        BadPlugin{"port_name",
+                  plugin("<bus name='b'><serial_port>my port</serial_port></bus>" + maker_pro("a")),
+                  {"bus[b]/serial_port = \"my port\": can't be the name of a serial port", "letters, digits"}},
+        BadPlugin{"port_relative",
+                  plugin("<bus name='b'><serial_port>../x</serial_port></bus>" + maker_pro("a")),
+                  {"can't be the name of a serial port"}},
+        BadPlugin{"port_twice",
+                  plugin("<bus name='b'><serial_port>p</serial_port></bus><bus name='c'><serial_port>p</serial_port></bus>" +
+                         maker_pro("a", "<bus>b</bus>") + maker_pro("d", "<bus>c</bus>")),
+                  {"bus[c]/serial_port = \"p\": bus[b] has this port"}}),
     [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(

@@ -36,8 +36,14 @@ TEST(ShippedPresets, EveryOneLoadsAndEveryEntryHasMeaningBoundsAndSource) {
 
 TEST(ShippedPresets, GiveEveryParameterThemselvesSoThatNoneDependsOnADefault) {
   for (const std::string& name : shipped().names()) {
-    for (const config::Entry& e : shipped().load(name).entries)
+    for (const config::Entry& e : shipped().load(name).entries) {
+      // A repair is a departure from the device: none unless a user asks for it.
+      if (e.key.rfind("firmware.repair_", 0) == 0) {
+        EXPECT_EQ(e.value, "false") << name << " " << e.key;
+        continue;
+      }
       EXPECT_EQ(e.source.rfind("default:", 0), std::string::npos) << e.key;
+    }
   }
 }
 
@@ -69,14 +75,12 @@ TEST(ShippedPresets, ThePapersMakerProHasTheValuesOfTableIWithTheErratumOnBackEm
 }
 
 TEST(ShippedPresets, TheMakerProsFirmwareIsThePublishedDefault) {
-  const firmware::LoopParams got = shipped().load("qbmove_maker_pro").unit.loop, want;
-  EXPECT_EQ(got.kp, want.kp);
-  EXPECT_EQ(got.ki, want.ki);
-  EXPECT_EQ(got.kd, want.kd);
-  EXPECT_EQ(got.limits_raw, want.limits_raw);
-  EXPECT_EQ(got.limits_on, want.limits_on);
-  EXPECT_EQ(got.resolution, want.resolution);
-  EXPECT_EQ(got.supply_limit, want.supply_limit);
+  const device::UnitConfig unit = shipped().load("qbmove_maker_pro").unit;
+  EXPECT_EQ(unit.memory, firmware::initial_memory(firmware::Model::maker_pro));
+  EXPECT_EQ(unit.program.model, firmware::Model::maker_pro);
+  EXPECT_EQ(unit.program.dialect, bus::Dialect::six);
+  EXPECT_EQ(unit.program.repairs, firmware::Repairs{});
+  EXPECT_TRUE(unit.supply_limited());
 }
 
 TEST(ShippedPresets, TheBackEmfConstantsSourceExplainsTheErratum) {
@@ -88,7 +92,7 @@ TEST(ShippedPresets, TheBackEmfConstantsSourceExplainsTheErratum) {
 TEST(ShippedPresets, TheMakerProKeepsThePapersMotorAndTheFirmwaresBoundOnTheStiffness) {
   const device::UnitConfig unit = shipped().load("qbmove_maker_pro").unit, paper = shipped().load("qbmove_maker_pro_paper").unit;
   EXPECT_EQ(unit.actuator.motor, paper.actuator.motor);
-  EXPECT_EQ(unit.max_stiffness_raw, 3000 << 1);
+  EXPECT_EQ(unit.memory.max_stiffness, 3000 << 1);
   EXPECT_EQ(unit.actuator.bridge.dead_band, 0.0);
   EXPECT_GT(unit.actuator.tendon.friction, 0.0);
 }
@@ -101,12 +105,11 @@ TEST(ShippedPresets, TheDataSheetsSpringsDiffer) {
   EXPECT_EQ(springs->params().a_per_rad, (std::array<double, 2>{6.7328, 6.9602}));
 }
 
-TEST(ShippedPresets, TheAdvancedUnitHasInvertedGainsAndPolarityAndNoSupplyLimit) {
+TEST(ShippedPresets, TheAdvancedUnitRunsItsOwnProgramWithItsGainsAndWithoutASupplyLimit) {
   const device::UnitConfig u = shipped().load("qbmove_advanced").unit;
-  EXPECT_EQ(u.loop.kp, -6553);
-  EXPECT_EQ(u.loop.kd, -52428);
-  EXPECT_EQ(u.polarity, -1);
-  EXPECT_FALSE(u.loop.supply_limit);
+  EXPECT_EQ(u.program.model, firmware::Model::advanced);
+  EXPECT_EQ(u.memory, firmware::initial_memory(firmware::Model::advanced));
+  EXPECT_FALSE(u.supply_limited());
   EXPECT_EQ(u.actuator.motor.inertia_kgm2, 0.0233);
 }
 
@@ -123,9 +126,7 @@ TEST(ShippedPresets, EveryUnitTurnsAnUnloadedShaftToTheCommandAndStaysThere) {
     const device::UnitConfig unit = shipped().load(name).unit;
     OneJoint joint(unit, 0.0, 0.5 * unit.preset_max, 1e-3, 1'000'000);
     joint.load = [&joint](double) { return -0.01 * joint.v; };
-    const device::TickMail mail{true, joint.unit.inputs_for(0.5, 0.5 * unit.preset_max)};
-    (void)joint.unit.step(joint.state, 0, joint.dt_ns, {0, 0, 1e3}, {&mail, 1});
-    joint.t_ns = joint.dt_ns;
+    joint.unit.set_inputs(joint.state, joint.unit.inputs_for(0.5, 0.5 * unit.preset_max));
     double lowest = 1e9, highest = -1e9;
     while (joint.t_ns < 4'000'000'000) {
       joint.step();

@@ -15,7 +15,7 @@ using vsa::test::maker_pro;
 using vsa::test::OneJoint;
 
 void command(OneJoint& joint, double equilibrium, double preset) {
-  vsa::firmware::set_inputs(joint.unit.config().loop, joint.state.loop, joint.unit.inputs_for(equilibrium, preset));
+  joint.unit.set_inputs(joint.state, joint.unit.inputs_for(equilibrium, preset));
 }
 
 void run(OneJoint& joint, double seconds) {
@@ -128,7 +128,7 @@ TEST(Unit, CoastsOrBrakesWhenOff) {
     config.actuator.bridge.brake_when_off = brake;
     config.actuator.gearbox.friction = {0, 0};
     OneJoint joint(config, 0.0, 0.0, 1e-3, 1'000'000);
-    joint.state.loop.motors_on = false;
+    joint.state.program.enable = 0;
     joint.q = 1.0;
     run(joint, 0.2);
     const double copper = joint.state.actuator.ledger.copper;
@@ -157,8 +157,8 @@ TEST(Unit, StaysBoundedWhateverItIsTold) {
   unsigned seed = 1;
   for (int n = 0; n < 2000; ++n) {
     seed = seed * 1664525u + 1013904223u;
-    vsa::firmware::set_inputs(joint.unit.config().loop, joint.state.loop,
-                              {vsa::Ticks{static_cast<std::int16_t>(seed >> 16)}, vsa::Ticks{static_cast<std::int16_t>(seed)}});
+    joint.unit.set_inputs(joint.state,
+                          {vsa::Ticks{static_cast<std::int16_t>(seed >> 16)}, vsa::Ticks{static_cast<std::int16_t>(seed)}});
     for (int k = 0; k < 5; ++k) joint.step();
     ASSERT_TRUE(std::isfinite(joint.q) && std::isfinite(joint.v)) << n;
     ASSERT_LT(std::abs(joint.q), 20.0) << n;

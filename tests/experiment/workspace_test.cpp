@@ -89,14 +89,12 @@ TEST(MotorLine, TakesTheVoltageThatTheUnitGivesAtFullOutput) {
     for (const bool limited : {true, false}) {
       device::UnitConfig u = qbmove();
       u.actuator.bridge.supply_V = supply;
-      u.loop.supply_limit = limited;
+      u.program.supply_table = limited;
       device::Unit unit(u);
       device::UnitState s = unit.initial(0, 0, 0);
-      const std::array<device::TickMail, 1> far{device::TickMail{true, unit.inputs_for(2, 0)}};
-      const std::array<device::TickMail, 1> none{};
-      unit.step(s, 0, 1'000'000, {0, 0, 0}, far);
-      for (int k = 1; k < 4; ++k) unit.step(s, k * 1'000'000, 1'000'000, {0, 0, 0}, none);
-      EXPECT_NEAR(s.voltage[0], motor_line(u).voltage_V, 1e-9) << supply << " V, limit " << limited;
+      unit.set_inputs(s, unit.inputs_for(2, 0));
+      for (int k = 0; k < 4; ++k) unit.step(s, k * 1'000'000, 1'000'000, {0, 0, 0});
+      EXPECT_NEAR(s.held.voltage[0], motor_line(u).voltage_V, 1e-9) << supply << " V, limit " << limited;
     }
   }
 }
@@ -186,12 +184,12 @@ TEST(Workspace, CurvesRunBetweenTheLoadsOfBothDirections) {
 TEST(Workspace, IsWhatTheSimulatedUnitGivesToAShaftThatTurnsSteadily) {
   const Workspace w(qbmove());
   device::UnitConfig unit = qbmove();
-  unit.loop.limits_on = false;  // a long way to run
+  unit.memory.limits_on = 0;  // a long way to run
   for (const double speed : {0.5, 1.5, 3.0}) {
     test::OneJoint joint(unit, -2.8, 0, 0, 1'000'000);
     joint.q -= 0.7;
-    joint.v = speed;  // without inertia the shaft's motion is prescribed
-    firmware::set_inputs(unit.loop, joint.state.loop, {Ticks{32767}, Ticks{32767}});  // one turn ahead
+    joint.v = speed;                                                   // without inertia the shaft's motion is prescribed
+    joint.unit.set_inputs(joint.state, {Ticks{32767}, Ticks{32767}});  // one turn ahead
     while (joint.q < 4) joint.step();
     const double lag = joint.state.actuator.motor[0].angle - joint.q;
     EXPECT_NEAR(joint.last_torque, w.reach(0, speed).torque_Nm, 1e-3) << speed << " rad/s";

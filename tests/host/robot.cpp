@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "support/one_joint.hpp"
+#include "host/free_flanges.hpp"
 #include "vsa/errors.hpp"
 
 long allocation_count();  // allocations.cpp
@@ -21,43 +21,8 @@ using vsa::host::ActuatorConfig;
 using vsa::host::JointIn;
 using vsa::host::Robot;
 using vsa::host::RobotConfig;
-
-RobotConfig chain(std::size_t count) {
-  RobotConfig config;
-  config.buses.push_back({"spine", 2e6, std::nullopt});
-  for (std::size_t i = 0; i < count; ++i) {
-    ActuatorConfig a;
-    a.name = "a" + std::to_string(i + 1);
-    a.joint = a.name;
-    a.unit = vsa::test::maker_pro();
-    a.id = static_cast<int>(i) + 1;
-    a.initial_preset = 0.3;
-    config.actuators.push_back(a);
-  }
-  return config;
-}
-
-/// Free flanges of 1e-3 kg·m².
-struct Bench {
-  explicit Bench(RobotConfig config, std::int64_t step_ns = 1'000'000)
-      : robot(std::move(config)), in(robot.size(), JointIn{0, 0, 1e3}), out(robot.size()), dt_ns(step_ns) {}
-  void step() {
-    robot.advance(t_ns, dt_ns, in, out);
-    const double dt = static_cast<double>(dt_ns) * 1e-9;
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      in[i].speed_rad_per_s += dt * out[i] * 1e3;
-      in[i].angle_rad += dt * in[i].speed_rad_per_s;
-    }
-    t_ns += dt_ns;
-  }
-  void run(int steps) {
-    for (int n = 0; n < steps; ++n) step();
-  }
-  Robot robot;
-  std::vector<JointIn> in;
-  std::vector<double> out;
-  std::int64_t dt_ns, t_ns = 0;
-};
+using vsa::test::chain;
+using Bench = vsa::test::Flanges;
 
 TEST(Robot, UnitTwelveMovesLaterThanUnitOneByTheTimeTheFramesTake) {
   // At 115200 baud a unit's slot is 28 bytes = 2.43 ms: unit 12 is 26.7 ms behind unit 1.

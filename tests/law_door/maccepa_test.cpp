@@ -139,9 +139,7 @@ TEST(LawDoor, StiffnessAtRestIsProportionalToThePretension) {
 test::OneJoint settled(double inertia_kgm2, double duration_s) {
   test::OneJoint joint(library().load("maccepa").unit, 0.0, 1.0, inertia_kgm2, 1'000'000);
   joint.load = [&joint](double) { return -0.05 * joint.v; };
-  const device::TickMail mail{true, joint.unit.inputs_for(0.6, 2.0)};
-  (void)joint.unit.step(joint.state, 0, joint.dt_ns, {joint.q, joint.v, 1.0 / inertia_kgm2}, {&mail, 1});
-  joint.t_ns = joint.dt_ns;
+  joint.unit.set_inputs(joint.state, joint.unit.inputs_for(0.6, 2.0));
   while (static_cast<double>(joint.t_ns) * 1e-9 < duration_s) joint.step();
   joint.load = nullptr;
   return joint;

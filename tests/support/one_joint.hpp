@@ -38,7 +38,7 @@ struct OneJoint {
   }
 
   void step() {
-    const double torque = unit.step(state, t_ns, dt_ns, {q, v, inertia > 0 ? 1.0 / inertia : 0.0}, {});
+    const double torque = unit.step(state, t_ns, dt_ns, {q, v, inertia > 0 ? 1.0 / inertia : 0.0});
     const double dt = static_cast<double>(dt_ns) * 1e-9;
     last_torque = torque;
     if (inertia > 0) v += dt * (torque + load(q)) / inertia;

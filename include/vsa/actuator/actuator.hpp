@@ -59,18 +59,39 @@ struct ActuatorState {
   std::array<double, 2> tendon_anchor{};  ///< z_w of each spring's friction, J
   std::array<double, 2> spring_w{};       ///< the springs' signed energies now, J; where there is tendon friction
   std::array<double, 2> load{};           ///< mean spring load on each pulley over the last segment
+  elastic::SegmentMean end;               ///< torque and loads at the last segment's end, to first order; its slopes
   Ledger ledger;
 };
 
 struct SegmentInput {
   double dq = 0;  ///< shaft displacement along the path
   std::array<double, 2> voltage{};
-  drive::Terminal terminal = drive::Terminal::driven;
+  std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
 };
 
 struct SegmentResult {
   double torque = 0;  ///< mean torque of the transmission on the shaft
   double slope = 0;   ///< −dτ̄/d(Δq), the motors' yielding included; ≥ 0 for a convex law
+};
+
+/// A segment while it is solved: begun once, tried for as many shaft displacements as its owner needs, finished once.
+class Segment {
+ private:
+  friend class Actuator;
+  std::array<const drive::MotorStepper*, 2> stepper{};
+  SegmentInput in;
+  bool tried = false;
+  // what the frictions see at the start
+  std::array<drive::Friction, 2> gear{drive::FrictionParams{}, drive::FrictionParams{}};
+  std::array<double, 2> gear_u{};
+  std::array<double, 2> w{}, w_u{};  // the springs' signed energies, and their distance from the anchors
+  std::array<double, 2> free{};      // the motors' displacements without load
+  // what the last trial found
+  std::array<double, 2> dx{};    // the pulleys' displacements
+  std::array<double, 2> gain{};  // ∂dx/∂dq
+  std::array<drive::FrictionStep, 2> friction{};
+  elastic::SegmentMean mean;
+  double slope = 0;
 };
 
 /// Parameters at the pulley and the prepared motor steps. Immutable but for prepare(); a state belongs to whoever owns time.
@@ -86,6 +107,15 @@ class Actuator {
 
   /// One segment of length h; advances motors, anchors and ledger, and moves state.shaft by dq. No allocation, no exception.
   SegmentResult segment(ActuatorState& state, double h_s, const SegmentInput& in) noexcept;
+
+  /// The same in three parts. Until `finish` nothing else may be done
+  /// with the state or begun on this actuator.
+  void begin(ActuatorState& state, Segment& segment, double h_s, const SegmentInput& in) noexcept;
+  /// The torque over the segment for dq = 0 and its slope, extrapolated from the last segment without a call of the law. The first
+  /// attempt begins there.
+  SegmentResult foresee(const ActuatorState& state, Segment& segment) const noexcept;
+  SegmentResult attempt(const ActuatorState& state, Segment& segment, double dq) const noexcept;
+  void finish(ActuatorState& state, const Segment& segment) const noexcept;
 
   /// Shaft friction over a whole host step along the predicted path; moves its anchor and books its heat.
   drive::FrictionStep shaft_friction(ActuatorState& state, double displacement) const noexcept;
@@ -105,26 +135,11 @@ class Actuator {
     drive::MotorStepper driven, open;
   };
   const drive::MotorStepper& stepper(double h_s, drive::Terminal terminal) noexcept;
-  /// What the frictions see at a segment's start.
-  struct Start {
-    std::array<drive::Friction, 2> gear{drive::FrictionParams{}, drive::FrictionParams{}};
-    std::array<double, 2> gear_u{};
-    std::array<double, 2> w{}, w_u{};  // the springs' signed energies, and their distance from the anchors
-  };
-  [[nodiscard]] Start start_of(ActuatorState& state) const noexcept;
-  void add_tendon_friction(const Start& start, const elastic::Positions& to, const std::array<double, 2>& deflection,
-                           elastic::SegmentMean& mean) const noexcept;
-  void move_tendons(ActuatorState& state, const Start& start) const noexcept;
-  struct Pulleys {
-    std::array<double, 2> dx{};  // displacements
-    std::array<drive::FrictionStep, 2> friction{};
-    elastic::SegmentMean mean;  // at the accepted displacements, linearly corrected
-    double slope = 0;
-  };
-  [[nodiscard]] Pulleys solve(const ActuatorState& state, const Start& start, const drive::MotorStepper& stepper,
-                              const SegmentInput& in) const noexcept;
-  void drive_motors(ActuatorState& state, const Start& start, const drive::MotorStepper& stepper, const SegmentInput& in,
-                    const Pulleys& p) const noexcept;
+  void add_tendon_friction(const Segment& segment, const elastic::Positions& to, elastic::SegmentMean& mean) const noexcept;
+  void move_tendons(ActuatorState& state, const Segment& segment) const noexcept;
+  /// One Newton correction of the pulleys from the mean at segment.dx; returns whether it was small enough to be the last.
+  bool correction(Segment& segment, std::array<double, 2>& step) const noexcept;
+  void drive_motors(ActuatorState& state, const Segment& segment) const noexcept;
   [[nodiscard]] elastic::Positions positions(const ActuatorState& state, double shaft) const noexcept;
   void book_motors(ActuatorState& state) const noexcept;
   /// H; where there is tendon friction the springs' signed energies are kept too.
@@ -135,7 +150,7 @@ class Actuator {
   drive::Friction friction_;  // at the pulley
   drive::Friction shaft_friction_;
   drive::Friction tendon_;  // in the energy's coordinate: "torque" μ, "angle" J
-  int motors_;
+  int motors_, springs_;
   std::array<Prepared, 2> prepared_{};  // the two step lengths used last
 };
 

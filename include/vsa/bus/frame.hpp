@@ -35,7 +35,12 @@ struct FrameBytes {
   std::uint8_t size = 0;
   bool overflowed = false;
 
-  void push(std::uint8_t byte) noexcept;
+  void push(std::uint8_t byte) noexcept {
+    if (size < bytes.size())
+      bytes[size++] = byte;
+    else
+      overflowed = true;
+  }
   /// Lives as long as this does: in a range-for over a temporary, iterate over the FrameBytes itself.
   [[nodiscard]] std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
   [[nodiscard]] const std::uint8_t* begin() const noexcept { return bytes.data(); }
@@ -45,6 +50,12 @@ struct FrameBytes {
 
 /// A whole frame. Empty if the payload is longer than kMaxPayload.
 [[nodiscard]] FrameBytes encode_frame(std::uint8_t id, std::uint8_t command, std::span<const std::uint8_t> payload) noexcept;
+
+/// Whether these bytes are one frame from end to end, as far as its header tells; the checksum isn't looked at.
+[[nodiscard]] constexpr bool whole_frame(std::span<const std::uint8_t> bytes) noexcept {
+  return bytes.size() >= kHeaderBytes + kMinLength && bytes[0] == kStartByte && bytes[1] == kStartByte &&
+         bytes.size() == kHeaderBytes + bytes[3] && bytes[3] <= kMaxLength;
+}
 
 /// A received frame. `body` is CMD, payload, CHK as in the unit's own buffer: what lies behind `length` are bytes that earlier,
 /// longer frames left there, and the unit's program reads them when a request is shorter than it should be.
@@ -94,6 +105,10 @@ struct UnitReceiver {
   bool mine = false;
 
   [[nodiscard]] ReceiverEvent push(std::uint8_t byte, std::uint8_t own_id) noexcept;
+  /// Nothing under way that a frame's first bytes could complete.
+  [[nodiscard]] bool at_rest() const noexcept { return phase == Phase::hunt && last[2] != kStartByte; }
+  /// At rest: the bytes of one whole_frame at once, with the same end as byte by byte. Someone else's costs next to nothing.
+  [[nodiscard]] ReceiverEvent push_frame(std::span<const std::uint8_t> bytes, std::uint8_t own_id) noexcept;
   bool operator==(const UnitReceiver&) const = default;
 };
 

@@ -1,9 +1,21 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// One emulated unit: firmware tick (1 kHz, sample and hold) and physics, driven by a host's steps.
+// One emulated unit: its program (firmware::Program, 1 kHz, sample and hold), its electronics and its physics, driven by a host's
+// steps.
 //
-// A host step [t, t + dt) is cut at every firmware tick and at substep_max_s. At a tick, the encoders are sampled on the predicted
-// path, the position loop runs, and the bridge holds its voltage until the next tick.
+// A host step [t, t + dt) is cut at every firmware tick and at substep_max_s. At a tick, the encoders are sampled on the path first
+// predicted, the program runs, and the bridges hold their voltages until the next tick. Each tick happens once; the physics between
+// them is then solved for the path that the shaft really takes (host/robot.hpp), with those voltages. Only ticks inside a step
+// depend on the prediction, whose error is of second order in the step.
+//
+// Whoever has several units on a line runs the ticks himself, all units' first tick before anyone's second, with the bytes between
+// (device/chain.hpp):
+//     begin_step;  for each tick { bytes up to step_tick_ns;  sample;  the program's tick;  hold };  end_step
+// `step` does this for a unit alone.
+//
+// What isn't the program: encoder, ADC, bridge. The program's duty, a percentage after its supply limit, drives the bridge as
+// (output of the law, limit in force); a motor whose enable pin is low is braked or open (drive.off_mode), one that is unplugged is
+// open.
 #pragma once
 
 #include <array>
@@ -11,7 +23,9 @@
 #include <span>
 
 #include "vsa/actuator/actuator.hpp"
-#include "vsa/firmware/position_loop.hpp"
+#include "vsa/device/dice.hpp"
+#include "vsa/device/faults.hpp"
+#include "vsa/firmware/program.hpp"
 
 namespace vsa::device {
 
@@ -19,33 +33,44 @@ inline constexpr int kMaxTicksPerStep = 17;  ///< host steps up to 16 ms
 
 struct UnitConfig {
   actuator::ActuatorParams actuator;
-  firmware::LoopParams loop;
-  int polarity = 1;              ///< −1: motor wiring reversed against the encoder (qbmove advanced, with negative gains)
-  double preset_max = 0.785;     ///< accepted |preset|
-  int max_stiffness_raw = 6000;  ///< the unit's own bound on the preset of a position-and-stiffness command
-  double substep_max_s = 1e-3;   ///< longest physics segment, (0, 1 ms]
+  firmware::ProgramParams program;
+  firmware::Memory memory = firmware::initial_memory(firmware::Model::maker_pro);  ///< both EEPROM pages; the ID is the robot's
+  int polarity = 1;             ///< −1: motor wired against the sense that the program expects
+  double preset_max = 0.785;    ///< accepted |preset| of a command in SI units
+  double substep_max_s = 1e-3;  ///< longest physics segment, (0, 1 ms]
+
+  /// Whether the program limits the duty by the supply.
+  [[nodiscard]] bool supply_limited() const noexcept {
+    return program.supply_table.value_or(program.model == firmware::Model::maker_pro);
+  }
+  /// The references that the program lets motor i have, raw, in the sense of the wire; the widest that it can hold if it doesn't
+  /// limit.
+  [[nodiscard]] std::array<std::int32_t, 2> reference_range_raw(int i) const noexcept;
   bool operator==(const UnitConfig&) const = default;
+};
+
+/// What the bridges hold from one tick to the next.
+struct Held {
+  std::array<double, 2> voltage{};
+  std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
 };
 
 struct UnitState {
   actuator::ActuatorState actuator;
-  firmware::LoopState loop;
-  std::array<double, 2> voltage{};
-  drive::Terminal terminal = drive::Terminal::driven;
+  Held held;
+  std::int32_t limit_pct = 100;  ///< the program's supply limit after its last tick
   bool supply_on = true;
   // what was promised to the host in the last step
+  bool started = false;
   double start_y = 0;
   double applied_torque = 0;
   double path_work = 0;
   double last_speed = 0;
   double last_dt = 0;
-  bool started = false;
-};
-
-/// What the bus brought between the last tick and this one.
-struct TickMail {
-  bool has_inputs = false;
-  std::array<Ticks, 2> inputs{};
+  firmware::ProgramState program;
+  Faults faults;
+  std::array<std::int32_t, 3> last_encoder{};  ///< what a stuck encoder says
+  Dice dice;                                   ///< of the encoders' noise
 };
 
 struct ShaftIn {
@@ -54,38 +79,62 @@ struct ShaftIn {
   double inverse_inertia = 0;  ///< A, 1/(kg·m²); 0: the shaft's motion is prescribed
 };
 
+/// A host step under way: the owner's scratch, of no meaning between steps.
+struct StepPlan {
+  std::int64_t t_ns = 0, dt_ns = 0;
+  ShaftIn in;
+  double y = 0, c = 0, free = 0, dy = 0;
+  std::int64_t walked_ns = 0;  ///< how far the actuator has gone to be sampled
+  std::size_t held_count = 0;
+  std::array<Held, kMaxTicksPerStep + 1> held;
+  actuator::ActuatorState start;  ///< where it stood, if it went
+};
+
 class Unit {
  public:
   explicit Unit(UnitConfig config);
   [[nodiscard]] const UnitConfig& config() const noexcept { return config_; }
+  [[nodiscard]] const firmware::Program& program() const noexcept { return program_; }
 
-  /// At rest on its references for (equilibrium, preset), motors on, with the shaft where it is.
-  [[nodiscard]] UnitState initial(double equilibrium_rad, double preset, double shaft_rad) const noexcept;
+  /// At rest on its references for (equilibrium, preset), on for long, motors enabled, with the shaft where it is.
+  [[nodiscard]] UnitState initial(double equilibrium_rad, double preset, double shaft_rad, std::uint8_t id = 1) const noexcept;
+  /// Just switched on: motors off, pulleys at 0.
+  [[nodiscard]] UnitState switched_on(double shaft_rad, std::uint8_t id, std::int64_t now_ns) const noexcept;
 
-  /// One host step; returns the mean torque on the shaft (spring and shaft friction). mail[k] belongs to the step's k-th tick.
-  double step(UnitState& state, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in, std::span<const TickMail> mail) noexcept;
+  /// One host step of a unit without a line; returns the mean torque on the shaft (spring and shaft friction).
+  double step(UnitState& state, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept;
 
+  void begin_step(UnitState& state, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept;
+  /// Goes to the next tick, at `at_ns`, and reads the sensors there.
+  firmware::TickInputs sample(UnitState& state, StepPlan& plan, std::int64_t at_ns) noexcept;
+  /// After the program's tick: what the bridges do until the next.
+  void hold(UnitState& state, StepPlan& plan) const noexcept;
+  double end_step(UnitState& state, StepPlan& plan) noexcept;
+
+  /// As if SET_INPUTS had just arrived.
+  void set_inputs(UnitState& state, std::array<Ticks, 2> inputs) const noexcept;
   /// Motor references of a command as the bus carries them; the preset is clamped to preset_max, the rest to 16 bits.
   [[nodiscard]] std::array<Ticks, 2> inputs_for(double equilibrium_rad, double preset) const noexcept;
 
-  [[nodiscard]] static int ticks_in(std::int64_t t_ns, std::int64_t dt_ns) noexcept;
+  /// Takes effect at the next tick. The line's part (Faults::wiring) is the chain's.
+  static void set_faults(UnitState& state, const Faults& faults) noexcept;
+
+  /// The first tick of the step [t, t + dt); it may lie behind its end.
+  [[nodiscard]] static constexpr std::int64_t first_tick_ns(std::int64_t t_ns) noexcept {
+    return (t_ns + firmware::kTickNs - 1) / firmware::kTickNs * firmware::kTickNs;
+  }
   [[nodiscard]] actuator::Actuator& physics() noexcept { return actuator_; }
   [[nodiscard]] const actuator::Actuator& physics() const noexcept { return actuator_; }
 
  private:
-  struct Path {
-    double y0, dy, q0, speed;
-    std::int64_t t_ns, dt_ns;
-  };
-  struct Walk {
-    double torque = 0, slope = 0;
-  };
-  Walk walk(UnitState& state, const Path& path, std::span<const TickMail> mail) noexcept;
-  void tick(UnitState& state, double shaft, const TickMail& mail) noexcept;
+  [[nodiscard]] firmware::TickInputs read_sensors(UnitState& state, double shaft) const noexcept;
+  [[nodiscard]] double supply_V(const UnitState& state) const noexcept;
 
   UnitConfig config_;
+  firmware::Program program_;
   drive::Friction shaft_friction_;
   actuator::Actuator actuator_;
+  firmware::Output out_;  // of a unit without a line: nobody hears it
 };
 
 }  // namespace vsa::device

@@ -21,6 +21,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "vsa/bus/frame.hpp"
 #include "vsa/bus/messages.hpp"
@@ -37,6 +38,7 @@ struct ProgramParams {
   Model model = Model::maker_pro;
   bus::Dialect dialect = bus::Dialect::six;
   Repairs repairs{};
+  std::optional<bool> supply_table;        ///< duty limited by the supply; none: as the model has it (maker pro yes, advanced no)
   std::int64_t row_write_ns = 10'000'000;  ///< EEPROM row of 16 bytes
   std::uint32_t loop_time_us = 0;          ///< info text's "debug": the loop's run time, UNKNOWN
   std::int16_t cycle_time_us = 1000;       ///< dialect seven, GET_CYCLE_TIME
@@ -114,10 +116,22 @@ class Program {
 
   /// A unit with an empty EEPROM, switched on: it has written its initial values and is ready.
   [[nodiscard]] ProgramState fresh(std::int64_t now_ns) const noexcept;
+  /// A unit whose EEPROM holds these parameters in both pages, switched on.
+  [[nodiscard]] ProgramState fresh(std::int64_t now_ns, const Memory& shipped) const noexcept;
   /// Power comes back: the EEPROM's pages are what stays. The references are 0, and so are the turns.
   void power_up(ProgramState& s, std::int64_t now_ns) const noexcept;
 
   void receive(ProgramState& s, std::uint8_t byte, std::int64_t now_ns, Output& out) const noexcept;
+  /// Whether a whole frame that is on the wire from `begin_ns` (its first byte's end) to `end_ns` may come by receive_frame: the
+  /// program is free, waits for a frame's beginning, and the watchdog's clock doesn't tick meanwhile.
+  [[nodiscard]] bool hears_frames(const ProgramState& s, std::int64_t begin_ns, std::int64_t end_ns) const noexcept {
+    return s.busy_until_ns <= begin_ns && s.receiver.at_rest() && !s.bytes_waiting && !s.receiver_off && s.buffer.empty() &&
+           !s.buffer.overflow && (s.watchdog.next_clock_ns > end_ns || s.watchdog.next_clock_ns <= begin_ns);
+  }
+  /// The bytes of one bus::whole_frame at once: the same as byte by byte, at a fraction of the cost. Only if hears_frames.
+  void receive_frame(ProgramState& s, std::span<const std::uint8_t> frame, std::int64_t now_ns, Output& out) const noexcept;
+  /// Moves what the program waits for: a host's time jumped, and the unit doesn't notice.
+  static void shift_time(ProgramState& s, std::int64_t by_ns) noexcept;
   /// Looks at bytes that waited. Harmless at any time.
   void poll(ProgramState& s, std::int64_t now_ns, Output& out) const noexcept;
   /// When `poll` has something to do; none: nothing waits.
@@ -140,6 +154,10 @@ class Program {
   Controller controller_;
   bus::Wire wire_;
 };
+
+/// What a simulation starts with instead of a power-up: a unit that has been on for long and stands on its references (the new ones
+/// of the state), motors enabled, turns counted, no derivative kick at the first tick, the supply's limit in force.
+void settle(const Program& program, ProgramState& s, const TickInputs& in) noexcept;
 
 /// The baud rate of a divider: 2 000 000, or 461 538 for 13 (called 460 800).
 [[nodiscard]] constexpr double baud_Hz(std::uint8_t divider) noexcept { return 6'000'000.0 / divider; }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace vsa::firmware {
@@ -32,6 +33,8 @@ struct ReceiveBuffer {
     full = false;
     return byte;
   }
+  /// `count` bytes came and were taken; the buffer is empty before and after.
+  void pass(std::size_t count) noexcept { read = write = static_cast<std::uint8_t>((write + count) % kSize); }
   void clear() noexcept {
     read = write = 0;
     full = overflow = false;

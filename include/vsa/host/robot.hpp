@@ -25,6 +25,8 @@
 #include <vector>
 
 #include "vsa/bus/master.hpp"
+#include "vsa/device/faults.hpp"
+#include "vsa/device/port_line.hpp"
 #include "vsa/device/unit.hpp"
 
 namespace vsa::host {
@@ -47,6 +49,9 @@ struct BusConfig {
   std::string name;
   double baud_Hz = 2'000'000;
   std::optional<double> cycle_s;  ///< none: automatic, max(wire time, 1 ms × units)
+  /// The bus belongs to an external client on this virtual serial port: no master, commands to its actuators are not taken, units
+  /// hold their initial references until the client tells them otherwise. The port itself is opened by the host's program.
+  std::optional<std::string> serial_port = std::nullopt;
 };
 
 struct RobotConfig {
@@ -78,7 +83,7 @@ struct ActuatorReading {
   std::array<double, 2> motor_speed_rad_per_s{};
   std::array<double, 2> motor_torque_Nm{};  ///< spring load on each pulley, mean over the last step
   std::array<double, 2> current_A{};
-  std::array<Ticks, 3> measured{};  ///< motor 1, motor 2, shaft as the bus master last read them
+  std::array<Ticks, 3> measured{};  ///< motor 1, motor 2, shaft as the bus master last read them; with a client, as they'd be read
 };
 
 /// A command that was out of range is clamped as the device does and reported once per actuator.
@@ -123,12 +128,21 @@ class Robot {
   bool follow(std::size_t actuator, Channel channel, std::vector<Knot> knots);
 
   [[nodiscard]] ActuatorReading read(std::size_t actuator) const;
+  /// The references that the unit received last, as they came over its bus.
+  [[nodiscard]] std::array<Ticks, 2> received_inputs(std::size_t actuator) const;
   [[nodiscard]] actuator::Ledger ledger(std::size_t actuator) const;  ///< energy ledger since the start or the last reset
   [[nodiscard]] actuator::Ledger ledger() const;                      ///< summed over all actuators
   [[nodiscard]] std::vector<Notice> take_notices();                   ///< since the last call
 
   /// Cuts or restores the supply of every unit (0 V: the motors short through the bridge).
   void set_supply(bool on) noexcept;
+
+  /// From any thread; from the next step on, until a reset. Throws InputError for values out of bounds or no such actuator.
+  void set_faults(std::size_t actuator, const device::Faults& faults);
+  [[nodiscard]] const device::Faults& faults(std::size_t actuator) const;  ///< in force
+
+  /// The units' end of a bus's serial port; none if the bus has no serial port. Lives as long as the robot.
+  [[nodiscard]] device::PortLine* serial_line(std::size_t bus) noexcept;
 
   struct Snapshot;  ///< opaque, copyable value
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;

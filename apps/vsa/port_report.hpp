@@ -1,0 +1,13 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "vsa/serial/virtual_port.hpp"
+
+namespace vsa::app {
+
+/// What a virtual port did, as lines of a summary. `lost_bytes`: of the client, in the units' receive buffer.
+[[nodiscard]] std::string port_report(const serial::PortCounters& port, std::uint64_t lost_bytes);
+
+}  // namespace vsa::app

@@ -1,0 +1,60 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What ping, get and set have in common: a port, the units meant, how they speak.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "vsa/bus/client.hpp"
+#include "vsa/serial/serial_channel.hpp"
+
+namespace vsa::app {
+
+struct UnitPortOptions {
+  std::string port;
+  std::string ids = "1";       ///< "1", "1-12", "1,3,5"
+  std::optional<int> dialect;  ///< 6 or 7; none: by the unit's ping
+  std::int64_t baud_Hz = bus::kDefaultBaud_Hz;
+  double timeout_ms = 20;
+};
+
+void add_port_options(CLI::App& sub, UnitPortOptions& options);
+/// Throws InputError.
+[[nodiscard]] std::vector<std::uint8_t> parse_ids(const std::string& text, const std::string& flag = "--id");
+
+/// A unit didn't answer, or not as it should: the command fails (exit code 1).
+class NoAnswer : public std::runtime_error {
+ public:
+  using runtime_error::runtime_error;
+};
+
+class UnitPort {
+ public:
+  /// Opens the port. Throws InputError.
+  explicit UnitPort(const UnitPortOptions& options);
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  /// What the options say, or else what the unit's ping shows. Throws NoAnswer.
+  [[nodiscard]] bus::Dialect dialect(std::uint8_t id);
+  [[nodiscard]] bus::Client client(bus::Dialect dialect);
+  /// The content, or NoAnswer with unit, port and what was asked.
+  template <class T>
+  [[nodiscard]] T take(const bus::Result<T>& result, std::uint8_t id, const std::string& what) const {
+    if (!result) fail(result.error(), id, what);
+    return *result;
+  }
+
+ private:
+  [[noreturn]] void fail(bus::ClientError error, std::uint8_t id, const std::string& what) const;
+
+  UnitPortOptions options_;
+  std::string path_;
+  serial::SerialChannel channel_;
+};
+
+}  // namespace vsa::app

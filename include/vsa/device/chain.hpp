@@ -1,0 +1,131 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Units on one line: bytes travel at the line's rate, every unit hears them in order, answers come back after the turn-around.
+//
+//   who hears    everyone who doesn't speak at that time (half duplex); a unit hears the other units' answers, too
+//   one speaker  a byte is heard at the end of its stop bit. Whole frames between speakers are handed over as such (the same to the
+//                programs, and cheap: a frame for someone else costs a unit some nanoseconds)
+//   several      the wired-AND of bus/timing.hpp, bit by bit; so also when rates differ. A byte with a framing error is heard as
+//                it was sampled: the unit's serial port stores it, and the checksum refuses the frame
+//   answers      start at the request's end + the program's delay + turn-around (+ Wiring::late_ns); one unit's own answers never
+//   overlap a dead unit  neither hears nor speaks; what it was saying stops
+//
+// Time only moves forward, by run_to. A byte that ends exactly at a tick is heard before it; the host's bytes that set out exactly
+// then are asked for by the next run_to.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "vsa/bus/line_host.hpp"
+#include "vsa/bus/timing.hpp"
+#include "vsa/device/dice.hpp"
+#include "vsa/firmware/program.hpp"
+
+namespace vsa::device {
+
+struct LineConfig {
+  bus::LineRate rate{};
+  std::int64_t turn_around_ps = 0;  ///< UNKNOWN on hardware
+};
+
+/// A unit's program; its state belongs to the unit.
+struct Station {
+  const firmware::Program* program = nullptr;
+  firmware::ProgramState* state = nullptr;
+};
+
+/// How a unit hangs on the line: right, unless somebody breaks it.
+struct Wiring {
+  bool powered = true;
+  double lost_byte = 0;      ///< probability that a byte, heard or said, is lost
+  double flipped_byte = 0;   ///< probability that one of its bits is flipped
+  std::int64_t late_ns = 0;  ///< answers come this much later
+  [[nodiscard]] bool clean() const noexcept { return lost_byte <= 0 && flipped_byte <= 0; }
+  bool operator==(const Wiring&) const = default;
+};
+
+struct ChainState {
+  static constexpr int kHost = -1;
+  struct Speech {
+    std::int64_t start_ps = 0, end_ps = 0;
+    std::size_t begin = 0, size = 0;  ///< in `bytes`
+    std::size_t heard = 0;            ///< bytes handed over, while nobody else speaks
+    int speaker = kHost;
+    bus::LineRate rate{};
+  };
+  struct Ear {
+    bus::LineReceiver receiver;
+    std::int64_t free_ps = 0;  ///< until then it speaks
+    Wiring wiring;
+    Dice dice;
+  };
+  enum class Mode : std::uint8_t { frames, bytes, bits };
+
+  std::int64_t now_ps = 0;
+  Mode mode = Mode::frames;
+  bool someone_waits = false;  ///< a program has bytes that it couldn't look at yet
+  bool rates_differ = false;
+  bus::LineReceiver host_ear;
+  std::int64_t host_free_ps = 0;
+  std::vector<Ear> ears;         // one a station
+  std::vector<Speech> speeches;  // by start
+  std::vector<std::uint8_t> bytes;
+};
+
+class Chain {
+ public:
+  Chain(const LineConfig& config, std::vector<Station> stations);
+
+  [[nodiscard]] std::size_t size() const noexcept { return stations_.size(); }
+  [[nodiscard]] const ChainState& state() const noexcept { return state_; }
+  /// For snapshots: the same number of stations. The programs' states are the owner's to restore.
+  void restore(const ChainState& state) { state_ = state; }
+
+  /// All that happens on the line up to and including `until_ns`.
+  void run_to(std::int64_t until_ns, bus::LineHost& host) noexcept;
+  /// When something happens next without the host; kNeverPs: never. Never late, maybe early.
+  [[nodiscard]] std::int64_t next_event_ps() const noexcept;
+
+  /// One tick of a unit's program, at the time that the line has reached.
+  void tick(std::size_t station, const firmware::TickInputs& in, std::int64_t now_ns) noexcept;
+
+  /// Switching on is a power-up of the program.
+  void set_wiring(std::size_t station, const Wiring& wiring, std::uint64_t seed);
+  /// What the host's own serial port is set to.
+  void set_host_rate(bus::LineRate rate) noexcept;
+  /// The owner's time jumped: all that is under way moves along, programs included.
+  void shift_time(std::int64_t by_ns) noexcept;
+
+ private:
+  using Speech = ChainState::Speech;
+  using Mode = ChainState::Mode;
+  [[nodiscard]] bool alone(const Speech& s, std::int64_t host_ps) const noexcept;
+  [[nodiscard]] bool all_ready(const Speech& s) const noexcept;
+  [[nodiscard]] std::int64_t next_wake_ps() const noexcept;
+  [[nodiscard]] std::span<const std::uint8_t> view(const Speech& s) const noexcept;
+  void say(int speaker, std::int64_t start_ps, std::span<const std::uint8_t> bytes, bus::LineRate rate);
+  void say_through_fault(int station, std::int64_t start_ps, std::span<const std::uint8_t> bytes);
+  void collect(std::size_t station, std::int64_t heard_ps);
+  void hear(std::size_t station, std::uint8_t byte, std::int64_t at_ps);
+  void wake(std::int64_t now_ps);
+  void drop_first();
+  bool step_frames(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost& host);
+  bool step_bytes(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost& host);
+  bool step_bits(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost& host);
+  void listen_bits(std::int64_t until_ps, bus::LineHost& host);
+  void enter_bits() noexcept;
+  [[nodiscard]] bool speaks(int listener) const noexcept;
+  [[nodiscard]] bool speaks_over(int listener, bus::LineRate rate, std::int64_t byte_end_ps) const noexcept;
+  void speakers_for(int listener);
+  void find_rates() noexcept;
+
+  LineConfig config_;
+  std::vector<Station> stations_;
+  ChainState state_;
+  firmware::Output out_;
+  std::vector<bus::Burst> speakers_;  // scratch
+};
+
+}  // namespace vsa::device

@@ -1,0 +1,90 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A chain as an external client meets it, in real time, while another thread steps the simulation.
+//
+// THE LINE'S CLOCK is the faster of wall time and simulated time, since the first of either came. In real time both run together; a
+// simulation that is slow, or stands, doesn't slow the line down: units answer from their last tick, as they do on hardware, and
+// what waits for time (a store, the watchdog) goes on. A simulation that is fast takes the line along, so that a unit's store is
+// as long as its ticks say. A lead of more than kMaxLead on either side is forgotten.
+//
+// ANSWERS AT ONCE. The line is simulated a little ahead of its clock (kAhead), so that a usual answer is there when the client's
+// bytes are in; bytes that the client sends then start after what it has heard. A client can't outrun the wire by more than that:
+// its bytes, and long answers, wait for their time, and `wake` tells when. Of more than kMaxWaiting bytes the rest is lost, as in
+// a serial port that overruns.
+//
+// Threads: `exchange`, `wake` and `set_rate` from the port's; `ticks` from the one that steps, which holds the lock for one tick's
+// programs and never for physics.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "vsa/bus/line_host.hpp"
+#include "vsa/bus/serial_line.hpp"
+#include "vsa/device/chain.hpp"
+
+namespace vsa::device {
+
+class PortLine final : public bus::SerialLine, private bus::LineHost {
+ public:
+  static constexpr std::int64_t kAheadNs = 500'000;
+  static constexpr std::int64_t kMaxLeadNs = 50'000'000;
+  static constexpr std::size_t kMaxWaiting = 4096;
+
+  explicit PortLine(Chain& chain, std::function<Clock::time_point()> now = Clock::now) : chain_(chain), wall_(std::move(now)) {}
+
+  void exchange(std::span<const std::uint8_t> from_client, std::vector<std::uint8_t>& answer) override;
+  [[nodiscard]] std::optional<Clock::time_point> wake() const override;
+  /// The client set its serial port to this.
+  void set_rate(std::int64_t baud_Hz);
+
+  /// Does `work(line time in ns)` under the lock, with the line heard up to a tick of simulated time.
+  template <class Work>
+  void ticks(std::int64_t sim_ns, Work&& work) {
+    give_way();
+    const std::lock_guard lock(mutex_);
+    work(move_to_tick(sim_ns));
+  }
+  /// For whatever else touches the programs' states.
+  template <class Work>
+  auto locked(Work&& work) const {
+    const std::lock_guard lock(mutex_);
+    return work();
+  }
+  void lock() const { mutex_.lock(); }
+  void unlock() const { mutex_.unlock(); }
+  /// Under the lock, after a restore or reset: time begins anew, nothing is under way to the client.
+  void forget();
+  /// Bytes of the client that were lost because too many waited.
+  [[nodiscard]] std::uint64_t lost() const;
+
+ private:
+  std::int64_t next_ps() const noexcept override;
+  bus::FrameBytes speak() noexcept override;
+  void hear(std::uint8_t byte, std::int64_t end_ps) noexcept override;
+  /// A simulation that never sleeps would take the lock again before the client wakes up.
+  void give_way() const noexcept;
+  std::int64_t move_to_tick(std::int64_t sim_ns);
+  std::int64_t line_now_ns();
+  std::int64_t wall_ns() const;
+
+  mutable std::mutex mutex_;
+  std::atomic<bool> client_waits_{false};
+  Chain& chain_;
+  std::function<Clock::time_point()> wall_;
+  bool started_ = false;
+  std::int64_t wall_offset_ns_ = 0, sim_offset_ns_ = 0;  // line time = wall or simulated time + offset
+  std::int64_t sim_line_ns_ = 0, now_ns_ = 0;            // line time of the last tick; of the last look
+  std::vector<std::uint8_t> waiting_;                    // of the client, not on the wire yet
+  std::size_t taken_ = 0;
+  std::int64_t may_speak_ps_ = 0;
+  std::vector<std::uint8_t> heard_;
+  std::int64_t heard_ps_ = 0;
+  std::uint64_t lost_ = 0;
+};
+
+}  // namespace vsa::device

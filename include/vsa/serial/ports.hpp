@@ -1,0 +1,20 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vsa::serial {
+
+/// Where a virtual port of this name is: a name with a '/' is a path, as it is; any other lies in $XDG_RUNTIME_DIR, or in /tmp
+/// where there is none, and starts with "vsa-" ("arm" and "vsa-arm" are the same port).
+[[nodiscard]] std::string port_path(std::string_view name);
+
+struct PortList {
+  std::vector<std::string> virtual_ports;  ///< "vsa-…" in the place above; those whose owner was killed are left out
+  std::vector<std::string> devices;        ///< /dev/ttyUSB*, /dev/ttyACM*
+};
+[[nodiscard]] PortList find_ports();
+
+}  // namespace vsa::serial

@@ -1,0 +1,37 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/device/faults.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "vsa/units.hpp"
+
+namespace vsa::device {
+namespace {
+
+std::string text_of(double v) {
+  std::ostringstream out;
+  out << v;
+  return out.str();
+}
+
+}  // namespace
+
+Wiring Faults::wiring() const noexcept {
+  return {powered, lost_byte, flipped_byte, static_cast<std::int64_t>(std::llround(late_s * 1e9))};
+}
+
+void check(const Faults& f, std::string_view where, Problems& problems) {
+  const auto within = [&](const std::string& key, double v, double max, const char* unit) {
+    if (v >= 0 && v <= max) return;
+    problems.add({"", std::string(where) + key, text_of(v), "is out of range", "0 … " + text_of(max) + unit});
+  };
+  within("lost_byte", f.lost_byte, 1, "");
+  within("flipped_byte", f.flipped_byte, 1, "");
+  within("late_s", f.late_s, 60, " s");
+  for (std::size_t i = 0; i < f.encoder.size(); ++i)
+    within("encoder_" + std::to_string(i + 1) + ".noise_rad", f.encoder[i].noise_rad, kPi, " rad");
+  if (f.supply_V) within("supply_V", *f.supply_V, 100, " V");
+}
+
+}  // namespace vsa::device

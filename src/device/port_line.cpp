@@ -1,0 +1,123 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/device/port_line.hpp"
+
+#include <algorithm>
+#include <thread>
+
+namespace vsa::device {
+namespace {
+
+constexpr std::int64_t kPsPerNs = 1000;
+constexpr std::int64_t kShortestSleepNs = 50'000;
+constexpr int kMaxYields = 100;
+
+}  // namespace
+
+void PortLine::give_way() const noexcept {
+  for (int n = 0; n < kMaxYields && client_waits_.load(std::memory_order_relaxed); ++n) std::this_thread::yield();
+}
+
+std::int64_t PortLine::wall_ns() const {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(wall_().time_since_epoch()).count();
+}
+
+std::int64_t PortLine::line_now_ns() {
+  const std::int64_t wall = wall_ns();
+  if (!started_) {
+    started_ = true;
+    wall_offset_ns_ = now_ns_ - wall;
+  }
+  now_ns_ = std::max({now_ns_, wall + wall_offset_ns_, sim_line_ns_});
+  return now_ns_;
+}
+
+std::int64_t PortLine::move_to_tick(std::int64_t sim_ns) {
+  if (!started_) {
+    now_ns_ = sim_line_ns_ = std::max(now_ns_, sim_ns);
+    sim_offset_ns_ = now_ns_ - sim_ns;
+    line_now_ns();
+  }
+  const std::int64_t wall = wall_ns() + wall_offset_ns_;
+  const std::int64_t sim = std::max(sim_ns + sim_offset_ns_, sim_line_ns_);
+  if (sim < wall - kMaxLeadNs) sim_offset_ns_ = wall - kMaxLeadNs - sim_ns;
+  if (wall < sim - kMaxLeadNs) wall_offset_ns_ += sim - kMaxLeadNs - wall;
+  sim_line_ns_ = std::max(sim_ns + sim_offset_ns_, sim_line_ns_);
+  const std::int64_t now = line_now_ns();
+  chain_.run_to(now, *this);
+  return now;
+}
+
+void PortLine::exchange(std::span<const std::uint8_t> from_client, std::vector<std::uint8_t>& answer) {
+  client_waits_.store(true, std::memory_order_relaxed);
+  const std::lock_guard lock(mutex_);
+  client_waits_.store(false, std::memory_order_relaxed);
+  const std::int64_t now = line_now_ns();
+  const std::size_t room = kMaxWaiting - std::min(kMaxWaiting, waiting_.size() - taken_);
+  const auto kept = from_client.first(std::min(room, from_client.size()));
+  lost_ += from_client.size() - kept.size();
+  if (taken_ == waiting_.size()) {
+    waiting_.clear();
+    taken_ = 0;
+    may_speak_ps_ = std::max(now * kPsPerNs, heard_ps_);
+  }
+  waiting_.insert(waiting_.end(), kept.begin(), kept.end());
+  chain_.run_to(now + kAheadNs, *this);
+  answer.insert(answer.end(), heard_.begin(), heard_.end());
+  heard_.clear();
+}
+
+std::optional<bus::SerialLine::Clock::time_point> PortLine::wake() const {
+  const std::lock_guard lock(mutex_);
+  const auto now = wall_();
+  if (!heard_.empty()) return now;
+  std::int64_t event_ps = chain_.next_event_ps();
+  if (taken_ < waiting_.size()) event_ps = std::min(event_ps, std::max(next_ps(), chain_.state().host_free_ps));
+  if (event_ps == bus::kNeverPs) return std::nullopt;
+  const std::int64_t line = std::max(now_ns_, wall_ns() + wall_offset_ns_);
+  const std::int64_t sleep = event_ps / kPsPerNs - (line + kAheadNs);
+  return now + std::chrono::nanoseconds(std::max(sleep, kShortestSleepNs));
+}
+
+void PortLine::set_rate(std::int64_t baud_Hz) {
+  const std::lock_guard lock(mutex_);
+  chain_.set_host_rate({std::max<std::int64_t>(baud_Hz, 1)});
+}
+
+void PortLine::forget() {
+  started_ = false;
+  now_ns_ = chain_.state().now_ps / kPsPerNs;
+  sim_line_ns_ = sim_offset_ns_ = 0;
+  waiting_.clear();
+  heard_.clear();
+  taken_ = 0;
+  may_speak_ps_ = heard_ps_ = 0;
+}
+
+std::uint64_t PortLine::lost() const {
+  const std::lock_guard lock(mutex_);
+  return lost_;
+}
+
+std::int64_t PortLine::next_ps() const noexcept { return taken_ == waiting_.size() ? bus::kNeverPs : may_speak_ps_; }
+
+/// One frame if one is there, so that the line can hand it over whole; else what is there.
+bus::FrameBytes PortLine::speak() noexcept {
+  const std::span<const std::uint8_t> rest{waiting_.data() + taken_, waiting_.size() - taken_};
+  std::size_t size = std::min(rest.size(), bus::kMaxFrameBytes);
+  if (rest.size() > bus::kHeaderBytes && rest[0] == bus::kStartByte && rest[1] == bus::kStartByte) {
+    const std::size_t frame = bus::kHeaderBytes + rest[3];
+    if (bus::whole_frame(rest.first(std::min(frame, rest.size())))) size = frame;
+  }
+  bus::FrameBytes out;
+  for (const std::uint8_t byte : rest.first(size)) out.push(byte);
+  taken_ += size;
+  may_speak_ps_ = std::max(may_speak_ps_, chain_.state().host_free_ps);
+  return out;
+}
+
+void PortLine::hear(std::uint8_t byte, std::int64_t end_ps) noexcept {
+  heard_.push_back(byte);
+  heard_ps_ = std::max(heard_ps_, end_ps);
+}
+
+}  // namespace vsa::device

@@ -1,0 +1,119 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A unit's electronics: what its program reads and what its duty becomes; how a unit begins.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "vsa/device/unit.hpp"
+#include "vsa/firmware/exchange.hpp"
+
+namespace vsa::device {
+namespace {
+
+constexpr double kDutyScale = 101.0;  // the PWM counter's period
+constexpr int kFull = 100;
+
+std::int16_t to_ticks(double rad, int resolution) noexcept {
+  const double raw = std::nearbyint(rad / (2.0 * kPi) * kRawPerTurn);
+  const double ticks = std::floor(raw / static_cast<double>(std::int64_t{1} << std::min(resolution, 31)));
+  return static_cast<std::int16_t>(std::clamp(ticks, -32768.0, 32767.0));
+}
+
+bool inverted(const UnitConfig& c) noexcept { return c.program.model == firmware::Model::advanced; }
+
+}  // namespace
+
+std::array<std::int32_t, 2> UnitConfig::reference_range_raw(int i) const noexcept {
+  const auto n = static_cast<std::size_t>(i);
+  if (memory.limits_on == 0) {
+    const std::int32_t unit = std::int32_t{1} << std::min<int>(memory.resolution[n], 16);
+    return {-32768 * unit, 32767 * unit};
+  }
+  const bool turned = program.model == firmware::Model::advanced;
+  return turned ? std::array{-memory.limit_high[n], -memory.limit_low[n]} : std::array{memory.limit_low[n], memory.limit_high[n]};
+}
+
+Unit::Unit(UnitConfig config)
+    : config_(std::move(config)),
+      program_(config_.program),
+      shaft_friction_(config_.actuator.shaft_friction),
+      actuator_(config_.actuator) {}
+
+std::array<Ticks, 2> Unit::inputs_for(double equilibrium_rad, double preset) const noexcept {
+  const double kept = std::clamp(preset, -config_.preset_max, config_.preset_max);
+  const auto x = config_.actuator.transmission->references({equilibrium_rad, kept});
+  return {Ticks{to_ticks(x[0], config_.memory.resolution[0])}, Ticks{to_ticks(x[1], config_.memory.resolution[1])}};
+}
+
+void Unit::set_inputs(UnitState& s, std::array<Ticks, 2> inputs) const noexcept {
+  firmware::set_inputs(config_.program.model, {s.program.memory.stored, s.program.memory.current}, s.program.loop, inputs);
+}
+
+UnitState Unit::switched_on(double shaft_rad, std::uint8_t id, std::int64_t now_ns) const noexcept {
+  UnitState s;
+  firmware::Memory shipped = config_.memory;
+  shipped.id = id;
+  s.program = program_.fresh(now_ns, shipped);
+  s.actuator = actuator_.initial({0.0, 0.0}, shaft_rad);
+  return s;
+}
+
+UnitState Unit::initial(double equilibrium_rad, double preset, double shaft_rad, std::uint8_t id) const noexcept {
+  UnitState s = switched_on(shaft_rad, id, 0);
+  set_inputs(s, inputs_for(equilibrium_rad, preset));
+  const double rad_per_raw = (inverted(config_) ? -1.0 : 1.0) * radians(Raw{1});
+  const auto& ref = s.program.loop.ref_new;
+  s.actuator = actuator_.initial({ref[0] * rad_per_raw, ref[1] * rad_per_raw}, shaft_rad);
+  firmware::settle(program_, s.program, read_sensors(s, shaft_rad));
+  s.limit_pct = s.program.loop.limit_pct;
+  return s;
+}
+
+void Unit::set_faults(UnitState& s, const Faults& faults) noexcept {
+  s.faults = faults;
+  s.dice = {faults.seed};
+}
+
+double Unit::supply_V(const UnitState& s) const noexcept {
+  return s.supply_on ? s.faults.supply_V.value_or(config_.actuator.bridge.supply_V) : 0.0;
+}
+
+firmware::TickInputs Unit::read_sensors(UnitState& s, double shaft) const noexcept {
+  const actuator::ActuatorParams& p = config_.actuator;
+  firmware::TickInputs in;
+  // The advanced program turns the motors' words round and not the shaft's, and on the wire all three; in deflection mode the
+  // motors follow the shaft only if its encoder counts the other way. So its magnet must be mounted like that.
+  const double shaft_sign = inverted(config_) ? -1.0 : 1.0;
+  const std::array<double, 3> angle{s.actuator.motor[0].angle, s.actuator.motor[1].angle, shaft_sign * (shaft + p.shaft_zero_rad)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const EncoderFault& fault = s.faults.encoder[i];
+    const double noise = fault.noise_rad > 0 ? fault.noise_rad * (2.0 * s.dice.uniform() - 1.0) : 0.0;
+    if (!fault.stuck) s.last_encoder[i] = sensor::encoder_sample(p.encoder, angle[i] + noise);
+    in.encoder[i] = s.last_encoder[i];
+  }
+  for (int i = 0; i < 2; ++i)
+    in.current_adc[i] = sensor::current_adc(actuator_.motor_current(s.actuator, i, s.held.voltage[i], s.held.terminal[i]));
+  in.supply_adc = sensor::supply_adc(supply_V(s));
+  return in;
+}
+
+void Unit::hold(UnitState& s, StepPlan& plan) const noexcept {
+  drive::BridgeParams bridge = config_.actuator.bridge;
+  bridge.supply_V = supply_V(s);
+  const firmware::Drive drive = program_.drive(s.program);
+  const bool direct = s.program.memory.current.control_mode == static_cast<std::uint8_t>(firmware::ControlMode::pwm);
+  // The duty went out before this tick's supply reading changed the limit.
+  const std::int32_t limit = direct ? kFull : s.limit_pct;
+  s.limit_pct = s.program.loop.limit_pct;
+  for (int i = 0; i < 2; ++i) {
+    const bool on = s.faults.powered && drive.enabled[i];
+    const bool open = s.faults.motor_unplugged[i] || (!on && !bridge.brake_when_off);
+    const double output = limit > 0 ? drive.duty_pct[i] / static_cast<double>(limit) : 0.0;
+    s.held.terminal[i] = open ? drive::Terminal::open : drive::Terminal::driven;
+    s.held.voltage[i] = on && !open ? config_.polarity * drive::bridge_voltage(bridge, output, limit / kDutyScale) : 0.0;
+  }
+  plan.held[plan.held_count++] = s.held;
+}
+
+}  // namespace vsa::device

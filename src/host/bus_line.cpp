@@ -1,0 +1,101 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "host/bus_line.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "host/state.hpp"
+#include "vsa/firmware/exchange.hpp"
+
+namespace vsa::host {
+namespace {
+
+std::vector<device::Station> stations(const std::vector<BusMember>& members) {
+  std::vector<device::Station> out;
+  for (const BusMember& m : members) out.push_back({&m.unit->program(), &m.slot->unit.program});
+  return out;
+}
+
+std::vector<std::uint8_t> ids(const std::vector<BusMember>& members) {
+  std::vector<std::uint8_t> out;
+  for (const BusMember& m : members) out.push_back(m.id);
+  return out;
+}
+
+bus::Schedule schedule(const BusConfig& config, std::size_t units) {
+  return bus::make_schedule(std::max(static_cast<int>(units), 1), config.baud_Hz, config.cycle_s);
+}
+
+}  // namespace
+
+BusLine::BusLine(const BusConfig& config, std::vector<BusMember> members)
+    : members_(std::move(members)),
+      chain_({schedule(config, members_.size()).rate, 0}, stations(members_)),
+      master_(schedule(config, members_.size()), ids(members_), *this) {
+  if (!config.serial_port) return;
+  port_ = std::make_unique<device::PortLine>(chain_);
+  sensors_.resize(members_.size());
+}
+
+void BusLine::tick(std::int64_t at_ns) noexcept {
+  if (port_) {
+    for (std::size_t k = 0; k < members_.size(); ++k)
+      sensors_[k] = members_[k].unit->sample(members_[k].slot->unit, *members_[k].plan, at_ns);
+    port_->ticks(at_ns, [this](std::int64_t line_ns) {
+      for (std::size_t k = 0; k < members_.size(); ++k) {
+        chain_.tick(k, sensors_[k], line_ns);
+        members_[k].unit->hold(members_[k].slot->unit, *members_[k].plan);
+      }
+    });
+    return;
+  }
+  chain_.run_to(at_ns, master_);
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    const BusMember& m = members_[k];
+    chain_.tick(k, m.unit->sample(m.slot->unit, *m.plan, at_ns), at_ns);
+    m.unit->hold(m.slot->unit, *m.plan);
+  }
+}
+
+void BusLine::run_to(std::int64_t until_ns) noexcept {
+  if (!port_) chain_.run_to(until_ns, master_);
+}
+
+void BusLine::shift_time(std::int64_t by_ns) noexcept {
+  if (port_) return;  // its clock takes jumps as it takes any speed
+  chain_.shift_time(by_ns);
+  master_.shift_time(by_ns);
+}
+
+void BusLine::set_wiring(const ActuatorSlot& slot, const device::Faults& faults) noexcept {
+  const auto member = std::find_if(members_.begin(), members_.end(), [&](const BusMember& m) { return m.slot == &slot; });
+  const auto k = static_cast<std::size_t>(member - members_.begin());
+  lock();
+  chain_.set_wiring(k, faults.wiring(), faults.seed);
+  unlock();
+}
+
+std::array<Ticks, 3> BusLine::measured(const ActuatorSlot& slot, const device::Unit& unit) const {
+  if (!port_) return slot.measured;
+  return port_->locked([&] {
+    const firmware::ProgramState& s = slot.unit.program;
+    return firmware::positions(unit.config().program.model, s.memory.stored, s.loop);
+  });
+}
+
+void BusLine::restore(const BusState& state) {
+  chain_.restore(state.chain);
+  master_.restore(state.master);
+  if (port_) port_->forget();
+}
+
+std::array<Ticks, 2> BusLine::inputs(int k, std::int64_t now_ns) noexcept {
+  const BusMember& m = members_[static_cast<std::size_t>(k)];
+  return m.unit->inputs_for(m.slot->equilibrium.at(now_ns), m.slot->preset.at(now_ns));
+}
+
+void BusLine::measured(int k, const std::array<Ticks, 3>& positions) noexcept {
+  members_[static_cast<std::size_t>(k)].slot->measured = positions;
+}
+
+}  // namespace vsa::host

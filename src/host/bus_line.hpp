@@ -1,0 +1,65 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// One bus of a robot: its units' chain, and who speaks to them: the master, or a client on a serial port.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "vsa/bus/master.hpp"
+#include "vsa/device/chain.hpp"
+#include "vsa/device/port_line.hpp"
+#include "vsa/device/unit.hpp"
+
+namespace vsa::host {
+
+struct ActuatorSlot;
+struct BusConfig;
+
+struct BusMember {
+  device::Unit* unit;
+  ActuatorSlot* slot;
+  device::StepPlan* plan;
+  std::uint8_t id;
+};
+
+struct BusState {
+  device::ChainState chain;
+  bus::MasterState master;
+};
+
+class BusLine final : private bus::MasterClient {
+ public:
+  /// `members` by id; they stay where they are.
+  BusLine(const BusConfig& config, std::vector<BusMember> members);
+
+  /// The line up to a tick, and the tick of every unit.
+  void tick(std::int64_t at_ns) noexcept;
+  /// The line up to a step's end; a client's runs by itself.
+  void run_to(std::int64_t until_ns) noexcept;
+  void shift_time(std::int64_t by_ns) noexcept;
+  void set_wiring(const ActuatorSlot& slot, const device::Faults& faults) noexcept;
+
+  [[nodiscard]] device::PortLine* port() noexcept { return port_.get(); }
+  [[nodiscard]] std::array<Ticks, 3> measured(const ActuatorSlot& slot, const device::Unit& unit) const;
+
+  /// Around state() and restore(): keeps the client out.
+  void lock() const { port_ ? port_->lock() : void(); }
+  void unlock() const { port_ ? port_->unlock() : void(); }
+  [[nodiscard]] BusState state() const { return {chain_.state(), master_.state()}; }
+  /// The programs' states are restored by their owner.
+  void restore(const BusState& state);
+
+ private:
+  std::array<Ticks, 2> inputs(int k, std::int64_t now_ns) noexcept override;
+  void measured(int k, const std::array<Ticks, 3>& positions) noexcept override;
+
+  std::vector<BusMember> members_;
+  device::Chain chain_;
+  bus::Master master_;
+  std::unique_ptr<device::PortLine> port_;
+  std::vector<firmware::TickInputs> sensors_;  // with a port: read before its lock is taken
+};
+
+}  // namespace vsa::host

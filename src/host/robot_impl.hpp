@@ -1,0 +1,127 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What a robot consists of.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "host/bus_line.hpp"
+#include "host/command_queue.hpp"
+#include "host/state.hpp"
+#include "vsa/host/robot.hpp"
+
+namespace vsa::host {
+
+struct Robot::Impl {
+  explicit Impl(RobotConfig c) : config(std::move(c)) {
+    units.reserve(config.actuators.size());
+    for (const ActuatorConfig& a : config.actuators) units.push_back(unit_for(a.unit));
+    state.actuators.resize(units.size());
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const ActuatorConfig& a = config.actuators[i];
+      ActuatorSlot& slot = state.actuators[i];
+      slot.equilibrium.value = a.initial_equilibrium_rad;
+      slot.preset.value = a.initial_preset;
+      // Where the shaft is will be known at the first step.
+      slot.unit = units[i]->initial(a.initial_equilibrium_rad, a.initial_preset, a.initial_equilibrium_rad,
+                                    static_cast<std::uint8_t>(a.id));
+    }
+    plans.resize(units.size());
+    notices.reserve(units.size());
+    make_buses();
+    initial.state = state;
+    for (const auto& bus : buses) initial.buses.push_back(bus->state());
+  }
+
+  void make_buses() {
+    for (std::size_t b = 0; b < config.buses.size(); ++b) {
+      std::vector<std::size_t> on_it;
+      for (std::size_t i = 0; i < units.size(); ++i)
+        if (config.actuators[i].bus == b) on_it.push_back(i);
+      std::stable_sort(on_it.begin(), on_it.end(),
+                       [this](std::size_t x, std::size_t y) { return config.actuators[x].id < config.actuators[y].id; });
+      std::vector<BusMember> members;
+      for (const std::size_t i : on_it)
+        members.push_back({units[i].get(), &state.actuators[i], &plans[i], static_cast<std::uint8_t>(config.actuators[i].id)});
+      buses.push_back(std::make_unique<BusLine>(config.buses[b], std::move(members)));
+    }
+  }
+
+  /// Units with equal parameters share one instance: a thousand of them then fit the processor's cache. States are their own.
+  std::shared_ptr<device::Unit> unit_for(const UnitConfig& unit) {
+    for (const auto& known : distinct)
+      if (known->config() == unit) return known;
+    distinct.push_back(std::make_shared<device::Unit>(unit));
+    return distinct.back();
+  }
+
+  void take_commands() noexcept {
+    queue.drain([this](Order& c) {
+      ActuatorSlot& slot = state.actuators[c.actuator];
+      (c.channel == Channel::equilibrium ? slot.equilibrium : slot.preset).begin(std::move(c.knots), state.time_ns);
+      note_range(c.actuator);
+    });
+  }
+
+  void take_faults() noexcept {
+    faults.drain([this](FaultOrder& f) {
+      const ActuatorConfig& a = config.actuators[f.actuator];
+      device::Unit::set_faults(state.actuators[f.actuator].unit, f.faults);
+      buses[a.bus]->set_wiring(state.actuators[f.actuator], f.faults);
+    });
+  }
+
+  void notice(std::size_t i, bool& noted, bool now, NoticeKind kind, double value) noexcept {
+    if (now && !noted) notices.push_back({i, kind, value});
+    noted = noted || now;
+  }
+
+  void note_range(std::size_t i) noexcept {
+    ActuatorSlot& slot = state.actuators[i];
+    const UnitConfig& unit = config.actuators[i].unit;
+    const double limit = unit.preset_max;
+    const double q = slot.equilibrium.last(), p = slot.preset.last();
+    if (config.buses[config.actuators[i].bus].serial_port) return notice(i, slot.noted_port, true, NoticeKind::port, 0);
+    notice(i, slot.noted_preset, std::abs(p) > limit, NoticeKind::preset, p);
+    const auto x = unit.actuator.transmission->references({q, std::clamp(p, -limit, limit)});
+    bool out = false;
+    for (int m = 0; m < 2 && unit.memory.limits_on != 0; ++m) {
+      const auto [low, high] = unit.reference_range_raw(m);
+      out = out || x[m] < radians(Raw{low}) || x[m] > radians(Raw{high});
+    }
+    notice(i, slot.noted_limits, out, NoticeKind::limits, q);
+  }
+
+  void expect(std::int64_t t_ns) noexcept {
+    if (t_ns == state.time_ns) return;
+    for (const auto& bus : buses) bus->shift_time(t_ns - state.time_ns);
+    state.time_ns = t_ns;
+  }
+
+  void restore(const Snapshot& from) {
+    for (const auto& bus : buses) bus->lock();
+    queue.clear();
+    faults.clear();
+    state = from.state;
+    for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->restore(from.buses[b]);
+    for (const auto& bus : buses) bus->unlock();
+  }
+
+  RobotConfig config;
+  std::vector<std::shared_ptr<device::Unit>> units;
+  std::vector<std::shared_ptr<device::Unit>> distinct;
+  RobotState state;
+  std::vector<device::StepPlan> plans;
+  std::vector<std::unique_ptr<BusLine>> buses;
+  Snapshot initial;
+  CommandQueue queue;
+  FaultQueue faults;
+  NoticeList notices;
+};
+
+}  // namespace vsa::host

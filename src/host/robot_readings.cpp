@@ -1,0 +1,82 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What a robot tells of itself.
+#include <string>
+#include <utility>
+
+#include "host/robot_impl.hpp"
+#include "vsa/firmware/arithmetic.hpp"
+
+namespace vsa::host {
+
+ActuatorReading Robot::read(std::size_t actuator) const {
+  const ActuatorSlot& slot = impl_->state.actuators.at(actuator);
+  const device::Unit& unit = *impl_->units[actuator];
+  const device::UnitState& u = slot.unit;
+  ActuatorReading r;
+  r.equilibrium_command_rad = slot.equilibrium.at(impl_->state.time_ns);
+  r.preset_command = slot.preset.at(impl_->state.time_ns);
+  const auto attained = unit.config().actuator.transmission->attained({u.actuator.motor[0].angle, u.actuator.motor[1].angle});
+  r.equilibrium_rad = attained.equilibrium;
+  r.preset = attained.preset;
+  r.shaft_rad = slot.shaft_rad;
+  r.shaft_speed_rad_per_s = u.last_speed;
+  r.deflection_rad = r.shaft_rad - r.equilibrium_rad;
+  r.stiffness_Nm_per_rad = unit.physics().spring(u.actuator, r.shaft_rad).curvature.qq;
+  r.torque_Nm = u.applied_torque;
+  for (int m = 0; m < unit.physics().motors(); ++m) {
+    r.motor_rad[m] = u.actuator.motor[m].angle;
+    r.motor_speed_rad_per_s[m] = u.actuator.motor[m].speed;
+    r.motor_torque_Nm[m] = u.actuator.load[m];
+    r.current_A[m] = unit.physics().motor_current(u.actuator, m, u.held.voltage[m], u.held.terminal[m]);
+  }
+  r.measured = impl_->buses[impl_->config.actuators[actuator].bus]->measured(slot, unit);
+  return r;
+}
+
+actuator::Ledger Robot::ledger(std::size_t actuator) const { return impl_->state.actuators.at(actuator).unit.actuator.ledger; }
+
+actuator::Ledger Robot::ledger() const {
+  actuator::Ledger sum;
+  for (const ActuatorSlot& slot : impl_->state.actuators) sum += slot.unit.actuator.ledger;
+  return sum;
+}
+
+std::vector<Notice> Robot::take_notices() {
+  std::vector<Notice> out;
+  for (const RangeNotice& n : impl_->notices.take()) {
+    const ActuatorConfig& a = impl_->config.actuators[n.actuator];
+    const auto unit = std::string(a.unit.actuator.transmission->preset_unit());
+    const std::string limit = std::to_string(a.unit.preset_max);
+    std::string text = a.name;
+    switch (n.kind) {
+      case NoticeKind::preset:
+        text += ": preset " + std::to_string(n.value) + " " + unit + " is beyond ±" + limit + ": clamped";
+        break;
+      case NoticeKind::limits:
+        text += ": equilibrium " + std::to_string(n.value) +
+                " rad with this preset drives a motor beyond its limits: clamped as the unit does";
+        break;
+      case NoticeKind::port:
+        text += ": commands aren't taken: its bus belongs to the serial port " + *impl_->config.buses[a.bus].serial_port;
+        break;
+    }
+    out.push_back({n.actuator, std::move(text)});
+  }
+  return out;
+}
+
+std::array<Ticks, 2> Robot::received_inputs(std::size_t actuator) const {
+  const UnitConfig& config = impl_->config.actuators.at(actuator).unit;
+  const BusLine& bus = *impl_->buses[impl_->config.actuators[actuator].bus];
+  const firmware::ProgramState& s = impl_->state.actuators[actuator].unit.program;
+  const std::int32_t sign = config.program.model == firmware::Model::advanced ? -1 : 1;
+  std::array<Ticks, 2> out;
+  bus.lock();
+  for (int i = 0; i < 2; ++i)
+    out[i] = {firmware::cut_16(firmware::shift_right(firmware::wrap_mul(sign, s.loop.ref_new[i]), s.memory.stored.resolution[i]))};
+  bus.unlock();
+  return out;
+}
+
+}  // namespace vsa::host

@@ -1,0 +1,32 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The stable name of a pseudo-terminal: a symbolic link, and beside it a locked file that says its owner lives.
+#pragma once
+
+#include <string>
+
+#include "serial/descriptor.hpp"
+
+namespace vsa::serial {
+
+class PortLink {
+ public:
+  /// Takes the name; doesn't make the link yet. Throws InputError: a living program has it, or something else is in its place.
+  explicit PortLink(const std::string& path);
+  ~PortLink();
+  PortLink(const PortLink&) = delete;
+  PortLink& operator=(const PortLink&) = delete;
+
+  /// Makes the link or moves it, in one step: nobody ever finds it missing or half done. Throws InputError.
+  void point_to(const std::string& target);
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+
+ private:
+  void take_lock();
+
+  std::string path_, lock_path_, target_;
+  Descriptor lock_;
+  bool lock_is_new_ = false;
+};
+
+}  // namespace vsa::serial

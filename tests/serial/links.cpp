@@ -1,0 +1,164 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Names and locks: who may have a port's name, and who may talk on it.
+#include <sys/wait.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "support.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/serial/ports.hpp"
+#include "vsa/serial/serial_channel.hpp"
+#include "vsa/serial/virtual_port.hpp"
+
+namespace vsa::serial::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string refusal(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no refusal";
+}
+
+std::string port_refusal(const std::string& path) {
+  Echo line;
+  return refusal([&] { VirtualPort port(line, {path}); });
+}
+
+TEST(Link, IsThereWhileThePortIsAndNothingStaysBehind) {
+  const Scratch scratch;
+  Echo line;
+  {
+    const VirtualPort port(line, {scratch / "arm"});
+    EXPECT_EQ(fs::read_symlink(scratch / "arm").string().rfind("/dev/pts/", 0), 0U);
+  }
+  EXPECT_TRUE(scratch.empty());
+}
+
+TEST(Link, OfALivingOwnerIsRefused) {
+  const Scratch scratch;
+  Echo line;
+  const VirtualPort port(line, {scratch / "arm"});
+  const std::string said = port_refusal(scratch / "arm");
+  EXPECT_NE(said.find("another program serves"), std::string::npos) << said;
+  EXPECT_NE(said.find(std::to_string(getpid())), std::string::npos) << said;
+  const RawClient client(port.path());
+  client.write({1});
+  EXPECT_EQ(client.read(1), Bytes{1}) << "the first goes on";
+}
+
+TEST(Link, OfAKilledOwnerIsReplaced) {
+  const Scratch scratch;
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t owner = fork();
+  if (owner == 0) {
+    Echo line;
+    const VirtualPort port(line, {scratch / "arm"});
+    [[maybe_unused]] const ssize_t n = write(ready[1], "!", 1);
+    while (true) pause();
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  kill(owner, SIGKILL);
+  waitpid(owner, nullptr, 0);
+  close(ready[0]);
+  close(ready[1]);
+  EXPECT_TRUE(fs::is_symlink(scratch / "arm"));
+  {
+    Echo line;
+    const VirtualPort port(line, {scratch / "arm"});
+    const RawClient client(port.path());
+    client.write({1});
+    EXPECT_EQ(client.read(1), Bytes{1});
+  }
+  EXPECT_TRUE(scratch.empty());
+}
+
+TEST(Link, IsNeverPutInThePlaceOfSomethingElse) {
+  const Scratch scratch;
+  std::ofstream(scratch / "file") << "mine";
+  fs::create_directory(scratch / "directory");
+  fs::create_symlink("/dev/null", scratch / "elsewhere");
+  Echo line;
+  const VirtualPort other(line, {scratch / "other"});
+  fs::create_symlink(fs::read_symlink(scratch / "other"), scratch / "of_another_program");
+  for (const char* name : {"file", "directory", "elsewhere", "of_another_program"}) {
+    const std::string said = port_refusal(scratch / name);
+    EXPECT_NE(said.find("left alone"), std::string::npos) << name << ": " << said;
+    EXPECT_TRUE(fs::exists(scratch / name));
+  }
+  EXPECT_TRUE(fs::is_regular_file(scratch / "file"));
+  EXPECT_NE(port_refusal(scratch / "no/such/place").find("No such file"), std::string::npos);
+  EXPECT_NE(port_refusal("").find("names no file"), std::string::npos);
+}
+
+TEST(Link, ThatSomebodyReplacedIsNotRemoved) {
+  const Scratch scratch;
+  Echo line;
+  {
+    const VirtualPort port(line, {scratch / "arm"});
+    fs::remove(scratch / "arm");
+    std::ofstream(scratch / "arm") << "mine";
+  }
+  EXPECT_TRUE(fs::is_regular_file(scratch / "arm"));
+}
+
+TEST(Ports, ANameLiesInTheRuntimeDirectoryAndAPathWhereItSays) {
+  const Scratch scratch;
+  setenv("XDG_RUNTIME_DIR", (scratch / "").c_str(), 1);
+  EXPECT_EQ(fs::path(port_path("arm")), fs::path(scratch / "vsa-arm"));
+  EXPECT_EQ(port_path("arm"), port_path("vsa-arm"));
+  EXPECT_EQ(port_path("/x/arm"), "/x/arm");
+  EXPECT_EQ(port_path("./arm"), "./arm");
+  Echo line;
+  {
+    const VirtualPort port(line, {port_path("arm")});
+    fs::create_symlink("/dev/pts/0", scratch / "vsa-dead");
+    EXPECT_EQ(find_ports().virtual_ports, std::vector<std::string>{port_path("arm")});
+  }
+  setenv("XDG_RUNTIME_DIR", (scratch / "nowhere").c_str(), 1);
+  EXPECT_EQ(port_path("arm"), "/tmp/vsa-arm");
+  unsetenv("XDG_RUNTIME_DIR");
+  EXPECT_EQ(port_path("arm"), "/tmp/vsa-arm");
+}
+
+TEST(Channel, ThatIsTakenIsRefusedAndFreeAgainAfterwards) {
+  const Scratch scratch;
+  Echo line;
+  const VirtualPort port(line, {scratch / "arm"});
+  {
+    const SerialChannel first(port.path());
+    const std::string said = refusal([&] { SerialChannel second(port.path()); });
+    EXPECT_TRUE(said.find("talks on it") != std::string::npos || said.find("for itself") != std::string::npos) << said;
+  }
+  EXPECT_EQ(refusal([&] { SerialChannel again(port.path()); }), "no refusal");
+}
+
+TEST(Channel, NeedsASerialPort) {
+  const Scratch scratch;
+  std::ofstream(scratch / "file") << "text";
+  EXPECT_NE(refusal([&] { SerialChannel c(scratch / "file"); }).find("no serial port"), std::string::npos);
+  EXPECT_NE(refusal([&] { SerialChannel c(scratch / "nothing"); }).find("no such port"), std::string::npos);
+  EXPECT_NE(refusal([&] { SerialChannel c("/dev/null"); }).find("no serial port"), std::string::npos);
+}
+
+TEST(Channel, IsClosedWhenThePortGoes) {
+  const Scratch scratch;
+  Echo line;
+  auto port = std::make_unique<VirtualPort>(line, VirtualPortOptions{scratch / "arm"});
+  SerialChannel channel(port->path());
+  port.reset();
+  std::array<std::uint8_t, 8> bytes{};
+  EXPECT_FALSE(channel.read(bytes, kPatience));
+  EXPECT_FALSE(channel.write(bytes));
+}
+
+}  // namespace
+}  // namespace vsa::serial::test
