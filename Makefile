@@ -6,12 +6,14 @@
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make bench   run the benchmarks and print their table
 # make asan    the tests under the address and undefined-behaviour sanitizers
+# make test-gazebo   the plug-in in a real Gazebo Classic 11; where the system has none, in a private Debian 11 (0.5 GB, made once)
+# make test-gz       the plug-in in a real gz-sim, where there is one (VSA_GZ_PREFIX)
 # make experiments   how far the snake gets over its terrains (docs/snake.md); about 20 minutes
 JOBS ?= $(shell nproc)
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo test test-long validate bench asan tidy format check-format experiments clean
+.PHONY: all setup build demo test test-long validate bench test-gazebo test-gz asan tidy format check-format experiments clean
 
 all: build
 
@@ -38,6 +40,17 @@ test-long:
 	@cmake --preset release > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -L long
+
+test-gazebo:
+	@sh scripts/setup.sh classic
+	@cmake --preset release > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa-gazebo-bench -- --quiet
+	@sh scripts/test_gazebo.sh $(BUILD)
+
+test-gz: setup
+	@cmake --preset release > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa-gazebo-bench -- --quiet
+	@sh scripts/test_gz.sh $(BUILD)
 
 validate: setup
 	@cmake --preset release > /dev/null

@@ -14,7 +14,8 @@ for group in "$@"; do
   case "$group" in
     test) packages="$packages chromium" ;;
     tidy) packages="$packages clang-format clang-tidy" ;;
-    *) echo "setup.sh: unknown group '$group' (allowed: test, tidy)" >&2; exit 2 ;;
+    classic) packages="$packages debootstrap" ;;
+    *) echo "setup.sh: unknown group '$group' (allowed: test, tidy, classic)" >&2; exit 2 ;;
   esac
 done
 

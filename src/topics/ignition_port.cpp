@@ -3,20 +3,18 @@
 
 #include <atomic>
 #include <cstdlib>
-#include <ignition/transport/Node.hh>
-#include <ignition/transport/TopicUtils.hh>
 #include <mutex>
 #include <vector>
 
 #include "messages.hpp"
+#include "stock.hpp"
 #include "vsa/topics/transport.hpp"
 
 namespace vsa::topics {
 namespace {
 
-namespace msgs = ignition::msgs;
-using ignition::transport::Node;
-using ignition::transport::TopicUtils;
+using transport::Node;
+using transport::TopicUtils;
 
 /// The transport copies its handlers before it calls them, so that one may run after its node has gone: this keeps it out.
 struct Gate {
@@ -63,8 +61,9 @@ class StatesPublisher final : public host::Publisher<host::JointStates> {
 }  // namespace
 
 void prefer_loopback() {
-  const char* set = std::getenv("IGN_IP");
-  if (set == nullptr || *set == '\0') setenv("IGN_IP", "127.0.0.1", 1);  // the transport takes an empty one for "any address"
+  const char* set = std::getenv(kAddressVariable);
+  if (set == nullptr || *set == '\0')
+    setenv(kAddressVariable, "127.0.0.1", 1);  // the transport takes an empty one for "any address"
 }
 
 struct IgnitionPort::Impl {
@@ -107,9 +106,14 @@ host::Outcome IgnitionPort::on_double(const std::string& topic, std::function<vo
   return impl_->subscribe<msgs::Double>(topic, [h = std::move(handler)](const msgs::Double& message) { h(message.data()); });
 }
 
-host::Outcome IgnitionPort::on_trajectory(const std::string& topic, std::function<void(const host::Trajectory&)> handler) {
+host::Outcome IgnitionPort::on_trajectory([[maybe_unused]] const std::string& topic,
+                                          [[maybe_unused]] std::function<void(const host::Trajectory&)> handler) {
+#ifdef VSA_HAS_JOINT_TRAJECTORY
   return impl_->subscribe<msgs::JointTrajectory>(
       topic, [h = std::move(handler)](const msgs::JointTrajectory& message) { h(decode(message)); });
+#else
+  return host::Outcome::unsupported;
+#endif
 }
 
 host::Outcome IgnitionPort::on_actuators(const std::string& topic, std::function<void(const host::ActuatorsCmd&)> handler) {

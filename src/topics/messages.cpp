@@ -1,10 +1,12 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "messages.hpp"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <string_view>
+
+#include "vsa/config/text.hpp"
 
 namespace vsa::topics {
 namespace {
@@ -12,26 +14,16 @@ namespace {
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr std::array<const char*, 3> kKeys{"actuator", "equilibrium_command_rad", "preset_command"};
 
-std::string text(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
+double number(const std::string& text) { return config::parse_number(text).value_or(std::numeric_limits<double>::quiet_NaN()); }
 
-double number(const std::string& text) {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
-}
-
-void set_data(ignition::msgs::Header& header, int index, const std::string& value) {
+void set_data(msgs::Header& header, int index, const std::string& value) {
   while (header.data_size() <= index) header.add_data()->set_key(kKeys[static_cast<std::size_t>(header.data_size() - 1)]);
   auto& data = *header.mutable_data(index);
   if (data.value_size() == 0) data.add_value();
   data.set_value(0, value);
 }
 
-bool has_data(const ignition::msgs::Header& header) {
+bool has_data(const msgs::Header& header) {
   if (header.data_size() < static_cast<int>(kKeys.size())) return false;
   for (int i = 0; i < static_cast<int>(kKeys.size()); ++i) {
     if (header.data(i).key() != kKeys[static_cast<std::size_t>(i)] || header.data(i).value_size() != 1) return false;
@@ -41,19 +33,20 @@ bool has_data(const ignition::msgs::Header& header) {
 
 }  // namespace
 
-void set_time(ignition::msgs::Time& out, std::int64_t time_ns) {
+void set_time(msgs::Time& out, std::int64_t time_ns) {
   out.set_sec(time_ns / kNsPerSecond);
   out.set_nsec(static_cast<std::int32_t>(time_ns % kNsPerSecond));
 }
 
-std::int64_t to_ns(const ignition::msgs::Time& time) {
+std::int64_t to_ns(const msgs::Time& time) {
   // What doesn't fit is as good as for ever; a client may send any 64 bits.
   constexpr std::int64_t kLast_s = std::numeric_limits<std::int64_t>::max() / kNsPerSecond - 2;
   const std::int64_t seconds = std::clamp<std::int64_t>(time.sec(), -kLast_s, kLast_s);
   return seconds * kNsPerSecond + std::clamp<std::int32_t>(time.nsec(), -999'999'999, 999'999'999);
 }
 
-host::Trajectory decode(const ignition::msgs::JointTrajectory& message) {
+#ifdef VSA_HAS_JOINT_TRAJECTORY
+host::Trajectory decode(const msgs::JointTrajectory& message) {
   host::Trajectory out;
   out.names.assign(message.joint_names().begin(), message.joint_names().end());
   for (const auto& point : message.points()) {
@@ -63,7 +56,7 @@ host::Trajectory decode(const ignition::msgs::JointTrajectory& message) {
   return out;
 }
 
-void encode(const host::Trajectory& trajectory, ignition::msgs::JointTrajectory& out) {
+void encode(const host::Trajectory& trajectory, msgs::JointTrajectory& out) {
   out.Clear();
   for (const auto& name : trajectory.names) out.add_joint_names(name);
   for (const auto& point : trajectory.points) {
@@ -74,12 +67,11 @@ void encode(const host::Trajectory& trajectory, ignition::msgs::JointTrajectory&
     to.mutable_time_from_start()->set_nsec(static_cast<std::int32_t>(ns % kNsPerSecond));
   }
 }
+#endif
 
-host::ActuatorsCmd decode(const ignition::msgs::Actuators& message) {
-  return {{message.position().begin(), message.position().end()}};
-}
+host::ActuatorsCmd decode(const msgs::Actuators& message) { return {{message.position().begin(), message.position().end()}}; }
 
-void encode(const host::JointStates& states, ignition::msgs::Model& out) {
+void encode(const host::JointStates& states, msgs::Model& out) {
   set_time(*out.mutable_header()->mutable_stamp(), states.time_ns);
   out.set_name(states.model);
   const auto count = static_cast<int>(states.joints.size());
@@ -96,13 +88,13 @@ void encode(const host::JointStates& states, ignition::msgs::Model& out) {
     const bool is_shaft = actuator < states.first_joint.size() && states.first_joint[actuator] == static_cast<std::size_t>(i);
     if (!is_shaft) continue;
     set_data(*to.mutable_header(), 0, states.names[actuator]);
-    set_data(*to.mutable_header(), 1, text(states.commands[actuator].equilibrium_rad));
-    set_data(*to.mutable_header(), 2, text(states.commands[actuator].preset));
+    set_data(*to.mutable_header(), 1, config::number_text(states.commands[actuator].equilibrium_rad));
+    set_data(*to.mutable_header(), 2, config::number_text(states.commands[actuator].preset));
     ++actuator;
   }
 }
 
-host::JointStates decode(const ignition::msgs::Model& message) {
+host::JointStates decode(const msgs::Model& message) {
   host::JointStates out;
   out.time_ns = to_ns(message.header().stamp());
   out.model = message.name();

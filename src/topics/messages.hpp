@@ -3,29 +3,27 @@
 // host/topics' neutral messages and their stock counterparts.
 #pragma once
 
-#include <ignition/msgs/actuators.pb.h>
-#include <ignition/msgs/joint_trajectory.pb.h>
-#include <ignition/msgs/model.pb.h>
-#include <ignition/msgs/time.pb.h>
-
 #include <cstdint>
 
+#include "stock.hpp"
 #include "vsa/host/topics.hpp"
 
 namespace vsa::topics {
 
-void set_time(ignition::msgs::Time& out, std::int64_t time_ns);
-[[nodiscard]] std::int64_t to_ns(const ignition::msgs::Time& time);
+void set_time(msgs::Time& out, std::int64_t time_ns);
+[[nodiscard]] std::int64_t to_ns(const msgs::Time& time);
 
-[[nodiscard]] host::Trajectory decode(const ignition::msgs::JointTrajectory& message);
-void encode(const host::Trajectory& trajectory, ignition::msgs::JointTrajectory& out);
+#ifdef VSA_HAS_JOINT_TRAJECTORY
+[[nodiscard]] host::Trajectory decode(const msgs::JointTrajectory& message);
+void encode(const host::Trajectory& trajectory, msgs::JointTrajectory& out);
+#endif
 
-[[nodiscard]] host::ActuatorsCmd decode(const ignition::msgs::Actuators& message);
+[[nodiscard]] host::ActuatorsCmd decode(const msgs::Actuators& message);
 
 /// Joints in order; the shaft's header carries the actuator's name and its commands as data:
 /// "actuator", "equilibrium_command_rad", "preset_command". `out` may hold the last message: its strings are reused.
-void encode(const host::JointStates& states, ignition::msgs::Model& out);
+void encode(const host::JointStates& states, msgs::Model& out);
 /// A message without those data gives no names and no commands.
-[[nodiscard]] host::JointStates decode(const ignition::msgs::Model& message);
+[[nodiscard]] host::JointStates decode(const msgs::Model& message);
 
 }  // namespace vsa::topics

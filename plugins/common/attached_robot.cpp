@@ -1,0 +1,85 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "attached_robot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "vsa/config/plugin_xml.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::plugins {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kListenersEvery{20}, kPausedEvery{100};
+constexpr std::int64_t kLongestStep_ns = 16'000'000;  // host::Robot::advance
+
+host::Robot make_robot(const Attachment& attachment) {
+  host::RobotConfig config = config::parse_plugin(attachment.xml, attachment.where, config::PresetLibrary());
+  Problems problems;
+  config::check_joints(config, attachment.joints, attachment.where, problems);
+  problems.throw_if_any();
+  return host::Robot(std::move(config));
+}
+
+}  // namespace
+
+AttachedRobot::AttachedRobot(const Attachment& attachment, host::RobotTopics::Report report)
+    : report_(std::move(report)),
+      model_(attachment.model),
+      robot_(make_robot(attachment)),
+      in_(robot_.size()),
+      torques_(robot_.size(), 0.0) {
+  topics_.emplace(robot_, model_, port_, report_);
+}
+
+void AttachedRobot::stop(const std::string& why) {
+  stopped_ = true;
+  std::fill(torques_.begin(), torques_.end(), 0.0);
+  report_(model_ + ": " + why + ": its actuators give no torque until the world is reset");
+}
+
+void AttachedRobot::step(std::int64_t dt_ns) {
+  if (stopped_) return;
+  if (dt_ns <= 0 || dt_ns > kLongestStep_ns) {
+    stop("a step of " + std::to_string(dt_ns) + " ns is outside 1 ns … 16 ms");
+    return;
+  }
+  for (std::size_t i = 0; i < in_.size(); ++i) {
+    if (std::isfinite(in_[i].angle_rad) && std::isfinite(in_[i].speed_rad_per_s)) continue;
+    stop("joint " + robot_.config().actuators[i].joint + " is no longer at a finite angle or speed");
+    return;
+  }
+  robot_.advance(time_ns_, dt_ns, in_, torques_);
+  time_ns_ += dt_ns;
+}
+
+void AttachedRobot::refresh(Clock::time_point now) {
+  if (now < next_listeners_) return;
+  next_listeners_ = now + kListenersEvery;
+  port_.refresh_listeners();
+}
+
+void AttachedRobot::publish_step(std::int64_t time_ns) {
+  refresh(Clock::now());
+  topics_->update(time_ns);
+}
+
+void AttachedRobot::publish_paused(std::int64_t time_ns) {
+  const auto now = Clock::now();
+  if (now < next_paused_) return;
+  next_paused_ = now + kPausedEvery;
+  refresh(now);
+  topics_->publish(time_ns);
+}
+
+void AttachedRobot::reset() {
+  robot_.reset();
+  time_ns_ = 0;
+  stopped_ = false;
+  std::fill(torques_.begin(), torques_.end(), 0.0);
+}
+
+}  // namespace vsa::plugins

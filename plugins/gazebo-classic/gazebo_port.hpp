@@ -1,0 +1,37 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// host::TopicPort on Gazebo Classic's own transport, so that `gz topic`, which every installation has, commands and shows a robot:
+// single numbers as gazebo.msgs.Any of type DOUBLE under the same names. Trajectories, arrays and joint states have no stock
+// message there: they are on ignition-transport only.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "vsa/host/topics.hpp"
+
+namespace vsa::plugins {
+
+class GazeboPort final : public host::TopicPort {
+ public:
+  explicit GazeboPort(const std::string& world);
+  ~GazeboPort() override;  ///< no handler runs any more
+  GazeboPort(const GazeboPort&) = delete;
+  GazeboPort& operator=(const GazeboPort&) = delete;
+
+  host::Outcome on_double(const std::string& topic, std::function<void(double)> handler) override;
+  host::Outcome on_trajectory(const std::string&, std::function<void(const host::Trajectory&)>) override {
+    return host::Outcome::unsupported;
+  }
+  host::Outcome on_actuators(const std::string&, std::function<void(const host::ActuatorsCmd&)>) override {
+    return host::Outcome::unsupported;
+  }
+  std::unique_ptr<host::Publisher<double>> advertise_double(const std::string& topic) override;
+  std::unique_ptr<host::Publisher<host::JointStates>> advertise_states(const std::string&) override { return nullptr; }
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vsa::plugins

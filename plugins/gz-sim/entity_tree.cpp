@@ -1,0 +1,121 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "entities.hpp"
+#include "robot_system.hpp"
+
+namespace vsa::plugins {
+namespace {
+
+using host::TreeBody;
+namespace components = sim::components;
+
+std::array<double, 3> array(const math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
+
+std::optional<TreeBody::Joint> kind(sdf::JointType type) {
+  switch (type) {
+    case sdf::JointType::FIXED:
+      return TreeBody::Joint::fixed;
+    case sdf::JointType::REVOLUTE:
+    case sdf::JointType::CONTINUOUS:
+      return TreeBody::Joint::revolute;
+    case sdf::JointType::PRISMATIC:
+      return TreeBody::Joint::prismatic;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// The link that a joint names, seen from the joint's own model; null: the world, or unknown.
+sim::Entity named_link(sim::Entity joint, const std::string& name, const sim::EntityComponentManager& ecm) {
+  const auto found = sim::entitiesFromScopedName(name, ecm, ecm.ParentEntity(joint));
+  return found.empty() ? sim::kNullEntity : *found.begin();
+}
+
+}  // namespace
+
+EntityTree::EntityTree(sim::Entity model, const std::vector<sim::Entity>& driven, const sim::EntityComponentManager& ecm) {
+  std::vector<sim::Entity> links, joints;
+  for (const NamedEntity& e : entities_below<components::Link>(model, ecm)) links.push_back(e.entity);
+  for (const NamedEntity& e : entities_below<components::Joint>(model, ecm)) joints.push_back(e.entity);
+  if (!build(links, joints, ecm)) {
+    items_.clear();
+    bodies_.clear();
+  }
+  inertia_ = host::TreeInertia(bodies_.size());
+  inverse_.assign(bodies_.size(), 0.0);
+  for (const sim::Entity joint : driven) {
+    const auto at = std::find_if(items_.begin(), items_.end(), [&](const Item& item) { return item.joint == joint; });
+    body_of_.push_back(static_cast<std::size_t>(at - items_.begin()));
+  }
+}
+
+/// Parents first. False: no tree.
+bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<sim::Entity>& joints,
+                       const sim::EntityComponentManager& ecm) {
+  struct Waiting {
+    Item item;
+    TreeBody body;
+    sim::Entity parent = sim::kNullEntity;
+  };
+  std::vector<Waiting> waiting(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) waiting[i].item.link = links[i];
+  for (const sim::Entity joint : joints) {
+    const auto child = ecm.ComponentData<components::ChildLinkName>(joint);
+    const auto parent = ecm.ComponentData<components::ParentLinkName>(joint);
+    const auto type = ecm.ComponentData<components::JointType>(joint);
+    if (!child || !parent || !type || !kind(*type)) return false;
+    const sim::Entity link = named_link(joint, *child, ecm);
+    const auto at = std::find_if(waiting.begin(), waiting.end(), [&](const Waiting& w) { return w.item.link == link; });
+    if (at == waiting.end() || at->item.joint != sim::kNullEntity) return false;  // another model's link, or a loop
+    at->item.joint = joint;
+    at->item.joint_pose = ecm.ComponentData<components::Pose>(joint).value_or(math::Pose3d::Zero);
+    at->item.axis = ecm.ComponentData<components::JointAxis>(joint).value_or(sdf::JointAxis()).Xyz();
+    at->body.joint = *kind(*type);
+    at->parent = *parent == "world" ? sim::kNullEntity : named_link(joint, *parent, ecm);
+    if (*parent != "world" && at->parent == sim::kNullEntity) return false;
+  }
+  while (!waiting.empty()) {
+    const auto next = std::find_if(waiting.begin(), waiting.end(), [&](Waiting& w) {
+      if (w.parent == sim::kNullEntity) return true;
+      const auto at = std::find_if(items_.begin(), items_.end(), [&](const Item& item) { return item.link == w.parent; });
+      w.body.parent = static_cast<std::size_t>(at - items_.begin());
+      return at != items_.end();
+    });
+    if (next == waiting.end()) return false;
+    items_.push_back(next->item);
+    bodies_.push_back(next->body);
+    waiting.erase(next);
+  }
+  return true;
+}
+
+void EntityTree::update(const sim::EntityComponentManager& ecm) {
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const auto* inertial = ecm.Component<components::Inertial>(items_[i].link);
+    if (inertial == nullptr) continue;
+    const math::Pose3d link = sim::worldPose(items_[i].link, ecm);
+    const math::Pose3d center = link * inertial->Data().Pose();
+    const math::Matrix3d turn(center.Rot());
+    const math::Matrix3d inertia = turn * inertial->Data().MassMatrix().Moi() * turn.Transposed();
+    TreeBody& body = bodies_[i];
+    for (unsigned r = 0; r < 3; ++r) {
+      for (unsigned c = 0; c < 3; ++c) body.inertia_kgm2[3 * r + c] = inertia(r, c);
+    }
+    body.mass_kg = inertial->Data().MassMatrix().Mass();
+    body.center_of_mass = array(center.Pos());
+    const math::Pose3d joint = link * items_[i].joint_pose;
+    body.axis = array(joint.Rot().RotateVector(items_[i].axis));
+    body.anchor = array(joint.Pos());
+  }
+  inertia_.update(bodies_, inverse_);
+}
+
+std::optional<double> EntityTree::inverse(std::size_t driven) const {
+  if (body_of_[driven] >= inverse_.size()) return std::nullopt;
+  const double value = inverse_[body_of_[driven]];
+  return std::isfinite(value) && value > 0 ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace vsa::plugins

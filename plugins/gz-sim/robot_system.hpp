@@ -1,0 +1,73 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// gz-sim: the <plugin name="vsa::Robot"> of a model, from Fortress (6) on. Glue only.
+//
+// Before every step the system reads each joint's JointPosition and JointVelocity, which it creates so that the physics fills them,
+// and writes its JointForceCmd, which the physics clears. In the very first step they are still empty: the joints are at 0 then.
+// Load errors are one message on the log and a model without torques; a model that is removed takes its robot with it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "attached_robot.hpp"
+#include "compat.hpp"
+#include "vsa/host/tree_inertia.hpp"
+
+namespace vsa::plugins {
+
+/// A model's links as a tree of bodies, for the inverse inertias of its joints, which the components don't have.
+class EntityTree {
+ public:
+  EntityTree(sim::Entity model, const std::vector<sim::Entity>& driven, const sim::EntityComponentManager& ecm);
+  void update(const sim::EntityComponentManager& ecm);
+  /// None where the model is no tree of hinges, sliders and fixed joints: the preset's own value serves then.
+  [[nodiscard]] std::optional<double> inverse(std::size_t driven) const;
+
+ private:
+  struct Item {
+    sim::Entity link = sim::kNullEntity, joint = sim::kNullEntity;
+    math::Pose3d joint_pose;  ///< in the link
+    math::Vector3d axis;      ///< in the joint
+  };
+
+  bool build(const std::vector<sim::Entity>& links, const std::vector<sim::Entity>& joints, const sim::EntityComponentManager& ecm);
+
+  std::vector<Item> items_;
+  std::vector<host::TreeBody> bodies_;
+  std::vector<std::size_t> body_of_;  ///< one a driven joint
+  std::vector<double> inverse_;
+  host::TreeInertia inertia_{0};
+};
+
+class SimRobot : public sim::System,
+                 public sim::ISystemConfigure,
+#ifdef VSA_HAS_RESET
+                 public sim::ISystemReset,
+#endif
+                 public sim::ISystemPreUpdate,
+                 public sim::ISystemPostUpdate {
+ public:
+  void Configure(const sim::Entity& entity, const std::shared_ptr<const sdf::Element>& element, sim::EntityComponentManager& ecm,
+                 sim::EventManager& events) override;
+  void PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) override;
+  void PostUpdate(const sim::UpdateInfo& info, const sim::EntityComponentManager& ecm) override;
+#ifdef VSA_HAS_RESET
+  void Reset(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) override;
+#endif
+
+  /// Null where loading failed. For tests.
+  [[nodiscard]] AttachedRobot* robot() noexcept { return robot_.get(); }
+
+ private:
+  void attach(const sdf::Element& element, const std::string& name, sim::EntityComponentManager& ecm);
+
+  sim::Entity model_ = sim::kNullEntity;
+  std::vector<sim::Entity> joints_;  ///< of the actuators
+  std::unique_ptr<AttachedRobot> robot_;
+  std::unique_ptr<EntityTree> tree_;
+  int steps_to_refresh_ = 0;
+};
+
+}  // namespace vsa::plugins

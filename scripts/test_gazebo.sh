@@ -1,0 +1,33 @@
+#!/bin/sh
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#
+# Builds the plug-in for Gazebo Classic 11 and tests it in a real Gazebo: the system's own where it has one, else that of a private
+# Debian 11 (debian11_root.sh). test_gazebo.sh BUILD: the release build, for the embedded engine's side of the bench comparison.
+set -eu
+cd "$(dirname "$0")/.."
+build=$1
+
+say() { echo "classic: $1"; }
+start=$(date +%s)
+if pkg-config --atleast-version=11 gazebo 2>/dev/null; then
+  run() { "$@"; }
+else
+  # 3: not to be had here, which it has said.
+  sh scripts/debian11_root.sh prepare || { code=$?; [ "$code" -eq 3 ] && exit 0; exit "$code"; }
+  run() { sh scripts/debian11_root.sh run "$@"; }
+fi
+say "Gazebo 11 at hand after $(($(date +%s) - start)) s"
+
+mkdir -p build/gazebo_bench
+"$build/bin/vsa-gazebo-bench" build/gazebo_bench/embedded_1ms.csv
+"$build/bin/vsa-gazebo-bench" build/gazebo_bench/embedded_025ms.csv 0.00025
+
+run sh -c '
+  set -e
+  cmake -S . -B build/classic -G Ninja -DCMAKE_BUILD_TYPE=Release -DVSA_SIMULATOR=OFF -DVSA_TESTS=OFF -DVSA_BENCH=OFF \
+    -DVSA_GAZEBO_CLASSIC=ON -DVSA_GAZEBO_TESTS=ON -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -Wno-dev >/dev/null
+  cmake --build build/classic -- --quiet 2>&1
+' >build/classic_build.log || { tail -n 40 build/classic_build.log; exit 1; }
+say "built after $(($(date +%s) - start)) s"
+run sh -c 'cd build/classic && ctest --output-on-failure'
+say "$(($(date +%s) - start)) s in all"

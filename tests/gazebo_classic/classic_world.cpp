@@ -1,0 +1,112 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "classic_world.hpp"
+
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <gazebo/common/SystemPaths.hh>
+#include <stdexcept>
+
+namespace vsa::test {
+namespace {
+
+int free_port() {
+  const int fd = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  if (bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) throw std::runtime_error("no free port");
+  getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
+  close(fd);
+  return ntohs(address.sin_port);
+}
+
+int worlds_made = 0;
+
+/// Gazebo, as a test wants it: on loopback, nothing downloaded, our plug-in and our models.
+class Server : public testing::Environment {
+ public:
+  void SetUp() override {
+    setenv("GAZEBO_MASTER_URI", ("http://127.0.0.1:" + std::to_string(free_port())).c_str(), 1);
+    setenv("GAZEBO_IP", "127.0.0.1", 1);
+    setenv("GAZEBO_MODEL_DATABASE_URI", "", 1);
+    setenv("IGN_IP", "127.0.0.1", 1);
+    setenv("IGN_PARTITION", ("vsa_test_" + std::to_string(getpid())).c_str(), 1);
+    gazebo::setupServer(std::vector<std::string>{});
+    gazebo::common::Console::SetQuiet(false);
+    // Not through the environment: the library read that when it was loaded.
+    gazebo::common::SystemPaths::Instance()->AddModelPaths(VSA_SOURCE_DIR "/models");
+    gazebo::common::SystemPaths::Instance()->AddPluginPaths(VSA_CLASSIC_PLUGIN_DIR);
+  }
+  void TearDown() override { gazebo::shutdown(); }
+};
+
+const auto* const server = testing::AddGlobalTestEnvironment(new Server);
+
+}  // namespace
+
+std::string world_sdf(const std::string& name, const std::string& inside, bool gravity) {
+  return "<sdf version='1.7'><world name='" + name + "'><gravity>0 0 " + (gravity ? "-9.81" : "0") +
+         "</gravity><physics name='step' type='ode'><max_step_size>0.001</max_step_size>"
+         "<real_time_update_rate>0</real_time_update_rate></physics>" +
+         inside + "</world></sdf>";
+}
+
+std::string include(const std::string& model, const std::string& name, const std::string& pose) {
+  return "<include><uri>model://" + model + "</uri><name>" + name + "</name><pose>" + pose + "</pose></include>";
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error("can't read " + path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+ClassicWorld::ClassicWorld(const std::string& sdf, const std::string& engine) {
+  std::string text = sdf;
+  const auto at = text.find("type='ode'");
+  if (engine != "ode" && at != std::string::npos) text.replace(at, 10, "type='" + engine + "'");
+  // A name of its own: requests to remove the models of the last world may still be under way, and would reach a world of that
+  // name.
+  const std::string name = "<world name='";
+  if (const auto world_at = text.find(name); world_at != std::string::npos) {
+    text.insert(world_at + name.size(), "w" + std::to_string(worlds_made++) + "_");
+  }
+  const std::string file = testing::TempDir() + "/vsa_" + std::to_string(getpid()) + ".world";
+  std::ofstream(file) << text;
+  world = gazebo::loadWorld(file);
+  std::remove(file.c_str());
+  if (!world) throw std::runtime_error("Gazebo didn't load the world");
+  // Plug-ins are loaded in the first step after the sensors are ready; a server's own loop would say so.
+  world->_SetSensorsInitialized(true);
+}
+
+ClassicWorld::~ClassicWorld() {
+  world.reset();
+  gazebo::physics::remove_worlds();
+}
+
+gazebo::physics::JointPtr ClassicWorld::joint(const std::string& model, const std::string& name) const {
+  const auto found = world->ModelByName(model);
+  const auto joint = found ? found->GetJoint(name) : nullptr;
+  if (!joint) throw std::runtime_error("no joint " + name + " in " + model);
+  return joint;
+}
+
+double ClassicWorld::angle(const std::string& model, const std::string& name) const { return joint(model, name)->Position(0); }
+
+std::vector<double> ClassicWorld::record(const std::string& model, int steps) {
+  std::vector<double> out;
+  const auto shaft = joint(model);
+  // Not runWorld() a step at a time: it starts and joins threads.
+  const auto connection = gazebo::event::Events::ConnectWorldUpdateEnd([&] { out.push_back(shaft->Position(0)); });
+  run(steps);
+  return out;
+}
+
+}  // namespace vsa::test

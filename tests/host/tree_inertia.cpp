@@ -1,0 +1,79 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/host/tree_inertia.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using vsa::host::TreeBody;
+using vsa::host::TreeInertia;
+using Joint = TreeBody::Joint;
+
+TreeBody body(std::size_t parent, Joint joint, std::array<double, 3> axis, std::array<double, 3> anchor, double mass,
+              std::array<double, 3> center, double inertia) {
+  return {parent, joint, axis, anchor, mass, center, {inertia, 0, 0, 0, inertia, 0, 0, 0, inertia}};
+}
+
+std::vector<double> inverse(const std::vector<TreeBody>& bodies) {
+  std::vector<double> out(bodies.size(), -1);
+  TreeInertia(bodies.size()).update(bodies, out);
+  return out;
+}
+
+constexpr std::array<double, 3> kZ{0, 0, 1};
+
+TEST(TreeInertia, APendulumHasTheInertiaAboutItsPivot) {
+  // Far from the world's origin, so that a reference point forgotten somewhere shows.
+  const auto a = inverse({body(TreeBody::kGround, Joint::revolute, kZ, {7, -3, 2}, 1.5, {7.2, -3, 2.4}, 0.01)});
+  EXPECT_NEAR(a[0], 1 / (0.01 + 1.5 * 0.2 * 0.2), 1e-9);
+}
+
+TEST(TreeInertia, ASliderCarriesItsMassWhateverItsInertia) {
+  const auto a = inverse({body(TreeBody::kGround, Joint::prismatic, {0.6, 0.8, 0}, {0, 0, 0}, 2.5, {1, 1, 1}, 0.3)});
+  EXPECT_NEAR(a[0], 1 / 2.5, 1e-12);
+}
+
+TEST(TreeInertia, TwoDiscsThatFlyFreeTurnAgainstEachOther) {
+  const auto a = inverse({body(TreeBody::kGround, Joint::free, {}, {}, 1.0, {1, 2, 3}, 0.02),
+                          body(0, Joint::revolute, kZ, {1, 2, 3.1}, 0.5, {1, 2, 3.1}, 0.03)});
+  EXPECT_EQ(a[0], 0.0);
+  EXPECT_NEAR(a[1], 1 / 0.02 + 1 / 0.03, 1e-8);
+}
+
+TEST(TreeInertia, ABodyFixedToAnotherAddsToIt) {
+  const auto a = inverse({body(TreeBody::kGround, Joint::revolute, kZ, {0, 0, 0}, 1.0, {0.1, 0, 0}, 0.01),
+                          body(0, Joint::fixed, {}, {}, 2.0, {0.3, 0.1, 5}, 0.02)});
+  EXPECT_NEAR(a[0], 1 / (0.01 + 1.0 * 0.01 + 0.02 + 2.0 * (0.09 + 0.01)), 1e-9);
+  EXPECT_EQ(a[1], 0.0);
+}
+
+TEST(TreeInertia, ADoublePendulumHasTheDiagonalOfItsInverseMassMatrix) {
+  const double l1 = 0.4, c1 = 0.15, c2 = 0.25, m1 = 1.2, m2 = 0.8, i1 = 0.02, i2 = 0.03, q1 = 0.3, q2 = 0.9;
+  const std::array<double, 3> elbow{l1 * std::cos(q1), l1 * std::sin(q1), 0};
+  const auto a = inverse(
+      {body(TreeBody::kGround, Joint::revolute, kZ, {0, 0, 0}, m1, {c1 * std::cos(q1), c1 * std::sin(q1), 0}, i1),
+       body(0, Joint::revolute, kZ, elbow, m2, {elbow[0] + c2 * std::cos(q1 + q2), elbow[1] + c2 * std::sin(q1 + q2), 0}, i2)});
+  const double m22 = i2 + m2 * c2 * c2, m12 = m22 + m2 * l1 * c2 * std::cos(q2);
+  const double m11 = i1 + m1 * c1 * c1 + i2 + m2 * (l1 * l1 + c2 * c2 + 2 * l1 * c2 * std::cos(q2));
+  const double det = m11 * m22 - m12 * m12;
+  EXPECT_NEAR(a[0], m22 / det, 1e-9);
+  EXPECT_NEAR(a[1], m11 / det, 1e-9);
+}
+
+TEST(TreeInertia, ABranchedTreeDoesNotDependOnTheOrderOfItsBranches) {
+  const auto root = body(TreeBody::kGround, Joint::free, {}, {}, 1.0, {0, 0, 0}, 0.05);
+  const auto left = body(0, Joint::revolute, {1, 0, 0}, {0.1, 0, 0}, 0.4, {0.2, 0.1, 0}, 0.004);
+  const auto right = body(0, Joint::revolute, {0, 1, 0}, {-0.1, 0, 0.1}, 0.6, {-0.3, 0, 0.2}, 0.006);
+  const auto a = inverse({root, left, right}), b = inverse({root, right, left});
+  EXPECT_NEAR(a[1], b[2], 1e-9 * a[1]);
+  EXPECT_NEAR(a[2], b[1], 1e-9 * a[2]);
+}
+
+TEST(TreeInertia, ABodyWithoutMassGivesNoAnswerAndNoCrash) {
+  const auto a = inverse({body(TreeBody::kGround, Joint::revolute, kZ, {0, 0, 0}, 0, {0, 0, 0}, 0)});
+  EXPECT_FALSE(std::isfinite(a[0]));
+}
+
+}  // namespace
