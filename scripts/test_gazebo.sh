@@ -26,7 +26,7 @@ run sh -c '
   set -e
   cmake -S . -B build/classic -G Ninja -DCMAKE_BUILD_TYPE=Release -DVSA_SIMULATOR=OFF -DVSA_TESTS=OFF -DVSA_BENCH=OFF \
     -DVSA_GAZEBO_CLASSIC=ON -DVSA_GAZEBO_TESTS=ON -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -Wno-dev >/dev/null
-  cmake --build build/classic -- --quiet 2>&1
+  cmake --build build/classic
 ' >build/classic_build.log || { tail -n 40 build/classic_build.log; exit 1; }
 say "built after $(($(date +%s) - start)) s"
 run sh -c 'cd build/classic && ctest --output-on-failure'

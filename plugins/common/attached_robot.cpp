@@ -20,6 +20,11 @@ host::Robot make_robot(const Attachment& attachment) {
   host::RobotConfig config = config::parse_plugin(attachment.xml, attachment.where, config::PresetLibrary());
   Problems problems;
   config::check_joints(config, attachment.joints, attachment.where, problems);
+  for (const host::BusConfig& bus : config.buses) {
+    if (!bus.serial_port) continue;
+    problems.add({attachment.where, "bus[" + bus.name + "]/serial_port", *bus.serial_port,
+                  "Gazebo's plug-in opens no serial ports yet", "no such element: command through topics"});
+  }
   problems.throw_if_any();
   return host::Robot(std::move(config));
 }

@@ -133,8 +133,11 @@ TEST(GazeboClassic, ABareFlangeKickedAtTheStiffestPresetStaysBounded) {
       largest = std::max(largest, std::abs(shaft->Position(0) - 0.5 * step_s * shaft->GetVelocity(0)));
     });
     w.run(static_cast<int>(1.0 / step_s));
-    EXPECT_LT(largest, 0.3) << step_s;
-    EXPECT_LT(std::abs(shaft->GetVelocity(0)), 1.0) << step_s << ": its friction brings it to rest";
+    EXPECT_LT(largest, 0.05) << step_s;
+    // Beyond that such a flange (2.25e-5 kg·m²) keeps rattling within its presliding, here as in the embedded engine.
+    if (step_s <= 0.002) {
+      EXPECT_LT(std::abs(shaft->GetVelocity(0)), 2.0) << step_s;
+    }
   }
 }
 
@@ -159,6 +162,14 @@ TEST(GazeboClassic, AnUnknownJointIsAnsweredWithTheJointsThereAre) {
   w.run(1);
   const std::string log = testing::internal::GetCapturedStderr();
   EXPECT_NE(log.find("did you mean shaft?"), std::string::npos) << log;
+}
+
+TEST(GazeboClassic, ASerialPortIsRefusedAndNotIgnored) {
+  testing::internal::CaptureStderr();
+  ClassicWorld w(world_sdf("port", bench_model("cycle_s=\"auto\"/>", "cycle_s=\"auto\"><serial_port>vsa-arm</serial_port></bus>")));
+  w.run(1);
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_NE(log.find("opens no serial ports yet"), std::string::npos) << log;
 }
 
 TEST(GazeboClassic, AStepTooLongForTheUnitsStopsThemWithOneLine) {
