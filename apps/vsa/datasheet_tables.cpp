@@ -128,11 +128,13 @@ report::Table electrical_table(const SheetData& d) {
                   "°", kDrive});
   rows.push_back({"encoders", number(u.actuator.encoder.bits), "bit", kPreset});
   rows.push_back({"resolution measured / reported",
-                  pair(360.0 / std::pow(2.0, u.actuator.encoder.bits), 360.0 / (65536 >> u.memory.resolution[0])), "°", "firmware"});
+                  pair(360.0 / std::pow(2.0, u.actuator.encoder.bits), 360.0 / (65536 >> u.memory.resolution[0])), "°",
+                  "firmware"});
   rows.push_back({"current sense, a count", number(25771.0 / 8192.0), "mA", kDevice});
   if (u.memory.limits_on != 0) {
     rows.push_back({"travel of the motors",
-                    range(u.reference_range_raw(0)[0] * 360 / kRawPerTurn, u.reference_range_raw(0)[1] * 360 / kRawPerTurn), "°", "firmware"});
+                    range(u.reference_range_raw(0)[0] * 360 / kRawPerTurn, u.reference_range_raw(0)[1] * 360 / kRawPerTurn), "°",
+                    "firmware"});
   }
   if (d.has_preset()) {
     rows.push_back(
