@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "vsa/bus/master.hpp"
@@ -16,12 +17,14 @@ namespace vsa::host {
 
 struct ActuatorSlot;
 struct BusConfig;
+struct JointIn;
 
 struct BusMember {
   device::Unit* unit;
   ActuatorSlot* slot;
-  device::StepPlan* plan;
+  device::StepPlan* plan;  ///< scratch of one step; buses may share it
   std::uint8_t id;
+  std::size_t index;  ///< of the actuator in its robot
 };
 
 struct BusState {
@@ -34,10 +37,8 @@ class BusLine final : private bus::MasterClient {
   /// `members` by id; they stay where they are.
   BusLine(const BusConfig& config, std::vector<BusMember> members);
 
-  /// The line up to a tick, and the tick of every unit.
-  void tick(std::int64_t at_ns) noexcept;
-  /// The line up to a step's end; a client's runs by itself.
-  void run_to(std::int64_t until_ns) noexcept;
+  /// One host step of its units. Bus by bus, so that a unit's state is fetched once a step where a robot has a thousand.
+  void advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out) noexcept;
   void shift_time(std::int64_t by_ns) noexcept;
   void set_wiring(const ActuatorSlot& slot, const device::Faults& faults) noexcept;
 
@@ -52,6 +53,8 @@ class BusLine final : private bus::MasterClient {
   void restore(const BusState& state);
 
  private:
+  /// The line up to a tick, and the tick of every unit.
+  void tick(std::int64_t at_ns) noexcept;
   std::array<Ticks, 2> inputs(int k, std::int64_t now_ns) noexcept override;
   void measured(int k, const std::array<Ticks, 3>& positions) noexcept override;
 

@@ -52,19 +52,8 @@ void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const Joint
   d.expect(t_ns);
   d.take_commands();
   d.take_faults();
-  for (std::size_t i = 0; i < d.units.size(); ++i) {
-    ActuatorSlot& slot = d.state.actuators[i];
-    const double inverse = in[i].inverse_inertia ? *in[i].inverse_inertia : 1.0 / d.units[i]->config().actuator.shaft_inertia_kgm2;
-    slot.shaft_rad = in[i].angle_rad;
-    d.units[i]->begin_step(slot.unit, d.plans[i], t_ns, dt_ns, {in[i].angle_rad, in[i].speed_rad_per_s, inverse});
-  }
-  const std::int64_t end_ns = t_ns + dt_ns;
-  for (std::int64_t at = device::Unit::first_tick_ns(t_ns); at < end_ns; at += firmware::kTickNs)
-    for (const auto& bus : d.buses) bus->tick(at);
-  for (std::size_t i = 0; i < d.units.size(); ++i) torques_out[i] = d.units[i]->end_step(d.state.actuators[i].unit, d.plans[i]);
-  // A frame whose bytes set out in this step carries what was commanded by now, even if it arrives in the next.
-  for (const auto& bus : d.buses) bus->run_to(end_ns);
-  d.state.time_ns = end_ns;
+  for (const auto& bus : d.buses) bus->advance(t_ns, dt_ns, in, torques_out);
+  d.state.time_ns = t_ns + dt_ns;
 }
 
 bool Robot::command(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset) {

@@ -31,7 +31,7 @@ struct Robot::Impl {
       slot.unit = units[i]->initial(a.initial_equilibrium_rad, a.initial_preset, a.initial_equilibrium_rad,
                                     static_cast<std::uint8_t>(a.id));
     }
-    plans.resize(units.size());
+    plans.resize(units.size());  // as long as the longest bus could be: they share them
     notices.reserve(units.size());
     make_buses();
     initial.state = state;
@@ -47,7 +47,8 @@ struct Robot::Impl {
                        [this](std::size_t x, std::size_t y) { return config.actuators[x].id < config.actuators[y].id; });
       std::vector<BusMember> members;
       for (const std::size_t i : on_it)
-        members.push_back({units[i].get(), &state.actuators[i], &plans[i], static_cast<std::uint8_t>(config.actuators[i].id)});
+        members.push_back(
+            {units[i].get(), &state.actuators[i], &plans[members.size()], static_cast<std::uint8_t>(config.actuators[i].id), i});
       buses.push_back(std::make_unique<BusLine>(config.buses[b], std::move(members)));
     }
   }
