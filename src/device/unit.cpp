@@ -105,7 +105,14 @@ void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int6
   const double other = s.started ? (in.speed - s.last_speed) / s.last_dt - in.inverse_inertia * s.applied_torque : 0.0;
   plan.c = 0.5 * dt * dt * in.inverse_inertia;
   plan.free = dt * in.speed + 0.5 * dt * dt * other;
-  plan.dy = s.started ? plan.free + plan.c * s.applied_torque : plan.free;
+  plan.dy = plan.free;
+  if (s.started) {
+    // τ̄ ≈ end torque − slope·dy: a light shaft behind a stiff spring moves far less than the last torque would throw it.
+    const elastic::SegmentMean& end = s.actuator.end;
+    const double yield = 1.0 / (1.0 + plan.c * std::max(end.slope.qq, 0.0));
+    const double u = plan.y - s.actuator.shaft_anchor;
+    plan.dy = drive::solve_friction(shaft_friction_, u, (plan.free + plan.c * end.torque) * yield, plan.c * yield).displacement;
+  }
   plan.walked_ns = 0;
   plan.held_count = 0;
   if (t_ns % kTickNs != 0) plan.held[plan.held_count++] = s.held;

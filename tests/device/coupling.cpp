@@ -76,6 +76,22 @@ TEST(Coupling, ABareFlangeKickedFarAtTheLargestPresetNeverGainsEnergy) {
   }
 }
 
+TEST(Coupling, ALightFlangeComesToRestThoughTicksFallInsideItsSteps) {
+  // The ticks see a predicted path; one that overshoots drives the motors, and they drive the flange.
+  for (const double inertia : {1e-4, 2.25e-5}) {
+    for (std::int64_t step_ns : {2'000'000, 3'000'000, 4'000'000, 8'000'000}) {
+      OneJoint joint(maker_pro(), 0.0, 0.785, inertia, step_ns);
+      joint.v = 20;
+      double fastest = 0;
+      while (joint.t_ns < 4'000'000'000) {
+        joint.step();
+        if (joint.t_ns > 3'000'000'000) fastest = std::max(fastest, std::abs(joint.v));
+      }
+      EXPECT_LT(fastest, 1.0) << inertia << " kg·m², " << step_ns << " ns";
+    }
+  }
+}
+
 TEST(Coupling, AFrictionlessFlangeKeepsItsEnergyOverTenPeriods) {
   // Kicked by 0.2 rad at the largest preset, J = 1e-4, 0.5 ms: at least 90 % after ten periods.
   OneJoint joint(without_losses(), 0.0, 0.785, 1e-4, 500'000);
