@@ -16,11 +16,13 @@ VSA_DATA_DIR="$work/prefix/share/vsa" "$work/build/move_a_joint" | tee "$work/ou
 grep -qE '^shaft (0.9|1.0)' "$work/output"
 grep -q '^back at 0.000 s' "$work/output"
 
-# The serial client against units on a virtual port of the installed command.
+# The serial client against units on a virtual port of the installed command, which is ready when it has said how to end it.
+mkfifo "$work/emulated"
 VSA_DATA_DIR="$work/prefix/share/vsa" "$work/prefix/bin/vsa" emulate qbmove_maker_pro --port "$work/port" > "$work/emulated" &
 emulate=$!
 trap 'kill $emulate 2> /dev/null || true' EXIT
-until grep -q Ctrl-C "$work/emulated"; do kill -0 $emulate; sleep 0.05; done
+exec 3< "$work/emulated"
+while read -r line <&3; do case $line in *Ctrl-C*) break ;; esac; done
 "$work/serial/serial_client" "$work/port" | tee "$work/moved"
 grep -qE '^asked for 10°: the shaft is at (7|8|9|10|11|12)' "$work/moved"
 kill $emulate

@@ -16,8 +16,8 @@
 //   /model/M/joint/J/current_1, _2     double        A        physical; the unit's filtered readings are on its port
 //   ¹ the unit of the actuator's law: half the pulleys' difference, in rad, for the qbmove
 //
-// A trajectory with one point is a command for now, whatever its time. With several, each channel goes linearly from its present
-// command to the first point and from point to point, in simulated time that starts at the next step, and holds the last;
+// A trajectory with one point acts at once, whatever its time. With several, each channel goes linearly from its
+// present command to the first point and from point to point, in simulated time that starts at the next step, and holds the last;
 // velocities and efforts aren't used. A channel that isn't named keeps what it has.
 //
 // Refused as a whole, with one reported line a topic and kind of fault: numbers that aren't finite, wrong lengths, unknown or
