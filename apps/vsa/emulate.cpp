@@ -11,16 +11,20 @@
 
 #include "console.hpp"
 #include "exit_codes.hpp"
+#include "faults_help.hpp"
 #include "interrupt.hpp"
 #include "numbers.hpp"
 #include "pace.hpp"
 #include "port_report.hpp"
 #include "settings.hpp"
 #include "unit_port.hpp"
+#include "vsa/config/faults_text.hpp"
 #include "vsa/config/preset.hpp"
+#include "vsa/config/text.hpp"
 #include "vsa/device/emulation.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/serial/ports.hpp"
+#include "vsa/serial/processors_awake.hpp"
 #include "vsa/serial/virtual_port.hpp"
 #include "vsa/units.hpp"
 
@@ -40,7 +44,9 @@ path as it would a real one; --port NAME is a path if it has a '/', else a name 
 Examples:
   vsa emulate qbmove_maker_pro
   vsa emulate qbmove_maker_pro --units 12 --port arm --active
-  vsa emulate qbmove_maker_pro --units 3 --faulty 2 --lost-byte 0.01 --seed 7)";
+  vsa emulate qbmove_maker_pro --units 3 --fault "2 lost_byte=0.01 seed=7" --fault "1,3 noise_rad=0.01"
+
+)";
 
 void check(const EmulateOptions& o) {
   Problems problems;
@@ -51,24 +57,6 @@ void check(const EmulateOptions& o) {
     problems.add({"", "--duration-s", fmt::format("{}", *o.duration_s), "out of range", "above 0 to 1e8 s"});
   }
   problems.throw_if_any();
-}
-
-device::Faults faults_of(const FaultOptions& o) {
-  device::Faults f;
-  f.powered = !o.off;
-  f.lost_byte = o.lost_byte;
-  f.flipped_byte = o.flipped_byte;
-  f.late_s = o.late_ms * 1e-3;
-  constexpr std::array<const char*, 3> kWhere{"motor_1", "motor_2", "shaft"};
-  for (std::size_t i = 0; i < f.encoder.size(); ++i) {
-    f.encoder[i].stuck = std::find(o.stuck.begin(), o.stuck.end(), kWhere[i]) != o.stuck.end();
-    f.encoder[i].noise_rad = o.noise_deg * kPi / 180;
-  }
-  f.supply_V = o.supply_V;
-  for (std::size_t i = 0; i < f.motor_unplugged.size(); ++i)
-    f.motor_unplugged[i] = std::find(o.unplugged.begin(), o.unplugged.end(), static_cast<int>(i) + 1) != o.unplugged.end();
-  f.seed = o.seed;
-  return f;
 }
 
 std::vector<device::EmulatedUnit> units_of(const EmulateOptions& o) {
@@ -84,25 +72,34 @@ std::vector<device::EmulatedUnit> units_of(const EmulateOptions& o) {
   return units;
 }
 
-void break_units(const EmulateOptions& o, device::Emulation& emulation) {
-  const device::Faults faults = faults_of(o.faults);
-  device::Faults none;
-  none.seed = faults.seed;
-  if (faults == none) {
-    if (!o.faults.units.empty()) throw InputError({"", "--faulty", o.faults.units, "without a fault", "a fault, such as --off"});
-    return;
-  }
-  Problems problems;
+/// "IDS FAULT …": as `vsa run --fault`, with units instead of actuators.
+void break_units(const EmulateOptions& o, const std::string& text, device::Emulation& emulation) {
+  const std::string_view trimmed = config::trim(text);
+  const std::size_t end = std::min(trimmed.find_first_of(" \t\n\r\f\v"), trimmed.size());
+  const std::string who(trimmed.substr(0, end));
   const std::string all = fmt::format("{}-{}", o.first_id, o.first_id + o.units - 1);
-  for (const std::uint8_t id : parse_ids(o.faults.units.empty() ? all : o.faults.units, "--faulty")) {
+  device::Faults faults = config::read_faults(trimmed.substr(end), "--fault");
+  Problems problems;
+  for (const std::uint8_t id : parse_ids(who == "all" ? all : who, "--fault")) {
     const int index = id - o.first_id;
     if (index < 0 || index >= o.units) {
-      problems.add({"", "--faulty", std::to_string(id), "no such unit", all});
+      problems.add({"", "--fault", std::to_string(id), "no such unit", "all, " + all});
       continue;
     }
-    device::Faults own = faults;
-    own.seed += static_cast<std::uint64_t>(index);  // units have their own luck
-    emulation.set_faults(static_cast<std::size_t>(index), own);
+    emulation.set_faults(static_cast<std::size_t>(index), faults);
+    ++faults.seed;  // units have their own luck
+  }
+  problems.throw_if_any();
+}
+
+void break_units(const EmulateOptions& o, device::Emulation& emulation) {
+  Problems problems;
+  for (const std::string& text : o.faults) {
+    try {
+      break_units(o, text, emulation);
+    } catch (const InputError& error) {
+      problems.add_all(error);
+    }
   }
   problems.throw_if_any();
 }
@@ -170,6 +167,8 @@ int run_emulate(const EmulateOptions& options) {
   check(options);
   device::Emulation emulation(units_of(options));
   break_units(options, emulation);
+  std::optional<serial::ProcessorsAwake> awake;
+  if (options.low_latency) awake.emplace();
   catch_interrupts();
   int signal = 0;
   {
@@ -184,28 +183,6 @@ int run_emulate(const EmulateOptions& options) {
   return signal != 0 && options.duration_s ? kSignalled + signal : kDone;
 }
 
-namespace {
-
-void add_faults(CLI::App& sub, FaultOptions& f) {
-  constexpr const char* kGroup = "Faults";
-  const auto add = [&](const char* name, auto& value, const char* text) {
-    return sub.add_option(name, value, text)->group(kGroup)->check(number_given());
-  };
-  add("--faulty", f.units, "Units that the faults below are on, such as 2 or 1,3-5; default: all");
-  sub.add_flag("--off", f.off, "Powered off")->group(kGroup);
-  add("--lost-byte", f.lost_byte, "Probability that a byte to or from the unit is lost");
-  add("--flipped-byte", f.flipped_byte, "Probability that a bit of a byte is flipped");
-  add("--late-ms", f.late_ms, "Answers come so much later");
-  add("--stuck", f.stuck, "Encoders that stand still: motor_1, motor_2, shaft")
-      ->check(CLI::IsMember({"motor_1", "motor_2", "shaft"}));
-  add("--noise-deg", f.noise_deg, "Noise of all encoders, uniform within ± so much");
-  add("--supply-V", f.supply_V, "Another supply voltage");
-  add("--unplugged", f.unplugged, "Motors that hang open: 1, 2")->check(CLI::IsMember({1, 2}));
-  add("--seed", f.seed, "Of what happens by chance; the next unit has the next seed");
-}
-
-}  // namespace
-
 void setup_emulate(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<EmulateOptions>();
   CLI::App* sub = app.add_subcommand("emulate", "Units on a virtual serial port, without a robot, in real time");
@@ -218,10 +195,11 @@ void setup_emulate(CLI::App& app, int& exit_code) {
   sub->add_option("--dialect", options->dialect, "Of the firmware")->capture_default_str()->check(CLI::IsMember({6, 7}));
   sub->add_flag("--active", options->active, "Motors on from the start, as the unit's start-up activation does");
   sub->add_flag("--held", options->held, "Shafts are held instead of free");
+  sub->add_flag("--low-latency", options->low_latency, kLowLatencyHelp);
   sub->add_option("--set", options->set, "Override a parameter of the preset: key=value");
   sub->add_option("--duration-s", options->duration_s, "Seconds to run; default: until Ctrl-C")->check(number_given());
-  add_faults(*sub, options->faults);
-  sub->footer(kNotes);
+  sub->add_option("--fault", options->faults, "Break something: \"IDS FAULT …\", such as \"2 off\", or \"all FAULT …\"");
+  sub->footer(kNotes + std::string(kFaultsHelp));
   sub->callback([options, &exit_code] { exit_code = run_emulate(*options); });
 }
 

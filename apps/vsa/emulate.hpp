@@ -9,19 +9,6 @@
 
 namespace vsa::app {
 
-/// On the units that `units` names; empty: all.
-struct FaultOptions {
-  std::string units;
-  bool off = false;
-  double lost_byte = 0, flipped_byte = 0;  ///< probabilities
-  double late_ms = 0;
-  std::vector<std::string> stuck;  ///< motor_1, motor_2, shaft
-  double noise_deg = 0;            ///< every encoder
-  std::optional<double> supply_V;
-  std::vector<int> unplugged;  ///< 1, 2
-  std::uint64_t seed = 1;
-};
-
 struct EmulateOptions {
   std::string preset;
   int units = 1;
@@ -30,9 +17,10 @@ struct EmulateOptions {
   int dialect = 6;
   bool active = false;
   bool held = false;
+  bool low_latency = false;
   std::vector<std::string> set;
   std::optional<double> duration_s;
-  FaultOptions faults;
+  std::vector<std::string> faults;  ///< "IDS FAULT…" or "all FAULT…", see config/faults_text.hpp
 };
 
 /// `vsa emulate PRESET`. Sets the exit code when it was the subcommand.

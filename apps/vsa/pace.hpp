@@ -9,6 +9,8 @@
 
 namespace vsa::app {
 
+inline constexpr const char* kLowLatencyHelp = "Keep this machine's processors awake, for short round trips on serial ports (root)";
+
 /// Wall time spent running, pauses left out.
 class Stopwatch {
  public:

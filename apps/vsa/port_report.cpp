@@ -14,4 +14,9 @@ std::string port_report(const serial::PortCounters& port, std::uint64_t lost_byt
                      static_cast<double>(port.longest_service_ns) * 1e-6, static_cast<double>(port.longest_exchange_ns) * 1e-6);
 }
 
+std::string in_a_line(const serial::PortCounters& port) {
+  return fmt::format("{} exchanges, {} bytes in, {} out, {} dropped; longest service {:.3f} ms", port.exchanges, port.bytes_in,
+                     port.bytes_out, port.bytes_dropped, static_cast<double>(port.longest_service_ns) * 1e-6);
+}
+
 }  // namespace vsa::app

@@ -9,10 +9,13 @@
 #include <memory>
 
 #include "exit_codes.hpp"
+#include "faults_help.hpp"
 #include "interrupt.hpp"
 #include "numbers.hpp"
+#include "pace.hpp"
 #include "run_session.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/serial/processors_awake.hpp"
 
 namespace vsa::app {
 namespace {
@@ -28,7 +31,7 @@ Examples:
   vsa run snake_rubble --realtime
   vsa run snake_flat --gait sidewind --duration-s 20 --fault "joint_6 unplugged=1"
 
-Faults, the last said of an actuator holds: off lost_byte=P flipped_byte=P late_s=T stuck=motor_1|motor_2|shaft noise_rad=A supply_V=U unplugged=1|2 seed=N)";
+)";
 
 void check(const RunOptions& options) {
   if (options.duration_s && !(*options.duration_s > 0 && *options.duration_s <= kLongest_s)) {
@@ -48,6 +51,8 @@ int exit_code_of(int signal, const RunOptions& options) { return signal != 0 && 
 
 int run_run(const RunOptions& options) {
   check(options);
+  std::optional<serial::ProcessorsAwake> awake;
+  if (options.low_latency) awake.emplace();
   Console console;
   RunSession session(options, console);
   catch_interrupts();
@@ -73,7 +78,9 @@ void setup_run(CLI::App& app, int& exit_code) {
   CLI::App* sub = app.add_subcommand("run", "Run a world");
   sub->add_option("WORLD", options->world, "SDF file, or a built-in world's name")->required();
   sub->add_option("--duration-s", options->duration_s, "Simulated seconds to run; default: until Ctrl-C")->check(number_given());
-  sub->add_flag("--realtime", options->realtime, "Not faster than the wall clock; default: as fast as possible");
+  CLI::Option* realtime =
+      sub->add_flag("--realtime", options->realtime, "Not faster than the wall clock; default: as fast as possible");
+  sub->add_flag("--low-latency", options->low_latency, kLowLatencyHelp)->needs(realtime);
   sub->add_option("--preset", options->preset, "Put this actuator preset on every actuator of the world");
   sub->add_option("--set", options->set, "Override a parameter of every actuator: key=value");
   sub->add_option("--fault", options->faults, "Break something from the start: \"ACTUATOR FAULT …\" or \"all FAULT …\"");
@@ -81,7 +88,7 @@ void setup_run(CLI::App& app, int& exit_code) {
   sub->add_option("--record", options->record, "Write CSV files and a replay page into this directory");
   CLI::Option* no_topics = sub->add_flag("--no-topics", options->no_topics, "Run without the transport");
   sub->add_flag("--paused", options->paused, "Start paused; /world/W/control lets it run")->excludes(no_topics);
-  sub->footer(kNotes);
+  sub->footer(kNotes + std::string(kFaultsHelp));
   sub->callback([options, &exit_code] { exit_code = run_run(*options); });
 }
 

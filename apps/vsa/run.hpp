@@ -12,6 +12,7 @@ struct RunOptions {
   std::string world;  ///< a file, or a built-in world's name
   std::optional<double> duration_s;
   bool realtime = false;
+  bool low_latency = false;
   bool paused = false;
   bool no_topics = false;
   std::string preset;               ///< put on every actuator; empty: what the world says

@@ -9,6 +9,7 @@
 
 #include "find_file.hpp"
 #include "interrupt.hpp"
+#include "port_report.hpp"
 #include "settings.hpp"
 #include "vsa/config/faults_text.hpp"
 #include "vsa/errors.hpp"
@@ -89,10 +90,22 @@ RunSession::RunSession(const RunOptions& options, Console& console)
   if (gait_) gait_->bind(world_);
   const auto report = [&console](const std::string& line) { console.line(line); };
   if (!options.no_topics) server_.emplace(world_, control_, report);
-  ports_.emplace(world_, report);
+  open_ports(report);
   // Last, so that a run that is refused has not touched an earlier record.
   if (!options.record.empty()) recorder_.emplace(world_, options.record, recorder_options());
   if (duration_s_) end_ns_ = world_.time_ns() + std::llround(*duration_s_ * 1e9);
+}
+
+void RunSession::open_ports(const ports::Report& report) {
+  Problems problems;
+  for (std::size_t i = 0; i < world_.robot_count(); ++i) {
+    try {
+      ports_.open(world_.robot(i), world_.robot_model(i), report);
+    } catch (const InputError& error) {
+      problems.add_all(error);
+    }
+  }
+  problems.throw_if_any();
 }
 
 int RunSession::run() {
@@ -133,7 +146,7 @@ void RunSession::step() {
 
 /// Without --realtime nothing waits, but a client on a serial port lives by the wall clock and wants to know.
 void RunSession::keep_time() {
-  if (!realtime_ && (ports_->empty() || told_late_)) return;
+  if (!realtime_ && (ports_.all().empty() || told_late_)) return;
   RealTimePace::Clock::time_point due;
   const bool in_time = realtime_ ? pace_.hold(world_.time_ns()) : pace_.keeps_up(world_.time_ns(), RealTimePace::Clock::now(), due);
   if (in_time || std::exchange(told_late_, true)) return;
@@ -194,8 +207,7 @@ std::vector<record::Statistic> RunSession::statistics() const {
 std::vector<record::Statistic> RunSession::finish(const std::string& note) {
   wall_.pause();
   std::vector<record::Statistic> out = statistics();
-  const auto ports = ports_->statistics();
-  out.insert(out.end(), ports.begin(), ports.end());
+  for (const auto& port : ports_.all()) out.push_back({"serial port", port->path() + ": " + in_a_line(port->counters())});
   if (recorder_) {
     const auto page = recorder_->finish(out, note);
     out.push_back({"replay page", page.string()});

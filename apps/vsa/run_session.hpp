@@ -11,11 +11,11 @@
 
 #include "console.hpp"
 #include "pace.hpp"
-#include "robot_ports.hpp"
 #include "run.hpp"
 #include "travel.hpp"
 #include "vsa/engine/gait.hpp"
 #include "vsa/engine/world.hpp"
+#include "vsa/ports/robot_ports.hpp"
 #include "vsa/record/recorder.hpp"
 #include "vsa/topics/run_control.hpp"
 #include "vsa/topics/world_server.hpp"
@@ -36,6 +36,7 @@ class RunSession {
 
  private:
   [[nodiscard]] bool done() const { return end_ns_ && world_.time_ns() >= *end_ns_; }
+  void open_ports(const ports::Report& report);
   void step();
   void reset();
   void idle();
@@ -54,7 +55,7 @@ class RunSession {
   topics::RunControl control_;
   std::optional<record::Recorder> recorder_;
   std::optional<topics::WorldServer> server_;
-  std::optional<RobotPorts> ports_;
+  ports::RobotPorts ports_;
   Travel travel_;
   record::Cadence travel_cadence_;
   RealTimePace pace_;

@@ -20,11 +20,6 @@ host::Robot make_robot(const Attachment& attachment) {
   host::RobotConfig config = config::parse_plugin(attachment.xml, attachment.where, config::PresetLibrary());
   Problems problems;
   config::check_joints(config, attachment.joints, attachment.where, problems);
-  for (const host::BusConfig& bus : config.buses) {
-    if (!bus.serial_port) continue;
-    problems.add({attachment.where, "bus[" + bus.name + "]/serial_port", *bus.serial_port,
-                  "Gazebo's plug-in opens no serial ports yet", "no such element: command through topics"});
-  }
   problems.throw_if_any();
   return host::Robot(std::move(config));
 }
@@ -37,6 +32,7 @@ AttachedRobot::AttachedRobot(const Attachment& attachment, host::RobotTopics::Re
       robot_(make_robot(attachment)),
       in_(robot_.size()),
       torques_(robot_.size(), 0.0) {
+  ports_.open(robot_, model_, report_);
   topics_.emplace(robot_, model_, port_, report_);
 }
 

@@ -22,6 +22,7 @@
 
 #include "vsa/host/robot.hpp"
 #include "vsa/host/topics.hpp"
+#include "vsa/ports/robot_ports.hpp"
 #include "vsa/topics/ignition_port.hpp"
 
 namespace vsa::plugins {
@@ -68,6 +69,7 @@ class AttachedRobot {
   Clock::time_point next_listeners_{}, next_paused_{};
   std::optional<host::RobotTopics> topics_;  ///< must outlive its port's handlers, so it comes before the port
   topics::IgnitionPort port_;
+  ports::RobotPorts ports_;
 };
 
 }  // namespace vsa::plugins

@@ -94,9 +94,9 @@ TEST(Emulate, BadInputIsToldBeforeThereIsAPort) {
   };
   expect(with({"--units", "0"}), 2, {"ids"});
   expect(with({"--units", "10", "--first-id", "250"}), 2, {"1 to 254"});
-  expect(with({"--lost-byte", "1.5"}), 2, {"lost"});
-  expect(with({"--off", "--faulty", "7"}), 2, {"--faulty", "no such unit"});
-  expect(with({"--faulty", "1"}), 2, {"without a fault"});
+  expect(with({"--fault", "all lost_byte=1.5"}), 2, {"lost"});
+  expect(with({"--fault", "7 off"}), 2, {"--fault", "no such unit"});
+  expect(with({"--fault", "1"}), 2, {"names no fault"});
   expect(with({"--dialect", "8"}), 2, {"--dialect"});
   expect(run_vsa({"emulate", "walker", "--port", path}), 2, {"walker"});
   write_file(path, "mine");
@@ -203,14 +203,14 @@ TEST(GetAndSet, BadValuesAreToldAllAtOnceAndNothingIsSent) {
 }
 
 TEST(Faults, AreOnTheUnitsThatAreNamed) {
-  Emulated units({"--units", "3", "--off", "--faulty", "2"});
+  Emulated units({"--units", "3", "--fault", "2 off"});
   ASSERT_TRUE(units.ready);
   expect(units.vsa({"ping", "--id", "1,3"}), 0, {});
   expect(run_vsa({"ping", units.path, "--id", "2"}), 1, {"no answer from unit 2"});
-  Emulated noisy({"--lost-byte", "1"});
+  Emulated noisy({"--fault", "all lost_byte=1"});
   ASSERT_TRUE(noisy.ready);
   expect(run_vsa({"ping", noisy.path, "--id", "1"}), 1, {"no answer"});
-  Emulated low({"--supply-V", "7"});
+  Emulated low({"--fault", "1 supply_V=7"});
   ASSERT_TRUE(low.ready);
   expect(low.vsa({"get", "info"}), 0, {"PWM Limit: 100"});
 }
