@@ -17,6 +17,9 @@ using Files = std::map<std::string, std::string>;
 
 [[nodiscard]] Files generate(const Description& description);
 
+/// What lies below ros2/ for the robots among generate()'s files: one ros_gz_bridge configuration each.
+[[nodiscard]] Files bridges(const Files& models);
+
 // One a kind of file; generate() calls them all.
 void add_robots(Files& files, const Description& description);
 void add_terrain(Files& files, const Description& description);
