@@ -8,6 +8,7 @@
 
 #include "doctor_checks.hpp"
 #include "find_file.hpp"
+#include "vsa/config/older_plugin.hpp"
 #include "vsa/config/plugin_xml.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/engine/world.hpp"

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "config/older_tags.hpp"
+#include "vsa/config/older_plugin.hpp"
 #include "vsa/config/plugin_xml.hpp"
 #include "vsa/config/text.hpp"
 

@@ -4,6 +4,7 @@
 #include <sdf/Model.hh>
 
 #include "read_context.hpp"
+#include "vsa/config/older_plugin.hpp"
 #include "vsa/config/plugin_xml.hpp"
 
 namespace vsa::engine {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "support.hpp"
+#include "vsa/config/older_plugin.hpp"
 
 namespace vsa::test {
 namespace {

@@ -27,11 +27,7 @@ struct Replacement {
 [[nodiscard]] host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, const PresetLibrary& presets,
                                              const Replacement& replacement = {});
 
-/// Whether the <plugin> element is of the ROS-Gazebo toolbox of 2021 or of the plug-in of 2015: parse_plugin() refuses those with
-/// the same robot in the new spelling.
-[[nodiscard]] bool is_older_plugin(std::string_view xml);
-
-/// Adds a problem for every configured joint that isn't among `joints` (scoped names), and for the motors' joints that models of 2015 have.
+/// Adds a problem for every configured joint that isn't among `joints` (scoped names).
 void check_joints(const host::RobotConfig& config, const std::vector<std::string>& joints, std::string_view where,
                   Problems& problems);
 
