@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
-#include <memory>
 
 #include "doctor_checks.hpp"
 #include "exit_codes.hpp"
@@ -21,14 +19,6 @@ namespace vsa::app {
 namespace {
 
 using Level = Finding::Level;
-
-constexpr const char* kNotes = R"(ok: nothing to do. note: worth knowing. problem: something won't work.
-Exit codes: 0 no problem, 1 a problem, 2 bad usage or no such world.
-
-Examples:
-  vsa doctor                     what Gazebo, topics and serial ports need, here and now
-  vsa doctor snake_flat          and this world
-  vsa doctor robot.sdf           elements of older plug-ins are written anew: docs/migration.md)";
 
 const char* word(Level level) { return level == Level::ok ? "ok" : level == Level::note ? "note" : "problem"; }
 
@@ -126,15 +116,6 @@ int run_doctor(const DoctorOptions& options) {
   check_ports(findings, options.devices);
   if (!options.world.empty()) check_world(findings, hosts, options.world);
   return report(findings);
-}
-
-void setup_doctor(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<DoctorOptions>();
-  CLI::App* sub = app.add_subcommand("doctor", "What is missing for Gazebo, topics and serial ports, or wrong with a world");
-  sub->add_option("WORLD", options->world, "An SDF file, or the name of a built-in world");
-  sub->add_option("--devices", options->devices, "Where the machine's devices are")->capture_default_str();
-  sub->footer(kNotes);
-  sub->callback([options, &exit_code] { exit_code = run_doctor(*options); });
 }
 
 }  // namespace vsa::app

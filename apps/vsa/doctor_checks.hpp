@@ -50,6 +50,9 @@ void check_ports(Findings& findings, const std::filesystem::path& devices);
 /// Throws InputError where there is no such file.
 void check_world(Findings& findings, const std::vector<Host>& hosts, const std::string& world);
 
+/// Does the world load, and has it robots? With the embedded engine in vsa, from the elements alone in vsa-doctor.
+void check_loading(Findings& findings, const std::filesystem::path& file);
+
 /// The directories of a variable such as PATH, without empty ones; none where it is unset.
 [[nodiscard]] std::vector<std::filesystem::path> directories_of(const char* variable);
 /// Value of a variable; empty where it is unset.

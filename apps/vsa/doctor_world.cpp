@@ -11,7 +11,6 @@
 #include "vsa/config/older_plugin.hpp"
 #include "vsa/config/plugin_xml.hpp"
 #include "vsa/config/text.hpp"
-#include "vsa/engine/world.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::app {
@@ -21,20 +20,6 @@ namespace fs = std::filesystem;
 using tinyxml2::XMLElement;
 
 constexpr double kLongestStep_s = 0.016;  // of a robot: host/robot.hpp
-
-void check_loading(Findings& findings, const fs::path& file) {
-  try {
-    const auto world = engine::World::load(file);
-    findings.ok("world", fmt::format("{} loads, {} s a step", file.string(), world.step_s()));
-    for (std::size_t r = 0; r < world.robot_count(); ++r)
-      findings.ok("robot", fmt::format("{} with {} actuators", world.robot_model(r), world.robot(r).size()));
-    if (world.robot_count() == 0)
-      findings.problem("robot", "no model has a <plugin name=\"vsa::Robot\">", "docs/config.md shows one");
-    for (const std::string& warning : world.warnings()) findings.note("vsa run", warning);
-  } catch (const InputError& error) {
-    for (const Problem& p : error.problems()) findings.problem("world", p.text(), p.allowed.empty() ? "mend the file" : p.allowed);
-  }
-}
 
 std::string text_of(const XMLElement& e) {
   tinyxml2::XMLPrinter printer(nullptr, true);

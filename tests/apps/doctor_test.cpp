@@ -221,6 +221,36 @@ TEST(Doctor, ElementsOfOlderPluginsAreWrittenAnew) {
           "<override key=\"elastic.stiffness_Nm_per_rad\" value=\"12\"/>", "plugin/pub_state true", "joint_state"});
 }
 
+/// The program for machines without the embedded engine.
+Result doctor_alone(const Machine& machine, const std::vector<std::string>& arguments) {
+  vsa::test::Surroundings around;
+  around.program = "vsa-doctor";
+  around.environment = machine.environment;
+  return run_vsa(arguments, around);
+}
+
+TEST(DoctorAlone, LooksAtTheSameAndReadsTheElementsOfAWorld) {
+  Machine machine;
+  machine.set("IGN_IP", "localhost");
+  expect(doctor_alone(machine, {}), 1, {"ok: data directory: ", "ok: presets: ", "problem: IGN_IP: "});
+  machine.set("IGN_IP", "127.0.0.1");
+  const std::string model = std::string(VSA_SOURCE_DIR) + "/models/qbmove_snake/model.sdf";
+  expect(doctor_alone(machine, {model}), 0, {"ok: robot: " + model + ":", "12 actuators"});
+  const std::string file = (machine.scratch / "w.sdf").string();
+  write_file(file, world("<model name='m'><plugin name='vsa::Robot'><actuator><joint>j</joint><preset>qbmov</preset></actuator>"
+                         "</plugin></model>"));
+  expect(doctor_alone(machine, {file}), 1, {"problem: robot: " + file + ":1", "unknown preset"});
+}
+
+TEST(DoctorAlone, RefusesWhatItDoesNotKnow) {
+  const Machine machine;
+  EXPECT_EQ(doctor_alone(machine, {"--fast"}).exit_code, 2);
+  EXPECT_EQ(doctor_alone(machine, {"a", "b"}).exit_code, 2);
+  EXPECT_EQ(doctor_alone(machine, {""}).exit_code, 2);
+  EXPECT_EQ(doctor_alone(machine, {"atlantis"}).exit_code, 2);
+  EXPECT_EQ(doctor_alone(machine, {"--help"}).exit_code, 0);
+}
+
 TEST(Doctor, AWorldThatIsNotThereIsBadInput) {
   const Result result = Machine().doctor({"atlantis"});
   EXPECT_EQ(result.exit_code, 2);
