@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "doctor_checks.hpp"
 
@@ -87,23 +88,27 @@ void check_command(Findings& findings, Host& host, const char* command, const ch
   if (config) findings.ok(host.name, fmt::format("{} with {}", executable->string(), config->string()));
 }
 
-/// The lines of ldd that say what is missing, in words.
-std::string missing(const std::string& ldd) {
-  std::vector<std::string> lacks;
-  std::string undefined;
+/// What ldd says is missing.
+struct Missing {
+  std::vector<std::string> libraries;
+  std::string symbol;  ///< the first that the file itself needs; the simulator's own libraries find theirs in its process
+};
+
+Missing missing(const std::string& ldd, const fs::path& file) {
+  constexpr std::string_view kUndefined = "undefined symbol: ";
+  Missing out;
   for (std::size_t at = 0; at < ldd.size();) {
     const std::size_t end = std::min(ldd.find('\n', at), ldd.size());
     const std::string line = ldd.substr(at, end - at);
     at = end + 1;
     if (line.find("=> not found") != std::string::npos) {
       const std::size_t from = line.find_first_not_of(" \t");
-      lacks.push_back(line.substr(from, line.find(' ', from) - from));
-    } else if (undefined.empty() && line.rfind("undefined symbol: ", 0) == 0) {
-      undefined = line.substr(18, line.find_first_of(" \t", 18) - 18);
+      out.libraries.push_back(line.substr(from, line.find(' ', from) - from));
+    } else if (out.symbol.empty() && line.rfind(kUndefined, 0) == 0 && line.find("(" + file.string() + ")") != std::string::npos) {
+      out.symbol = line.substr(kUndefined.size(), line.find_first_of(" \t", kUndefined.size()) - kUndefined.size());
     }
   }
-  if (!lacks.empty()) return fmt::format("lacks {}", fmt::join(lacks, ", "));
-  return undefined.empty() ? "" : "was built for other versions of its libraries: it has an undefined symbol " + undefined;
+  return out;
 }
 
 void check_library(Findings& findings, const Host& host, const fs::path& file) {
@@ -114,14 +119,18 @@ void check_library(Findings& findings, const Host& host, const fs::path& file) {
     return;
   }
   const Said said = say("ldd -r " + quoted(file.string()));
-  const std::string lacks = missing(said.text);
-  if (!lacks.empty()) {
-    findings.problem(what, file.string() + " " + lacks, "install that, or " + build);
-  } else if (!said.done) {
+  const Missing lacks = missing(said.text, file);
+  if (!said.done && said.text.find("=>") == std::string::npos) {
     findings.problem(what, file.string() + " can't be loaded: " + said.text.substr(0, said.text.find('\n')), build);
   } else if (said.text.find(host.library_mark) == std::string::npos) {
     findings.problem(what, file.string() + " is another Gazebo's plug-in",
                      std::string("put the directory of its own first in ") + host.plugin_path);
+  } else if (!lacks.libraries.empty()) {
+    findings.problem(what, fmt::format("{} lacks {}", file.string(), fmt::join(lacks.libraries, ", ")),
+                     "install that, or " + build);
+  } else if (!lacks.symbol.empty()) {
+    findings.problem(
+        what, fmt::format("{} was built for other versions of its libraries: none has {}", file.string(), lacks.symbol), build);
   } else {
     findings.ok(what, file.string());
   }

@@ -102,16 +102,20 @@ TEST(Doctor, IgnOrGzWithoutGazeboIsNone) {
 }
 
 TEST(Doctor, ALibraryThatIsNoneOrLacksAnotherOrIsAnotherGazebosIsAProblem) {
-  Machine machine;
-  write_file(machine.scratch / "libvsa-robot.so", "no library");
-  machine.set("GAZEBO_PLUGIN_PATH", (machine.scratch / "").string());
-  expect(machine.doctor(), 1, {"problem: plug-in for Gazebo Classic: ", "can't be loaded", "build the plug-in against"});
-  machine.set("GAZEBO_PLUGIN_PATH", std::string(VSA_BINARY_DIR) + "/tests/doctor/lacking");
-  expect(machine.doctor(), 1, {"lacks libdoctor-absent.so"});
-  machine.set("GAZEBO_PLUGIN_PATH", std::string(VSA_BINARY_DIR) + "/tests/doctor/undefined");
-  expect(machine.doctor(), 1, {"an undefined symbol vsa_doctor_nowhere"});
-  machine.set("GAZEBO_PLUGIN_PATH", std::string(VSA_BINARY_DIR) + "/tests/doctor/whole");
-  expect(machine.doctor(), 1, {"is another Gazebo's plug-in"});
+  const auto with = [](const std::string& directory) {
+    Machine machine;
+    machine.set("GAZEBO_PLUGIN_PATH", directory);
+    return machine.doctor();
+  };
+  const Scratch scratch;
+  write_file(scratch / "libvsa-robot.so", "no library");
+  const std::string made = std::string(VSA_BINARY_DIR) + "/tests/doctor/";
+  expect(with((scratch / "").string()), 1,
+         {"problem: plug-in for Gazebo Classic: ", "can't be loaded", "build the plug-in against"});
+  expect(with(made + "lacking"), 1, {"problem: plug-in for Gazebo Classic: ", "lacks libgazebo_physics-absent.so"});
+  expect(with(made + "foreign"), 1, {"is another Gazebo's plug-in", "first in GAZEBO_PLUGIN_PATH"});
+  expect(with(made + "undefined"), 1, {"was built for other versions of its libraries: none has vsa_doctor_nowhere"});
+  expect(with(made + "whole"), 0, {"ok: plug-in for Gazebo Classic: " + made + "whole/libvsa-robot.so"});
 }
 
 TEST(Doctor, ModelPathsAreLookedThrough) {
