@@ -24,12 +24,23 @@ host::Robot make_robot(const Attachment& attachment) {
   return host::Robot(std::move(config));
 }
 
+std::vector<DrivenJoints::Joint> driven(const host::RobotConfig& config, const Attachment& attachment) {
+  std::vector<DrivenJoints::Joint> joints;
+  if (attachment.keys.empty()) return joints;
+  for (const host::ActuatorConfig& a : config.actuators) {
+    const auto at = std::find(attachment.joints.begin(), attachment.joints.end(), a.joint) - attachment.joints.begin();
+    joints.push_back({attachment.keys.at(static_cast<std::size_t>(at)), a.joint, a.name});
+  }
+  return joints;
+}
+
 }  // namespace
 
 AttachedRobot::AttachedRobot(const Attachment& attachment, host::RobotTopics::Report report)
     : report_(std::move(report)),
       model_(attachment.model),
       robot_(make_robot(attachment)),
+      joints_(attachment.where, driven(robot_.config(), attachment)),
       in_(robot_.size()),
       torques_(robot_.size(), 0.0) {
   ports_.open(robot_, model_, report_);

@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "driven_joints.hpp"
 #include "vsa/host/robot.hpp"
 #include "vsa/host/topics.hpp"
 #include "vsa/ports/robot_ports.hpp"
@@ -32,11 +33,12 @@ struct Attachment {
   std::string where;                ///< leads every line of a problem
   std::string model;                ///< scoped name
   std::vector<std::string> joints;  ///< one-axis joints, relative to the model: "module_1::shaft"
+  std::vector<JointKey> keys{};     ///< one a joint; none: two plug-ins that drive one joint go unnoticed
 };
 
 class AttachedRobot {
  public:
-  /// Throws InputError with every problem at once.
+  /// Throws InputError with every problem at once; a joint that another robot drives is one, then nothing is opened or advertised.
   AttachedRobot(const Attachment& attachment, host::RobotTopics::Report report);
 
   [[nodiscard]] const host::RobotConfig& config() const noexcept { return robot_.config(); }
@@ -62,6 +64,7 @@ class AttachedRobot {
   host::RobotTopics::Report report_;
   std::string model_;
   host::Robot robot_;
+  DrivenJoints joints_;
   std::vector<host::JointIn> in_;
   std::vector<double> torques_;
   std::int64_t time_ns_ = 0;

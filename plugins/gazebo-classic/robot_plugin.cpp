@@ -21,6 +21,9 @@ using gazebo::physics::JointPtr;
 using gazebo::physics::ModelPtr;
 
 constexpr int kRefreshSteps = 16;  // inverse inertias only serve the robot's prediction
+constexpr std::chrono::milliseconds kLookEvery{100};
+
+std::int64_t nanoseconds(const gazebo::common::Time& time) { return time.sec * std::int64_t{1'000'000'000} + time.nsec; }
 
 struct NamedJoint {
   std::string name;  ///< relative to the plug-in's model
@@ -38,9 +41,12 @@ void collect_joints(const ModelPtr& model, const std::string& prefix, std::vecto
 
 void ClassicRobot::Load(ModelPtr model, sdf::ElementPtr element) {
   model_ = std::move(model);
+  world_ = model_->GetWorld()->Name();
   try {
     attach(element);
   } catch (const InputError& error) {
+    own_port_.reset();
+    robot_.reset();
     gzerr << "vsa::Robot: " << model_->GetScopedName() << " stays without torques:\n" << error.what() << std::endl;
   }
 }
@@ -48,22 +54,39 @@ void ClassicRobot::Load(ModelPtr model, sdf::ElementPtr element) {
 void ClassicRobot::attach(const sdf::ElementPtr& element) {
   std::vector<NamedJoint> known;
   collect_joints(model_, "", known);
-  Attachment attachment{
-      element->ToString(""), model_->GetWorld()->Name() + ": " + model_->GetScopedName(), model_->GetScopedName(), {}};
-  for (const NamedJoint& k : known) attachment.joints.push_back(k.name);
+  Attachment attachment{element->ToString(""), world_ + ": " + model_->GetScopedName(), model_->GetScopedName(), {}};
+  for (const NamedJoint& k : known) {
+    attachment.joints.push_back(k.name);
+    attachment.keys.push_back({model_->GetWorld().get(), k.joint->GetId()});
+  }
   const auto report = [](const std::string& line) { gzwarn << "vsa::Robot: " << line << std::endl; };
   robot_ = std::make_unique<AttachedRobot>(attachment, report);
-  own_port_ = std::make_unique<GazeboPort>(model_->GetWorld()->Name());
+  own_port_ = std::make_unique<GazeboPort>(world_);
   own_topics_.emplace(robot_->robot(), attachment.model, *own_port_, report);
   for (const host::ActuatorConfig& a : robot_->config().actuators) {
     joints_.push_back(std::find_if(known.begin(), known.end(), [&](const NamedJoint& k) { return k.name == a.joint; })->joint);
   }
   tree_ = std::make_unique<ModelTree>(model_, joints_);
-  connection_ = gazebo::event::Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo& info) { update(info); });
+  using gazebo::event::Events;
+  connection_ = Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo& info) { update(info); });
+  time_reset_ = Events::ConnectTimeReset([this] {  // of any world
+    const std::lock_guard lock(mutex_);
+    now_ns_ = nanoseconds(model_->GetWorld()->SimTime());
+  });
+  timer_.emplace(kLookEvery, [this] { publish_where_it_stands(); });
 }
 
 void ClassicRobot::update(const gazebo::common::UpdateInfo& info) {
-  if (info.worldName != model_->GetWorld()->Name()) return;
+  if (info.worldName != world_) return;
+  const std::lock_guard lock(mutex_);
+  stepped_ = true;
+  now_ns_ = nanoseconds(info.simTime);  // Gazebo has counted this step already
+  step();
+  robot_->publish_step(now_ns_);
+  own_topics_->update(now_ns_);
+}
+
+void ClassicRobot::step() {
   if (steps_to_refresh_-- <= 0) {
     tree_->update();
     steps_to_refresh_ = kRefreshSteps - 1;
@@ -73,13 +96,18 @@ void ClassicRobot::update(const gazebo::common::UpdateInfo& info) {
   }
   robot_->step(std::llround(model_->GetWorld()->Physics()->GetMaxStepSize() * 1e9));
   for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i]->SetForce(0, robot_->torques()[i]);
-  // Gazebo has counted this step already.
-  const std::int64_t now_ns = info.simTime.sec * std::int64_t{1'000'000'000} + info.simTime.nsec;
-  robot_->publish_step(now_ns);
-  own_topics_->update(now_ns);
+}
+
+void ClassicRobot::publish_where_it_stands() {
+  const std::lock_guard lock(mutex_);
+  if (!std::exchange(stepped_, false)) {
+    robot_->publish_paused(now_ns_);
+    own_topics_->publish(now_ns_);
+  }
 }
 
 void ClassicRobot::Reset() {
+  const std::lock_guard lock(mutex_);
   if (robot_) robot_->reset();
   steps_to_refresh_ = 0;
 }

@@ -4,12 +4,16 @@
 //
 // At the start of every step Gazebo tells each joint's angle and speed and takes its torque; in between nothing is ours, so other
 // joints and other plug-ins are left alone. Load errors are one message on Gazebo's error log and a model without torques.
+//
+// Gazebo Classic tells nobody when it is paused, and then calls nobody. So a thread looks ten times a wall second whether a step
+// was made since, and publishes the state if not. It shares the robot with the world's thread by one lock.
 #pragma once
 
 #include <gazebo/common/Plugin.hh>
 #include <gazebo/common/UpdateInfo.hh>
 #include <gazebo/physics/PhysicsTypes.hh>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +21,7 @@
 #include "attached_robot.hpp"
 #include "gazebo_port.hpp"
 #include "model_tree.hpp"
+#include "wall_timer.hpp"
 
 namespace vsa::plugins {
 
@@ -31,15 +36,22 @@ class ClassicRobot : public gazebo::ModelPlugin {
  private:
   void attach(const sdf::ElementPtr& element);
   void update(const gazebo::common::UpdateInfo& info);
+  void step();
+  void publish_where_it_stands();
 
   gazebo::physics::ModelPtr model_;
+  std::string world_;                              ///< its name
   std::vector<gazebo::physics::JointPtr> joints_;  ///< of the actuators
   std::unique_ptr<AttachedRobot> robot_;
   std::unique_ptr<ModelTree> tree_;
   int steps_to_refresh_ = 0;
+  std::mutex mutex_;                             ///< guards what is below, and the robot
+  std::int64_t now_ns_ = 0;                      ///< simulated
+  bool stepped_ = false;                         ///< since the timer looked
   std::optional<host::RobotTopics> own_topics_;  ///< on Gazebo's own transport; before the port, which must go first
   std::unique_ptr<GazeboPort> own_port_;
-  gazebo::event::ConnectionPtr connection_;  ///< gone before the robot is
+  gazebo::event::ConnectionPtr connection_, time_reset_;  ///< gone before the robot is, as is the timer
+  std::optional<WallTimer> timer_;
 };
 
 }  // namespace vsa::plugins

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "topics_commands.hpp"
 #include "vsa/errors.hpp"
@@ -30,6 +31,25 @@ void send(const DoublePublisher& publisher, std::int64_t time_ns, double value) 
   if (publisher && publisher->wanted()) publisher->publish(time_ns, value);
 }
 
+/// A port may keep its handlers longer than RobotTopics lives, above all where its constructor throws: they go through here.
+class Gate {
+ public:
+  explicit Gate(TopicCommands& commands) : commands_(&commands) {}
+  void close() {
+    const std::lock_guard lock(mutex_);
+    commands_ = nullptr;
+  }
+  template <class Call>
+  void pass(const Call& call) {
+    const std::lock_guard lock(mutex_);
+    if (commands_ != nullptr) call(*commands_);
+  }
+
+ private:
+  std::mutex mutex_;
+  TopicCommands* commands_;
+};
+
 std::int64_t period_ns(double rate_Hz) { return std::max<std::int64_t>(1, std::llround(1e9 / std::max(rate_Hz, 1e-3))); }
 
 }  // namespace
@@ -39,6 +59,7 @@ struct RobotTopics::Impl {
       : robot(the_robot),
         report(the_report),
         commands(the_robot, std::move(the_report)),
+        gate(std::make_shared<Gate>(commands)),
         period(period_ns(the_robot.config().state_rate_Hz)) {
     message.model = std::move(model);
     for (const auto& actuator : robot.config().actuators) {
@@ -51,6 +72,10 @@ struct RobotTopics::Impl {
     }
   }
 
+  ~Impl() { gate->close(); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
   void connect(TopicPort& port);
   void connect_commands(TopicPort& port, Problems& problems);
   void fill(std::int64_t time_ns);
@@ -60,6 +85,7 @@ struct RobotTopics::Impl {
   Robot& robot;
   Report report;
   TopicCommands commands;
+  std::shared_ptr<Gate> gate;
   std::int64_t period;
   std::int64_t last_period = -1;
   std::vector<Channels> channels;
@@ -78,13 +104,20 @@ void RobotTopics::Impl::connect_commands(TopicPort& port, Problems& problems) {
     for (const auto& [leaf, channel] :
          {std::pair{"cmd_equilibrium", Channel::equilibrium}, std::pair{"cmd_preset", Channel::preset}}) {
       const std::string topic = joint_topic(model, robot.config().actuators[i].name, leaf);
-      check(port.on_double(topic, [this, topic, i, c = channel](double value) { commands.single(topic, i, c, value); }), topic);
+      const auto handler = [gate = gate, topic, i, c = channel](double value) {
+        gate->pass([&](TopicCommands& to) { to.single(topic, i, c, value); });
+      };
+      check(port.on_double(topic, handler), topic);
     }
   }
   const std::string cmd = model_topic(model, "vsa/cmd");
-  check(port.on_trajectory(cmd, [this, cmd](const Trajectory& m) { commands.trajectory(cmd, m); }), cmd);
+  const auto on_trajectory = [gate = gate, cmd](const Trajectory& m) {
+    gate->pass([&](TopicCommands& to) { to.trajectory(cmd, m); });
+  };
+  check(port.on_trajectory(cmd, on_trajectory), cmd);
   const std::string array = model_topic(model, "vsa/cmd_array");
-  check(port.on_actuators(array, [this, array](const ActuatorsCmd& m) { commands.array(array, m); }), array);
+  const auto on_array = [gate = gate, array](const ActuatorsCmd& m) { gate->pass([&](TopicCommands& to) { to.array(array, m); }); };
+  check(port.on_actuators(array, on_array), array);
 }
 
 void RobotTopics::Impl::connect(TopicPort& port) {

@@ -8,37 +8,20 @@
 
 #include "../gazebo_bench/bench_script.hpp"
 #include "classic_world.hpp"
-#include "robot_plugin.hpp"
 
 namespace vsa::test {
 namespace {
 
-std::string without(std::string text, const std::string& from, const std::string& to) {
-  const auto a = text.find(from), b = text.find(to, a);
-  return a == std::string::npos ? text : text.erase(a, b + to.size() - a);
-}
-
-/// The plug-in is made here and not by Gazebo, so that its robot can be told its whole trajectory before the first step.
 std::vector<BenchSample> run_bench(const std::string& engine, double step_s) {
-  const std::string model = read_file(VSA_SOURCE_DIR "/models/qbmove_bench_load/model.sdf");
-  const auto begin = model.find("<model"), end = model.find("</sdf>");
-  std::string bare = without(model.substr(begin, end - begin), "<plugin", "</plugin>");
-  bare.insert(bare.find('>') + 1, "<pose>0 0 0.4 -1.57079633 0 0</pose>");
-  ClassicWorld w(world_sdf("bench_" + engine, bare), engine);
+  std::string model = model_text("qbmove_bench_load");
+  model.insert(model.find('>') + 1, "<pose>0 0 0.4 -1.57079633 0 0</pose>");
+  RobotWorld w("bench_" + engine, model, engine);
   w.world->Physics()->SetMaxStepSize(step_s);
-  EXPECT_EQ(w.world->Physics()->GetType(), engine);
-
-  sdf::SDFPtr parsed(new sdf::SDF);
-  sdf::init(parsed);
-  EXPECT_TRUE(sdf::readString(model, parsed));
-  plugins::ClassicRobot plugin;
-  plugin.Load(w.world->ModelByName(kBenchModel), parsed->Root()->GetElement("model")->GetElement("plugin"));
-  if (plugin.robot() == nullptr) throw std::runtime_error("the plug-in didn't load");
-  command_bench(plugin.robot()->robot());
+  command_bench(w.robot());
 
   std::vector<BenchSample> samples;
   const auto connection = gazebo::event::Events::ConnectWorldUpdateEnd(
-      [&] { samples.push_back(sample_bench(plugin.robot()->robot(), w.world->SimTime().Double())); });
+      [&] { samples.push_back(sample_bench(w.robot(), w.world->SimTime().Double())); });
   w.run(static_cast<int>(std::lround(kBenchDuration_s / step_s)));
   return samples;
 }

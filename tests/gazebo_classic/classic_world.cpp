@@ -1,11 +1,11 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "classic_world.hpp"
 
-#include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <gazebo/common/SystemPaths.hh>
@@ -28,27 +28,25 @@ int free_port() {
 
 int worlds_made = 0;
 
-/// Gazebo, as a test wants it: on loopback, nothing downloaded, our plug-in and our models.
-class Server : public testing::Environment {
- public:
-  void SetUp() override {
-    setenv("GAZEBO_MASTER_URI", ("http://127.0.0.1:" + std::to_string(free_port())).c_str(), 1);
-    setenv("GAZEBO_IP", "127.0.0.1", 1);
-    setenv("GAZEBO_MODEL_DATABASE_URI", "", 1);
-    setenv("IGN_IP", "127.0.0.1", 1);
-    setenv("IGN_PARTITION", ("vsa_test_" + std::to_string(getpid())).c_str(), 1);
-    gazebo::setupServer(std::vector<std::string>{});
-    gazebo::common::Console::SetQuiet(false);
-    // Not through the environment: the library read that when it was loaded.
-    gazebo::common::SystemPaths::Instance()->AddModelPaths(VSA_SOURCE_DIR "/models");
-    gazebo::common::SystemPaths::Instance()->AddPluginPaths(VSA_CLASSIC_PLUGIN_DIR);
-  }
-  void TearDown() override { gazebo::shutdown(); }
-};
-
-const auto* const server = testing::AddGlobalTestEnvironment(new Server);
-
 }  // namespace
+
+void start_server() {
+  setenv("GAZEBO_MASTER_URI", ("http://127.0.0.1:" + std::to_string(free_port())).c_str(), 1);
+  setenv("GAZEBO_IP", "127.0.0.1", 1);
+  setenv("GAZEBO_MODEL_DATABASE_URI", "", 1);
+  setenv("IGN_IP", "127.0.0.1", 1);
+  setenv("IGN_PARTITION", ("vsa_test_" + std::to_string(getpid())).c_str(), 1);
+  gazebo::setupServer(std::vector<std::string>{});
+  gazebo::common::Console::SetQuiet(false);
+  // Not through the environment: the library read that when it was loaded.
+  gazebo::common::SystemPaths::Instance()->AddModelPaths(VSA_SOURCE_DIR "/models");
+  gazebo::common::SystemPaths::Instance()->AddPluginPaths(VSA_CLASSIC_PLUGIN_DIR);
+}
+
+std::string temporary_directory() {
+  const char* set = std::getenv("TMPDIR");
+  return set != nullptr && *set != '\0' ? set : "/tmp";
+}
 
 std::string world_sdf(const std::string& name, const std::string& inside, bool gravity) {
   return "<sdf version='1.7'><world name='" + name + "'><gravity>0 0 " + (gravity ? "-9.81" : "0") +
@@ -67,6 +65,37 @@ std::string read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::string model_text(const std::string& model) {
+  const std::string file = read_file(VSA_SOURCE_DIR "/models/" + model + "/model.sdf");
+  const auto begin = file.find("<model"), end = file.find("</sdf>");
+  return file.substr(begin, end - begin);
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  const auto at = text.find(what);
+  if (at == std::string::npos) throw std::runtime_error("there is no " + what);
+  return text.replace(at, what.size(), with);
+}
+
+std::string without(std::string text, const std::string& from, const std::string& to) {
+  const auto a = text.find(from), b = text.find(to, a);
+  if (a == std::string::npos || b == std::string::npos) throw std::runtime_error("there is no " + from + " … " + to);
+  return text.erase(a, b + to.size() - a);
+}
+
+long resident_kB() {
+  std::ifstream in("/proc/self/status");
+  std::string word;
+  while (in >> word) {
+    if (word == "VmRSS:") break;
+  }
+  long kB = 0;
+  in >> kB;
+  return kB;
+}
+
+bool long_run() { return std::getenv("VSA_TEST_LONG") != nullptr; }
+
 ClassicWorld::ClassicWorld(const std::string& sdf, const std::string& engine) {
   std::string text = sdf;
   const auto at = text.find("type='ode'");
@@ -77,7 +106,7 @@ ClassicWorld::ClassicWorld(const std::string& sdf, const std::string& engine) {
   if (const auto world_at = text.find(name); world_at != std::string::npos) {
     text.insert(world_at + name.size(), "w" + std::to_string(worlds_made++) + "_");
   }
-  const std::string file = testing::TempDir() + "/vsa_" + std::to_string(getpid()) + ".world";
+  const std::string file = temporary_directory() + "/vsa_" + std::to_string(getpid()) + ".world";
   std::ofstream(file) << text;
   world = gazebo::loadWorld(file);
   std::remove(file.c_str());
@@ -107,6 +136,38 @@ std::vector<double> ClassicWorld::record(const std::string& model, int steps) {
   const auto connection = gazebo::event::Events::ConnectWorldUpdateEnd([&] { out.push_back(shaft->Position(0)); });
   run(steps);
   return out;
+}
+
+bool ClassicWorld::run_until(const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    run(20);
+  }
+  return true;
+}
+
+std::unique_ptr<plugins::ClassicRobot> load_robot(const gazebo::physics::WorldPtr& world, const std::string& model) {
+  const sdf::SDFPtr parsed(new sdf::SDF);
+  sdf::init(parsed);
+  if (!sdf::readString("<sdf version='1.7'>" + model + "</sdf>", parsed)) throw std::runtime_error("Gazebo can't read the model");
+  const auto element = parsed->Root()->GetElement("model");
+  auto plugin = std::make_unique<plugins::ClassicRobot>();
+  plugin->Load(world->ModelByName(element->Get<std::string>("name")), element->GetElement("plugin"));
+  return plugin;
+}
+
+RobotWorld::RobotWorld(const std::string& name, const std::string& model, const std::string& engine, const std::string& others,
+                       bool gravity)
+    : ClassicWorld(world_sdf(name, others + without(model, "<plugin", "</plugin>"), gravity), engine),
+      plugin_(load_robot(world, model)) {
+  if (plugin_->robot() == nullptr) throw std::runtime_error("the plug-in didn't load");
+  if (world->Physics()->GetType() != engine) throw std::runtime_error("Gazebo has no " + engine);
+}
+
+void RobotWorld::reset() {
+  world->Reset();
+  plugin_->Reset();
 }
 
 }  // namespace vsa::test

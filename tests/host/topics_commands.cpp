@@ -180,6 +180,26 @@ TEST(HostTopicsNames, ANameThatTheTransportRefusesIsBadInput) {
   EXPECT_THROW(robot.connect(), vsa::InputError);
 }
 
+TEST(HostTopicsNames, HandlersOfTopicsThatThrewOrAreGoneReachNothing) {
+  TopicsFixture robot;
+  robot.port.outcome = vsa::host::Outcome::refused;  // after every handler was handed over
+  EXPECT_THROW(robot.connect(), vsa::InputError);
+  const auto say_all = [&robot] {
+    robot.port.doubles.at("/model/lab/arm/joint/shoulder/cmd_equilibrium")(0.5);
+    robot.port.trajectories.at("/model/lab/arm/vsa/cmd")({{"shoulder"}, {{{0.5}, 0.0}}});
+    robot.port.actuators.at("/model/lab/arm/vsa/cmd_array")({{0.5, 0.5, 0.5, 0.5, 0.5, 0.5}});
+    robot.step();
+  };
+  say_all();
+  EXPECT_EQ(robot.commanded(0), (Pair{0.0, 0.2}));
+
+  robot.port.outcome = vsa::host::Outcome::ok;
+  robot.connect();
+  robot.topics.reset();
+  say_all();
+  EXPECT_EQ(robot.commanded(0), (Pair{0.0, 0.2}));
+}
+
 TEST(HostTopicsNames, ScopesAreJoinedBySlashes) {
   EXPECT_EQ(vsa::host::model_topic("a::b", "vsa/cmd"), "/model/a/b/vsa/cmd");
   EXPECT_EQ(vsa::host::joint_topic("a", "m_1::shaft", "preset"), "/model/a/joint/m_1/shaft/preset");

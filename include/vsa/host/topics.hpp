@@ -105,7 +105,8 @@ class TopicPort {
 [[nodiscard]] std::string model_topic(std::string_view model, std::string_view leaf);  ///< leaf: "vsa/cmd", "vsa/joint_state", …
 [[nodiscard]] std::string joint_topic(std::string_view model, std::string_view actuator, std::string_view leaf);
 
-/// Subscribes and publishes for one robot. Declare it before its port's connection ends: the port must be gone before this is.
+/// Subscribes and publishes for one robot, which must outlive it. Commands that come once it is gone, or whose constructor threw,
+/// do nothing.
 class RobotTopics {
  public:
   /// One readable line. Called from any thread.

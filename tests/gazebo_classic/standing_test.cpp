@@ -1,0 +1,108 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A world that stands (paused, or not run) still tells its state, so that who comes late sees it.
+#include <gazebo/msgs/any.pb.h>
+#include <gtest/gtest.h>
+#include <ignition/msgs/model.pb.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <gazebo/transport/transport.hh>
+#include <ignition/transport/Node.hh>
+#include <mutex>
+#include <vector>
+
+#include "classic_world.hpp"
+
+namespace vsa::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What arrives on the joint states' topic: simulated stamp and wall time.
+class StateListener {
+ public:
+  explicit StateListener(const std::string& topic) {
+    std::function<void(const ignition::msgs::Model&)> take = [this](const ignition::msgs::Model& message) {
+      const std::lock_guard lock(mutex_);
+      const auto& stamp = message.header().stamp();
+      stamps_ns_.push_back(stamp.sec() * std::int64_t{1'000'000'000} + stamp.nsec());
+      arrived_.notify_all();
+    };
+    if (!node_.Subscribe(topic, take)) throw std::runtime_error("can't listen to " + topic);
+  }
+  /// False: not within 20 s.
+  bool wait_for(const std::function<bool(const std::vector<std::int64_t>&)>& condition) {
+    std::unique_lock lock(mutex_);
+    return arrived_.wait_for(lock, std::chrono::seconds(20), [&] { return condition(stamps_ns_); });
+  }
+  std::size_t count() {
+    const std::lock_guard lock(mutex_);
+    return stamps_ns_.size();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::vector<std::int64_t> stamps_ns_;
+  ignition::transport::Node node_;  ///< gone before the others
+};
+
+TEST(StandingWorld, PublishesItsLastStateTenTimesAWallSecond) {
+  ClassicWorld w(world_sdf("standing", include("qbmove_bench_load", "bench", kLeverLevel)));
+  w.run(50);
+  StateListener listener("/model/bench/vsa/joint_state");
+  ASSERT_TRUE(listener.wait_for([](const auto& stamps) { return !stamps.empty(); }));
+  const auto start = Clock::now();
+  const std::size_t before = listener.count();
+  ASSERT_TRUE(listener.wait_for([&](const auto& stamps) { return stamps.size() >= before + 11; }));
+  EXPECT_GT(Clock::now() - start, std::chrono::milliseconds(950)) << "no more often than that";
+  ASSERT_TRUE(listener.wait_for([](const auto& stamps) {
+    return std::all_of(stamps.begin(), stamps.end(), [](std::int64_t ns) { return ns == 50'000'000; });
+  }));
+}
+
+TEST(StandingWorld, ShowsASingleStepAndATimeThatIsSetBack) {
+  ClassicWorld w(world_sdf("stepped", include("qbmove_bench_load", "bench", kLeverLevel)));
+  w.run(50);
+  StateListener listener("/model/bench/vsa/joint_state");
+  const auto last_is = [](std::int64_t ns) {
+    return [ns](const std::vector<std::int64_t>& stamps) { return !stamps.empty() && stamps.back() == ns; };
+  };
+  ASSERT_TRUE(listener.wait_for(last_is(50'000'000)));
+  w.run(1);
+  EXPECT_TRUE(listener.wait_for(last_is(51'000'000)));
+  w.world->ResetTime();
+  EXPECT_TRUE(listener.wait_for(last_is(0)));
+}
+
+TEST(StandingWorld, IsHeardOnGazebosOwnTransportToo) {
+  ClassicWorld w(world_sdf("own", include("qbmove_bench_load", "bench", kLeverLevel)));
+  w.run(50);
+  std::mutex mutex;
+  std::condition_variable arrived;
+  std::vector<double> presets;
+  const gazebo::transport::NodePtr node(new gazebo::transport::Node);
+  node->Init(w.world->Name());
+  struct Sink {
+    std::function<void(double)> take;
+    void receive(const boost::shared_ptr<const gazebo::msgs::Any>& message) { take(message->double_value()); }
+  };
+  Sink sink{[&](double preset) {
+    const std::lock_guard lock(mutex);
+    presets.push_back(preset);
+    arrived.notify_all();
+  }};
+  auto subscriber = node->Subscribe("/model/bench/joint/shaft/preset", &Sink::receive, &sink);
+  {
+    std::unique_lock lock(mutex);
+    EXPECT_TRUE(arrived.wait_for(lock, std::chrono::seconds(20), [&] { return presets.size() >= 3; }));
+  }
+  subscriber.reset();
+  node->Fini();
+  ASSERT_FALSE(presets.empty());
+  EXPECT_NEAR(presets.front(), 0.2, 0.05);
+}
+
+}  // namespace
+}  // namespace vsa::test
