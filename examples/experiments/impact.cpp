@@ -16,7 +16,7 @@ using engine::Pose;
 using engine::World;
 
 constexpr double kSettle_s = 2.5;  // for the presets, with the ball held
-constexpr double kApart_s = 0.05;
+constexpr double kApart_s = 0.2;
 constexpr double kMean_s = 0.05;
 constexpr double kStill_rad = kPi / 180;
 constexpr const char* kCord = "pendulum::cord";

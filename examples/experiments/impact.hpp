@@ -5,7 +5,7 @@
 //   L = I q̇, I = m(l² + ⅖r²)         the ball's angular momentum about the pivot
 //   dL/dt = −m g l sin φ + T_contact   φ from straight down; T from the contact's forces: what a test compares
 //
-// An encounter is over when ball and hand have been apart for 50 ms. Later ones, when the ball swings back, count for nothing.
+// An encounter is over when ball and hand have been apart for 0.2 s. Later ones, when the ball swings back, count for nothing.
 #pragma once
 
 #include <vector>
@@ -33,6 +33,6 @@ struct ImpactRun {
   ImpactTrace trace;
 };
 
-[[nodiscard]] ImpactRun run_impact(double preset_rad, double duration_s = 5.0);
+[[nodiscard]] ImpactRun run_impact(double preset_rad, double duration_s = 10.0);
 
 }  // namespace vsa::experiments

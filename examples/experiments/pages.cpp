@@ -191,6 +191,9 @@ Page terrain_page(const std::vector<TerrainRun>& runs, double duration_s) {
     cost.curves.push_back(std::move(c));
     speed.curves.push_back(std::move(v));
   }
+  std::stable_sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) {
+    return std::find(grounds.begin(), grounds.end(), a[0]) < std::find(grounds.begin(), grounds.end(), b[0]);
+  });
   return page("The snake over three grounds", "Speed, cost of transport and contact force at three presets",
               "The same gait at a soft, Table II's and a stiff preset.", table, {std::move(speed), std::move(cost)});
 }
