@@ -20,6 +20,7 @@ constexpr double kApart_s = 0.2;
 constexpr double kMean_s = 0.05;
 constexpr double kStill_rad = kPi / 180;
 constexpr const char* kCord = "pendulum::cord";
+constexpr const char* kShoulder = "frank::right_shoulder";
 
 // As in models/robots.toml, [pendulum].
 constexpr double kMass = 1.0, kCordLength = 0.6, kRadius = 0.05, kRaised_rad = 24 * kPi / 180, kGravity = 9.81;
@@ -97,10 +98,74 @@ double settled(const ImpactTrace& trace, double hit_s) {
   return i == 0 ? 0 : std::max(0.0, trace.time_s[i - 1] - hit_s);
 }
 
-struct Encounter {
-  double hit_s = -1, last_s = -1;
-  double angular_impulse = 0, angular_momentum = 0, energy_before = 0;
-  bool over = false;
+/// The largest mean of a signal over a window.
+class LargestMean {
+ public:
+  explicit LargestMean(std::size_t samples) : samples_(samples) {}
+  double add(double value) {
+    window_.push_back(value);
+    sum_ += value;
+    if (window_.size() > samples_) {
+      sum_ -= window_.front();
+      window_.pop_front();
+    }
+    largest_ = std::max(largest_, sum_ / static_cast<double>(samples_));
+    return largest_;
+  }
+
+ private:
+  std::size_t samples_;
+  std::deque<double> window_;
+  double sum_ = 0, largest_ = 0;
+};
+
+/// Of the ball just before a step.
+struct BallState {
+  double angle_rad = 0, speed_rad_per_s = 0, energy_J = 0;
+};
+
+BallState ball_state(const World& world) {
+  return {world.joint_angle(kCord) - kRaised_rad, world.joint_speed(kCord), ball_energy(world)};
+}
+
+/// From the first touch until ball and hand have been apart for kApart_s.
+class Encounter {
+ public:
+  Encounter(ImpactRun& run, double dt) : run_(run), dt_(dt), push_(static_cast<std::size_t>(std::llround(kMean_s / dt))) {}
+  [[nodiscard]] double hit_s() const { return hit_s_; }
+
+  void step(double t_s, const BallState& before, const BallState& after, double torque, double force) {
+    if (hit_s_ < 0 && force > 0) {
+      hit_s_ = t_s;
+      energy_J_ = before.energy_J;
+      run_.ball_speed_m_per_s = before.speed_rad_per_s * kCordLength;
+      momentum_ = -kInertia * before.speed_rad_per_s;
+    }
+    if (hit_s_ < 0 || over_) return;
+    impulse_ += torque * dt_;
+    momentum_ += kMass * kGravity * kCordLength * std::sin(before.angle_rad) * dt_;
+    if (force > 0) last_s_ = t_s;
+    run_.peak_N = std::max(run_.peak_N, force);
+    run_.push_N = push_.add(force);
+    over_ = t_s - last_s_ >= kApart_s - dt_ / 2;
+    finish(after);
+  }
+
+ private:
+  /// As if it ended here; the last call stands.
+  void finish(const BallState& ball) {
+    run_.ball_after_m_per_s = ball.speed_rad_per_s * kCordLength;
+    run_.absorbed_J = energy_J_ - ball.energy_J;
+    run_.contact_s = last_s_ - hit_s_;
+    run_.impulse_Ns = -impulse_ / kCordLength;
+    run_.momentum_Ns = -(momentum_ + kInertia * ball.speed_rad_per_s) / kCordLength;
+  }
+
+  ImpactRun& run_;
+  double dt_;
+  LargestMean push_;
+  double hit_s_ = -1, last_s_ = -1, impulse_ = 0, momentum_ = 0, energy_J_ = 0;
+  bool over_ = false;
 };
 
 }  // namespace
@@ -112,52 +177,22 @@ ImpactRun run_impact(double preset_rad, double duration_s) {
   run.preset_rad = preset_rad;
   run.attained_rad = world.read("right_shoulder").preset;
   run.stiffness_Nm_per_rad = world.read("right_shoulder").stiffness_Nm_per_rad;
-  const double rest_rad = world.joint_angle("frank::right_shoulder"), start_s = world.time_s(), dt = world.step_s();
-  Encounter e;
-  std::deque<double> window;
-  double window_sum = 0;
+  const double rest_rad = world.joint_angle(kShoulder), start_s = world.time_s(), dt = world.step_s();
+  Encounter encounter(run, dt);
   const auto steps = std::llround(duration_s / dt);
   for (std::int64_t i = 0; i < steps; ++i) {
-    const double angle = world.joint_angle(kCord) - kRaised_rad, speed = world.joint_speed(kCord), energy = ball_energy(world);
+    const BallState before = ball_state(world);
     world.step();
-    const double t_s = world.time_s() - start_s;
     double force = 0;
-    const double torque = ball.torque(world, force);
-    if (force > 0 && e.hit_s < 0) {
-      e.hit_s = t_s;
-      e.energy_before = energy;
-      run.ball_speed_m_per_s = speed * kCordLength;
-      e.angular_momentum = -kInertia * speed;
-    }
-    if (e.hit_s >= 0 && !e.over) {
-      e.angular_impulse += torque * dt;
-      e.angular_momentum += kMass * kGravity * kCordLength * std::sin(angle) * dt;
-      if (force > 0) e.last_s = t_s;
-      run.peak_N = std::max(run.peak_N, force);
-      window.push_back(force);
-      window_sum += force;
-      if (static_cast<double>(window.size()) * dt > kMean_s + dt / 2) {
-        window_sum -= window.front();
-        window.pop_front();
-      }
-      run.push_N = std::max(run.push_N, window_sum * dt / kMean_s);
-      if (t_s - e.last_s >= kApart_s - dt / 2 || i + 1 == steps) {
-        e.over = true;
-        e.angular_momentum += kInertia * world.joint_speed(kCord);
-        run.ball_after_m_per_s = world.joint_speed(kCord) * kCordLength;
-        run.absorbed_J = e.energy_before - ball_energy(world);
-      }
-    }
-    const double shoulder = world.joint_angle("frank::right_shoulder");
-    run.shoulder_deg = std::max(run.shoulder_deg, std::abs(shoulder - rest_rad) * 180 / kPi);
+    const double torque = ball.torque(world, force), t_s = world.time_s() - start_s;
+    encounter.step(t_s, before, ball_state(world), torque, force);
+    const double shoulder_deg = (world.joint_angle(kShoulder) - rest_rad) * 180 / kPi;
+    run.shoulder_deg = std::max(run.shoulder_deg, std::abs(shoulder_deg));
     run.trace.time_s.push_back(t_s);
     run.trace.force_N.push_back(force);
-    run.trace.shoulder_deg.push_back((shoulder - rest_rad) * 180 / kPi);
+    run.trace.shoulder_deg.push_back(shoulder_deg);
   }
-  run.contact_s = e.last_s - e.hit_s;
-  run.impulse_Ns = -e.angular_impulse / kCordLength;
-  run.momentum_Ns = -e.angular_momentum / kCordLength;
-  run.settle_s = settled(run.trace, e.hit_s);
+  run.settle_s = settled(run.trace, encounter.hit_s());
   return run;
 }
 

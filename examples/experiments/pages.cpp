@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "vsa/units.hpp"
 
@@ -44,6 +45,33 @@ double median(std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
+void sort_by_ground(Table& table, const std::vector<std::string>& grounds) {
+  std::stable_sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) {
+    return std::find(grounds.begin(), grounds.end(), a[0]) < std::find(grounds.begin(), grounds.end(), b[0]);
+  });
+}
+
+/// Force as means over 5 ms, and the shoulder's angle, from the hit on.
+std::pair<Curve, Curve> impact_curves(const ImpactRun& r, int color) {
+  const auto& t = r.trace;
+  const auto hit = static_cast<std::size_t>(std::find_if(t.force_N.begin(), t.force_N.end(), [](double f) { return f > 0; }) -
+                                            t.force_N.begin());
+  Curve f{preset_name(r.preset_rad), {}, {}, {}, Curve::Style::line, color, ""};
+  Curve s{preset_name(r.preset_rad), {}, {}, {}, Curve::Style::line, color, ""};
+  constexpr std::size_t kMean = 5;
+  for (std::size_t i = hit; i + kMean < t.time_s.size() && t.time_s[i] < t.time_s[hit] + 0.35; i += kMean) {
+    double sum = 0;
+    for (std::size_t k = 0; k < kMean; ++k) sum += t.force_N[i + k];
+    f.x.push_back((t.time_s[i] - t.time_s[hit]) * 1e3);
+    f.y.push_back(std::max(sum / kMean, 0.1));
+  }
+  for (std::size_t i = hit; i < t.time_s.size() && t.time_s[i] < t.time_s[hit] + 2.0; i += 10) {
+    s.x.push_back(t.time_s[i] - t.time_s[hit]);
+    s.y.push_back(t.shoulder_deg[i]);
+  }
+  return {std::move(f), std::move(s)};
+}
+
 }  // namespace
 
 Page impact_page(const std::vector<ImpactRun>& runs) {
@@ -66,22 +94,7 @@ Page impact_page(const std::vector<ImpactRun>& runs) {
                           fmt::format("{:.0f}", r.contact_s * 1e3), fmt::format("{:.3f}", r.impulse_Ns),
                           fmt::format("{:.3f}", r.absorbed_J), fmt::format("{:.1f}", r.shoulder_deg),
                           fmt::format("{:.2f}", r.settle_s)});
-    const auto& t = r.trace;
-    const auto hit = static_cast<std::size_t>(std::find_if(t.force_N.begin(), t.force_N.end(), [](double f) { return f > 0; }) -
-                                              t.force_N.begin());
-    Curve f{preset_name(r.preset_rad), {}, {}, {}, Curve::Style::line, color, ""};
-    Curve s{preset_name(r.preset_rad), {}, {}, {}, Curve::Style::line, color++, ""};
-    constexpr std::size_t kMean = 5;
-    for (std::size_t i = hit; i + kMean < t.time_s.size() && t.time_s[i] < t.time_s[hit] + 0.35; i += kMean) {
-      double sum = 0;
-      for (std::size_t k = 0; k < kMean; ++k) sum += t.force_N[i + k];
-      f.x.push_back((t.time_s[i] - t.time_s[hit]) * 1e3);
-      f.y.push_back(std::max(sum / kMean, 0.1));
-    }
-    for (std::size_t i = hit; i < t.time_s.size() && t.time_s[i] < t.time_s[hit] + 2.0; i += 10) {
-      s.x.push_back(t.time_s[i] - t.time_s[hit]);
-      s.y.push_back(t.shoulder_deg[i]);
-    }
+    auto [f, s] = impact_curves(r, color++);
     force.curves.push_back(std::move(f));
     shoulder.curves.push_back(std::move(s));
   }
@@ -164,13 +177,16 @@ Page terrain_page(const std::vector<TerrainRun>& runs, double duration_s) {
       {"ground", "gait", "starts", "speed m/s", "net speed m/s", "cost of transport", "contact force, 99th percentile N", "peak N"},
       {},
       fmt::format("Medians; {:.0f} s each.", duration_s)};
-  Chart cost{"Cost of transport", "ground", "supply / (m g way) [1]", {}, "Grounds: 1 flat, 2 rubble, 3 hills."};
-  Chart speed{"Speed", "ground", "net speed [m/s]", {}, "Grounds: 1 flat, 2 rubble, 3 hills."};
+  Chart cost{"Cost of transport", "ground", "supply / (m g way) [1]", {}, ""};
+  Chart speed{"Speed", "ground", "net speed [m/s]", {}, ""};
   std::vector<std::string> gaits, grounds;
   for (const TerrainRun& r : runs) {
     if (std::find(gaits.begin(), gaits.end(), r.gait) == gaits.end()) gaits.push_back(r.gait);
     if (std::find(grounds.begin(), grounds.end(), r.ground) == grounds.end()) grounds.push_back(r.ground);
   }
+  std::string key = "Grounds:";
+  for (std::size_t g = 0; g < grounds.size(); ++g) key += fmt::format(" {} {}", g + 1, grounds[g]);
+  cost.caption = speed.caption = key;
   int color = 0;
   for (const auto& gait : gaits) {
     Curve c{gait, {}, {}, {}, Curve::Style::markers, color, ""}, v{gait, {}, {}, {}, Curve::Style::markers, color++, ""};
@@ -191,9 +207,7 @@ Page terrain_page(const std::vector<TerrainRun>& runs, double duration_s) {
     cost.curves.push_back(std::move(c));
     speed.curves.push_back(std::move(v));
   }
-  std::stable_sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) {
-    return std::find(grounds.begin(), grounds.end(), a[0]) < std::find(grounds.begin(), grounds.end(), b[0]);
-  });
+  sort_by_ground(table, grounds);
   return page("The snake over three grounds", "Speed, cost of transport and contact force at three presets",
               "The same gait at a soft, Table II's and a stiff preset.", table, {std::move(speed), std::move(cost)});
 }

@@ -79,6 +79,19 @@ TEST(Frank, NodsAndShakesItsHead) {
   EXPECT_LT(pan_low, -25 * kPi / 180);
 }
 
+TEST(Frank, LosesReachWithAPresetThatItsMotorsHaveToHoldAgainstTheLoad) {
+  const auto shoulder_deg = [](double preset_deg) {
+    World w = world("frank");
+    w.command("right_elbow", 30 * kPi / 180, 32 * kPi / 180);
+    w.command("right_shoulder", 60 * kPi / 180, preset_deg * kPi / 180);
+    w.run(5.0);
+    return w.joint_angle("frank::right_shoulder") * 180 / kPi;
+  };
+  const double soft = shoulder_deg(15), middle = shoulder_deg(32), stiff = shoulder_deg(44.9);
+  EXPECT_GT(middle, soft + 5) << "a soft spring gives way";
+  EXPECT_GT(middle, stiff + 2) << "a stiff one takes up the motors' torque";
+}
+
 TEST(Frank, ReachesForwardWithBothHands) {
   World w = world("frank");
   Gait g = motion("frank_reach");
