@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "vsa/units.hpp"
@@ -45,10 +46,13 @@ double median(std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
-void sort_by_ground(Table& table, const std::vector<std::string>& grounds) {
-  std::stable_sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) {
-    return std::find(grounds.begin(), grounds.end(), a[0]) < std::find(grounds.begin(), grounds.end(), b[0]);
-  });
+/// A text of the runs, each once, in the order of the runs.
+std::vector<std::string> distinct(const std::vector<TerrainRun>& runs, std::string TerrainRun::*what) {
+  std::vector<std::string> out;
+  for (const TerrainRun& r : runs) {
+    if (std::find(out.begin(), out.end(), r.*what) == out.end()) out.push_back(r.*what);
+  }
+  return out;
 }
 
 /// Force as means over 5 ms, and the shoulder's angle, from the hit on.
@@ -177,37 +181,34 @@ Page terrain_page(const std::vector<TerrainRun>& runs, double duration_s) {
       {"ground", "gait", "starts", "speed m/s", "net speed m/s", "cost of transport", "contact force, 99th percentile N", "peak N"},
       {},
       fmt::format("Medians; {:.0f} s each.", duration_s)};
-  Chart cost{"Cost of transport", "ground", "supply / (m g way) [1]", {}, ""};
-  Chart speed{"Speed", "ground", "net speed [m/s]", {}, ""};
-  std::vector<std::string> gaits, grounds;
-  for (const TerrainRun& r : runs) {
-    if (std::find(gaits.begin(), gaits.end(), r.gait) == gaits.end()) gaits.push_back(r.gait);
-    if (std::find(grounds.begin(), grounds.end(), r.ground) == grounds.end()) grounds.push_back(r.ground);
-  }
-  std::string key = "Grounds:";
-  for (std::size_t g = 0; g < grounds.size(); ++g) key += fmt::format(" {} {}", g + 1, grounds[g]);
-  cost.caption = speed.caption = key;
+  Chart cost{"Cost of transport", "stiffness preset [°]", "supply / (m g way) [1]", {}, "", true};
+  Chart speed{"Speed", "stiffness preset [°]", "net speed [m/s]", {}, ""};
+  const auto grounds = distinct(runs, &TerrainRun::ground);
+  const auto gaits = distinct(runs, &TerrainRun::gait);
   int color = 0;
-  for (const auto& gait : gaits) {
-    Curve c{gait, {}, {}, {}, Curve::Style::markers, color, ""}, v{gait, {}, {}, {}, Curve::Style::markers, color++, ""};
-    for (std::size_t g = 0; g < grounds.size(); ++g) {
-      std::vector<double> path, net, transport, force, peak;
-      for (const TerrainRun& r : runs) {
-        if (r.gait != gait || r.ground != grounds[g]) continue;
-        path.push_back(r.speed_m_per_s), net.push_back(r.net_speed_m_per_s), transport.push_back(r.cost_of_transport);
-        force.push_back(r.force_99_N), peak.push_back(r.force_peak_N);
-      }
-      if (path.empty()) continue;
-      table.rows.push_back({grounds[g], gait, std::to_string(path.size()), fmt::format("{:.3f}", median(path)),
-                            fmt::format("{:.3f}", median(net)), fmt::format("{:.1f}", median(transport)),
-                            fmt::format("{:.0f}", median(force)), fmt::format("{:.0f}", median(peak))});
-      c.x.push_back(static_cast<double>(g) + 1), c.y.push_back(median(transport));
-      v.x.push_back(static_cast<double>(g) + 1), v.y.push_back(median(net));
+  for (const auto& ground : grounds) {
+    Curve c{ground, {}, {}, {}, Curve::Style::line, color, ""}, v{ground, {}, {}, {}, Curve::Style::line, color++, ""};
+    for (const auto& gait : gaits) {
+      std::vector<TerrainRun> mine;
+      std::copy_if(runs.begin(), runs.end(), std::back_inserter(mine),
+                   [&](const TerrainRun& r) { return r.gait == gait && r.ground == ground; });
+      if (mine.empty()) continue;
+      const auto middle = [&](double TerrainRun::*what) {
+        std::vector<double> values;
+        for (const TerrainRun& r : mine) values.push_back(r.*what);
+        return median(std::move(values));
+      };
+      table.rows.push_back({ground, gait, std::to_string(mine.size()), fmt::format("{:.3f}", middle(&TerrainRun::speed_m_per_s)),
+                            fmt::format("{:.3f}", middle(&TerrainRun::net_speed_m_per_s)),
+                            fmt::format("{:.1f}", middle(&TerrainRun::cost_of_transport)),
+                            fmt::format("{:.0f}", middle(&TerrainRun::force_99_N)),
+                            fmt::format("{:.0f}", middle(&TerrainRun::force_peak_N))});
+      c.x.push_back(mine[0].preset_deg), c.y.push_back(middle(&TerrainRun::cost_of_transport));
+      v.x.push_back(mine[0].preset_deg), v.y.push_back(middle(&TerrainRun::net_speed_m_per_s));
     }
     cost.curves.push_back(std::move(c));
     speed.curves.push_back(std::move(v));
   }
-  sort_by_ground(table, grounds);
   return page("The snake over three grounds", "Speed, cost of transport and contact force at three presets",
               "The same gait at a soft, Table II's and a stiff preset.", table, {std::move(speed), std::move(cost)});
 }

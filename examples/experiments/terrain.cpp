@@ -59,6 +59,7 @@ TerrainRun run_terrain(const TerrainPlan& plan) {
   const double yaw_deg = plan.starts == 1 ? 0.0 : -2.0 + 4.0 * plan.start / (plan.starts - 1);
   world.displace_model(kSnake, yaw_deg * kPi / 180, {0, 0, 0});
   TerrainRun run{plan.ground, plan.gait, plan.start};
+  if (!gait.params().groups.empty()) run.preset_deg = gait.params().groups[0].preset_rad * 180 / kPi;
   const double period_s = 2 * kPi / gait.params().frequency_rad_per_s;
   const int window = static_cast<int>(std::lround(period_s / world.step_s()));
   Track track;

@@ -15,6 +15,7 @@ namespace vsa::experiments {
 struct TerrainRun {
   std::string ground, gait;
   int start = 0;
+  double preset_deg = 0;  ///< of the gait's first group
   double path_m = 0, net_m = 0, speed_m_per_s = 0, net_speed_m_per_s = 0;
   double supply_J = 0, cost_of_transport = 0;
   double force_peak_N = 0, force_99_N = 0;
