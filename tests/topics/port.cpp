@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <ignition/transport/Node.hh>
+#include <map>
 
 #include "support/one_joint.hpp"
 #include "transport_test.hpp"
