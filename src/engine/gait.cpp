@@ -49,8 +49,30 @@ void Gait::bind(const World& world) {
       }
     }
   }
+  if (params_.motion) bind_motion(world, problems);
   problems.throw_if_any();
   bound_ = true;
+}
+
+void Gait::bind_motion(const World& world, Problems& problems) const {
+  for (const MotionTrack& track : params_.motion->tracks) {
+    try {
+      static_cast<void>(world.actuator(track.actuator));
+    } catch (const InputError& error) {
+      for (const Problem& p : error.problems()) problems.add({params_.file, "keyframe", track.actuator, p.message, p.allowed});
+    }
+  }
+}
+
+void Gait::play_motion(World& world) const {
+  const MotionParams& motion = *params_.motion;
+  const double t_s = motion_time(motion, world.time_s());
+  for (const MotionTrack& track : motion.tracks) {
+    const ActuatorRef& ref = world.actuator(track.actuator);
+    const auto equilibrium = motion_value(track.equilibrium, motion.smooth, t_s);
+    const auto preset = motion_value(track.preset, motion.smooth, t_s);
+    if (equilibrium || preset) world.robot(ref.robot).command(ref.index, equilibrium, preset);
+  }
 }
 
 void Gait::steer_model(const World& world, double t_s) {
@@ -68,6 +90,7 @@ void Gait::apply(World& world) {
   if (slot < state_.last_slot) reset();
   state_.last_slot = slot;
   const double t_s = world.time_s();
+  if (params_.motion) play_motion(world);
   if (params_.steering) steer_model(world, t_s);
   for (const GaitGroup& group : params_.groups) {
     for (std::size_t k = 0; k < group.actuators.size(); ++k) {

@@ -35,6 +35,7 @@ class MujocoPhysics final : public Physics {
   bool displace(std::span<const std::size_t> links, double yaw, const Vec3& shift) override;
   World::Energy energy() const override;
   int contact_count() const override;
+  void contacts(std::vector<Contact>& out) const override;
   PhysicsState save() const override;
   void restore(const PhysicsState& state) override;
 
@@ -53,12 +54,15 @@ class MujocoPhysics final : public Physics {
   DataPtr data_;
   DataPtr view_;  // kinematics of the present state, brought up to date when somebody looks
   mutable bool view_stale_ = true;
-  std::vector<int> body_;       // of a link
+  std::vector<int> body_;  // of a link
+  std::vector<std::size_t> link_of_geom_;
+  std::vector<bool> static_;    // of a link
   std::vector<double> mass_;    // of a link
   std::vector<Address> joint_;  // of a one-axis joint
   std::vector<int> root_;       // of a link: the joint id of its free root, −1: tied to the world
   std::vector<std::string> q_owner_, v_owner_;
   std::vector<mjtNum> before_, unit_, column_;
+  bool stepped_ = false;  // data_ holds the contacts of the last step
 };
 
 }  // namespace vsa::engine

@@ -56,6 +56,7 @@ class Physics {
   /// With positions moved back by half a step, velocities as they are.
   [[nodiscard]] virtual World::Energy energy() const = 0;
   [[nodiscard]] virtual int contact_count() const = 0;
+  virtual void contacts(std::vector<Contact>& out) const = 0;  ///< of the last advance()
 
   [[nodiscard]] virtual PhysicsState save() const = 0;
   virtual void restore(const PhysicsState& state) = 0;

@@ -85,6 +85,7 @@ const std::vector<LinkInfo>& World::links() const noexcept { return impl_->world
 void World::poses(std::span<Pose> out) const { impl_->physics->poses(out); }
 World::Energy World::energy() const { return impl_->physics->energy(); }
 int World::contact_count() const noexcept { return impl_->physics->contact_count(); }
+void World::contacts(std::vector<Contact>& out) const { impl_->physics->contacts(out); }
 
 std::vector<std::size_t> World::Impl::links_of(std::string_view model) const {
   const std::string prefix = std::string(model) + "::";

@@ -31,6 +31,8 @@
 //   = 44.98°) [steering]                        # optional group = "horizontal" gain = 1.0                        # rad/rad;
 //   negative turns the other way limit_rad = 0.8 slew_rad_per_s = 0.35 min_travel_m = 0.03 target_deg = 90.0                 # in
 //   the world, from +x about +z; left out: the direction of travel after ramp and first period
+//
+// A file with [[keyframe]] is a motion instead of waves: see motion.hpp.
 #pragma once
 
 #include <array>
@@ -40,6 +42,7 @@
 #include <string>
 #include <vector>
 
+#include "vsa/engine/motion.hpp"
 #include "vsa/engine/world.hpp"
 
 namespace vsa::engine {
@@ -72,6 +75,7 @@ struct GaitParams {
   std::int64_t period_ns = 10'000'000;
   std::vector<GaitGroup> groups;
   std::optional<SteeringParams> steering;
+  std::optional<MotionParams> motion;  ///< keyframes; then there are no groups and frequency_rad_per_s is 0
 };
 
 struct SteeringState {
@@ -111,6 +115,8 @@ class Gait {
   [[nodiscard]] double equilibrium(const GaitGroup& group, std::size_t k, double t_s) const;
 
  private:
+  void bind_motion(const World& world, Problems& problems) const;
+  void play_motion(World& world) const;
   void steer_model(const World& world, double t_s);
 
   GaitParams params_;

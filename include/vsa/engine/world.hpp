@@ -63,6 +63,13 @@ struct LinkInfo {
   std::vector<Shape> visuals;  ///< the SDF's visuals (collisions where a link has none)
 };
 
+/// Where two bodies touched in the last step.
+struct Contact {
+  std::array<double, 3> position{};  ///< m, world
+  std::array<double, 3> force_N{};   ///< world; on `link` by `other`
+  std::size_t link = 0, other = 0;   ///< into links(); `link` isn't static
+};
+
 struct ActuatorRef {
   std::string model;                 ///< top-level model's name
   std::string name;                  ///< the actuator's
@@ -121,6 +128,9 @@ class World {
   [[nodiscard]] Energy energy() const;
   [[nodiscard]] actuator::Ledger ledger() const;  ///< over all robots
   [[nodiscard]] int contact_count() const noexcept;
+  /// The contacts that the last step worked with, each pair of points once; none before the first step and after a restore or
+  /// reset. Clears `out` first.
+  void contacts(std::vector<Contact>& out) const;
 
   struct Snapshot;
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
