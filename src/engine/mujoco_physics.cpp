@@ -63,6 +63,8 @@ MujocoPhysics::MujocoPhysics(ModelPtr model, const WorldDescription& world, cons
   }
   unit_.resize(static_cast<std::size_t>(m->nv));
   column_.resize(unit_.size());
+  jacobian_.resize(3 * unit_.size());
+  mobility_.resize(3 * unit_.size());
   make_data();
   before_ = save().values;
 }
@@ -154,6 +156,7 @@ std::optional<Fault> MujocoPhysics::advance() {
   }
   if (fault) restore({before_});
   changed();
+  stepped_ = !fault;
   return fault;
 }
 
@@ -180,6 +183,7 @@ void MujocoPhysics::restore(const PhysicsState& state) {
   mju_copy(data_->qvel, state.values.data() + m->nq, m->nv);
   mju_copy(data_->qacc_warmstart, state.values.data() + m->nq + m->nv, m->nv);
   for (mjWarningStat& warning : data_->warning) warning = {};
+  stepped_ = false;
   changed();
 }
 
