@@ -14,8 +14,9 @@ for group in "$@"; do
   case "$group" in
     test) packages="$packages chromium" ;;
     tidy) packages="$packages clang-format clang-tidy" ;;
+    fuzz) packages="$packages clang-14 libclang-rt-14-dev" ;;
     classic) packages="$packages debootstrap" ;;
-    *) echo "setup.sh: unknown group '$group' (allowed: test, tidy, classic)" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown group '$group' (allowed: test, tidy, fuzz, classic)" >&2; exit 2 ;;
   esac
 done
 
