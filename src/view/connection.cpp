@@ -68,7 +68,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Response blank(http::status status, const std::string& type) {
     Response response{status, 11};
     response.set(http::field::content_type, type + "; charset=utf-8");
-    response.set(http::field::content_security_policy, kPolicy);
+    response.set("Content-Security-Policy", kPolicy);
     response.set(http::field::cache_control, "no-store");
     response.set("X-Content-Type-Options", "nosniff");
     response.set("Referrer-Policy", "no-referrer");

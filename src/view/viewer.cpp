@@ -60,15 +60,13 @@ void Viewer::heard(std::size_t size) {
 
 void Viewer::send(const Frame& frame) {
   if (!open_) return;
-  if (credit_ == 0 && !frame_) {
-    ++missed_;
+  if (frame_ || credit_ == 0) {
+    ++missed_;  // this one, or the one that waits, whose place it takes
     hub_.dropped.fetch_add(1, std::memory_order_relaxed);
-    return;
-  }
-  if (!frame_)
+    if (!frame_) return;
+  } else {
     --credit_;
-  else
-    ++missed_;  // a newer one takes its place
+  }
   frame_ = frame;
   write_next();
 }
