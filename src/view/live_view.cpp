@@ -63,7 +63,7 @@ std::optional<Download> LiveView::Impl::get(std::string_view path) {
 
 std::string LiveView::Impl::greet(ViewerId) {
   const std::lock_guard lock(mutex);
-  return hello_text(rules, state);
+  return hello_text(rules, run, state);
 }
 
 bool LiveView::Impl::ask(ViewerId viewer, Request request, std::size_t limit) {

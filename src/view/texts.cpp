@@ -55,7 +55,7 @@ std::string state_text(const State& state) {
                  {"recordings", recordings_json(*state.recordings)}});
 }
 
-std::string hello_text(const Rules& rules, const std::string& state) {
+std::string hello_text(const Rules& rules, const std::string& run, const std::string& state) {
   json actuators = json::array();
   for (const Rules::Actuator& a : rules.actuators) {
     actuators.push_back({{"equilibrium_rad", span_json(a.equilibrium_rad)}, {"preset", span_json(a.preset)}});
@@ -68,6 +68,7 @@ std::string hello_text(const Rules& rules, const std::string& state) {
                        {"delta_deg", span_json(b.delta_deg)},
                        {"preset_deg", span_json(b.preset_deg)}};
   return dumped({{"type", "hello"},
+                 {"run", run},
                  {"actuators", std::move(actuators)},
                  {"gait_bounds", bounds},
                  {"state", json::parse(state, nullptr, false)}});

@@ -21,8 +21,8 @@ struct State {
 };
 
 [[nodiscard]] std::string state_text(const State& state);
-/// `state`: the last state_text().
-[[nodiscard]] std::string hello_text(const Rules& rules, const std::string& state);
+/// `run` tells this run from others, `state` is the last state_text().
+[[nodiscard]] std::string hello_text(const Rules& rules, const std::string& run, const std::string& state);
 /// {"type":TYPE,"text":TEXT}
 [[nodiscard]] std::string plain_text(const char* type, const std::string& text);
 

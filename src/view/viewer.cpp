@@ -10,6 +10,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr auto kHandshake = 30s;
+constexpr auto kSilence = 120s;  // a page that compiles its shaders on a busy machine is silent for long
 constexpr int kFramesUnderWay = 2;
 constexpr int kSendBuffer = 64 * 1024;  // small, so that what lies in the kernel is never old
 
@@ -29,7 +31,7 @@ void Viewer::run(http::request<http::empty_body> upgrade) {
   tcp_socket.set_option(tcp::no_delay(true), ignored);
   tcp_socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
   beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has its own clock
-  socket_.set_option(websocket::stream_base::timeout{10s, 20s, true});
+  socket_.set_option(websocket::stream_base::timeout{kHandshake, kSilence, true});
   socket_.read_message_max(hub_.options.message_max);
   socket_.async_accept(upgrade_, [self = shared_from_this()](Error error) {
     if (error) return;

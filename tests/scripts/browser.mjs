@@ -30,7 +30,7 @@ export async function visit(browser, url, allowed, context = {}) {
   tab.on('console', (m) => m.type() === 'error' && wrong.push(`console: ${m.text()}`));
   tab.on('pageerror', (e) => wrong.push(`exception: ${e.stack}`));
   tab.on('request', (r) => !allowed(r.url()) && !/^(data|blob):/.test(r.url()) && wrong.push(`request: ${r.url()}`));
-  await tab.goto(url, kPatience);
+  await tab.goto(url, { ...kPatience, waitUntil: 'domcontentloaded' });
   return { tab, wrong, close: () => tab.context().close() };
 }
 

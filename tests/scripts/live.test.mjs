@@ -15,12 +15,17 @@ let browser;
 before(async () => {
   browser = await launch('--use-angle=swiftshader', '--enable-unsafe-swiftshader');
 });
-after(() => browser?.close());
+const children = [];
+after(async () => {
+  for (const child of children) child.kill('SIGKILL');
+  await browser?.close();
+});
 
 /** Runs a world with its view; stop() ends it as Ctrl-C does and waits. */
 async function run(world, ...more) {
   const directory = mkdtempSync(join(tmpdir(), 'vsa-live-'));
   const child = spawn(vsa, ['run', world, '--view', '--no-topics', '--view-records', directory, ...more], { stdio: ['ignore', 'pipe', 'pipe'] });
+  children.push(child);
   let said = '';
   const url = await new Promise((resolve, reject) => {
     child.stderr.on('data', (text) => {
@@ -140,11 +145,13 @@ test('a bench in the page', kLong, async (t) => {
   });
 
   await t.test('two viewers see the same and what one does', async () => {
-    const other = await bench.open({ viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
-    await until(other.tab, 'frames', 3);
-    await other.tab.click('#play');
+    await tab.click('#play');
     await until(tab, 'paused', true);
+    const other = await bench.open({ viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
     await until(other.tab, 'paused', true);
+    const stopped = await time(tab);
+    await other.tab.click('#step');
+    await until(tab, 'timeAbove', stopped);
     await tab.fill('#equilibrium-number', '10');
     await tab.press('#equilibrium-number', 'Enter');
     await tab.click('#step');

@@ -11,6 +11,7 @@
 
 #include "../record/scratch.hpp"
 #include "client.hpp"
+#include "vsa/record/page.hpp"
 
 namespace vsa::view::testing {
 namespace {
@@ -22,14 +23,15 @@ using Next = topics::RunControl::Next;
 std::filesystem::path model(const std::string& name) { return std::filesystem::path(VSA_SOURCE_DIR) / "models" / name; }
 
 /// A world with its view, and the loop of `vsa run`.
-struct Run {
+struct Session {
   Scratch scratch;
   engine::World world;
   std::optional<engine::Gait> gait;
   topics::RunControl control;
   std::optional<LiveView> view;
 
-  explicit Run(const std::string& name, const std::string& gait_name = "") : world(engine::World::load(model("worlds/" + name))) {
+  explicit Session(const std::string& name, const std::string& gait_name = "")
+      : world(engine::World::load(model("worlds/" + name))) {
     if (!gait_name.empty()) gait = engine::Gait::load(model("gaits/" + gait_name));
     record::spew(scratch.path() / "page.html", std::string("<p>") + std::string(record::kPageMarker) + "</p>");
     LiveOptions options;
@@ -80,13 +82,13 @@ T at(const std::string& bytes, std::size_t offset) {
 }
 
 TEST(LiveView, MakesNoFramesWhereNobodyLooks) {
-  Run run("bench_free.sdf");
+  Session run("bench_free.sdf");
   for (int i = 0; i < 5000; ++i) run.turn();
   EXPECT_EQ(run.view->counts().frames, 0U);
 }
 
 TEST(LiveView, GreetsWithWhatThereIsToAskFor) {
-  Run run("snake_flat.sdf", "sidewind.toml");
+  Session run("snake_flat.sdf", "sidewind.toml");
   Client page(run.port());
   const json hello = text_of(page, "hello");
   ASSERT_EQ(hello["actuators"].size(), run.world.actuators().size());
@@ -100,7 +102,7 @@ TEST(LiveView, GreetsWithWhatThereIsToAskFor) {
 }
 
 TEST(LiveView, FramesHoldWhatTheWorldHolds) {
-  Run run("snake_flat.sdf", "sidewind.toml");
+  Session run("snake_flat.sdf", "sidewind.toml");
   for (int i = 0; i < 300; ++i) run.turn();
   Client page(run.port());
   run.control.request({false, true, 0, std::nullopt});
@@ -127,7 +129,7 @@ TEST(LiveView, FramesHoldWhatTheWorldHolds) {
 }
 
 TEST(LiveView, CommandsAnActuatorAndItFollows) {
-  Run run("bench_free.sdf");
+  Session run("bench_free.sdf");
   Client page(run.port());
   page.say(R"({"do":"command","actuators":[0],"equilibrium_rad":0.5,"preset":0.3})");
   const engine::ActuatorRef& joint = run.world.actuators()[0];
@@ -138,7 +140,7 @@ TEST(LiveView, CommandsAnActuatorAndItFollows) {
 }
 
 TEST(LiveView, RefusesWhatIsOutOfRangeAndDoesNothing) {
-  Run run("bench_free.sdf");
+  Session run("bench_free.sdf");
   Client page(run.port());
   page.say(R"({"do":"command","actuators":[0],"equilibrium_rad":99,"preset":0.3})");
   EXPECT_NE(text_of(page, "error")["text"].get<std::string>().find("out of range"), std::string::npos);
@@ -148,7 +150,7 @@ TEST(LiveView, RefusesWhatIsOutOfRangeAndDoesNothing) {
 }
 
 TEST(LiveView, PausesStepsAndResets) {
-  Run run("bench_free.sdf");
+  Session run("bench_free.sdf");
   Client page(run.port());
   page.say(R"({"do":"pause"})");
   ASSERT_TRUE(run.until([&] { return run.control.paused(); }));
@@ -166,7 +168,7 @@ TEST(LiveView, PausesStepsAndResets) {
 }
 
 TEST(LiveView, PullsALinkUntilItsViewerLeaves) {
-  Run run("snake_flat.sdf");
+  Session run("snake_flat.sdf");
   for (int i = 0; i < 200; ++i) run.turn();
   std::size_t link = 0;
   while (run.world.links()[link].is_static) ++link;
@@ -191,7 +193,7 @@ TEST(LiveView, PullsALinkUntilItsViewerLeaves) {
 }
 
 TEST(LiveView, RecordsAndServesTheReplayPage) {
-  Run run("bench_free.sdf");
+  Session run("bench_free.sdf");
   Client page(run.port());
   text_of(page, "hello");
   page.say(R"({"do":"record","on":true})");
@@ -214,7 +216,7 @@ TEST(LiveView, RecordsAndServesTheReplayPage) {
 }
 
 TEST(LiveView, TellsWhyARecordingCantBegin) {
-  Run run("bench_free.sdf");
+  Session run("bench_free.sdf");
   record::spew(run.scratch.path() / "records", "a file where a directory should be");
   Client page(run.port());
   page.say(R"({"do":"record","on":true})");
@@ -226,7 +228,7 @@ TEST(LiveView, TellsWhyARecordingCantBegin) {
 }
 
 TEST(LiveView, EditsTheGaitAndLeavesJointsToTheHand) {
-  Run run("snake_flat.sdf", "sidewind.toml");
+  Session run("snake_flat.sdf", "sidewind.toml");
   Client page(run.port());
   json gait = text_of(page, "hello")["state"]["gait"];
   json edit = {{"do", "gait"}, {"frequency_rad_per_s", 6.0}, {"groups", gait["groups"]}};
@@ -257,7 +259,7 @@ TEST(LiveView, EditsTheGaitAndLeavesJointsToTheHand) {
 }
 
 TEST(LiveView, TellsItsPagesWhyTheRunIsOver) {
-  Run run("bench_free.sdf");
+  Session run("bench_free.sdf");
   Client page(run.port());
   text_of(page, "hello");
   run.view->finish("it blew up");

@@ -134,8 +134,8 @@ TEST(Request, OfAnyBytesIsReadOrRefused) {
       for (const std::size_t a : c->actuators) {
         ASSERT_LT(a, with.actuators.size());
         const auto& limits = with.actuators[a];
-        if (c->equilibrium_rad) ASSERT_TRUE(std::abs(*c->equilibrium_rad) <= limits.equilibrium_rad.max) << text;
-        if (c->preset) ASSERT_TRUE(*c->preset >= 0 && *c->preset <= limits.preset.max) << text;
+        ASSERT_TRUE(std::abs(c->equilibrium_rad.value_or(0)) <= limits.equilibrium_rad.max) << text;
+        ASSERT_TRUE(c->preset.value_or(0) >= 0 && c->preset.value_or(0) <= limits.preset.max) << text;
       }
     }
   }

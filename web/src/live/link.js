@@ -9,7 +9,6 @@ export class Link {
   constructor(on) {
     this.on = on;
     this.ended = false;
-    this.opened = false;
     this.connect();
   }
 
@@ -18,9 +17,6 @@ export class Link {
     this.socket = socket;
     socket.binaryType = 'arraybuffer';
     socket.addEventListener('open', () => {
-      // Another run answers: its world may be another.
-      if (this.opened) location.reload();
-      this.opened = true;
       this.on.open();
     });
     socket.addEventListener('message', (e) => {

@@ -23,6 +23,7 @@ const kRate_Hz = 60;
 const kCurves_ms = calm ? 250 : 50; // between two drawings
 const kTable_ms = 80;
 const kNote_ms = 8000;
+const kSoftware_ms = 30; // between two pictures where the processor draws them: it has other things to do
 
 const run = readRun($('data').textContent);
 const history = new History(run, kLongest_s, kRate_Hz);
@@ -51,6 +52,9 @@ const link = new Link({
   },
   text(message) {
     if (message.type === 'hello') {
+      // Another run answers: its world may be another.
+      if (live.id && live.id !== message.run) location.reload();
+      live.id = message.run;
       table.limits = message.actuators;
       live.bounds = message.gait_bounds;
       commands.setLimits(message.actuators);
@@ -264,10 +268,12 @@ function takeFrame() {
   waiting = null;
   link.ask('next');
   if (!frame) return;
+  const before = live.frame;
   live.frame = frame;
   ++live.frames;
   history.add(frame.time);
-  stage?.moved(frame);
+  const still = before && before.time === frame.time && !before.pulls.length && !frame.pulls.length;
+  if (!still) stage?.moved(frame);
 }
 
 function writeClock() {
@@ -290,13 +296,15 @@ function everyFrame() {
     commands.flush();
     gaitPanel.flush();
     pulls?.flush();
-    takeFrame();
-    if (stage?.render()) {
-      placeLabel();
-      stage.timed(now - last);
-      ++pictures;
+    if (!stage?.software || now - last >= kSoftware_ms) {
+      takeFrame();
+      if (stage?.render()) {
+        placeLabel();
+        stage.timed(now - last);
+        ++pictures;
+      }
+      last = now;
     }
-    last = now;
     if (now - tableAt >= kTable_ms) {
       tableAt = now;
       writeClock();

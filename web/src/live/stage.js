@@ -54,6 +54,7 @@ export class LiveStage extends Stage {
     this.scene.add(this.marks, this.feet, this.hands);
     this.weight = 9.81 * run.moving.reduce((sum, i) => sum + (run.links[i].mass_kg || 0), 0);
     this.drawn = [];
+    this.software = soft;
     this.setQuality(soft ? 2 : 0);
     this.controls.enableDamping = !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
   }
