@@ -12,6 +12,8 @@ namespace {
 
 constexpr int kMaxBases = 4;
 
+Bounds bounds(const GaitRange& range, std::optional<double> fallback = {}) { return {range.min, range.max, fallback}; }
+
 /// Tables are merged, everything else is replaced.
 void overlay(toml::table& under, const toml::table& over) {
   for (const auto& [key, node] : over) {
@@ -82,11 +84,11 @@ GaitGroup read_group(Reader& reader, const toml::table& table, const std::string
   GaitGroup group;
   group.name = name;
   read_members(reader, table, scope, group);
-  group.amplitude_rad = reader.number(table, scope, "amplitude_deg", {0, 160}) * kDegree;
-  group.offset_rad = reader.number(table, scope, "offset_deg", {-160, 160, 0.0}) * kDegree;
-  group.lambda = reader.number(table, scope, "lambda", {0.1, 1000});
-  group.delta_rad = reader.number(table, scope, "delta_deg", {-360, 360, 0.0}) * kDegree;
-  group.preset_rad = reader.number(table, scope, "preset_deg", {0, 90}) * kDegree;
+  group.amplitude_rad = reader.number(table, scope, "amplitude_deg", bounds(kGaitBounds.amplitude_deg)) * kDegree;
+  group.offset_rad = reader.number(table, scope, "offset_deg", bounds(kGaitBounds.offset_deg, 0.0)) * kDegree;
+  group.lambda = reader.number(table, scope, "lambda", bounds(kGaitBounds.lambda));
+  group.delta_rad = reader.number(table, scope, "delta_deg", bounds(kGaitBounds.delta_deg, 0.0)) * kDegree;
+  group.preset_rad = reader.number(table, scope, "preset_deg", bounds(kGaitBounds.preset_deg)) * kDegree;
   return group;
 }
 
@@ -141,7 +143,7 @@ Gait Gait::load(const std::filesystem::path& file) {
   GaitParams gait;
   gait.file = file.string();
   gait.title = reader.text(root, "", "title");
-  gait.frequency_rad_per_s = reader.number(root, "", "frequency_rad_per_s", {0.01, 1000});
+  gait.frequency_rad_per_s = reader.number(root, "", "frequency_rad_per_s", bounds(kGaitBounds.frequency_rad_per_s));
   gait.ramp_s = reader.number(root, "", "ramp_s", {0, 1000, 0.0});
   gait.period_ns = std::llround(reader.number(root, "", "period_s", {1e-3, 1, 0.01}) * 1e9);
   const toml::table* groups = root["group"].as_table();

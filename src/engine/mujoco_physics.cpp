@@ -69,6 +69,8 @@ MujocoPhysics::MujocoPhysics(ModelPtr model, const WorldDescription& world, cons
   }
   unit_.resize(static_cast<std::size_t>(m->nv));
   column_.resize(unit_.size());
+  jacobian_.resize(3 * unit_.size());
+  mobility_.resize(3 * unit_.size());
   make_data();
   before_ = save().values;
 }

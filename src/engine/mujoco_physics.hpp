@@ -27,6 +27,7 @@ class MujocoPhysics final : public Physics {
   void prepare() override;
   double inverse_inertia(std::size_t joint) override;
   void apply(std::size_t joint, double torque) override;
+  void pull(const Pull& pull) override;
   std::optional<Fault> advance() override;
   JointState joint(std::size_t joint) const override;
   void set_joint(std::size_t joint, JointState state) override;
@@ -61,7 +62,7 @@ class MujocoPhysics final : public Physics {
   std::vector<Address> joint_;  // of a one-axis joint
   std::vector<int> root_;       // of a link: the joint id of its free root, −1: tied to the world
   std::vector<std::string> q_owner_, v_owner_;
-  std::vector<mjtNum> before_, unit_, column_;
+  std::vector<mjtNum> before_, unit_, column_, jacobian_, mobility_;
   bool stepped_ = false;  // data_ holds the contacts of the last step
 };
 
