@@ -27,6 +27,7 @@
 #define VSA_ADD_PLUGIN GZ_ADD_PLUGIN
 #define VSA_ADD_PLUGIN_ALIAS GZ_ADD_PLUGIN_ALIAS
 #define VSA_ERROR gzerr
+#define VSA_WARNING gzwarn
 #define VSA_HAS_RESET 1
 namespace vsa::plugins {
 namespace sim = gz::sim;
@@ -56,6 +57,7 @@ namespace math = gz::math;
 #define VSA_ADD_PLUGIN IGNITION_ADD_PLUGIN
 #define VSA_ADD_PLUGIN_ALIAS IGNITION_ADD_PLUGIN_ALIAS
 #define VSA_ERROR ignerr
+#define VSA_WARNING ignwarn
 namespace vsa::plugins {
 namespace sim = ignition::gazebo;
 namespace math = ignition::math;

@@ -12,7 +12,7 @@ namespace {
 
 namespace components = sim::components;
 
-constexpr int kRefreshSteps = 16;   // inverse inertias only serve the robot's prediction
+constexpr int kRefreshSteps = 16;  // inverse inertias only serve the robot's prediction
 constexpr int kPhysicsSteps = 10;  // by then any physics has filled the joints' components
 
 bool has_one_axis(sim::Entity joint, const sim::EntityComponentManager& ecm) {
@@ -67,7 +67,7 @@ void SimRobot::attach(const sdf::Element& element, sim::EntityComponentManager& 
     attachment.joints.push_back(joint.name);
   }
   robot_ = std::make_unique<AttachedRobot>(attachment,
-                                           [](const std::string& line) { VSA_ERROR << "vsa::Robot: " << line << std::endl; });
+                                           [](const std::string& line) { VSA_WARNING << "vsa::Robot: " << line << std::endl; });
   for (const host::ActuatorConfig& a : robot_->config().actuators) {
     joints_.push_back(std::find_if(known.begin(), known.end(), [&](const NamedEntity& k) { return k.name == a.joint; })->entity);
   }
@@ -107,7 +107,12 @@ void SimRobot::step(std::int64_t dt_ns, sim::EntityComponentManager& ecm) {
     robot_->in()[i] = {first_number<components::JointPosition>(joints_[i], ecm),
                        first_number<components::JointVelocity>(joints_[i], ecm), tree_->inverse(i)};
   }
+  const bool stopped = robot_->stopped();
   robot_->step(dt_ns);
+  if (robot_->stopped() && !stopped) {  // the reason is a warning, which gz-sim doesn't show unasked
+    const std::string text = name_ + ": its actuators have stopped and give no torque; -v 2 shows why";
+    VSA_ERROR << "vsa::Robot: " << text << std::endl;
+  }
   for (std::size_t i = 0; i < joints_.size(); ++i) set_force(joints_[i], robot_->torques()[i], ecm);
 }
 

@@ -70,7 +70,7 @@ class SimRobot : public sim::System,
   void look_for_physics(const sim::EntityComponentManager& ecm);
 
   sim::Entity model_ = sim::kNullEntity;
-  std::string name_;  ///< scoped, without the world's
+  std::string name_;                 ///< scoped, without the world's
   std::vector<sim::Entity> joints_;  ///< of the actuators
   std::unique_ptr<AttachedRobot> robot_;
   std::unique_ptr<EntityTree> tree_;

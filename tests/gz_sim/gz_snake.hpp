@@ -26,8 +26,7 @@ class SnakeWorld {
   /// `model` in place of the committed one; it has that one's <plugin>.
   explicit SnakeWorld(bool crawls, const std::string& physics = physics_of("snake_flat"),
                       std::string model = model_text("qbmove_snake", "snake", "0 0 0.0335 0 0 0"))
-      : own_(model, "snake"),
-        world(sdf_text(world_text(model_text("terrain_flat", "ground") + model, {.physics = physics}))) {
+      : own_(model, "snake"), world(sdf_text(world_text(model_text("terrain_flat", "ground") + model, {.physics = physics}))) {
     world.probes[0]->before = [this, crawls](const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) {
       if (crawls && info.iterations > 1 && info.iterations % 10 == 1) command(std::chrono::duration<double>(info.simTime).count());
       own_.before_step(info, ecm);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <iostream>
 
 #include "gz_snake.hpp"
 
@@ -37,6 +38,8 @@ TEST(GzSimSnake, CrawlsWithGripAndShapeWithoutGrowthAndTheSameTwice) {
   for (const auto& angles : first.angles) {
     for (const double angle : angles) ASSERT_LT(std::abs(angle), 90 * kDegree);
   }
+  std::cout << "path of the last " << first.angles.size() << " gait periods: " << first.path_m << " m, memory " << second.growth_kB
+            << " kB\n";
   EXPECT_GT(first.path_m, 6.0 * minutes());
   EXPECT_LT(first.path_m, 14.0 * minutes());
   EXPECT_LT(second.growth_kB, 2'000) << "kB a run";
@@ -49,6 +52,7 @@ TEST(GzSimSnake, LiesStill) {
   const auto from = snake.center();
   snake.world.run(8000);
   const auto to = snake.center();
+  std::cout << "in 8 s the still snake moved by " << std::hypot(to[0] - from[0], to[1] - from[1]) << " m\n";
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(from[axis], to[axis], 1e-3) << axis;
   EXPECT_NEAR(to[2], 0.033, 2e-3);
   for (const double angle : snake.angles()) EXPECT_NEAR(angle, 0, 2 * kDegree);

@@ -58,8 +58,7 @@ TEST_P(Presets, ABareFlangeThrownAtItsStiffestStaysBounded) {
   EXPECT_LT(std::abs(w.speed("flange")), 2.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Presets,
-                         testing::ValuesIn(config::PresetLibrary().names()), [](const auto& c) { return c.param; });
+INSTANTIATE_TEST_SUITE_P(All, Presets, testing::ValuesIn(config::PresetLibrary().names()), [](const auto& c) { return c.param; });
 
 TEST(GzSimStability, AFlangeThrownAgainstItsJointsLimitStaysBounded) {
   std::string model = light(flange("qbmove_maker_pro"));
