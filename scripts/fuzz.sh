@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 seconds=$1
 
 cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DVSA_FUZZ=ON -DVSA_SIMULATOR=OFF -DVSA_BENCH=OFF -DVSA_TESTS=OFF \
-  -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -Wno-dev >/dev/null
+  -DCMAKE_CXX_COMPILER=clang++-14 -Wno-dev >/dev/null
 cmake --build build/fuzz --target fuzz_frame fuzz_unit -- --quiet
 
 run() {

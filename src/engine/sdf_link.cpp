@@ -60,7 +60,6 @@ void read_flags(ReadContext& c, const sdf::Link& link, const std::string& key, L
     }
   }
   if (link.SensorCount() > 0) c.notes.add("sensors are left out", key);
-  if (link.LightCount() > 0) c.notes.add("lights are left out", key);
   if (link.ParticleEmitterCount() > 0) c.notes.add("particle emitters are left out", key);
   for (const char* name : {"audio_sink", "audio_source", "battery", "projector"}) {
     if (child(e, name)) c.notes.add("batteries, projectors and audio are left out", key);

@@ -27,7 +27,6 @@ void read_physics(ReadContext& c, const sdf::World& world) {
 
 void read_world_extras(ReadContext& c, const sdf::World& world) {
   const sdf::ElementPtr e = world.Element();
-  if (world.LightCount() > 0) c.notes.add("lights are left out", "world");
   if (world.ActorCount() > 0) c.notes.add("actors are left out", "world");
   if (world.WindLinearVelocity() != Vec3::Zero) c.notes.add("wind is left out", "world");
   for (const char* name : {"population", "road", "state"}) {

@@ -2,7 +2,7 @@
 //
 // SDF 1.6–1.9 (and URDF as libsdformat reads it) → WorldDescription.
 //
-// What the engine can't honour is a problem; what doesn't touch the physics (visual materials, sensors, lights, foreign plugins) is
+// What the engine can't honour is a problem; what doesn't touch the physics (sensors, foreign plugins) is
 // a warning, once a kind. A file with a model and no world becomes that model in a world of SDF's defaults.
 #pragma once
 
