@@ -30,10 +30,15 @@
 //   offset_deg = 0.0                  # D
 //   lambda = 5.0                      # λ: modules a half wave
 //   delta_deg = 0.0                   # δ
-//   preset_deg = 35.0                 # stiffness preset (half difference); a unit accepts up to its preset_max (0.785 rad
-//   = 44.98°) [steering]                        # optional group = "horizontal" gain = 1.0                        # rad/rad;
-//   negative turns the other way limit_rad = 0.8 slew_rad_per_s = 0.35 min_travel_m = 0.03 target_deg = 90.0                 # in
-//   the world, from +x about +z; left out: the direction of travel after ramp and first period
+//   preset_deg = 35.0                 # half difference; a unit accepts up to its preset_max (0.785 rad = 44.98°)
+//
+//   [steering]                        # optional
+//   group = "horizontal"
+//   gain = 1.0                        # rad/rad; negative turns the other way
+//   limit_rad = 0.8
+//   slew_rad_per_s = 0.35
+//   min_travel_m = 0.03
+//   target_deg = 90.0                 # in the world, from +x about +z; left out: where it went after ramp and first period
 //
 // A file with [[keyframe]] is a motion instead of waves: see motion.hpp.
 #pragma once
