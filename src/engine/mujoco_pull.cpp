@@ -3,9 +3,10 @@
 // Hands that pull.
 //
 // A pull by its spring k and damper c, backward Euler over the step so that it is stable whatever the link weighs:
-//   F = k·(target − p − dt·v') − c·v'  with  v' = v + dt·W·F,  W = J M⁻¹ Jᵀ            p, v: the point's place and velocity
-//   (1 + (k·dt² + c·dt)·W) F = k·(target − p − dt·v) − c·v
-// W leaves contacts out. At rest it is k·(target − p) exactly.
+//   F = k·(target − p − dt·v') − c·v'  with  v' = u + dt·W·F,  W = J M⁻¹ Jᵀ            p, v: the point's place and velocity
+//   u = v + dt·J M⁻¹ f with all that is known so far: gravity, actuators, joint springs and dampers, earlier pulls
+//   (1 + (k·dt² + c·dt)·W) F = k·(target − p − dt·u) − c·u
+// Contacts are left out. A free body at rest is held by k·(target − p) exactly.
 #include <algorithm>
 
 #include "mujoco_physics.hpp"
@@ -37,7 +38,10 @@ void MujocoPhysics::pull(const Pull& pull) {
   Vec3 pulling;
   for (std::size_t i = 0; i < kDim; ++i) {
     const mjtNum* row = jacobian_.data() + i * unit_.size();
-    const double v = mju_dot(row, d->qvel, m->nv);
+    const mjtNum* moved = mobility_.data() + i * unit_.size();
+    const double known =
+        mju_dot(moved, d->qfrc_applied, m->nv) + mju_dot(moved, d->qfrc_passive, m->nv) - mju_dot(moved, d->qfrc_bias, m->nv);
+    const double v = mju_dot(row, d->qvel, m->nv) + dt * known;
     pulling[i] = k * (pull.target_m[i] - point[i] - dt * v) - c * v;
     for (std::size_t j = 0; j < kDim; ++j) {
       const double mobility = mju_dot(row, mobility_.data() + j * unit_.size(), m->nv);

@@ -8,6 +8,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read.hpp>
+#include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -47,6 +48,13 @@ struct Socket {
     Error ignored;
     asio::write(tcp_socket, asio::buffer(bytes), ignored);
   }
+  /// Sends a handshake and waits for its answer.
+  void upgrade(const std::string& request) {
+    write(request);
+    std::string head;
+    Error ended;
+    asio::read_until(tcp_socket, asio::dynamic_buffer(head), "\r\n\r\n", ended);
+  }
   /// To the end of what the other side says.
   std::string read_all() {
     std::string out;
@@ -77,9 +85,7 @@ class Client {
     }));
     socket_.read_message_max(64U << 20U);
     Error error;
-    websocket::response_type response;
-    socket_.handshake(response, own_host(port), "/live", error);
-    status = static_cast<unsigned>(response.result_int());
+    socket_.handshake(own_host(port), "/live", error);
     open = !error;
   }
 
@@ -116,7 +122,6 @@ class Client {
   tcp::socket& below() { return beast::get_lowest_layer(socket_); }
 
   bool open = false, binary = false;
-  unsigned status = 0;
 
  private:
   asio::io_context io_;

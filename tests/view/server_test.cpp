@@ -67,7 +67,6 @@ TEST(Server, ConnectsOnlyThePageThatItGaveOut) {
        {"http://evil.example", "null", "", "https://127.0.0.1", "http://localhost:1", "http://127.0.0.1"}) {
     Client client(server.port(), origin);
     EXPECT_FALSE(client.open) << origin;
-    EXPECT_EQ(client.status, 403U) << origin;
   }
   EXPECT_FALSE(Client(server.port(), "https://" + own).open);
   Client page(server.port(), "http://" + own);
@@ -227,13 +226,12 @@ TEST(Server, SurvivesRandomBytesBeforeAndAfterTheHandshake) {
                             "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
   for (int i = 0; i < 600; ++i) {
     Socket socket(server.port());
-    std::string text;
-    if (i % 3 == 0) text = bytes(dice() % 4000);
+    std::string text = bytes(dice() % 4000);
     if (i % 3 == 1) {
       text = start + "X: " + bytes(20) + "\r\n\r\n" + bytes(50);
       for (std::size_t k = dice() % 5; k > 0; --k) text[dice() % text.size()] = static_cast<char>(dice());
     }
-    if (i % 3 == 2) text = start + "\r\n" + bytes(dice() % 3000);
+    if (i % 3 == 2) socket.upgrade(start + "\r\n");
     socket.write(text);
     if (i % 2 == 0) {
       Error ignored;
@@ -243,10 +241,11 @@ TEST(Server, SurvivesRandomBytesBeforeAndAfterTheHandshake) {
       socket.abort();
     }
   }
-  // Masked frames with lengths that lie: 2⁶³ bytes, and one byte more than allowed.
+  // Masked frames with lengths that lie: 2⁶³ − 1 bytes, and one byte more than allowed.
   for (const std::string& length : {std::string("\xff\x7f\xff\xff\xff\xff\xff\xff\xff", 9), std::string("\xfe\x10\x01", 3)}) {
     Socket socket(server.port());
-    socket.write(start + "\r\n\x81" + length + "abcd" + bytes(100));
+    socket.upgrade(start + "\r\n");
+    socket.write("\x81" + length + "abcd" + bytes(100));
     socket.read_all();
   }
   Client viewer(server.port());
