@@ -14,6 +14,8 @@ using firmware::kTickNs;
 
 constexpr int kMaxIterations = 80;
 constexpr double kRelativeTolerance = 1e-4;
+/// A guess may lie where the spring's exponential law has no numbers left, so it goes no further than this at once.
+constexpr double kReach_rad = 0.25;
 constexpr double kAbsoluteTolerance_Nm = 1e-6;
 
 double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
@@ -89,6 +91,10 @@ class PathTrials {
   actuator::Segment last_;
 };
 
+double within_reach(double from_rad, double to_rad) noexcept {
+  return std::clamp(to_rad, from_rad - kReach_rad, from_rad + kReach_rad);
+}
+
 }  // namespace
 
 void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept {
@@ -113,6 +119,7 @@ void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int6
     const double u = plan.y - s.actuator.shaft_anchor;
     plan.dy = drive::solve_friction(shaft_friction_, u, (plan.free + plan.c * end.torque) * yield, plan.c * yield).displacement;
   }
+  plan.dy = within_reach(0, plan.dy);
   plan.walked_ns = 0;
   plan.held_count = 0;
   if (t_ns % kTickNs != 0) plan.held[plan.held_count++] = s.held;
@@ -152,7 +159,8 @@ double Unit::end_step(UnitState& s, StepPlan& plan) noexcept {
   PathTrials trials(actuator_, s.actuator, {plan.held.data(), plan.held_count}, {plan.t_ns, plan.dt_ns, substep(config_)});
   if (const auto foreseen = trials.foresee()) {
     const double yield = 1.0 / (1.0 + c * std::max(foreseen->slope, 0.0));
-    dy = drive::solve_friction(shaft_friction_, u, (plan.free + c * foreseen->torque) * yield, c * yield).displacement;
+    const auto next = drive::solve_friction(shaft_friction_, u, (plan.free + c * foreseen->torque) * yield, c * yield);
+    dy = within_reach(dy, next.displacement);
   }
   double low = -std::numeric_limits<double>::infinity(), high = -low, last_move = high;
   double torque = 0;
@@ -175,7 +183,10 @@ double Unit::end_step(UnitState& s, StepPlan& plan) noexcept {
     const bool shrinking = std::abs(move) < 0.7 * last_move;
     last_move = std::abs(move);
     const bool bracketed = std::isfinite(low) && std::isfinite(high);
-    dy = inside && (shrinking || !bracketed) ? next.displacement : 0.5 * (low + high);
+    if (bracketed)
+      dy = inside && shrinking ? next.displacement : 0.5 * (low + high);
+    else
+      dy = within_reach(dy, next.displacement);
     if (!std::isfinite(dy)) break;
   }
   trials.finish();
