@@ -66,6 +66,9 @@ void AttachedRobot::step(std::int64_t dt_ns) {
   }
   robot_.advance(time_ns_, dt_ns, in_, torques_);
   time_ns_ += dt_ns;
+  if (!ports_.all().empty() && pace_.fell_behind(Clock::now(), time_ns_)) {
+    report_(model_ + ": slower than real time: units on serial ports answer in time, but move more slowly than a client expects");
+  }
 }
 
 void AttachedRobot::refresh(Clock::time_point now) {
@@ -80,6 +83,7 @@ void AttachedRobot::publish_step(std::int64_t time_ns) {
 }
 
 void AttachedRobot::publish_paused(std::int64_t time_ns) {
+  pace_.stood();
   const auto now = Clock::now();
   if (now < next_paused_) return;
   next_paused_ = now + kPausedEvery;
@@ -89,6 +93,7 @@ void AttachedRobot::publish_paused(std::int64_t time_ns) {
 
 void AttachedRobot::reset() {
   robot_.reset();
+  pace_.stood();
   time_ns_ = 0;
   stopped_ = false;
   std::fill(torques_.begin(), torques_.end(), 0.0);

@@ -23,6 +23,7 @@
 #include "driven_joints.hpp"
 #include "vsa/host/robot.hpp"
 #include "vsa/host/topics.hpp"
+#include "vsa/ports/pace_watch.hpp"
 #include "vsa/ports/robot_ports.hpp"
 #include "vsa/topics/ignition_port.hpp"
 
@@ -73,6 +74,7 @@ class AttachedRobot {
   std::optional<host::RobotTopics> topics_;  ///< must outlive its port's handlers, so it comes before the port
   topics::IgnitionPort port_;
   ports::RobotPorts ports_;
+  ports::PaceWatch pace_;
 };
 
 }  // namespace vsa::plugins

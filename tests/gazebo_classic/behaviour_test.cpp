@@ -173,6 +173,19 @@ TEST(GazeboClassic, AStepTooLongForTheUnitsStopsThemWithOneLine) {
   EXPECT_LT(std::abs(w.angle("bench")), 60 * kDegree) << "after a reset they work again";
 }
 
+TEST(GazeboClassic, AWorldSlowerThanRealTimeIsToldOnceWhereASerialPortHasAClient) {
+  const std::string path = testing::TempDir() + "vsa_classic_slow_" + std::to_string(getpid());
+  const std::string port = "cycle_s=\"auto\"><serial_port>" + path + "</serial_port></bus>";
+  ClassicWorld w(world_sdf("slow", bench_model("cycle_s=\"auto\"/>", port)));
+  w.world->Physics()->SetRealTimeUpdateRate(100);  // a tenth of real time
+  testing::internal::CaptureStderr();
+  w.run(250);
+  const std::string log = testing::internal::GetCapturedStderr();
+  const auto first = log.find("slower than real time");
+  ASSERT_NE(first, std::string::npos) << log;
+  EXPECT_EQ(log.find("slower than real time", first + 1), std::string::npos) << log;
+}
+
 TEST(GazeboClassic, ModelsSpawnedAndRemovedWhileTheWorldRunsLeakNothing) {
   ClassicWorld w(world_sdf("cycles", include("qbmove_bench_load", "stays", kLeverLevel)));
   const std::string spawned = "<sdf version='1.7'>" + replaced(bench_model(), "\"qbmove_bench_load\"", "\"comes\"") + "</sdf>";
