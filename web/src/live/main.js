@@ -7,6 +7,7 @@ import { Modules } from '../modules.js';
 import { dark } from '../palette.js';
 import { actuatorPanels, energyPanels } from '../panels.js';
 import { Commands } from './commands.js';
+import { connectControls } from './controls.js';
 import { connectPulls } from './pulls.js';
 import { readFrame } from './frame.js';
 import { GaitPanel } from './gait.js';
@@ -155,78 +156,6 @@ function redrawCurves() {
   ]);
 }
 
-function toggle(id, onChange) {
-  const button = $(id);
-  button.addEventListener('click', () => {
-    const on = button.getAttribute('aria-pressed') !== 'true';
-    button.setAttribute('aria-pressed', String(on));
-    onChange(on);
-  });
-}
-
-function showTab(name) {
-  for (const [tab, pane] of [['table', 'table'], ['curves', 'curves-pane'], ['gait', 'gait']]) {
-    const on = tab === name;
-    $(`tab-${tab}`).setAttribute('aria-selected', String(on));
-    $(`tab-${tab}`).tabIndex = on ? 0 : -1;
-    $(pane).hidden = !on;
-  }
-  $('window-label').hidden = name !== 'curves';
-  if (name === 'curves') redrawCurves();
-}
-
-function connectTabs() {
-  const tabs = ['table', 'curves', 'gait'];
-  for (const [i, name] of tabs.entries()) {
-    $(`tab-${name}`).addEventListener('click', () => showTab(name));
-    $(`tab-${name}`).addEventListener('keydown', (e) => {
-      const by = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
-      if (!by) return;
-      e.preventDefault();
-      const shown = tabs.filter((t) => !$(`tab-${t}`).hidden);
-      const next = shown[(shown.indexOf(tabs[i]) + by + shown.length) % shown.length];
-      showTab(next);
-      $(`tab-${next}`).focus();
-    });
-  }
-}
-
-const playing = () => live.frame !== null && !live.frame.paused;
-
-function connectControls() {
-  $('play').addEventListener('click', () => link.ask(playing() ? 'pause' : 'play'));
-  $('step').addEventListener('click', () => link.ask('step', { steps: 1 }));
-  $('reset').addEventListener('click', () => link.ask('reset'));
-  $('speed').addEventListener('change', (e) => link.ask('speed', { factor: e.target.value === 'max' ? null : Number(e.target.value) }));
-  $('record').addEventListener('click', () => link.ask('record', { on: !live.state?.recordings.now }));
-  $('window').addEventListener('change', (e) => {
-    curves.window = Number(e.target.value);
-    curves.draw();
-  });
-  toggle('follow', (on) => stage?.setFollowing(on));
-  toggle('contacts', (on) => stage?.setContacts(on));
-  $('reset-view').addEventListener('click', () => stage?.resetView());
-  connectTabs();
-}
-
-function connectKeys() {
-  const keys = {
-    ' ': () => $('play').click(),
-    '.': () => $('step').click(),
-    Backspace: () => $('reset').click(),
-    f: () => $('follow').click(),
-    c: () => $('contacts').click(),
-    v: () => $('reset-view').click(),
-  };
-  document.addEventListener('keydown', (e) => {
-    const key = keys[e.key];
-    if (!key || e.ctrlKey || e.metaKey || e.altKey || e.target.matches('select, input')) return;
-    if (e.key === ' ' && e.target.matches('button, a, summary')) return; // its own
-    e.preventDefault();
-    key();
-  });
-}
-
 function makeStage() {
   try {
     // Asked on a canvas of its own: three.js would log an error, and a context's settings can't be changed later.
@@ -328,8 +257,7 @@ function everyFrame() {
 
 writeHeader();
 makeStage();
-connectControls();
-connectKeys();
+connectControls({ link, live, curves, redrawCurves, stage: () => stage });
 let pulls = null;
 if (stage) {
   pulls = connectPulls(stage, link, {
@@ -352,4 +280,4 @@ dark.addEventListener('change', () => {
 everyFrame();
 
 // For the browser's console and the tests.
-window.vsaLive = Object.assign(live, { link, stage, modules, commands, table, curves, showTab });
+window.vsaLive = Object.assign(live, { link, stage, modules, commands, table, curves });
