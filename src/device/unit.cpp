@@ -14,9 +14,9 @@ using firmware::kTickNs;
 
 constexpr int kMaxIterations = 80;
 constexpr double kRelativeTolerance = 1e-4;
+constexpr double kAbsoluteTolerance_Nm = 1e-6;
 /// A guess may lie where the spring's exponential law has no numbers left, so it goes no further than this at once.
 constexpr double kReach_rad = 0.25;
-constexpr double kAbsoluteTolerance_Nm = 1e-6;
 
 double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 

@@ -4,9 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
+#include "gait_file.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::engine {
@@ -27,27 +26,6 @@ amplitude_deg = 30.0
 lambda = 5.0
 preset_deg = 10.0
 )";
-
-fs::path written(const std::string& text) {
-  const fs::path file = fs::path(testing::TempDir()) / "vsa_gait_test.toml";
-  std::ofstream(file) << text;
-  return file;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
-std::string problems_of(const fs::path& file) {
-  try {
-    (void)Gait::load(file);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 const GaitGroup& group(const Gait& gait, const std::string& name) {
   for (const GaitGroup& g : gait.params().groups) {

@@ -5,9 +5,8 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
-#include "vsa/engine/gait.hpp"
+#include "gait_file.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::engine {
@@ -28,27 +27,6 @@ preset_deg = { shaft = 20.0 }
 time_s = 3.0
 equilibrium_deg = { shaft = 90.0 }
 )";
-
-fs::path written(const std::string& text) {
-  const fs::path file = fs::path(testing::TempDir()) / "vsa_motion_test.toml";
-  std::ofstream(file) << text;
-  return file;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
-std::string problems_of(const std::string& text) {
-  try {
-    (void)Gait::load(written(text));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -119,19 +97,19 @@ TEST(Motion, NamesEveryActuatorThatTheWorldHasNot) {
 }
 
 TEST(MotionFile, WithWavesBesidesIsRefused) {
-  const std::string text = problems_of(std::string("ramp_s = 1.0\n") + kGood);
+  const std::string text = problems_of(written(std::string("ramp_s = 1.0\n") + kGood));
   EXPECT_TRUE(says(text, "ramp_s")) << text;
   EXPECT_TRUE(says(text, "either waves or keyframes")) << text;
 }
 
 TEST(MotionFile, WhoseTimesDontGrowIsRefused) {
-  EXPECT_TRUE(says(problems_of(replaced(kGood, "time_s = 3.0", "time_s = 2.0")), "keyframe[2].time_s = 2: not after"));
+  EXPECT_TRUE(says(problems_of(written(replaced(kGood, "time_s = 3.0", "time_s = 2.0"))), "keyframe[2].time_s = 2: not after"));
 }
 
 TEST(MotionFile, ReportsAllItsMistakesAtOnce) {
   std::string text = replaced(kGood, "shaft = 90.0", "shaft = nan");
   text = replaced(text, "shaft = 10.0", "shaft = 100.0");
-  text = problems_of("speed = 2\n" + replaced(text, "\"linear\"", "\"cubic\""));
+  text = problems_of(written("speed = 2\n" + replaced(text, "\"linear\"", "\"cubic\"")));
   EXPECT_TRUE(says(text, "keyframe[2].equilibrium_deg.shaft")) << text;
   EXPECT_TRUE(says(text, "keyframe[0].preset_deg.shaft = 100: out of range (allowed: 0 … 90)")) << text;
   EXPECT_TRUE(says(text, "interpolation = cubic")) << text;
@@ -139,20 +117,20 @@ TEST(MotionFile, ReportsAllItsMistakesAtOnce) {
 }
 
 TEST(MotionFile, WithATextForANumberOrAnEmptyKeyframeIsRefused) {
-  EXPECT_TRUE(says(problems_of(replaced(kGood, "shaft = 90.0", "shaft = \"90\"")), "not a number"));
-  EXPECT_TRUE(says(problems_of(replaced(kGood, "preset_deg = { shaft = 20.0 }", "")), "says nothing"));
-  EXPECT_TRUE(says(problems_of(replaced(kGood, "{ shaft = 20.0 }", "{}")), "keyframe[1].preset_deg"));
-  EXPECT_TRUE(says(problems_of(replaced(kGood, "{ shaft = 20.0 }", "20.0")), "keyframe[1].preset_deg"));
-  EXPECT_TRUE(says(problems_of(replaced(kGood, "time_s = 3.0", "")), "keyframe[2].time_s: missing"));
+  EXPECT_TRUE(says(problems_of(written(replaced(kGood, "shaft = 90.0", "shaft = \"90\""))), "not a number"));
+  EXPECT_TRUE(says(problems_of(written(replaced(kGood, "preset_deg = { shaft = 20.0 }", ""))), "says nothing"));
+  EXPECT_TRUE(says(problems_of(written(replaced(kGood, "{ shaft = 20.0 }", "{}"))), "keyframe[1].preset_deg"));
+  EXPECT_TRUE(says(problems_of(written(replaced(kGood, "{ shaft = 20.0 }", "20.0"))), "keyframe[1].preset_deg"));
+  EXPECT_TRUE(says(problems_of(written(replaced(kGood, "time_s = 3.0", ""))), "keyframe[2].time_s: missing"));
 }
 
 TEST(MotionFile, ThatLoopsFromBehindItsEndIsRefused) {
-  EXPECT_TRUE(says(problems_of(std::string("loop_from_s = 3.0\n") + kGood), "not before the last keyframe"));
+  EXPECT_TRUE(says(problems_of(written(std::string("loop_from_s = 3.0\n") + kGood)), "not before the last keyframe"));
 }
 
 TEST(MotionFile, WhoseKeyframeIsNotAListOfTablesIsRefused) {
-  EXPECT_TRUE(says(problems_of("title = \"a\"\nkeyframe = 3\n"), "keyframe: not a list of tables"));
-  EXPECT_TRUE(says(problems_of("title = \"a\"\nkeyframe = [3]\n"), "keyframe[0]: not a table"));
+  EXPECT_TRUE(says(problems_of(written("title = \"a\"\nkeyframe = 3\n")), "keyframe: not a list of tables"));
+  EXPECT_TRUE(says(problems_of(written("title = \"a\"\nkeyframe = [3]\n")), "keyframe[0]: not a table"));
 }
 
 }  // namespace

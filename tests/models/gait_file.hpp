@@ -1,0 +1,40 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Gait files made up by tests, and what is wrong with them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "vsa/engine/gait.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::engine {
+
+inline constexpr const char* kWrittenGait = "vsa_gait_test.toml";
+
+inline std::filesystem::path written(const std::string& text) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / kWrittenGait;
+  std::ofstream(file) << text;
+  return file;
+}
+
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+inline std::string problems_of(const std::filesystem::path& file) {
+  try {
+    (void)Gait::load(file);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace vsa::engine
