@@ -10,3 +10,14 @@ configure_package_config_file(cmake/vsasimConfig.cmake.in ${PROJECT_BINARY_DIR}/
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/vsasimConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/vsasimConfig.cmake ${PROJECT_BINARY_DIR}/vsasimConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vsasim)
+
+# What makes a shell, a Gazebo and a colcon workspace (colcon.pkg) find all that. The script has the prefix in it, so it is made when
+# installing: cmake --install --prefix may name another.
+install(CODE "set(CMAKE_INSTALL_DATADIR \"${CMAKE_INSTALL_DATADIR}\")\nset(CMAKE_INSTALL_LIBDIR \"${CMAKE_INSTALL_LIBDIR}\")
+  set(CMAKE_INSTALL_BINDIR \"${CMAKE_INSTALL_BINDIR}\")
+  get_filename_component(CMAKE_INSTALL_PREFIX \"\${CMAKE_INSTALL_PREFIX}\" ABSOLUTE)
+  configure_file(\"${PROJECT_SOURCE_DIR}/plugins/setup.sh.in\" \"${PROJECT_BINARY_DIR}/setup.sh\" @ONLY)")
+install(FILES ${PROJECT_BINARY_DIR}/setup.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/vsa)
+configure_file(${PROJECT_SOURCE_DIR}/plugins/hook.dsv.in ${PROJECT_BINARY_DIR}/vsa.dsv @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/vsa.dsv DESTINATION ${CMAKE_INSTALL_DATADIR}/vsa/environment)
+install(FILES plugins/hook.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/vsa/environment RENAME vsa.sh)

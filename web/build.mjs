@@ -1,7 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// node build.mjs DIR: bundles src/ into the templates of two pages, each one file that needs no other: DIR/replay.html (with three.js
-// and Plotly) and DIR/report.html (with Plotly). The packages' licence notices stay in the bundles.
+// node build.mjs DIR: bundles src/ into the templates of three pages, each one file that needs no other: DIR/replay.html (with three.js
+// and Plotly), DIR/live.html (with three.js and uPlot) and DIR/report.html (with Plotly). The packages' licence notices stay in the
+// bundles.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { build, transform } from 'esbuild';
@@ -9,6 +10,12 @@ import { build, transform } from 'esbuild';
 const kMarker = '@VSA_PAGE_DATA@';
 const kPages = [
   { name: 'replay', html: 'index.html', entry: 'main.js', styles: ['base.css', 'style.css'] },
+  {
+    name: 'live',
+    html: 'live/index.html',
+    entry: 'live/main.js',
+    styles: ['base.css', 'style.css', '../node_modules/uplot/dist/uPlot.min.css', 'live/style.css'],
+  },
   { name: 'report', html: 'report/index.html', entry: 'report/main.js', styles: ['base.css', 'report/style.css'] },
 ];
 

@@ -56,6 +56,12 @@ class Section {
     problem(key, "", "not two numbers", fmt::format("{} … {}", min, max));
     return {min, max};
   }
+  Size size(const char* key, double min, double max) {
+    const auto values = numbers(key, min, max);
+    if (values.size() == 3) return {values[0], values[1], values[2]};
+    problem(key, "", "not three numbers", fmt::format("{} … {}", min, max));
+    return {min, min, min};
+  }
   const toml::array* tables(const char* key) {
     const toml::node* node = find(key);
     return node == nullptr ? nullptr : node->as_array();
@@ -91,6 +97,66 @@ class Section {
   std::set<std::string> asked_;
 };
 
+BenchSpec read_bench(const std::string& file, const char* name, const toml::table* table, Problems& problems) {
+  Section s(file, name, table, problems);
+  return {s.number("height_m", 0.05, 10), s.number("load_mass_kg", 1e-3, 100), s.number("load_lever_m", 1e-3, 10),
+          s.number("load_radius_m", 1e-3, 1), s.number("load_length_m", 1e-3, 1)};
+}
+
+void read_frank(const std::string& file, const toml::table* table, Problems& problems, FrankSpec& f) {
+  Section s(file, "frank", table, problems);
+  f.toe_in_deg = s.number("toe_in_deg", 0, 60);
+  f.shoulder_height_m = s.number("shoulder_height_m", 0.1, 3);
+  f.shoulder_half_width_m = s.number("shoulder_half_width_m", 0.05, 1);
+  f.upper_arm_m = s.number("upper_arm_m", 0.05, 1);
+  f.forearm_m = s.number("forearm_m", 0.05, 1);
+  f.bracket_mass_kg = s.number("bracket_mass_kg", 1e-3, 1);
+  f.torso_mass_kg = s.number("torso_mass_kg", 0.01, 100);
+  f.torso_size_m = s.size("torso_size_m", 0.01, 1);
+  f.head_pan_height_m = s.number("head_pan_height_m", 0.1, 3);
+  f.head_tilt_m = s.number("head_tilt_m", 0.01, 1);
+  f.head_mass_kg = s.number("head_mass_kg", 0.01, 10);
+  f.head_size_m = s.size("head_size_m", 0.01, 1);
+  f.stand_mass_kg = s.number("stand_mass_kg", 0.1, 100);
+  f.stand_size_m = s.size("stand_size_m", 0.005, 2);
+  f.foot_radius_m = s.number("foot_radius_m", 1e-3, 0.1);
+  f.initial_preset_rad = s.number("initial_preset_rad", 0, 0.785);
+  f.bus = s.text("bus");
+}
+
+void read_grasping(const std::string& file, const toml::table& root, Problems& problems, Description& d) {
+  {
+    Section s(file, "gripper", root["gripper"].as_table(), problems);
+    d.gripper = {s.number("opening_m", 0.005, 0.1), s.number("approach_m", 0, 0.01),     s.number("pad_at_m", 0.05, 0.3),
+                 s.size("pad_size_m", 1e-3, 0.2),   s.number("finger_mass_kg", 1e-3, 1), s.number("friction", 0, 10)};
+  }
+  {
+    Section s(file, "table", root["table"].as_table(), problems);
+    d.table = {s.number("reach_m", 0.05, 1),        s.number("top_height_m", 0.02, 2),     s.number("size_m", 0.02, 1),
+               s.number("baton_mass_kg", 0.01, 10), s.number("baton_across_m", 0.01, 0.1), s.number("baton_height_m", 0.02, 1)};
+  }
+  {
+    Section s(file, "pendulum", root["pendulum"].as_table(), problems);
+    d.pendulum = {s.number("ball_mass_kg", 0.01, 100), s.number("ball_radius_m", 0.005, 0.5), s.number("cord_m", 0.05, 5),
+                  s.number("raised_deg", 0, 90), s.number("gap_m", 0, 0.1)};
+  }
+  {
+    Section s(file, "bench_object", root["bench_object"].as_table(), problems);
+    d.bench_object = {s.number("stiffness_N_per_m", 1, 1e6), s.number("damping_Ns_per_m", 0, 1e4),
+                      s.number("face_mass_kg", 1e-3, 1), s.number("travel_m", 1e-3, 0.1)};
+  }
+  {
+    Section s(file, "manipulator", root["manipulator"].as_table(), problems);
+    d.manipulator = {s.number("base_height_m", 0.05, 1),
+                     s.number("shoulder_m", 0.07, 1),
+                     s.number("upper_arm_m", 0.05, 1),
+                     s.number("forearm_m", 0.05, 1),
+                     s.number("tip_mass_kg", 1e-3, 10),
+                     s.number("initial_preset_rad", 0, 0.785),
+                     s.text("bus")};
+  }
+}
+
 void read_robots(const std::string& file, const toml::table& root, Problems& problems, Description& d) {
   const auto table = [&](const char* name) { return root[name].as_table(); };
   {
@@ -111,11 +177,8 @@ void read_robots(const std::string& file, const toml::table& root, Problems& pro
     d.actuator = {s.text("preset"), s.text("plugin_file"), s.number("initial_preset_rad", 0, 0.785), s.number("baud_Hz", 1200, 1e8),
                   s.number("state_rate_Hz", 1, 1000)};
   }
-  {
-    Section s(file, "bench", table("bench"), problems);
-    d.bench = {s.number("height_m", 0.05, 10), s.number("load_mass_kg", 1e-3, 100), s.number("load_lever_m", 1e-3, 10),
-               s.number("load_radius_m", 1e-3, 1), s.number("load_length_m", 1e-3, 1)};
-  }
+  d.bench = read_bench(file, "bench", table("bench"), problems);
+  d.throwing = read_bench(file, "throw", table("throw"), problems);
   {
     Section s(file, "snake", table("snake"), problems);
     d.snake.modules = s.integer("modules", 2, 100);
@@ -173,9 +236,12 @@ Description read_description(const std::filesystem::path& file) {
   try {
     const toml::table root = toml::parse_file(name);
     read_robots(name, root, problems, description);
+    read_frank(name, root["frank"].as_table(), problems, description.frank);
+    read_grasping(name, root, problems, description);
     read_world(name, root, problems, description);
     for (const auto& [key, node] : root) {
-      const std::set<std::string_view> known{"module", "actuator", "bench", "snake", "world", "rubble", "hills"};
+      const std::set<std::string_view> known{"module",   "actuator",     "bench", "snake",       "frank", "gripper", "table",
+                                             "pendulum", "bench_object", "throw", "manipulator", "world", "rubble",  "hills"};
       if (!known.contains(key.str())) problems.add({name, std::string(key.str()), "", "unknown table", ""});
     }
   } catch (const toml::parse_error& error) {

@@ -12,6 +12,7 @@
 namespace vsa::generate {
 
 using Range = std::array<double, 2>;
+using Size = std::array<double, 3>;
 
 struct ModuleSpec {
   double edge_m, mass_kg, flange_mass_kg, flange_radius_m, flange_thickness_m, chamfer_m, contact_radius_m, friction;
@@ -26,6 +27,34 @@ struct BenchSpec {
 struct SnakeSpec {
   int modules;
   double pitch_m, tail_mass_kg, initial_preset_rad, clearance_m;
+  std::string bus;
+};
+struct FrankSpec {
+  double toe_in_deg, shoulder_height_m, shoulder_half_width_m, upper_arm_m, forearm_m, bracket_mass_kg, torso_mass_kg;
+  Size torso_size_m;
+  double head_pan_height_m, head_tilt_m, head_mass_kg;
+  Size head_size_m;
+  double stand_mass_kg;
+  Size stand_size_m;
+  double foot_radius_m, initial_preset_rad;
+  std::string bus;
+};
+struct GripperSpec {
+  double opening_m, approach_m, pad_at_m;
+  Size pad_size_m;
+  double finger_mass_kg, friction;
+};
+struct TableSpec {
+  double reach_m, top_height_m, size_m, baton_mass_kg, baton_across_m, baton_height_m;
+};
+struct PendulumSpec {
+  double ball_mass_kg, ball_radius_m, cord_m, raised_deg, gap_m;
+};
+struct BenchObjectSpec {
+  double stiffness_N_per_m, damping_Ns_per_m, face_mass_kg, travel_m;
+};
+struct ManipulatorSpec {
+  double base_height_m, shoulder_m, upper_arm_m, forearm_m, tip_mass_kg, initial_preset_rad;
   std::string bus;
 };
 struct WorldSpec {
@@ -53,6 +82,13 @@ struct Description {
   ActuatorSpec actuator;
   BenchSpec bench;
   SnakeSpec snake;
+  FrankSpec frank;
+  GripperSpec gripper;
+  TableSpec table;
+  PendulumSpec pendulum;
+  BenchObjectSpec bench_object;
+  BenchSpec throwing;
+  ManipulatorSpec manipulator;
   WorldSpec world;
   RubbleSpec rubble;
   HillsSpec hills;

@@ -24,6 +24,8 @@ std::array<double, 6> along(Axis axis, const Vec& at) {
 
 }  // namespace
 
+Inertial housing(const ModuleSpec& m) { return solid_box(m.mass_kg - m.flange_mass_kg, {m.edge_m, m.edge_m, m.edge_m}, {}); }
+
 void write_inertial(Xml& xml, const Inertial& inertial) {
   const auto& c = inertial.center_m;
   const auto& i = inertial.inertia_kgm2;
@@ -50,8 +52,9 @@ void box_visual(Xml& xml, const std::string& name, std::array<double, 6> pose, c
 }
 
 void cylinder_visual(Xml& xml, const std::string& name, const Vec& at, Axis axis, double radius_m, double length_m,
-                     const Color& color) {
-  const auto pose = along(axis, at);
+                     const Color& color, double yaw_rad) {
+  auto pose = along(axis, at);
+  pose[5] = yaw_rad;
   xml.open("visual", {{"name", name}});
   xml.pose({pose[0], pose[1], pose[2], pose[3], pose[4], pose[5]});
   xml.open("geometry").open("cylinder").leaf("radius", radius_m).leaf("length", length_m).close().close();
@@ -59,41 +62,62 @@ void cylinder_visual(Xml& xml, const std::string& name, const Vec& at, Axis axis
   xml.close();
 }
 
-void housing_visuals(Xml& xml, const ModuleSpec& m, Axis shaft, const Color& color) {
+void sphere_visual(Xml& xml, const std::string& name, const Vec& at, double radius_m, const Color& color) {
+  xml.open("visual", {{"name", name}});
+  xml.pose({at[0], at[1], at[2], 0, 0, 0});
+  xml.open("geometry").open("sphere").leaf("radius", radius_m).close().close();
+  write_material(xml, color);
+  xml.close();
+}
+
+void box_contact(Xml& xml, const std::string& name, std::array<double, 6> pose, const Vec& size_m, double friction) {
+  xml.open("collision", {{"name", name}});
+  xml.pose({pose[0], pose[1], pose[2], pose[3], pose[4], pose[5]});
+  xml.open("geometry").open("box").leaf("size", numbers({size_m[0], size_m[1], size_m[2]})).close().close();
+  write_surface(xml, friction);
+  xml.close();
+}
+
+void sphere_contact(Xml& xml, const std::string& name, const Vec& at, double radius_m, double friction) {
+  xml.open("collision", {{"name", name}});
+  xml.pose({at[0], at[1], at[2], 0, 0, 0});
+  xml.open("geometry").open("sphere").leaf("radius", radius_m).close().close();
+  write_surface(xml, friction);
+  xml.close();
+}
+
+void housing_visuals(Xml& xml, const ModuleSpec& m, Axis shaft, const Color& color, const Seat& seat) {
   // An octagonal prism about the shaft as four boxes: two upright, two turned by 45 degrees.
   const double e = m.edge_m, c = m.chamfer_m;
   const double across = (e - c) * std::sqrt(2.0), strip = c * std::sqrt(2.0);
+  const Vec& at = seat.at;
   const auto turned = [&](double angle) -> std::array<double, 6> {
-    return {0, 0, 0, shaft == Axis::x ? angle : 0, shaft == Axis::y ? angle : 0, shaft == Axis::z ? angle : 0};
+    return {at[0],
+            at[1],
+            at[2],
+            shaft == Axis::x ? angle : 0,
+            shaft == Axis::y ? angle : 0,
+            seat.yaw_rad + (shaft == Axis::z ? angle : 0)};
   };
   const auto size = [&](double u, double v) -> Vec {
     if (shaft == Axis::z) return {u, v, e};
     return shaft == Axis::y ? Vec{u, e, v} : Vec{e, u, v};
   };
-  box_visual(xml, "housing_a", turned(0), size(e, e - 2 * c), color);
-  box_visual(xml, "housing_b", turned(0), size(e - 2 * c, e), color);
-  box_visual(xml, "housing_c", turned(kPi / 4), size(across, strip), color);
-  box_visual(xml, "housing_d", turned(-kPi / 4), size(across, strip), color);
-  cylinder_visual(xml, "pulleys", {}, shaft, 0.30 * e, e + 0.003, kPulley);
-  cylinder_visual(xml, "shaft_end", {}, shaft, 0.10 * e, e + 0.005, kBody);
+  box_visual(xml, seat.prefix + "housing_a", turned(0), size(e, e - 2 * c), color);
+  box_visual(xml, seat.prefix + "housing_b", turned(0), size(e - 2 * c, e), color);
+  box_visual(xml, seat.prefix + "housing_c", turned(kPi / 4), size(across, strip), color);
+  box_visual(xml, seat.prefix + "housing_d", turned(-kPi / 4), size(across, strip), color);
+  cylinder_visual(xml, seat.prefix + "pulleys", at, shaft, 0.30 * e, e + 0.003, kPulley, seat.yaw_rad);
+  cylinder_visual(xml, seat.prefix + "shaft_end", at, shaft, 0.10 * e, e + 0.005, kBody, seat.yaw_rad);
 }
 
-void contact_box(Xml& xml, const ModuleSpec& m) {
-  xml.open("collision", {{"name", "contact"}});
-  xml.open("geometry").open("box").leaf("size", numbers({m.edge_m, m.edge_m, m.edge_m})).close().close();
-  write_surface(xml, m.friction);
-  xml.close();
-}
+void contact_box(Xml& xml, const ModuleSpec& m) { box_contact(xml, "contact", {}, {m.edge_m, m.edge_m, m.edge_m}, m.friction); }
 
 void contact_spheres(Xml& xml, const ModuleSpec& m) {
   const double r = m.contact_radius_m;
   const std::array<std::pair<double, double>, 4> places{{{r, r}, {r, -r}, {-r, r}, {-r, -r}}};
   for (std::size_t i = 0; i < places.size(); ++i) {
-    xml.open("collision", {{"name", "contact_" + std::to_string(i)}});
-    xml.pose({0, places[i].first, places[i].second, 0, 0, 0});
-    xml.open("geometry").open("sphere").leaf("radius", r).close().close();
-    write_surface(xml, m.friction);
-    xml.close();
+    sphere_contact(xml, "contact_" + std::to_string(i), {0, places[i].first, places[i].second}, r, m.friction);
   }
 }
 

@@ -5,43 +5,10 @@
 
 #include "generate.hpp"
 #include "module.hpp"
+#include "parts.hpp"
 
 namespace vsa::generate {
 namespace {
-
-Inertial housing(const ModuleSpec& m) { return solid_box(m.mass_kg - m.flange_mass_kg, {m.edge_m, m.edge_m, m.edge_m}, {}); }
-
-void write_joint(Xml& xml, const std::string& name, const char* parent, const char* child, const Vec& at, Axis axis) {
-  xml.open("joint", {{"name", name}, {"type", "revolute"}});
-  xml.pose({at[0], at[1], at[2], 0, 0, 0});
-  xml.leaf("parent", parent).leaf("child", child);
-  xml.open("axis");
-  xml.leaf("xyz", axis == Axis::z ? "0 0 1" : "0 1 0");
-  // No stop: the unit's motors are limited to ±30000 raw (±2.88 rad) and the springs yield beyond.
-  xml.open("limit").leaf("lower", "-1e16").leaf("upper", "1e16").close();
-  xml.open("dynamics").leaf("damping", "0").leaf("friction", "0").close();
-  xml.close().close();
-}
-
-struct PluginEntry {
-  std::string name, joint;
-};
-
-void write_plugin(Xml& xml, const ActuatorSpec& a, const std::string& bus, double initial_preset,
-                  const std::vector<PluginEntry>& list) {
-  xml.open("plugin", {{"name", "vsa::Robot"}, {"filename", a.plugin_file}});
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    xml.open("actuator", {{"name", list[i].name}});
-    xml.leaf("joint", list[i].joint);
-    xml.leaf("preset", a.preset);
-    xml.leaf("bus", bus, {{"id", std::to_string(i + 1)}});
-    xml.empty("initial", {{"equilibrium_rad", "0"}, {"preset_rad", number(initial_preset)}});
-    xml.close();
-  }
-  xml.empty("bus", {{"name", bus}, {"baud", fmt::format("{:.0f}", a.baud_Hz)}, {"cycle_s", "auto"}});
-  xml.leaf("state_rate_Hz", a.state_rate_Hz);
-  xml.close();
-}
 
 void write_housing_link(Xml& xml, const ModuleSpec& m) {
   xml.open("link", {{"name", "housing"}});
@@ -79,7 +46,7 @@ std::string module_model(const Description& d, const std::string& name, bool fix
   if (fixed) xml.open("joint", {{"name", "mount"}, {"type", "fixed"}}).leaf("parent", "world").leaf("child", "housing").close();
   write_housing_link(xml, d.module);
   write_flange_link(xml, d.module, load);
-  write_joint(xml, "shaft", "housing", "flange", {}, Axis::z);
+  write_joint(xml, "shaft", "housing", "flange", {}, kUp);
   write_plugin(xml, d.actuator, "bus", d.actuator.initial_preset_rad, {{"shaft", "shaft"}});
   xml.close().close();
   return xml.text();
@@ -144,7 +111,7 @@ std::string snake_model(const Description& d) {
   for (int n = 0; n < modules; ++n) {
     const std::string name = fmt::format("joint_{}", n), parent = fmt::format("module_{}", n);
     const std::string child = n + 1 == modules ? "tail" : fmt::format("module_{}", n + 1);
-    write_joint(xml, name, parent.c_str(), child.c_str(), {d.snake.pitch_m / 2, 0, 0}, shaft_axis(n));
+    write_joint(xml, name, parent, child, {d.snake.pitch_m / 2, 0, 0}, shaft_axis(n) == Axis::z ? kUp : Vec{0, 1, 0});
     entries.push_back({name, name});
   }
   write_plugin(xml, d.actuator, d.snake.bus, d.snake.initial_preset_rad, entries);
@@ -160,6 +127,8 @@ void add_robots(Files& files, const Description& d) {
             module_model(d, "qbmove_bench_free", true, nullptr));
   add_model(files, "qbmove_bench_load", "qbmove maker pro, held by its housing, with a lever and a mass",
             module_model(d, "qbmove_bench_load", true, &d.bench));
+  add_model(files, "qbmove_bench_throw", "qbmove maker pro, held by its housing, axis upright, with a ball on a lever",
+            module_model(d, "qbmove_bench_throw", true, &d.throwing));
   add_model(files, "qbmove_snake", "Snake of qbmove modules in series", snake_model(d));
 }
 

@@ -3,6 +3,9 @@
 // One world a file. Models come by model:// URI, so that every host finds them on its model path.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <functional>
+
 #include "generate.hpp"
 #include "vsa/units.hpp"
 
@@ -44,6 +47,32 @@ std::string world(const Description& d, const std::string& name, const std::vect
   return xml.text();
 }
 
+using Put = std::function<void(const std::string&, const std::vector<Placed>&)>;
+
+/// The right arm's upright plane holds what the right hand meets.
+void add_frank_worlds(const Put& put, const Description& d) {
+  const FrankSpec& f = d.frank;
+  const double toe = f.toe_in_deg * kPi / 180;
+  const auto in_plane = [&](double from_shoulder, double z) -> std::array<double, 6> {
+    return {from_shoulder * std::cos(toe), -f.shoulder_half_width_m + from_shoulder * std::sin(toe), z, 0, 0, toe};
+  };
+  put("frank", {{"terrain_flat", {}}, {"frank", {}}});
+  put("frank_table", {{"terrain_flat", {}},
+                      {"frank", {}},
+                      {"frank_table", in_plane(d.table.reach_m, 0)},
+                      {"baton", in_plane(d.table.reach_m, d.table.top_height_m + d.table.baton_height_m / 2)}});
+  const double hand = f.shoulder_height_m - f.upper_arm_m - f.forearm_m;
+  const double ball = hand_front_m(d) + d.pendulum.ball_radius_m + d.pendulum.gap_m;
+  put("frank_ball", {{"terrain_flat", {}}, {"frank", {}}, {"pendulum", in_plane(ball, hand + d.pendulum.cord_m)}});
+  for (const char* object : {"hard", "soft"}) {
+    // Pitched by −90° the finger points along the world's +x and the gripper's axis upwards.
+    put(std::string("gripper_") + object,
+        {{"terrain_flat", {}},
+         {"qbmove_gripper", {0, 0, d.bench.height_m, 0, -kPi / 2, 0}},
+         {std::string("object_") + object, {d.gripper.pad_at_m, -d.gripper.approach_m, d.bench.height_m, 0, 0, 0}}});
+  }
+}
+
 }  // namespace
 
 Xml begin_sdf() {
@@ -80,12 +109,18 @@ void add_worlds(Files& files, const Description& d) {
   // Rolled by −90°, the shaft lies along the world's +y and the lever, along the module's +y, hangs straight down.
   put("bench_load", {{"terrain_flat", {}}, {"qbmove_bench_load", {0, 0, d.bench.height_m, -quarter, 0, 0}}});
   put("bench_free", {{"terrain_flat", {}}, {"qbmove_bench_free", {0, 0, d.bench.height_m, 0, 0, 0}}});
+  put("bench_throw", {{"terrain_flat", {}}, {"qbmove_bench_throw", {0, 0, d.throwing.height_m, 0, 0, 0}}});
+  put("manipulator_3r", {{"terrain_flat", {}}, {"qbmove_manipulator_3r", {}}});
+  add_frank_worlds(put, d);
   put("module", {{"terrain_flat", {}}, {"qbmove", {0, 0, lying, 0, 0, 0}}});
 }
 
 Files generate(const Description& d) {
   Files files;
   add_robots(files, d);
+  add_frank(files, d);
+  add_manipulator(files, d);
+  add_props(files, d);
   add_terrain(files, d);
   add_worlds(files, d);
   return files;

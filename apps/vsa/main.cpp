@@ -9,6 +9,7 @@
 #include "characterize.hpp"
 #include "command.hpp"
 #include "datasheet.hpp"
+#include "doctor.hpp"
 #include "emulate.hpp"
 #include "exit_codes.hpp"
 #include "get.hpp"
@@ -31,6 +32,7 @@ constexpr const char* kExamples = R"(Examples:
   vsa datasheet qbmove_maker_pro
   vsa emulate qbmove_maker_pro --units 12
   vsa ping qbmove_maker_pro
+  vsa doctor snake_flat
 
 Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 130 or 143 a run with a duration that a signal cut short.)";
 
@@ -62,6 +64,7 @@ int run_application(int argc, char** argv) {
   vsa::app::setup_identify(app, exit_code);
   vsa::app::setup_validate(app, exit_code);
   vsa::app::setup_datasheet(app, exit_code);
+  vsa::app::setup_doctor(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <thread>
 
@@ -33,8 +34,8 @@ class Stopwatch {
   bool running_ = false;
 };
 
-/// Holds simulated time to the wall's. Where it can't keep up it doesn't race to catch up later: at most `kSlack` of lag is made
-/// good.
+/// Holds simulated time to the wall's, or a multiple of it. Where it can't keep up it doesn't race to catch up later: at most
+/// `kSlack` of lag is made good.
 class RealTimePace {
  public:
   using Clock = std::chrono::steady_clock;
@@ -47,9 +48,13 @@ class RealTimePace {
     wall_ = wall;
   }
 
+  /// Simulated by wall time from the anchor on, above 0; anchor it anew with a change.
+  void set_speed(double factor) { speed_ = factor; }
+
   /// When the state at `sim_ns` is due. False where that is more than kSlack ago: it is late, and the anchor moves.
   [[nodiscard]] bool keeps_up(std::int64_t sim_ns, Clock::time_point now, Clock::time_point& due) {
-    due = wall_ + std::chrono::nanoseconds(sim_ns - sim_ns_);
+    const std::int64_t since_ns = sim_ns - sim_ns_;
+    due = wall_ + std::chrono::nanoseconds(speed_ == 1 ? since_ns : std::llround(static_cast<double>(since_ns) / speed_));
     if (now - due <= kSlack) return true;
     anchor(sim_ns, now - kSlack);
     return false;
@@ -66,6 +71,7 @@ class RealTimePace {
  private:
   std::int64_t sim_ns_ = 0;
   Clock::time_point wall_{};
+  double speed_ = 1;
 };
 
 }  // namespace vsa::app

@@ -29,11 +29,15 @@ that Ctrl-C cuts short exits with 130. Either way the record is complete up to t
 Examples:
   vsa run snake_flat --gait sidewind --duration-s 20 --record out
   vsa run snake_rubble --realtime
+  vsa run snake_flat --gait sidewind --view
   vsa run snake_flat --gait sidewind --duration-s 20 --fault "joint_6 unplugged=1"
 
 )";
 
 void check(const RunOptions& options) {
+  if (options.paused && options.no_topics && !options.view) {
+    throw InputError({"", "--paused", "", "with --no-topics nobody could let it run", "--view, or topics"});
+  }
   if (options.duration_s && !(*options.duration_s > 0 && *options.duration_s <= kLongest_s)) {
     throw InputError({"", "--duration-s", fmt::format("{}", *options.duration_s), "out of range", "above 0 to 1e8 s"});
   }
@@ -81,13 +85,21 @@ void setup_run(CLI::App& app, int& exit_code) {
   CLI::Option* realtime =
       sub->add_flag("--realtime", options->realtime, "Not faster than the wall clock; default: as fast as possible");
   sub->add_flag("--low-latency", options->low_latency, kLowLatencyHelp)->needs(realtime);
+  sub->add_option("--speed", options->speed, "Simulated by wall time, 0.01 to 100, or max; default: max, with --view 1")
+      ->excludes(realtime);
+  CLI::Option* view = sub->add_flag("--view", options->view, "Serve a page on this machine's loopback to watch and touch the run");
+  sub->add_option("--view-port", options->view_port, "Its port; default: any free one, printed")
+      ->check(CLI::Range(0, 65535))
+      ->needs(view);
+  sub->add_option("--view-records", options->view_records, "Where the page's record button writes; default: this directory")
+      ->needs(view);
   sub->add_option("--preset", options->preset, "Put this actuator preset on every actuator of the world");
   sub->add_option("--set", options->set, "Override a parameter of every actuator: key=value");
   sub->add_option("--fault", options->faults, "Break something from the start: \"ACTUATOR FAULT …\" or \"all FAULT …\"");
   sub->add_option("--gait", options->gait, "Play this gait in simulated time");
   sub->add_option("--record", options->record, "Write CSV files and a replay page into this directory");
-  CLI::Option* no_topics = sub->add_flag("--no-topics", options->no_topics, "Run without the transport");
-  sub->add_flag("--paused", options->paused, "Start paused; /world/W/control lets it run")->excludes(no_topics);
+  sub->add_flag("--no-topics", options->no_topics, "Run without the transport");
+  sub->add_flag("--paused", options->paused, "Start paused; the page or /world/W/control lets it run");
   sub->footer(kNotes + std::string(kFaultsHelp));
   sub->callback([options, &exit_code] { exit_code = run_run(*options); });
 }

@@ -12,6 +12,10 @@ struct RunOptions {
   std::string world;  ///< a file, or a built-in world's name
   std::optional<double> duration_s;
   bool realtime = false;
+  bool view = false;
+  int view_port = 0;               ///< 0: any free one
+  std::string view_records = ".";  ///< where the page's record button writes
+  std::string speed;               ///< "2", "max"; empty: 1 with realtime or view, else max
   bool low_latency = false;
   bool paused = false;
   bool no_topics = false;

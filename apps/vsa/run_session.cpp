@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -21,6 +22,7 @@ namespace {
 constexpr double kTravelWindow_s = 1.3;  // where no gait tells its period; close to Table II's 2π/4.71 s
 constexpr double kTravelRate_Hz = 100;
 constexpr std::chrono::milliseconds kIdleWait{100};
+constexpr double kSlowest = 0.01, kFastest = 100;  // of --speed
 
 engine::World load_world(const RunOptions& options) {
   engine::WorldOptions with;
@@ -69,13 +71,25 @@ void break_robots(engine::World& world, const std::vector<std::string>& faults) 
   problems.throw_if_any();
 }
 
+/// "max": none.
+std::optional<double> speed_of(const RunOptions& options) {
+  if (options.speed.empty()) return options.realtime || options.view ? std::optional(1.0) : std::nullopt;
+  if (options.speed == "max") return std::nullopt;
+  char* end = nullptr;
+  const double factor = std::strtod(options.speed.c_str(), &end);
+  if (end != options.speed.c_str() + options.speed.size() || !(factor >= kSlowest && factor <= kFastest)) {
+    throw InputError({"", "--speed", options.speed, "not a speed", "0.01 … 100, or max"});
+  }
+  return factor;
+}
+
 std::string top_level(const std::string& scoped) { return scoped.substr(0, scoped.find("::")); }
 
 }  // namespace
 
 RunSession::RunSession(const RunOptions& options, Console& console)
     : console_(console),
-      realtime_(options.realtime),
+      speed_(speed_of(options)),
       faults_(options.faults),
       duration_s_(options.duration_s),
       world_(load_world(options)),
@@ -91,9 +105,21 @@ RunSession::RunSession(const RunOptions& options, Console& console)
   const auto report = [&console](const std::string& line) { console.line(line); };
   if (!options.no_topics) server_.emplace(world_, control_, report);
   open_ports(report);
+  if (options.view) open_view(options);
   // Last, so that a run that is refused has not touched an earlier record.
   if (!options.record.empty()) recorder_.emplace(world_, options.record, recorder_options());
   if (duration_s_) end_ns_ = world_.time_ns() + std::llround(*duration_s_ * 1e9);
+}
+
+void RunSession::open_view(const RunOptions& options) {
+  view::LiveOptions with;
+  with.server.port = static_cast<std::uint16_t>(options.view_port);
+  with.page_template = config::find_data("web/live.html").value_or("");
+  with.replay_template = config::find_data("web/replay.html").value_or("");
+  with.records = options.view_records;
+  with.speed = speed_;
+  view_.emplace(world_, gait_ ? &*gait_ : nullptr, control_, std::move(with));
+  console_.line("live view: " + view_->url());
 }
 
 void RunSession::open_ports(const ports::Report& report) {
@@ -109,8 +135,9 @@ void RunSession::open_ports(const ports::Report& report) {
 }
 
 int RunSession::run() {
-  pace_.anchor(world_.time_ns());
+  take_speed();
   while (!done() && interrupted() == 0) {
+    if (view_) view_->serve();
     switch (control_.next(world_.time_ns())) {
       case topics::RunControl::Next::step:
         step();
@@ -139,16 +166,24 @@ void RunSession::step() {
     travel_.add(world_.center_of_mass(robot_model_));
   }
   if (server_) server_->stepped();
+  if (view_) view_->stepped();
   keep_time();
   constexpr std::uint64_t kLookAtClock = 16;  // steps between two looks at the wall clock for the progress line
   if (steps_ % kLookAtClock == 0) console_.progress(world_.time_s(), duration_s_, speed_factor());
 }
 
-/// Without --realtime nothing waits, but a client on a serial port lives by the wall clock and wants to know.
+void RunSession::take_speed() {
+  if (view_) speed_ = view_->speed(), speed_changes_ = view_->speed_changes();
+  pace_.set_speed(speed_.value_or(1));
+  pace_.anchor(world_.time_ns());
+}
+
+/// At full speed nothing waits, but a client on a serial port lives by the wall clock and wants to know.
 void RunSession::keep_time() {
-  if (!realtime_ && (ports_.all().empty() || told_late_)) return;
+  if (view_ && view_->speed_changes() != speed_changes_) take_speed();
+  if (!speed_ && (ports_.all().empty() || told_late_)) return;
   RealTimePace::Clock::time_point due;
-  const bool in_time = realtime_ ? pace_.hold(world_.time_ns()) : pace_.keeps_up(world_.time_ns(), RealTimePace::Clock::now(), due);
+  const bool in_time = speed_ ? pace_.hold(world_.time_ns()) : pace_.keeps_up(world_.time_ns(), RealTimePace::Clock::now(), due);
   if (in_time || std::exchange(told_late_, true)) return;
   console_.line("warning: this machine can't keep up with real time in this world");
 }
@@ -162,12 +197,14 @@ void RunSession::reset() {
   travel_cadence_.restart();
   if (recorder_) recorder_->sample(world_);
   if (server_) server_->idle();
+  if (view_) view_->idle();
   pace_.anchor(world_.time_ns());
 }
 
 void RunSession::idle() {
   wall_.pause();
   if (server_) server_->idle();
+  if (view_) view_->idle();
   control_.wait(kIdleWait);
   pace_.anchor(world_.time_ns());
 }
@@ -208,6 +245,9 @@ std::vector<record::Statistic> RunSession::finish(const std::string& note) {
   wall_.pause();
   std::vector<record::Statistic> out = statistics();
   for (const auto& port : ports_.all()) out.push_back({"serial port", port->path() + ": " + in_a_line(port->counters())});
+  if (view_) {
+    for (const auto& page : view_->finish(note)) out.push_back({"recorded in the view", page.string()});
+  }
   if (recorder_) {
     const auto page = recorder_->finish(out, note);
     out.push_back({"replay page", page.string()});

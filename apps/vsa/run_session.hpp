@@ -2,7 +2,7 @@
 //
 // One run of a world: what is loaded, in which order a step does what, and what is told at the end.
 //
-//   control requests → gait → world.step() → record → travel → topics → wall clock
+//   pages' requests → control requests → gait → world.step() → record → travel → topics → view → wall clock
 #pragma once
 
 #include <optional>
@@ -19,6 +19,7 @@
 #include "vsa/record/recorder.hpp"
 #include "vsa/topics/run_control.hpp"
 #include "vsa/topics/world_server.hpp"
+#include "vsa/view/live_view.hpp"
 
 namespace vsa::app {
 
@@ -36,16 +37,18 @@ class RunSession {
 
  private:
   [[nodiscard]] bool done() const { return end_ns_ && world_.time_ns() >= *end_ns_; }
+  void open_view(const RunOptions& options);
   void open_ports(const ports::Report& report);
   void step();
   void reset();
   void idle();
+  void take_speed();
   void keep_time();
   [[nodiscard]] double speed_factor() const;
   [[nodiscard]] std::vector<record::Statistic> statistics() const;
 
   Console& console_;
-  bool realtime_;
+  std::optional<double> speed_;  // simulated by wall time; none: as fast as it can
   std::vector<std::string> faults_;
   std::optional<double> duration_s_;
   engine::World world_;
@@ -58,6 +61,8 @@ class RunSession {
   ports::RobotPorts ports_;
   Travel travel_;
   record::Cadence travel_cadence_;
+  std::optional<view::LiveView> view_;
+  std::uint64_t speed_changes_ = 0;
   RealTimePace pace_;
   Stopwatch wall_;
   std::optional<std::int64_t> end_ns_;

@@ -11,10 +11,9 @@
 
 #ifdef VSA_HAS_RESET
 VSA_ADD_PLUGIN(vsa::plugins::SimRobot, vsa::plugins::sim::System, vsa::plugins::SimRobot::ISystemConfigure,
-               vsa::plugins::SimRobot::ISystemReset, vsa::plugins::SimRobot::ISystemPreUpdate,
-               vsa::plugins::SimRobot::ISystemPostUpdate)
+               vsa::plugins::SimRobot::ISystemReset, vsa::plugins::SimRobot::ISystemPreUpdate)
 #else
 VSA_ADD_PLUGIN(vsa::plugins::SimRobot, vsa::plugins::sim::System, vsa::plugins::SimRobot::ISystemConfigure,
-               vsa::plugins::SimRobot::ISystemPreUpdate, vsa::plugins::SimRobot::ISystemPostUpdate)
+               vsa::plugins::SimRobot::ISystemPreUpdate)
 #endif
 VSA_ADD_PLUGIN_ALIAS(vsa::plugins::SimRobot, "vsa::Robot")

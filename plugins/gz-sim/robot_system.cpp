@@ -13,6 +13,7 @@ namespace {
 namespace components = sim::components;
 
 constexpr int kRefreshSteps = 16;  // inverse inertias only serve the robot's prediction
+constexpr int kPhysicsSteps = 10;  // by then any physics has filled the joints' components
 
 bool has_one_axis(sim::Entity joint, const sim::EntityComponentManager& ecm) {
   const auto type = ecm.ComponentData<components::JointType>(joint);
@@ -44,23 +45,27 @@ void set_force(sim::Entity joint, double torque, sim::EntityComponentManager& ec
 void SimRobot::Configure(const sim::Entity& entity, const std::shared_ptr<const sdf::Element>& element,
                          sim::EntityComponentManager& ecm, sim::EventManager&) {
   model_ = entity;
-  std::string name = sim::scopedName(entity, ecm, "::", false);
-  if (const auto world = name.find("::"); world != std::string::npos) name.erase(0, world + 2);
+  name_ = sim::scopedName(entity, ecm, "::", false);
+  // A model that is being spawned has no world above it yet.
+  const auto world = name_.find("::");
+  if (world != std::string::npos && sim::worldEntity(entity, ecm) != sim::kNullEntity) name_.erase(0, world + 2);
   try {
-    attach(*element, name, ecm);
+    attach(*element, ecm);
   } catch (const InputError& error) {
     robot_.reset();
-    VSA_ERROR << "vsa::Robot: " << name << " stays without torques:\n" << error.what() << std::endl;
+    const std::string text = name_ + " stays without torques:\n" + error.what();
+    VSA_ERROR << "vsa::Robot: " << text << std::endl;
   }
 }
 
-void SimRobot::attach(const sdf::Element& element, const std::string& name, sim::EntityComponentManager& ecm) {
+void SimRobot::attach(const sdf::Element& element, sim::EntityComponentManager& ecm) {
   std::vector<NamedEntity> known;
-  Attachment attachment{element.ToString(""), name, name, {}};
+  Attachment attachment{element.ToString(""), name_, name_, {}};
   for (const NamedEntity& joint : entities_below<components::Joint>(model_, ecm)) {
     if (!has_one_axis(joint.entity, ecm)) continue;
     known.push_back(joint);
     attachment.joints.push_back(joint.name);
+    attachment.keys.push_back({&ecm, joint.entity});
   }
   robot_ = std::make_unique<AttachedRobot>(attachment,
                                            [](const std::string& line) { VSA_WARNING << "vsa::Robot: " << line << std::endl; });
@@ -76,11 +81,25 @@ void SimRobot::attach(const sdf::Element& element, const std::string& name, sim:
 
 void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) {
   if (!robot_) return;
-  if (!ecm.HasEntity(model_)) {  // removed: gz-sim keeps the system
+  if (!ecm.HasEntity(model_)) {  // removed: Fortress keeps the system
     robot_.reset();
+    tree_.reset();
     return;
   }
-  if (info.paused || info.dt.count() <= 0) return;  // a negative step is a seek
+  const auto time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(info.simTime).count();
+  if (info.paused) {
+    robot_->publish_paused(time_ns);
+    return;
+  }
+  const auto dt_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(info.dt).count();
+  if (dt_ns > 0) last_dt_ns_ = dt_ns;
+  if (last_dt_ns_ == 0) return;
+  step(last_dt_ns_, ecm);
+  robot_->publish_step(time_ns);
+}
+
+void SimRobot::step(std::int64_t dt_ns, sim::EntityComponentManager& ecm) {
+  if (steps_ <= kPhysicsSteps && steps_++ == kPhysicsSteps) look_for_physics(ecm);
   if (steps_to_refresh_-- <= 0) {
     tree_->update(ecm);
     steps_to_refresh_ = kRefreshSteps - 1;
@@ -89,24 +108,31 @@ void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManage
     robot_->in()[i] = {first_number<components::JointPosition>(joints_[i], ecm),
                        first_number<components::JointVelocity>(joints_[i], ecm), tree_->inverse(i)};
   }
-  robot_->step(std::chrono::duration_cast<std::chrono::nanoseconds>(info.dt).count());
+  const bool stopped = robot_->stopped();
+  robot_->step(dt_ns);
+  if (robot_->stopped() && !stopped) {  // the reason is a warning, which gz-sim doesn't show unasked
+    const std::string text = name_ + ": its actuators have stopped and give no torque; -v 2 shows why";
+    VSA_ERROR << "vsa::Robot: " << text << std::endl;
+  }
   for (std::size_t i = 0; i < joints_.size(); ++i) set_force(joints_[i], robot_->torques()[i], ecm);
 }
 
-void SimRobot::PostUpdate(const sim::UpdateInfo& info, const sim::EntityComponentManager&) {
-  if (!robot_) return;
-  const auto time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(info.simTime).count();
-  if (info.paused) {
-    robot_->publish_paused(time_ns);
-  } else {
-    robot_->publish_step(time_ns);
+void SimRobot::look_for_physics(const sim::EntityComponentManager& ecm) {
+  for (const sim::Entity joint : joints_) {
+    const auto* position = ecm.Component<components::JointPosition>(joint);
+    if (position != nullptr && !position->Data().empty()) return;
   }
+  const std::string text =
+      name_ +
+      ": no physics moves it: its world has no physics system. A world with <plugin>s of its own must name the physics "
+      "among them; into a world without any gz-sim loads it, but Fortress before 6.8 only where no model has a plug-in either.";
+  VSA_ERROR << "vsa::Robot: " << text << std::endl;
 }
 
 #ifdef VSA_HAS_RESET
 void SimRobot::Reset(const sim::UpdateInfo&, sim::EntityComponentManager&) {
   if (robot_) robot_->reset();
-  steps_to_refresh_ = 0;
+  steps_ = steps_to_refresh_ = 0;
 }
 #endif
 

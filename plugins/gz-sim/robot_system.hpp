@@ -4,11 +4,17 @@
 //
 // Before every step the system reads each joint's JointPosition and JointVelocity, which it creates so that the physics fills them,
 // and writes its JointForceCmd, which the physics clears. In the very first step they are still empty: the joints are at 0 then.
+// Where they stay empty no physics moves the model, which is said once. States are published before the step too: nothing that
+// they tell comes from the physics' answer, and a PostUpdate would cost every model a thread and the world a barrier a step.
+// A time that is set back (a seek, in Fortress also a rewind) comes as a step of negative length. DART ignores that length and
+// makes one more step of the former, so the robot does too.
 // Load errors are one message on the log and a model without torques; a model that is removed takes its robot with it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "attached_robot.hpp"
@@ -46,13 +52,11 @@ class SimRobot : public sim::System,
 #ifdef VSA_HAS_RESET
                  public sim::ISystemReset,
 #endif
-                 public sim::ISystemPreUpdate,
-                 public sim::ISystemPostUpdate {
+                 public sim::ISystemPreUpdate {
  public:
   void Configure(const sim::Entity& entity, const std::shared_ptr<const sdf::Element>& element, sim::EntityComponentManager& ecm,
                  sim::EventManager& events) override;
   void PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) override;
-  void PostUpdate(const sim::UpdateInfo& info, const sim::EntityComponentManager& ecm) override;
 #ifdef VSA_HAS_RESET
   void Reset(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) override;
 #endif
@@ -61,13 +65,18 @@ class SimRobot : public sim::System,
   [[nodiscard]] AttachedRobot* robot() noexcept { return robot_.get(); }
 
  private:
-  void attach(const sdf::Element& element, const std::string& name, sim::EntityComponentManager& ecm);
+  void attach(const sdf::Element& element, sim::EntityComponentManager& ecm);
+  void step(std::int64_t dt_ns, sim::EntityComponentManager& ecm);
+  void look_for_physics(const sim::EntityComponentManager& ecm);
 
   sim::Entity model_ = sim::kNullEntity;
+  std::string name_;                 ///< scoped, without the world's
   std::vector<sim::Entity> joints_;  ///< of the actuators
   std::unique_ptr<AttachedRobot> robot_;
   std::unique_ptr<EntityTree> tree_;
+  int steps_ = 0;  ///< since the start or a reset, as far as anyone asks: see look_for_physics
   int steps_to_refresh_ = 0;
+  std::int64_t last_dt_ns_ = 0;
 };
 
 }  // namespace vsa::plugins

@@ -22,7 +22,7 @@ class Finisher {
 
   host::RobotConfig finish() {
     config_.state_rate_Hz = draft_.state_rate_Hz;
-    if (draft_.actuators.empty()) add("plugin", "", "has no actuator", "at least one <actuator>");
+    if (draft_.actuators.empty() && !draft_.answered) add("plugin", "", "has no actuator", "at least one <actuator>");
     make_buses();
     for (const ActuatorDraft& a : draft_.actuators) config_.actuators.push_back(make(a));
     check_names();
@@ -60,6 +60,9 @@ class Finisher {
     if (const Preset* preset = a.preset.empty() ? nullptr : load(a)) {
       out.unit = preset->unit;
       check_initial(a, out);
+      if (a.motor_at_pulley && preset->unit.actuator.gearbox.ratio != 1)
+        add(a.path + "/preset", '"' + a.preset + '"', "has a gearbox, and the toolbox's motor values are at the pulley",
+            "a preset with drive.gear_ratio 1, or <override>s at the motor's shaft");
     }
     return out;
   }
@@ -100,8 +103,11 @@ class Finisher {
 
   void report_preset(const ActuatorDraft& a, const Problem& p) {
     const bool from_override = p.key.compare(0, kOverrideMark.size(), kOverrideMark) == 0;
-    if (from_override) {
-      add(a.path + "/override[" + p.key.substr(kOverrideMark.size()) + "]", p.value, p.message, p.allowed);
+    const std::string key = from_override ? p.key.substr(kOverrideMark.size()) : "";
+    if (const auto tag = a.tag_of.find(key); tag != a.tag_of.end()) {
+      add(a.path + "/" + tag->second, p.value, key + ": " + p.message, p.allowed);
+    } else if (from_override) {
+      add(a.path + "/override[" + key + "]", p.value, p.message, p.allowed);
     } else if (p.key == "preset" && p.file.empty()) {
       add(a.path + "/preset", p.value, p.message, p.allowed);
     } else {

@@ -3,6 +3,7 @@
 // The plug-in element as written, form checked, and what makes a robot of it: presets, names, buses, ids.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,7 +28,9 @@ struct ActuatorDraft {
   double initial_equilibrium = 0, initial_preset = 0;
   std::string initial_preset_key;  ///< "preset_rad"; empty: not given
   std::vector<Override> overrides;
-  bool replaced = false;  ///< the preset isn't the element's own: its initial preset may not fit
+  std::map<std::string, std::string> tag_of;  ///< keys of overrides that an older plug-in's tag gave, and that tag
+  bool motor_at_pulley = false;               ///< such a tag gave values of a motor without a gearbox
+  bool replaced = false;                      ///< the preset isn't the element's own: its initial preset may not fit
 };
 
 struct BusDraft {
@@ -41,6 +44,7 @@ struct RobotDraft {
   std::vector<ActuatorDraft> actuators;
   std::vector<BusDraft> buses;
   double state_rate_Hz = 100;
+  bool answered = false;  ///< the element is an older plug-in's, and the problem says so
 };
 
 [[nodiscard]] host::RobotConfig finish(const RobotDraft& draft, std::string_view where, const PresetLibrary& presets,

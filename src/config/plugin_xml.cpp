@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "config/older_plugins.hpp"
 #include "config/plugin_draft.hpp"
 #include "config/xml_reader.hpp"
 #include "vsa/config/text.hpp"
@@ -26,6 +27,11 @@ class Parser {
 
   RobotDraft parse(const XMLElement& root) {
     RobotDraft robot;
+    if (is_older_plugin(root)) {
+      answer_older_plugin(root, xml_);
+      robot.answered = true;
+      return robot;
+    }
     if (std::string(root.Name()) != "plugin") xml_.add(root.Name(), "", "is not a plug-in element", "plugin");
     xml_.check_attributes(root, "plugin", {"name", "filename"});
     const std::string name = xml_.attribute(root, "name").value_or("");
@@ -64,7 +70,7 @@ class Parser {
     const auto given = xml_.attribute(e, "name");
     draft.path = given && !given->empty() ? "actuator[" + *given + "]" : numbered;
     xml_.check_attributes(e, draft.path, {"name"});
-    xml_.check_children(e, draft.path, {"joint", "preset", "bus", "initial", "override"});
+    xml_.check_children(e, draft.path, {"joint", "preset", "bus", "initial", "override"}, is_older_tag);
     draft.joint = required_text(e, draft.path, "joint");
     draft.preset = required_text(e, draft.path, "preset");
     draft.name = given ? *given : draft.joint;
@@ -76,7 +82,22 @@ class Parser {
     if (const XMLElement* child = xml_.only(e, draft.path, "bus")) place_on_bus(*child, draft);
     if (const XMLElement* child = xml_.only(e, draft.path, "initial")) initial(*child, draft);
     for (const XMLElement* o = e.FirstChildElement("override"); o; o = o->NextSiblingElement("override")) add_override(*o, draft);
+    take_older_tags(e, draft);
     return draft;
+  }
+
+  void take_older_tags(const XMLElement& e, ActuatorDraft& draft) {
+    OlderTags older = read_older_tags(e, draft.path, xml_);
+    draft.motor_at_pulley = older.motor_at_pulley;
+    for (OlderTags::Taken& t : older.taken) {
+      const auto same = [&](const Override& o) { return o.key == t.override.key; };
+      if (std::any_of(draft.overrides.begin(), draft.overrides.end(), same)) {
+        xml_.add(element_path(draft.path, t.tag), t.override.value, t.override.key + " is given twice", "one of the two");
+        continue;
+      }
+      draft.tag_of.emplace(t.override.key, t.tag);
+      draft.overrides.push_back(std::move(t.override));
+    }
   }
 
   void place_on_bus(const XMLElement& e, ActuatorDraft& draft) {
@@ -167,8 +188,11 @@ void replace(RobotDraft& robot, const Replacement& replacement) {
     if (replacement.preset) {
       a.preset = *replacement.preset;
       a.overrides.clear();
+      a.tag_of.clear();
+      a.motor_at_pulley = false;
     }
     for (const Override& o : replacement.overrides) {
+      a.tag_of.erase(o.key);
       std::erase_if(a.overrides, [&](const Override& own) { return own.key == o.key; });
     }
     a.overrides.insert(a.overrides.end(), replacement.overrides.begin(), replacement.overrides.end());
@@ -207,6 +231,7 @@ void check_joints(const host::RobotConfig& config, const std::vector<std::string
     problems.add({std::string(where), "actuator[" + a.name + "]/joint", '"' + a.joint + '"', "the model has no such joint" + hint,
                   joints.empty() ? "the model has no joints" : join(joints)});
   }
+  check_motor_joints(config, joints, where, problems);
 }
 
 }  // namespace vsa::config

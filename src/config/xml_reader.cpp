@@ -36,11 +36,12 @@ void XmlReader::check_attributes(const tinyxml2::XMLElement& e, const std::strin
   }
 }
 
-void XmlReader::check_children(const tinyxml2::XMLElement& e, const std::string& path, const std::vector<std::string>& known) {
+void XmlReader::check_children(const tinyxml2::XMLElement& e, const std::string& path, const std::vector<std::string>& known,
+                               bool (*others)(std::string_view)) {
   for (const tinyxml2::XMLNode* n = e.FirstChild(); n != nullptr; n = n->NextSibling()) {
     if (const tinyxml2::XMLElement* child = n->ToElement()) {
       const std::string name = child->Name();
-      if (!contains(known, name))
+      if (!contains(known, name) && (others == nullptr || !others(name)))
         add(element_path(path, name), "", "element " + unknown(name, known), known.empty() ? "none" : join(known));
     } else if (const tinyxml2::XMLText* text_node = n->ToText()) {
       const std::string_view stray = trim(text_node->Value());

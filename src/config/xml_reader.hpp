@@ -28,8 +28,9 @@ class XmlReader {
 
   /// Reports attributes that aren't in `known`. Those of hosts and XML itself pass: xmlns, and any with a namespace prefix.
   void check_attributes(const tinyxml2::XMLElement& e, const std::string& path, const std::vector<std::string>& known);
-  /// Reports children that aren't in `known`, and text between them.
-  void check_children(const tinyxml2::XMLElement& e, const std::string& path, const std::vector<std::string>& known);
+  /// Reports children that aren't in `known`, and text between them. Names that `others` takes are somebody else's to check.
+  void check_children(const tinyxml2::XMLElement& e, const std::string& path, const std::vector<std::string>& known,
+                      bool (*others)(std::string_view) = nullptr);
   /// The element's text, trimmed; reports child elements.
   [[nodiscard]] std::string text(const tinyxml2::XMLElement& e, const std::string& path);
   /// The only child of that name; null where there is none. A second one is a problem.

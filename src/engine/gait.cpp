@@ -30,10 +30,11 @@ void steer(const SteeringParams& params, SteeringState& state, std::array<double
 }
 
 double Gait::equilibrium(const GaitGroup& group, std::size_t k, double t_s) const {
+  const WaveParams w = wave(group, t_s);
   const double ramp = t_s < params_.ramp_s ? t_s / params_.ramp_s : 1.0;
-  double phase = params_.frequency_rad_per_s * t_s + group.n[k] * kPi / group.lambda + group.delta_rad;
-  if (params_.steering && params_.steering->group == group.name) phase += state_.steering.phase_rad;
-  return group.offset_rad + group.amplitude_rad * ramp * std::sin(phase);
+  double angle = phase(t_s) + group.n[k] * kPi / w.lambda + w.delta_rad;
+  if (params_.steering && params_.steering->group == group.name) angle += state_.steering.phase_rad;
+  return w.offset_rad + w.amplitude_rad * ramp * std::sin(angle);
 }
 
 void Gait::bind(const World& world) {
@@ -49,13 +50,35 @@ void Gait::bind(const World& world) {
       }
     }
   }
+  if (params_.motion) bind_motion(world, problems);
   problems.throw_if_any();
   bound_ = true;
 }
 
+void Gait::bind_motion(const World& world, Problems& problems) const {
+  for (const MotionTrack& track : params_.motion->tracks) {
+    try {
+      static_cast<void>(world.actuator(track.actuator));
+    } catch (const InputError& error) {
+      for (const Problem& p : error.problems()) problems.add({params_.file, "keyframe", track.actuator, p.message, p.allowed});
+    }
+  }
+}
+
+void Gait::play_motion(World& world) const {
+  const MotionParams& motion = *params_.motion;
+  const double t_s = motion_time(motion, world.time_s());
+  for (const MotionTrack& track : motion.tracks) {
+    const ActuatorRef& ref = world.actuator(track.actuator);
+    const auto equilibrium = motion_value(track.equilibrium, motion.smooth, t_s);
+    const auto preset = motion_value(track.preset, motion.smooth, t_s);
+    if (equilibrium || preset) world.robot(ref.robot).command(ref.index, equilibrium, preset);
+  }
+}
+
 void Gait::steer_model(const World& world, double t_s) {
   const double dt_s = static_cast<double>(params_.period_ns) * 1e-9;
-  const double cycle_s = 2 * kPi / params_.frequency_rad_per_s;
+  const double cycle_s = 2 * kPi / frequency(t_s);
   const auto center = world.center_of_mass(model_);
   const auto window = static_cast<std::size_t>(std::max(1.0, std::round(cycle_s / dt_s)));
   steer(*params_.steering, state_.steering, {center[0], center[1]}, window, dt_s, t_s >= params_.ramp_s + cycle_s);
@@ -66,16 +89,28 @@ void Gait::apply(World& world) {
   const std::int64_t slot = world.time_ns() / params_.period_ns;
   if (slot == state_.last_slot) return;
   if (slot < state_.last_slot) reset();
+  if (held()) return;
   state_.last_slot = slot;
   const double t_s = world.time_s();
+  if (params_.motion) play_motion(world);
   if (params_.steering) steer_model(world, t_s);
   for (const GaitGroup& group : params_.groups) {
-    for (std::size_t k = 0; k < group.actuators.size(); ++k) {
-      world.command(group.actuators[k], equilibrium(group, k, t_s), group.preset_rad);
+    const std::vector<std::string>& names = group.actuators;
+    const double preset = wave(group, t_s).preset_rad;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const ByHand left = by_hand(names[k]);
+      const ActuatorRef& ref = world.actuator(names[k]);
+      const auto unless = [](bool hand, double value) { return hand ? std::nullopt : std::optional(value); };
+      if (left.equilibrium && left.preset) continue;
+      world.robot(ref.robot).command(ref.index, unless(left.equilibrium, equilibrium(group, k, t_s)), unless(left.preset, preset));
     }
   }
 }
 
-void Gait::reset() { state_ = {}; }
+void Gait::reset() {
+  const bool was_held = held();
+  state_ = {};
+  if (was_held) hold(0);
+}
 
 }  // namespace vsa::engine

@@ -1,78 +1,18 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // Reads gait files. Every key that nobody asks for is a mistake; all mistakes of a file are reported together.
-#include <fmt/format.h>
-#include <toml++/toml.h>
-
 #include <cmath>
-#include <set>
-#include <sstream>
 
+#include "motion_file.hpp"
+#include "toml_reader.hpp"
 #include "vsa/engine/gait.hpp"
-#include "vsa/units.hpp"
 
 namespace vsa::engine {
 namespace {
 
-constexpr double kDegree = kPi / 180;
 constexpr int kMaxBases = 4;
 
-struct Bounds {
-  double min, max;
-  std::optional<double> fallback{};
-};
-
-class Reader {
- public:
-  Reader(std::string file, Problems& problems) : file_(std::move(file)), problems_(problems) {}
-
-  void problem(const std::string& key, const std::string& value, const std::string& message, const std::string& allowed) {
-    problems_.add({file_, key, value, message, allowed});
-  }
-
-  double number(const toml::table& table, const std::string& scope, const char* key, const Bounds& bounds) {
-    const toml::node* node = table.get(key);
-    if (node == nullptr && bounds.fallback) return *bounds.fallback;
-    const std::string allowed = fmt::format("{} … {}", bounds.min, bounds.max);
-    const auto value = node == nullptr || !node->is_number() ? std::nullopt : node->value<double>();
-    if (!value) {
-      problem(scope + key, shown(node), node == nullptr ? "missing" : "not a number", allowed);
-      return bounds.fallback.value_or(bounds.min);
-    }
-    if (!(*value >= bounds.min && *value <= bounds.max)) problem(scope + key, fmt::format("{}", *value), "out of range", allowed);
-    return *value;
-  }
-
-  std::string text(const toml::table& table, const std::string& scope, const char* key) {
-    const toml::node* node = table.get(key);
-    const auto value = node == nullptr ? std::nullopt : node->value<std::string>();
-    if (!value) problem(scope + key, shown(node), node == nullptr ? "missing" : "not a text", "");
-    return value.value_or("");
-  }
-
-  void only(const toml::table& table, const std::string& scope, const std::set<std::string_view>& known) {
-    for (const auto& [key, node] : table) {
-      if (!known.contains(key.str()))
-        problem(scope + std::string(key.str()), shown(&node), "unknown key", fmt::format("{}", list(known)));
-    }
-  }
-
- private:
-  static std::string shown(const toml::node* node) {
-    if (node == nullptr || node->is_table() || node->is_array()) return "";
-    std::ostringstream out;
-    node->visit([&out](const auto& value) { out << value; });
-    return out.str();
-  }
-  static std::string list(const std::set<std::string_view>& words) {
-    std::string all;
-    for (const auto word : words) all += (all.empty() ? "" : ", ") + std::string(word);
-    return all;
-  }
-
-  std::string file_;
-  Problems& problems_;
-};
+Bounds bounds(const GaitRange& range, std::optional<double> fallback = {}) { return {range.min, range.max, fallback}; }
 
 /// Tables are merged, everything else is replaced.
 void overlay(toml::table& under, const toml::table& over) {
@@ -144,11 +84,11 @@ GaitGroup read_group(Reader& reader, const toml::table& table, const std::string
   GaitGroup group;
   group.name = name;
   read_members(reader, table, scope, group);
-  group.amplitude_rad = reader.number(table, scope, "amplitude_deg", {0, 160}) * kDegree;
-  group.offset_rad = reader.number(table, scope, "offset_deg", {-160, 160, 0.0}) * kDegree;
-  group.lambda = reader.number(table, scope, "lambda", {0.1, 1000});
-  group.delta_rad = reader.number(table, scope, "delta_deg", {-360, 360, 0.0}) * kDegree;
-  group.preset_rad = reader.number(table, scope, "preset_deg", {0, 90}) * kDegree;
+  group.amplitude_rad = reader.number(table, scope, "amplitude_deg", bounds(kGaitBounds.amplitude_deg)) * kDegree;
+  group.offset_rad = reader.number(table, scope, "offset_deg", bounds(kGaitBounds.offset_deg, 0.0)) * kDegree;
+  group.lambda = reader.number(table, scope, "lambda", bounds(kGaitBounds.lambda));
+  group.delta_rad = reader.number(table, scope, "delta_deg", bounds(kGaitBounds.delta_deg, 0.0)) * kDegree;
+  group.preset_rad = reader.number(table, scope, "preset_deg", bounds(kGaitBounds.preset_deg)) * kDegree;
   return group;
 }
 
@@ -181,21 +121,34 @@ void check_whole(Reader& reader, const GaitParams& gait) {
   reader.problem("steering.group", gait.steering->group, "no such group", names);
 }
 
+/// A gait of keyframes has no waves.
+Gait load_motion(Reader& reader, Problems& problems, const toml::table& root, const std::string& file) {
+  GaitParams gait;
+  gait.file = file;
+  gait.title = reader.text(root, "", "title");
+  gait.period_ns = std::llround(reader.number(root, "", "period_s", {1e-3, 1, 0.01}) * 1e9);
+  gait.motion = read_motion(reader, root);
+  problems.throw_if_any();
+  return Gait(std::move(gait));
+}
+
 }  // namespace
 
 Gait Gait::load(const std::filesystem::path& file) {
   const toml::table root = with_bases(file, 0);
   Problems problems;
   Reader reader(file.string(), problems);
+  if (root.contains("keyframe")) return load_motion(reader, problems, root, file.string());
   reader.only(root, "", {"base", "title", "frequency_rad_per_s", "ramp_s", "period_s", "group", "steering"});
   GaitParams gait;
   gait.file = file.string();
   gait.title = reader.text(root, "", "title");
-  gait.frequency_rad_per_s = reader.number(root, "", "frequency_rad_per_s", {0.01, 1000});
+  gait.frequency_rad_per_s = reader.number(root, "", "frequency_rad_per_s", bounds(kGaitBounds.frequency_rad_per_s));
   gait.ramp_s = reader.number(root, "", "ramp_s", {0, 1000, 0.0});
   gait.period_ns = std::llround(reader.number(root, "", "period_s", {1e-3, 1, 0.01}) * 1e9);
   const toml::table* groups = root["group"].as_table();
-  if (groups == nullptr || groups->empty()) reader.problem("group", "", "missing: a gait needs at least one [group.NAME]", "");
+  if (groups == nullptr || groups->empty())
+    reader.problem("group", "", "missing: a gait needs at least one [group.NAME] or [[keyframe]]", "");
   for (std::size_t i = 0; groups != nullptr && i < groups->size(); ++i) {
     const auto entry = std::next(groups->begin(), static_cast<std::ptrdiff_t>(i));
     const auto& [key, node] = *entry;

@@ -69,12 +69,12 @@ class Writer {
     for (std::size_t k = 0; k < link.collisions.size(); ++k) {
       const Collision& c = link.collisions[k];
       if (endless(c)) {
-        geom(c, link.pose, ground_);
+        geom(c, geom_name(node.link, k), link.pose, ground_);
         continue;
       }
       const bool apart = parts(node.link) > 1;
       if (apart) to += fmt::format("<body name=\"{}\">\n", part_name(node.link, k));
-      geom(c, Pose3(), to);
+      geom(c, geom_name(node.link, k), Pose3(), to);
       if (apart) to += "</body>\n";
     }
     for (const std::size_t i : children_[node.link]) body(tree_[i], to);
@@ -154,15 +154,15 @@ class Writer {
     return index;
   }
 
-  void geom(const Collision& c, const Pose3& at, std::string& to) {
+  void geom(const Collision& c, const std::string& name, const Pose3& at, std::string& to) {
     Pose3 pose = at * c.pose * c.geometry.offset;
     if (c.geometry.heightmap) pose = pose * Pose3(c.geometry.heightmap->centre, ignition::math::Quaterniond::Identity);
     const auto it = std::find(classes_.begin(), classes_.end(), FrictionClass{c.surface.mu, c.surface.torsional_m});
     const auto priority = classes_.end() - it;
     const int condim = c.surface.mu < kSmallestMu ? 1 : c.surface.torsional_m > 0 ? 4 : 3;
-    to += fmt::format("<geom {} {} friction=\"{} {} 0\" condim=\"{}\" priority=\"{}\" contype=\"{}\" conaffinity=\"{}\"/>\n",
-                      shape(c.geometry), place(pose), c.surface.mu, c.surface.torsional_m, condim, priority, c.surface.mask,
-                      c.surface.mask);
+    to += fmt::format(
+        "<geom name=\"{}\" {} {} friction=\"{} {} 0\" condim=\"{}\" priority=\"{}\" contype=\"{}\" conaffinity=\"{}\"/>\n", name,
+        shape(c.geometry), place(pose), c.surface.mu, c.surface.torsional_m, condim, priority, c.surface.mask, c.surface.mask);
   }
 
   // MuJoCo 2.2.2's broad phase
@@ -221,6 +221,7 @@ class Writer {
 std::string body_name(std::size_t link) { return fmt::format("b{}", link); }
 std::string joint_name(std::size_t joint, std::size_t axis) { return fmt::format("j{}_{}", joint, axis); }
 std::string free_joint_name(std::size_t link) { return fmt::format("f{}", link); }
+std::string geom_name(std::size_t link, std::size_t collision) { return fmt::format("g{}_{}", link, collision); }
 
 double heightmap_scale(const Heightmap& map) { return std::max(map.highest(), 1e-6); }
 

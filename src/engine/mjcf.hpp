@@ -37,5 +37,6 @@ struct Mjcf {
 [[nodiscard]] std::string body_name(std::size_t link);
 [[nodiscard]] std::string joint_name(std::size_t joint, std::size_t axis = 0);
 [[nodiscard]] std::string free_joint_name(std::size_t link);
+[[nodiscard]] std::string geom_name(std::size_t link, std::size_t collision);
 
 }  // namespace vsa::engine

@@ -39,6 +39,7 @@ MujocoPhysics::MujocoPhysics(ModelPtr model, const WorldDescription& world, cons
   const mjModel* m = model_.get();
   q_owner_.resize(static_cast<std::size_t>(m->nq));
   v_owner_.resize(static_cast<std::size_t>(m->nv));
+  link_of_geom_.resize(static_cast<std::size_t>(m->ngeom));
   const auto own = [&](int id, const std::string& name) {
     const int q_end = id + 1 < m->njnt ? m->jnt_qposadr[id + 1] : m->nq, v_end = id + 1 < m->njnt ? m->jnt_dofadr[id + 1] : m->nv;
     std::fill(q_owner_.begin() + m->jnt_qposadr[id], q_owner_.begin() + q_end, name);
@@ -47,6 +48,11 @@ MujocoPhysics::MujocoPhysics(ModelPtr model, const WorldDescription& world, cons
   for (std::size_t l = 0; l < world.links.size(); ++l) {
     body_.push_back(mj_name2id(m, mjOBJ_BODY, body_name(l).c_str()));
     mass_.push_back(world.links[l].is_static ? 0.0 : world.links[l].mass);
+    static_.push_back(world.links[l].is_static);
+    for (std::size_t k = 0; k < world.links[l].collisions.size(); ++k) {
+      const int geom = mj_name2id(m, mjOBJ_GEOM, geom_name(l, k).c_str());
+      if (geom >= 0) link_of_geom_[static_cast<std::size_t>(geom)] = l;
+    }
   }
   for (std::size_t j = 0; j < world.joints.size(); ++j) {
     for (std::size_t k = 0; k < 2; ++k) {
@@ -63,6 +69,8 @@ MujocoPhysics::MujocoPhysics(ModelPtr model, const WorldDescription& world, cons
   }
   unit_.resize(static_cast<std::size_t>(m->nv));
   column_.resize(unit_.size());
+  jacobian_.resize(3 * unit_.size());
+  mobility_.resize(3 * unit_.size());
   make_data();
   before_ = save().values;
 }
@@ -154,6 +162,7 @@ std::optional<Fault> MujocoPhysics::advance() {
   }
   if (fault) restore({before_});
   changed();
+  stepped_ = !fault;
   return fault;
 }
 
@@ -180,6 +189,7 @@ void MujocoPhysics::restore(const PhysicsState& state) {
   mju_copy(data_->qvel, state.values.data() + m->nq, m->nv);
   mju_copy(data_->qacc_warmstart, state.values.data() + m->nq + m->nv, m->nv);
   for (mjWarningStat& warning : data_->warning) warning = {};
+  stepped_ = false;
   changed();
 }
 

@@ -27,6 +27,7 @@ class MujocoPhysics final : public Physics {
   void prepare() override;
   double inverse_inertia(std::size_t joint) override;
   void apply(std::size_t joint, double torque) override;
+  void pull(const Pull& pull) override;
   std::optional<Fault> advance() override;
   JointState joint(std::size_t joint) const override;
   void set_joint(std::size_t joint, JointState state) override;
@@ -35,6 +36,7 @@ class MujocoPhysics final : public Physics {
   bool displace(std::span<const std::size_t> links, double yaw, const Vec3& shift) override;
   World::Energy energy() const override;
   int contact_count() const override;
+  void contacts(std::vector<Contact>& out) const override;
   PhysicsState save() const override;
   void restore(const PhysicsState& state) override;
 
@@ -53,12 +55,15 @@ class MujocoPhysics final : public Physics {
   DataPtr data_;
   DataPtr view_;  // kinematics of the present state, brought up to date when somebody looks
   mutable bool view_stale_ = true;
-  std::vector<int> body_;       // of a link
+  std::vector<int> body_;  // of a link
+  std::vector<std::size_t> link_of_geom_;
+  std::vector<bool> static_;    // of a link
   std::vector<double> mass_;    // of a link
   std::vector<Address> joint_;  // of a one-axis joint
   std::vector<int> root_;       // of a link: the joint id of its free root, −1: tied to the world
   std::vector<std::string> q_owner_, v_owner_;
-  std::vector<mjtNum> before_, unit_, column_;
+  std::vector<mjtNum> before_, unit_, column_, jacobian_, mobility_;
+  bool stepped_ = false;  // data_ holds the contacts of the last step
 };
 
 }  // namespace vsa::engine

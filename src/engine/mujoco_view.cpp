@@ -94,6 +94,28 @@ int MujocoPhysics::contact_count() const {
   return view_->ncon;
 }
 
+void MujocoPhysics::contacts(std::vector<Contact>& out) const {
+  out.clear();
+  if (!stepped_) return;
+  const mjData* d = data_.get();
+  for (int i = 0; i < d->ncon; ++i) {
+    const mjContact& c = d->contact[i];
+    if (c.efc_address < 0) continue;
+    mjtNum wrench[6], force[3];
+    mj_contactForce(model_.get(), d, i, wrench);  // on the second body, in the contact's frame, whose axes are rows
+    mju_rotVecMatT(force, wrench, c.frame);
+    Contact contact{{c.pos[0], c.pos[1], c.pos[2]},
+                    {force[0], force[1], force[2]},
+                    link_of_geom_[static_cast<std::size_t>(c.geom2)],
+                    link_of_geom_[static_cast<std::size_t>(c.geom1)]};
+    if (static_[contact.link]) {
+      std::swap(contact.link, contact.other);
+      for (double& f : contact.force_N) f = -f;
+    }
+    out.push_back(contact);
+  }
+}
+
 std::unique_ptr<Physics> make_mujoco(const WorldDescription& world, double step_s, std::string_view file, Problems& problems) {
   const std::vector<TreeNode> tree = build_tree(world, file, problems);
   if (!problems.empty()) return nullptr;

@@ -43,6 +43,8 @@ class Physics {
   /// (M⁻¹)_jj of a one-axis joint, 1/(kg·m²); valid between prepare() and advance().
   [[nodiscard]] virtual double inverse_inertia(std::size_t joint) = 0;
   virtual void apply(std::size_t joint, double torque) = 0;
+  /// Adds the spring's force to what is applied; after all apply() of the step.
+  virtual void pull(const Pull& pull) = 0;
   /// A fault leaves the state as it was at prepare().
   [[nodiscard]] virtual std::optional<Fault> advance() = 0;
 
@@ -56,6 +58,7 @@ class Physics {
   /// With positions moved back by half a step, velocities as they are.
   [[nodiscard]] virtual World::Energy energy() const = 0;
   [[nodiscard]] virtual int contact_count() const = 0;
+  virtual void contacts(std::vector<Contact>& out) const = 0;  ///< of the last advance(); none where the state was set since
 
   [[nodiscard]] virtual PhysicsState save() const = 0;
   virtual void restore(const PhysicsState& state) = 0;

@@ -4,6 +4,7 @@
 #include <sdf/Model.hh>
 
 #include "read_context.hpp"
+#include "vsa/config/older_plugin.hpp"
 #include "vsa/config/plugin_xml.hpp"
 
 namespace vsa::engine {
@@ -14,7 +15,10 @@ void read_plugins(ReadContext& c, const sdf::ElementPtr& element, const ModelSco
   for (sdf::ElementPtr p = child(element, "plugin"); p; p = p->GetNextElement("plugin")) {
     const std::string name = p->GetAttribute("name") ? p->GetAttribute("name")->GetAsString() : std::string{};
     if (name != config::kPluginName) {
-      c.notes.add("foreign plugins are left out", scope.name + "/plugin[" + name + "]");
+      const bool older = config::is_older_plugin(p->ToString(""));
+      c.notes.add(older ? "plugins of older actuator toolboxes are left out (vsa doctor WORLD writes them anew)"
+                        : "foreign plugins are left out",
+                  scope.name + "/plugin[" + name + "]");
     } else if (scope.is_static) {
       c.problem(p, scope.name + "/plugin[" + name + "]", "", "its model is static, so its joints can't move",
                 "a model that isn't static");

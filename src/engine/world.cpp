@@ -13,6 +13,8 @@
 namespace vsa::engine {
 namespace {
 
+constexpr double kPullReach_m = 1e4;
+
 /// "a, b, c" without doubles.
 std::string list(std::vector<std::string> names) {
   std::sort(names.begin(), names.end());
@@ -85,6 +87,29 @@ const std::vector<LinkInfo>& World::links() const noexcept { return impl_->world
 void World::poses(std::span<Pose> out) const { impl_->physics->poses(out); }
 World::Energy World::energy() const { return impl_->physics->energy(); }
 int World::contact_count() const noexcept { return impl_->physics->contact_count(); }
+void World::contacts(std::vector<Contact>& out) const { impl_->physics->contacts(out); }
+const std::vector<Pull>& World::pulls() const noexcept { return impl_->pulls; }
+
+void World::pull(std::vector<Pull> pulls) {
+  Problems problems;
+  const auto in = [&](const char* key, double value, double low, double high) {
+    if (!(value >= low && value <= high)) {
+      problems.add({"", key, fmt::format("{}", value), "out of range", fmt::format("{} … {}", low, high)});
+    }
+  };
+  for (const Pull& p : pulls) {
+    if (p.link >= links().size() || links()[p.link].is_static) {
+      problems.add({"", "link", std::to_string(p.link), "is no link that moves", "an index into links()"});
+    }
+    for (const double x : p.point_m) in("point_m", x, -kPullReach_m, kPullReach_m);
+    for (const double x : p.target_m) in("target_m", x, -kPullReach_m, kPullReach_m);
+    in("stiffness_N_per_m", p.stiffness_N_per_m, 0, 1e5);
+    in("damping_Ns_per_m", p.damping_Ns_per_m, 0, 1e4);
+    in("force_max_N", p.force_max_N, 0, 1e4);
+  }
+  problems.throw_if_any();
+  impl_->pulls = std::move(pulls);
+}
 
 std::vector<std::size_t> World::Impl::links_of(std::string_view model) const {
   const std::string prefix = std::string(model) + "::";

@@ -35,6 +35,7 @@ struct World::Impl {
   std::unique_ptr<Physics> physics;
   std::vector<RobotSlot> robots;
   std::vector<ActuatorRef> actuators;
+  std::vector<Pull> pulls;
   std::int64_t dt_ns = 0, time_ns = 0, steps = 0;
   bool refresh = true;  ///< inverse inertias are asked for in the next step whatever its number
   std::shared_ptr<const Snapshot> initial;

@@ -4,7 +4,7 @@
 //   1  prepare()              everything that depends on q
 //   2  every 16th step        (M⁻¹)_jj of every driven joint, which only serves the robots' prediction
 //   3  Robot::advance         q, v → torque, for [t, t + dt)
-//   4  apply, advance()       v' = v + dt·a, q' = q + dt·v'
+//   4  apply, hands, advance()  v' = v + dt·a, q' = q + dt·v'
 // After a fault in 4 physics and robots are put back to where they were before 1.
 #include <fmt/format.h>
 
@@ -40,6 +40,7 @@ void World::Impl::step() {
   for (const RobotSlot& slot : robots) before.push_back(slot.robot.snapshot());
   physics->prepare();
   drive();
+  for (const Pull& pull : pulls) physics->pull(pull);
   if (const std::optional<Fault> fault = physics->advance()) {
     for (std::size_t i = 0; i < robots.size(); ++i) robots[i].robot.restore(*before[i]);
     refresh = true;
@@ -83,7 +84,10 @@ void World::run(double duration_s) {
 
 std::shared_ptr<const World::Snapshot> World::snapshot() const { return impl_->snapshot(); }
 void World::restore(const Snapshot& s) { impl_->restore(s); }
-void World::reset() { impl_->restore(*impl_->initial); }
+void World::reset() {
+  impl_->restore(*impl_->initial);
+  impl_->pulls.clear();
+}
 void World::make_initial() { impl_->initial = impl_->snapshot(); }
 
 }  // namespace vsa::engine

@@ -64,19 +64,40 @@ void drop_odd(std::vector<float>& frames, std::size_t width) {
 
 }  // namespace
 
-PageData::PageData(const RunInfo& info, double rate_Hz, std::size_t frames_max)
-    : rate_Hz_(rate_Hz), frames_max_(frames_max), cadence_(rate_Hz) {
-  for (std::size_t i = 0; i < info.links.size(); ++i) {
-    if (!info.links[i].is_static) moving_.push_back(i);
+void Frame::clear() {
+  for (auto* v : {&poses, &readings, &energy}) v->clear();
+}
+
+void Frame::append(const Sample& sample, const std::vector<std::size_t>& moving) {
+  const auto f = [](double v) { return static_cast<float>(v); };
+  for (const std::size_t i : moving) {
+    for (const double v : sample.poses[i].position) poses.push_back(f(v));
+    for (const double v : sample.poses[i].quaternion) poses.push_back(f(v));
   }
+  for (const Reading& r : sample.actuators) {
+    for (const Channel& c : kChannels) readings.push_back(f(c.value(r)));
+  }
+  for (const EnergyColumn& c : kEnergyColumns) energy.push_back(f(c.value(sample)));
+}
+
+std::vector<std::size_t> moving_links(const RunInfo& info) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < info.links.size(); ++i) {
+    if (!info.links[i].is_static) out.push_back(i);
+  }
+  return out;
+}
+
+PageData::PageData(const RunInfo& info, double rate_Hz, std::size_t frames_max)
+    : moving_(moving_links(info)), rate_Hz_(rate_Hz), frames_max_(frames_max), cadence_(rate_Hz) {
   for (const RobotInfo& r : info.robots) actuators_ += r.actuators.size();
 }
 
 void PageData::halve() {
   drop_odd(time_, 1);
-  drop_odd(poses_, moving_.size() * kPoseNumbers);
-  drop_odd(readings_, actuators_ * kChannels.size());
-  drop_odd(energy_, kEnergyColumns.size());
+  drop_odd(data_.poses, moving_.size() * kPoseNumbers);
+  drop_odd(data_.readings, actuators_ * kChannels.size());
+  drop_odd(data_.energy, kEnergyColumns.size());
   rate_Hz_ /= 2;
   cadence_ = Cadence(rate_Hz_);
 }
@@ -84,31 +105,24 @@ void PageData::halve() {
 void PageData::add(const Sample& sample) {
   if (time_.empty()) first_ = sample.poses;
   if (frames() >= frames_max_) halve();
-  const auto f = [](double v) { return static_cast<float>(v); };
-  time_.push_back(f(static_cast<double>(sample.time_ns) / 1e9));
-  for (const std::size_t i : moving_) {
-    for (const double v : sample.poses[i].position) poses_.push_back(f(v));
-    for (const double v : sample.poses[i].quaternion) poses_.push_back(f(v));
-  }
-  for (const Reading& r : sample.actuators) {
-    for (const Channel& c : kChannels) readings_.push_back(f(c.value(r)));
-  }
-  for (const EnergyColumn& c : kEnergyColumns) energy_.push_back(f(c.value(sample)));
+  time_.push_back(static_cast<float>(static_cast<double>(sample.time_ns) / 1e9));
+  data_.append(sample, moving_);
   cadence_.taken(sample.time_ns);
 }
 
 void PageData::restart() {
-  for (auto* v : {&time_, &poses_, &readings_, &energy_}) v->clear();
+  time_.clear();
+  data_.clear();
   cadence_.restart();
 }
 
 std::string PageData::json(const RunInfo& info, const PageText& text) const {
   std::string out = "{" + page_header(info, text, first_);
-  out += ",\n\"frames\":" + std::to_string(frames()) + ",\n\"time\":\"" + base64(time_) + "\",\n\"poses\":\"" + base64(poses_);
+  out += ",\n\"frames\":" + std::to_string(frames()) + ",\n\"time\":\"" + base64(time_) + "\",\n\"poses\":\"" + base64(data_.poses);
   out += "\",\n\"actuator_channels\":" + names(kChannels) + ",\n\"actuators\":\"";
-  out += base64(by_channel(readings_, actuators_ * kChannels.size()));
+  out += base64(by_channel(data_.readings, actuators_ * kChannels.size()));
   out += "\",\n\"energy_channels\":" + names(kEnergyColumns) + ",\n\"energy\":\"";
-  return out + base64(by_channel(energy_, kEnergyColumns.size())) + "\"}";
+  return out + base64(by_channel(data_.energy, kEnergyColumns.size())) + "\"}";
 }
 
 std::string read_template(const std::filesystem::path& file) {

@@ -6,6 +6,17 @@
 namespace vsa::record {
 namespace {
 
+ActuatorInfo describe(const host::ActuatorConfig& config) {
+  ActuatorInfo info{config.name, config.joint, config.preset, "", 2, {}};
+  if (const auto& law = config.unit.actuator.transmission) {
+    info.preset_unit = law->preset_unit();
+    info.motors = law->motor_count();
+  }
+  return info;
+}
+
+}  // namespace
+
 void read(const engine::World& world, Sample& sample) {
   sample.time_ns = world.time_ns();
   sample.actuators.clear();
@@ -19,17 +30,6 @@ void read(const engine::World& world, Sample& sample) {
   sample.kinetic_J = energy.kinetic;
   sample.gravitational_J = energy.gravitational;
 }
-
-ActuatorInfo describe(const host::ActuatorConfig& config) {
-  ActuatorInfo info{config.name, config.joint, config.preset, "", 2, {}};
-  if (const auto& law = config.unit.actuator.transmission) {
-    info.preset_unit = law->preset_unit();
-    info.motors = law->motor_count();
-  }
-  return info;
-}
-
-}  // namespace
 
 RunInfo describe(const engine::World& world) {
   RunInfo info{world.name(), world.step_s(), {}, world.links()};

@@ -22,21 +22,23 @@ fs::path directory() {
   return runtime != nullptr && fs::is_directory(runtime, none) ? fs::path(runtime) : fs::path("/tmp");
 }
 
-/// Its owner holds a lock on the file beside it.
-bool alive(const fs::path& link) {
+enum class Which { all, served, left_behind };
+
+/// Its owner holds a lock on the file beside it; one that was killed leaves that file.
+bool is(const fs::path& link, Which which) {
   const std::string lock = (link.parent_path() / ("." + link.filename().string() + ".lock")).string();
   const Descriptor fd(open(lock.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NOCTTY | O_NONBLOCK));
-  return fd && flock(fd.get(), LOCK_SH | LOCK_NB) != 0;
+  return fd && (flock(fd.get(), LOCK_SH | LOCK_NB) != 0) == (which == Which::served);
 }
 
-std::vector<std::string> names_in(const fs::path& where, std::string_view prefix, bool links) {
+std::vector<std::string> names_in(const fs::path& where, std::string_view prefix, Which which) {
   std::vector<std::string> names;
   std::error_code error;
   for (fs::directory_iterator at(where, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
     std::error_code ignored;
-    if (name.rfind(prefix, 0) != 0 || (links && !at->is_symlink(ignored))) continue;
-    if (!links || alive(at->path())) names.push_back(at->path().string());
+    if (name.rfind(prefix, 0) != 0 || (which != Which::all && !at->is_symlink(ignored))) continue;
+    if (which == Which::all || is(at->path(), which)) names.push_back(at->path().string());
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -52,9 +54,10 @@ std::string port_path(std::string_view name) {
 
 PortList find_ports() {
   PortList list;
-  list.virtual_ports = names_in(directory(), kPrefix, true);
+  list.virtual_ports = names_in(directory(), kPrefix, Which::served);
+  list.left_behind = names_in(directory(), kPrefix, Which::left_behind);
   for (const char* prefix : {"ttyUSB", "ttyACM"}) {
-    const auto found = names_in("/dev", prefix, false);
+    const auto found = names_in("/dev", prefix, Which::all);
     list.devices.insert(list.devices.end(), found.begin(), found.end());
   }
   return list;

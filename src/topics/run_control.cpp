@@ -46,7 +46,16 @@ RunControl::Next RunControl::next(std::int64_t time_ns) {
 
 void RunControl::wait(std::chrono::milliseconds limit) {
   std::unique_lock lock(mutex_);
-  arrived_.wait_for(lock, limit, [this] { return !requests_.empty(); });
+  arrived_.wait_for(lock, limit, [this] { return !requests_.empty() || woken_; });
+  woken_ = false;
+}
+
+void RunControl::wake() {
+  {
+    const std::lock_guard lock(mutex_);
+    woken_ = true;
+  }
+  arrived_.notify_all();
 }
 
 }  // namespace vsa::topics

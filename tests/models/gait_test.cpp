@@ -215,5 +215,86 @@ TEST_F(Steering, IgnoresAWobbleWithTheGaitsOwnPeriod) {
   EXPECT_NEAR(state_.phase_rad, 0.0, 1e-9);
 }
 
+double largest_jump(const Gait& gait, double from_s, double to_s) {
+  double largest = 0;
+  for (const GaitGroup& g : gait.params().groups) {
+    double last = gait.equilibrium(g, 1, from_s);
+    for (double t = from_s; t < to_s; t += 1e-3) {
+      const double now = gait.equilibrium(g, 1, t);
+      largest = std::max(largest, std::abs(now - last));
+      last = now;
+    }
+  }
+  return largest;
+}
+
+TEST(GaitChange, NeverJumpsWhateverChanges) {
+  Gait gait = Gait::load(kGaits / "sidewind.toml");
+  const double before = gait.equilibrium(gait.params().groups[0], 2, 7.0);
+  GaitChange to = gait.values();
+  to.frequency_rad_per_s = 9;
+  to.groups[0] = {0.3, 0.2, 8, -2.5, 0.1};
+  gait.change(to, 7.0);
+  EXPECT_NEAR(gait.equilibrium(gait.params().groups[0], 2, 7.0), before, 1e-12);
+  // A·ω·1 ms and what the blends of amplitude, offset and phases add in a second's 1000 steps
+  EXPECT_LT(largest_jump(gait, 7.0, 12.0), 1.05 * (9 + 5) * 1e-3);
+  // Changed again before the first change is through:
+  to.frequency_rad_per_s = 2;
+  to.groups[0].amplitude_rad = 1;
+  Gait twice = gait;
+  const double between = twice.equilibrium(twice.params().groups[0], 2, 7.4);
+  twice.change(to, 7.4);
+  EXPECT_NEAR(twice.equilibrium(twice.params().groups[0], 2, 7.4), between, 1e-12);
+  EXPECT_LT(largest_jump(twice, 7.4, 12.0), 1.05 * (9 + 5) * 1e-3);
+}
+
+TEST(GaitChange, PlaysTheNewValuesAfterTheBlend) {
+  Gait gait = Gait::load(kGaits / "sidewind.toml");
+  GaitChange to = gait.values();
+  to.frequency_rad_per_s = 6;
+  to.groups[0] = {0.25, 0.1, 4, 0.5, 0.2};
+  gait.change(to, 10.0);
+  const GaitGroup& g = gait.params().groups[0];
+  double least = 10, most = -10, crossings = 0, last = 0;
+  for (double t = 11.0; t < 11.0 + 10 * 2 * kPi / 6; t += 1e-3) {
+    const double y = gait.equilibrium(g, 0, t);
+    least = std::min(least, y), most = std::max(most, y);
+    if (last < 0.1 && y >= 0.1) ++crossings;
+    last = y;
+  }
+  EXPECT_NEAR(most, 0.35, 1e-5);
+  EXPECT_NEAR(least, -0.15, 1e-5);
+  EXPECT_NEAR(crossings, 10, 1);
+}
+
+TEST(GaitChange, RefusesNumbersThatAFileMayNotSayAndChangesNothing) {
+  Gait gait = Gait::load(kGaits / "sidewind.toml");
+  const GaitChange good = gait.values();
+  const auto refused = [&](auto&& spoil) {
+    GaitChange bad = good;
+    spoil(bad);
+    EXPECT_THROW(gait.change(bad, 1.0), InputError);
+    EXPECT_EQ(gait.values().groups[0].amplitude_rad, good.groups[0].amplitude_rad);
+    EXPECT_FALSE(gait.state().blend);
+  };
+  refused([](GaitChange& c) { c.frequency_rad_per_s = 0; });
+  refused([](GaitChange& c) { c.frequency_rad_per_s = NAN; });
+  refused([](GaitChange& c) { c.groups[0].amplitude_rad = 3; });
+  refused([](GaitChange& c) { c.groups[1].lambda = 0; });
+  refused([](GaitChange& c) { c.groups[1].preset_rad = INFINITY; });
+  refused([](GaitChange& c) { c.groups.pop_back(); });
+}
+
+TEST(GaitChange, AHeldGaitGoesOnWhereItStood) {
+  Gait gait = Gait::load(kGaits / "sidewind.toml");
+  const GaitGroup& g = gait.params().groups[0];
+  const double before = gait.equilibrium(g, 3, 5.0);
+  gait.hold(5.0);
+  EXPECT_TRUE(gait.held());
+  gait.resume(8.3);
+  EXPECT_FALSE(gait.held());
+  EXPECT_NEAR(gait.equilibrium(g, 3, 8.3), before, 1e-12);
+}
+
 }  // namespace
 }  // namespace vsa::engine

@@ -48,6 +48,18 @@ TEST(Generator, WritesExactlyTheCommittedFiles) {
   }
 }
 
+TEST(Generator, WritesExactlyTheCommittedBridges) {
+  const fs::path ros2 = fs::path(VSA_SOURCE_DIR) / "ros2";
+  const Files files = bridges(generated());
+  EXPECT_TRUE(files.contains("config/qbmove_snake/bridge.yaml"));
+  for (const auto& [name, expected] : files)
+    EXPECT_TRUE(content(ros2 / name) == expected) << name << " differs: run vsa-generate models/robots.toml models ros2";
+  for (const auto& entry : fs::recursive_directory_iterator(ros2 / "config")) {
+    const std::string name = fs::relative(entry.path(), ros2).generic_string();
+    EXPECT_TRUE(!entry.is_regular_file() || files.contains(name)) << name << " isn't generated";
+  }
+}
+
 TEST(Generator, NothingElseLiesAmongTheModels) {
   const Files files = generated();
   for (const auto& entry : fs::recursive_directory_iterator(kModels)) {

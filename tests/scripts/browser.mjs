@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the page tests share: node SOME.test.mjs PAGES NPM [CHROMIUM] opens PAGES/NAME/FILE in Debian's Chromium. playwright-core comes
+// What the page tests share: node SOME.test.mjs PAGES NPM [CHROMIUM] opens PAGES/NAME/FILE in Debian's Chromium; visit() opens any
+// address. playwright-core comes
 // from NPM/node_modules. Without Chromium it says so and ends with 77, which ctest reports as skipped.
 import { existsSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -21,15 +22,20 @@ const kPatience = { timeout: 90_000 }; // software rendering on a busy machine
 
 export const launch = (...more) => chromium.launch({ executablePath: chromiumPath, args: [...kArguments, ...more], ...kPatience });
 
-/** Opens PAGES/name/file; `wrong` fills with console errors, exceptions and requests that leave the file. */
-export async function open(browser, name, file, context = {}) {
+/** Opens an address; `wrong` fills with console errors, exceptions and requests that `allowed` doesn't allow. */
+export async function visit(browser, url, allowed, context = {}) {
   const tab = await (await browser.newContext({ viewport: { width: 1000, height: 640 }, reducedMotion: 'reduce', ...context })).newPage();
   tab.setDefaultTimeout(kPatience.timeout);
-  const url = pathToFileURL(join(pages, name, file)).href;
   const wrong = [];
   tab.on('console', (m) => m.type() === 'error' && wrong.push(`console: ${m.text()}`));
   tab.on('pageerror', (e) => wrong.push(`exception: ${e.stack}`));
-  tab.on('request', (r) => r.url().split('#')[0] !== url && !/^(data|blob):/.test(r.url()) && wrong.push(`request: ${r.url()}`));
-  await tab.goto(url);
+  tab.on('request', (r) => !allowed(r.url()) && !/^(data|blob):/.test(r.url()) && wrong.push(`request: ${r.url()}`));
+  await tab.goto(url, { ...kPatience, waitUntil: 'domcontentloaded' });
   return { tab, wrong, close: () => tab.context().close() };
+}
+
+/** Opens PAGES/name/file, which may ask for nothing but itself. */
+export function open(browser, name, file, context = {}) {
+  const url = pathToFileURL(join(pages, name, file)).href;
+  return visit(browser, url, (asked) => asked.split('#')[0] === url, context);
 }

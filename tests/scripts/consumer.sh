@@ -28,3 +28,35 @@ grep -qE '^asked for 10°: the shaft is at (7|8|9|10|11|12)' "$work/moved"
 kill $emulate
 wait $emulate
 test ! -e "$work/port"
+
+# What setup.sh sets, in a shell where unset variables are errors; and again, which changes nothing.
+prefix=$work/prefix
+unset VSA_DATA_DIR GAZEBO_PLUGIN_PATH GAZEBO_MODEL_PATH IGN_GAZEBO_RESOURCE_PATH IGN_GAZEBO_SYSTEM_PLUGIN_PATH GZ_SIM_SYSTEM_PLUGIN_PATH
+export GZ_SIM_RESOURCE_PATH=/somewhere/else
+. "$prefix/share/vsa/setup.sh"
+env | grep -v '^_=' | sort > "$work/once"
+. "$prefix/share/vsa/setup.sh"
+env | grep -v '^_=' | sort | diff "$work/once" -
+test "$VSA_DATA_DIR" = "$prefix/share/vsa"
+test "$GZ_SIM_RESOURCE_PATH" = "$prefix/share/vsa/models:/somewhere/else"
+test "$(command -v vsa)" = "$prefix/bin/vsa"
+
+# The hook of a colcon workspace says the same, relative to the prefix.
+count=0
+while IFS=';' read -r how variable path; do
+  eval "value=\$$variable"
+  case "$how $value" in
+    "set $prefix/$path" | "prepend-non-duplicate $prefix/$path" | "prepend-non-duplicate $prefix/$path:"*) count=$((count + 1)) ;;
+    *) echo "consumer.sh: vsa.dsv and setup.sh differ: $variable" >&2; exit 1 ;;
+  esac
+done < "$prefix/share/vsa/environment/vsa.dsv"
+test "$count" = 8
+test -r "$prefix/share/vsa/environment/vsa.sh"
+
+# The installed command, by its name alone. What else is wrong on this machine is none of this test's business.
+cd "$work"
+vsa doctor bench_load > "$work/doctor" || test $? = 1
+grep -qx "ok: data directory: $prefix/share/vsa" "$work/doctor"
+grep -qx "ok: GZ_SIM_RESOURCE_PATH: has vsasim's models" "$work/doctor"
+grep -q "^ok: world: $prefix/share/vsa/models/worlds/bench_load.sdf loads" "$work/doctor"
+vsa run bench_load --no-topics --duration-s 0.1

@@ -114,4 +114,13 @@ TEST(RunControl, TakesRequestsFromManyThreadsWithoutLosingAStep) {
   EXPECT_EQ(steps, 400);
 }
 
+TEST(RunControl, WhoIsWokenDoesntWaitOutTheLimit) {
+  RunControl control(true);
+  control.wake();
+  const auto start = std::chrono::steady_clock::now();
+  control.wait(std::chrono::hours(1));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::minutes(1));
+  EXPECT_EQ(control.next(0), Next::wait);
+}
+
 }  // namespace

@@ -4,7 +4,8 @@
 import Plotly from 'plotly.js-basic-dist-min';
 import { frameAt, valueAt } from './data.js';
 import { dashSample, element } from './marks.js';
-import { css, series } from './palette.js';
+import { css } from './palette.js';
+import { linesOf } from './panels.js';
 
 const kPointsMax = 60000; // points drawn at once; beyond that frames are skipped
 const kMargin = { l: 46, r: 8, t: 6, b: 20 };
@@ -49,7 +50,7 @@ export class Curves {
 
   fill(built, panel, sources) {
     const { plot, heading, keys, cursor } = built;
-    const lines = this.lines(panel, sources);
+    const lines = linesOf(panel, sources);
     heading.replaceChildren(panel.title + ' ', element('small', '', panel.unit));
     keys.replaceChildren();
     built.panel = panel;
@@ -65,19 +66,6 @@ export class Curves {
     plot.append(cursor);
     if (!built.listening) this.listen(built);
     built.listening = true;
-  }
-
-  lines(panel, sources) {
-    const colors = series();
-    return sources.flatMap((source) =>
-      panel.lines.map(([label, channel, dash], i) => ({
-        label: sources.length > 1 ? (panel.lines.length > 1 ? `${source.name} ${label}` : source.name) : label,
-        // One source: a colour a line. Several: a colour a source, as on its chip.
-        color: sources.length > 1 ? source.color : colors[i],
-        dash,
-        channel: source.data[channel],
-      })),
-    );
   }
 
   traces(panel, lines) {

@@ -38,13 +38,16 @@ export function readRun(text) {
       data: channels(readings, json.actuator_channels, frames, json.actuator_channels.length * n++),
     })),
   );
+  const energy = floats(json.energy);
   return {
     ...json,
     time,
     moving,
     poses: floats(json.poses),
     actuators,
-    energy: channels(floats(json.energy), json.energy_channels, frames, 0),
+    readings, // of all actuators; their data are views of it
+    energyValues: energy,
+    energy: channels(energy, json.energy_channels, frames, 0),
     geometries: json.geometries.map((g) => ({ vertices: floats(g.vertices), indices: Uint32Array.from(floats(g.indices)) })),
     start: frames ? time[0] : 0,
     end: frames ? time[frames - 1] : 0,

@@ -2,6 +2,8 @@
 //
 // Which curves there are. A line: [name, channel, dash]; `scale` takes the recorded unit to the shown one.
 
+import { series } from './palette.js';
+
 const kDegree = 180 / Math.PI;
 
 export function actuatorPanels(actuators) {
@@ -75,4 +77,18 @@ export function energyPanels() {
     { title: 'Motion of the bodies', unit: 'J', scale: 1, digits: 3, lines: [['kinetic', 'kinetic', 'solid']] },
     { title: 'Height of the bodies', unit: 'J', scale: 1, digits: 3, lines: [['gravitational', 'gravitational', 'solid']] },
   ];
+}
+
+/** What a panel draws of these sources: [{label, color, dash, channel}]. */
+export function linesOf(panel, sources) {
+  const colors = series();
+  return sources.flatMap((source) =>
+    panel.lines.map(([label, channel, dash], i) => ({
+      label: sources.length > 1 ? (panel.lines.length > 1 ? `${source.name} ${label}` : source.name) : label,
+      // One source: a colour a line. Several: a colour a source, as on its chip.
+      color: sources.length > 1 ? source.color : colors[i],
+      dash,
+      channel: source.data[channel],
+    })),
+  );
 }

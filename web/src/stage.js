@@ -12,10 +12,10 @@ import { Trace } from './trace.js';
 const kView = new THREE.Vector3(-0.3, -1, 0.5).normalize();
 
 export class Stage {
-  constructor(run, canvas) {
+  constructor(run, canvas, { antialias = true } = {}) {
     this.run = run;
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     this.renderer.toneMapping = THREE.NeutralToneMapping;
@@ -171,14 +171,24 @@ export class Stage {
     this.dirty = true;
   }
 
-  /** The link drawn at a place on the canvas (client coordinates), or -1. */
-  pick(x, y) {
+  /** The ray under a place on the canvas (client coordinates). */
+  ray(x, y) {
     const r = this.canvas.getBoundingClientRect();
     const at = new THREE.Vector2(((x - r.left) / r.width) * 2 - 1, 1 - ((y - r.top) / r.height) * 2);
     const ray = new THREE.Raycaster();
     ray.setFromCamera(at, this.camera);
-    const hit = ray.intersectObjects(this.groups)[0];
-    return hit?.object.userData.link ?? -1;
+    return ray;
+  }
+
+  /** What is drawn there: {link, point in the world}, or null. */
+  hit(x, y) {
+    const hit = this.ray(x, y).intersectObjects(this.groups)[0];
+    return hit ? { link: hit.object.userData.link ?? -1, point: hit.point } : null;
+  }
+
+  /** The link drawn there, or -1. */
+  pick(x, y) {
+    return this.hit(x, y)?.link ?? -1;
   }
 
   /** Where a link is on the canvas, CSS pixels from its corner; null when it is behind the camera. */

@@ -13,6 +13,9 @@
 //   goal = clamp(gain · wrap(ψ_target − ψ), ±limit_rad),   s moves towards goal by at most slew_rad_per_s.
 // A model that moved less than min_travel_m in the period has no direction: the last one holds.
 //
+// While it plays it can be changed (change()): amplitude, offset, π/λ, δ, preset and ω go to their new values linearly in kBlend_s
+// and the phase is ∫ω dt, so that commands never jump. Time that goes backwards starts over with the new values.
+//
 // A gait file (TOML; angles in degrees as in the paper's Table II):
 //
 //   base = "sidewind.toml"            # optional: begin with that file (same directory), then replace what follows
@@ -27,19 +30,29 @@
 //   offset_deg = 0.0                  # D
 //   lambda = 5.0                      # λ: modules a half wave
 //   delta_deg = 0.0                   # δ
-//   preset_deg = 35.0                 # stiffness preset (half difference); a unit accepts up to its preset_max (0.785 rad
-//   = 44.98°) [steering]                        # optional group = "horizontal" gain = 1.0                        # rad/rad;
-//   negative turns the other way limit_rad = 0.8 slew_rad_per_s = 0.35 min_travel_m = 0.03 target_deg = 90.0                 # in
-//   the world, from +x about +z; left out: the direction of travel after ramp and first period
+//   preset_deg = 35.0                 # half difference; a unit accepts up to its preset_max (0.785 rad = 44.98°)
+//
+//   [steering]                        # optional
+//   group = "horizontal"
+//   gain = 1.0                        # rad/rad; negative turns the other way
+//   limit_rad = 0.8
+//   slew_rad_per_s = 0.35
+//   min_travel_m = 0.03
+//   target_deg = 90.0                 # in the world, from +x about +z; left out: where it went after ramp and first period
+//
+// A file with [[keyframe]] is a motion instead of waves: see motion.hpp.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "vsa/engine/motion.hpp"
 #include "vsa/engine/world.hpp"
 
 namespace vsa::engine {
@@ -72,6 +85,31 @@ struct GaitParams {
   std::int64_t period_ns = 10'000'000;
   std::vector<GaitGroup> groups;
   std::optional<SteeringParams> steering;
+  std::optional<MotionParams> motion;  ///< keyframes; then there are no groups and frequency_rad_per_s is 0
+};
+
+struct GaitRange {
+  double min = 0, max = 0;
+};
+
+/// What files and changes may say.
+struct GaitBounds {
+  GaitRange frequency_rad_per_s{0.01, 1000};
+  GaitRange amplitude_deg{0, 160};
+  GaitRange offset_deg{-160, 160};
+  GaitRange lambda{0.1, 1000};
+  GaitRange delta_deg{-360, 360};
+  GaitRange preset_deg{0, 90};
+};
+inline constexpr GaitBounds kGaitBounds{};
+
+/// What of a group can be changed while it plays.
+struct WaveParams {
+  double amplitude_rad = 0, offset_rad = 0, lambda = 1, delta_rad = 0, preset_rad = 0;
+};
+struct GaitChange {
+  double frequency_rad_per_s = 0;
+  std::vector<WaveParams> groups;  ///< as many as the gait has, in its order
 };
 
 struct SteeringState {
@@ -85,9 +123,22 @@ struct SteeringState {
 void steer(const SteeringParams& params, SteeringState& state, std::array<double, 2> center, std::size_t window, double dt_s,
            bool engaged);
 
+/// Where the values were when they were last changed.
+struct GaitBlend {
+  double t_s = 0, phase_rad = 0;
+  GaitChange from;
+};
+
 struct GaitState {
   std::int64_t last_slot = -1;  ///< time_ns / period_ns of the last commands
   SteeringState steering;
+  std::optional<GaitBlend> blend;
+  std::optional<double> held_phase_rad;  ///< while it is held
+};
+
+/// Which commands of an actuator the gait leaves to somebody else.
+struct ByHand {
+  bool equilibrium = false, preset = false;
 };
 
 class Gait {
@@ -104,17 +155,36 @@ class Gait {
   void bind(const World& world);
   /// Call before every step: sends commands when a new control period has begun. Time that went backwards (a reset) starts over.
   void apply(World& world);
-  /// Forgets steering and the last commands.
+  /// Forgets steering, the last commands and what is left of a change.
   void reset();
+
+  static constexpr double kBlend_s = 1.0;
+  /// The values as files give them, for changing.
+  [[nodiscard]] GaitChange values() const;
+  /// From simulated time t_s on. Throws InputError with every number out of kGaitBounds.
+  void change(const GaitChange& to, double t_s);
+  /// No commands from now on: the last ones stay. resume() goes on with the phase where it stood.
+  void hold(double t_s);
+  void resume(double t_s);
+  [[nodiscard]] bool held() const noexcept { return state_.held_phase_rad.has_value(); }
+  /// From its next commands on. An actuator that isn't the gait's: false. A reset doesn't undo it.
+  bool leave(std::string_view actuator, ByHand by_hand);
+  [[nodiscard]] ByHand by_hand(std::string_view actuator) const;
 
   /// eq. (10) for the k-th actuator of a group at simulated time t.
   [[nodiscard]] double equilibrium(const GaitGroup& group, std::size_t k, double t_s) const;
 
  private:
+  void bind_motion(const World& world, Problems& problems) const;
+  void play_motion(World& world) const;
   void steer_model(const World& world, double t_s);
+  [[nodiscard]] WaveParams wave(const GaitGroup& group, double t_s) const;
+  [[nodiscard]] double frequency(double t_s) const;
+  [[nodiscard]] double phase(double t_s) const;
 
   GaitParams params_;
   GaitState state_;
+  std::map<std::string, ByHand, std::less<>> by_hand_;
   std::string model_;  // whose centre of mass steers
   bool bound_ = false;
 };

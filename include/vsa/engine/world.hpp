@@ -63,6 +63,24 @@ struct LinkInfo {
   std::vector<Shape> visuals;  ///< the SDF's visuals (collisions where a link has none)
 };
 
+/// A spring from a point of a link to a place in the world, as a hand pulls: F = k·(target − p) − c·ṗ with its damper, never more
+/// than force_max_N. Worked out implicitly, so that no stiffness of it shakes a light link.
+struct Pull {
+  std::size_t link = 0;              ///< into links(); one that isn't static
+  std::array<double, 3> point_m{};   ///< in the link's frame
+  std::array<double, 3> target_m{};  ///< in the world
+  double stiffness_N_per_m = 100;    ///< k, 0 … 1e5
+  double damping_Ns_per_m = 5;       ///< c, 0 … 1e4
+  double force_max_N = 20;           ///< 0 … 1e4
+};
+
+/// Where two bodies touched in the last step.
+struct Contact {
+  std::array<double, 3> position{};  ///< m, world
+  std::array<double, 3> force_N{};   ///< world; on `link` by `other`
+  std::size_t link = 0, other = 0;   ///< into links(); `link` isn't static
+};
+
 struct ActuatorRef {
   std::string model;                 ///< top-level model's name
   std::string name;                  ///< the actuator's
@@ -121,6 +139,14 @@ class World {
   [[nodiscard]] Energy energy() const;
   [[nodiscard]] actuator::Ledger ledger() const;  ///< over all robots
   [[nodiscard]] int contact_count() const noexcept;
+  /// The contacts that the last step worked with, each pair of points once; none before the first step and after a restore or
+  /// reset. Clears `out` first.
+  void contacts(std::vector<Contact>& out) const;
+
+  /// From the next step on these hands pull, and no others; none lets go. They are no part of the state: reset() lets go of all,
+  /// restore() leaves them as they are. Throws InputError for an unknown or static link and numbers out of range.
+  void pull(std::vector<Pull> pulls);
+  [[nodiscard]] const std::vector<Pull>& pulls() const noexcept;
 
   struct Snapshot;
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;

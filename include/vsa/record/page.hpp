@@ -23,6 +23,16 @@ struct PageText {
   std::vector<std::string> notes;  ///< what a reader must know, e.g. why the run ended early
 };
 
+/// One moment as the page holds it, one array after the other: poses of the links that move (x y z qw qx qy qz each), readings (the
+/// page's channels, an actuator after the other), energy columns.
+struct Frame {
+  std::vector<float> poses, readings, energy;
+  void clear();
+  void append(const Sample& sample, const std::vector<std::size_t>& moving);
+};
+/// Links that aren't static, in order.
+[[nodiscard]] std::vector<std::size_t> moving_links(const RunInfo& info);
+
 /// Collects frames at the page's rate. When `frames_max` is reached every other frame is dropped and the rate is halved from then
 /// on, so that a long run gives a page of bounded size.
 class PageData {
@@ -45,7 +55,8 @@ class PageData {
   double rate_Hz_;
   std::size_t frames_max_;
   Cadence cadence_;
-  std::vector<float> time_, poses_, readings_, energy_;  // frame after frame
+  std::vector<float> time_;
+  Frame data_;  // frame after frame
 };
 
 /// Reads the template and checks that it has the marker once. Throws InputError.

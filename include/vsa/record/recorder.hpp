@@ -68,6 +68,9 @@ class Recorder {
   RunRecord record_;
 };
 
+/// The present moment; reuses what `sample` holds.
+void read(const engine::World& world, Sample& sample);
+
 /// What stays the same over a run of this world.
 [[nodiscard]] RunInfo describe(const engine::World& world);
 

@@ -13,6 +13,7 @@ namespace vsa::serial {
 
 struct PortList {
   std::vector<std::string> virtual_ports;  ///< "vsa-…" in the place above; those whose owner was killed are left out
+  std::vector<std::string> left_behind;    ///< links of such ports whose owner was killed
   std::vector<std::string> devices;        ///< /dev/ttyUSB*, /dev/ttyACM*
 };
 [[nodiscard]] PortList find_ports();

@@ -39,8 +39,10 @@ class RunControl {
 
   /// The loop's thread: what to do now at this simulated time. `step` counts as done.
   [[nodiscard]] Next next(std::int64_t time_ns);
-  /// The loop's thread: until something is requested, at most `limit`.
+  /// The loop's thread: until something is requested or somebody wakes it, at most `limit`.
   void wait(std::chrono::milliseconds limit);
+  /// Any thread: ends the present wait, or the next.
+  void wake();
 
  private:
   mutable std::mutex mutex_;
@@ -48,6 +50,7 @@ class RunControl {
   std::deque<ControlRequest> requests_;
   std::optional<std::int64_t> run_to_ns_;
   std::uint64_t owed_ = 0;
+  bool woken_ = false;
   bool paused_;
 };
 

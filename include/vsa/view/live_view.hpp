@@ -1,0 +1,65 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A running world in any number of browsers: what pages ask for is checked in the server's thread, queued, and done by the run's
+// own loop between two steps; what the world does goes out as frames (frame.hpp), made only when a viewer would get one.
+//
+//   while (…) { view.serve();  …  world.step();  view.stepped(); }
+//
+// Texts to pages are JSON objects by "type":
+//   hello  once, first: what tells this run from others, limits of every actuator, the gait's groups and bounds, and all that
+//   `state` has state  whenever it changes: speed, gait (playing, values, what is commanded by hand), recording, recordings error
+//   what a page asked for was refused; it alone hears of it note   something all should know end    the run is over, with the
+//   reason
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "vsa/engine/gait.hpp"
+#include "vsa/engine/world.hpp"
+#include "vsa/topics/run_control.hpp"
+#include "vsa/view/server.hpp"
+
+namespace vsa::view {
+
+struct LiveOptions {
+  ServerOptions server;
+  std::filesystem::path page_template;    ///< empty: data_directory()/web/live.html
+  std::filesystem::path replay_template;  ///< of recordings; empty: data_directory()/web/replay.html
+  std::filesystem::path records = ".";    ///< where recordings go: a new directory recording-001, … each
+  std::optional<double> speed = 1.0;      ///< at the start
+};
+
+/// World, gait and control must outlive it. All but the pages' side belongs to the loop's thread.
+class LiveView {
+ public:
+  /// Throws InputError: no such template, no such port. `gait` may be null.
+  LiveView(engine::World& world, engine::Gait* gait, topics::RunControl& control, LiveOptions options);
+  ~LiveView();
+  LiveView(const LiveView&) = delete;
+  LiveView& operator=(const LiveView&) = delete;
+
+  [[nodiscard]] std::string url() const;
+  [[nodiscard]] ServerCounts counts() const;
+
+  /// Does what pages asked for. Before every decision of the loop.
+  void serve();
+  void stepped();  ///< after every step
+  void idle();     ///< while paused, and after a reset
+
+  /// Simulated by wall time that pages want; none: as fast as it can. `speed_changes` counts, so that a pace can be set anew.
+  [[nodiscard]] std::optional<double> speed() const noexcept;
+  [[nodiscard]] std::uint64_t speed_changes() const noexcept;
+
+  /// Ends a recording under way and tells the pages why the run is over. Returns the recordings' pages.
+  std::vector<std::filesystem::path> finish(const std::string& why);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vsa::view

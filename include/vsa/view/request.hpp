@@ -1,0 +1,93 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What a page may ask for. One JSON object a message, UTF-8; angles in rad, the preset in its law's unit:
+//
+//   {"do":"play"}  {"do":"pause"}  {"do":"step","steps":1…1000}  {"do":"reset"}
+//   {"do":"speed","factor":0.01…100}            simulated by wall time; null: as fast as it can
+//   {"do":"command","actuators":[0,3],"equilibrium_rad":0.5,"preset":0.3}      one of the two, or both
+//   {"do":"pull","link":4,"point_m":[x,y,z],"target_m":[x,y,z]}                point in the link's frame, target in the world
+//   {"do":"release"}
+//   {"do":"record","on":true}
+//   {"do":"gait","frequency_rad_per_s":4.7,"groups":[{"name":"vertical","amplitude_rad":1,"offset_rad":0,"lambda":5,
+//                 "delta_rad":0,"preset_rad":0.6}, …]}                          all groups; bounds: engine::kGaitBounds
+//   {"do":"gait_play","on":false}               false: the last commands hold
+//   {"do":"give_back"}                          commands given by hand go back to the gait
+//   {"do":"next"}                               a frame has been drawn: one more may come
+//
+// A message with an unknown or missing key, a value of another type, a number out of range or more than this is refused whole, with
+// a sentence that says why.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vsa/engine/gait.hpp"
+
+namespace vsa::view {
+
+struct Span {
+  double min = 0, max = 0;
+};
+
+/// What there is to ask for.
+struct Rules {
+  struct Actuator {
+    Span equilibrium_rad, preset;
+  };
+  std::vector<Actuator> actuators;
+  std::vector<bool> moves;               ///< one a link
+  std::vector<std::string> gait_groups;  ///< in the gait's order
+  bool gait = false;
+};
+
+/// What the world and its gait allow.
+[[nodiscard]] Rules rules_of(const engine::World& world, const engine::Gait* gait);
+
+struct Play {};
+struct Pause {};
+struct Step {
+  std::uint32_t steps = 1;
+};
+struct Reset {};
+struct Speed {
+  std::optional<double> factor;
+};
+struct Command {
+  std::vector<std::size_t> actuators;
+  std::optional<double> equilibrium_rad, preset;
+};
+struct PullLink {
+  std::size_t link = 0;
+  std::array<double, 3> point_m{}, target_m{};
+};
+struct Release {};
+struct Record {
+  bool on = false;
+};
+struct ChangeGait {
+  engine::GaitChange to;
+};
+struct PlayGait {
+  bool on = false;
+};
+struct GiveBack {};
+struct Next {};
+
+using Request =
+    std::variant<Play, Pause, Step, Reset, Speed, Command, PullLink, Release, Record, ChangeGait, PlayGait, GiveBack, Next>;
+
+struct Parsed {
+  std::optional<Request> request;
+  std::string error;  ///< where there is no request
+};
+
+/// Any bytes; never throws for them.
+[[nodiscard]] Parsed parse_request(std::string_view text, const Rules& rules);
+
+}  // namespace vsa::view

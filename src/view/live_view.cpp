@@ -1,0 +1,166 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/view/live_view.hpp"
+
+#include "live_impl.hpp"
+#include "vsa/config/preset.hpp"
+#include "vsa/record/page.hpp"
+#include "vsa/record/recorder.hpp"
+
+namespace vsa::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kRequestsMax = 256;  // that wait for the loop
+constexpr std::string_view kRecordings = "/recordings/", kHtml = ".html";
+
+fs::path or_built_in(const fs::path& given, const char* name) {
+  return given.empty() ? config::data_directory() / "web" / name : given;
+}
+
+std::string page_of(const engine::World& world, const fs::path& file) {
+  const std::string page = record::read_template(file);
+  const record::RunInfo info = record::describe(world);
+  record::PageData data(info, 1, 2);
+  record::Sample first;
+  record::read(world, first);
+  data.add(first);
+  const std::size_t at = page.find(record::kPageMarker);
+  return page.substr(0, at) + data.json(info, {world.name(), {}, world.warnings()}) + page.substr(at + record::kPageMarker.size());
+}
+
+}  // namespace
+
+LiveView::Impl::Impl(engine::World& the_world, engine::Gait* the_gait, topics::RunControl& the_control, LiveOptions options)
+    : world(the_world),
+      gait(the_gait),
+      control(the_control),
+      rules(rules_of(the_world, the_gait)),
+      page(page_of(the_world, or_built_in(options.page_template, "live.html"))),
+      gait_names(rules.actuators.size()),
+      recordings(std::move(options.records), or_built_in(options.replay_template, "replay.html")),
+      frames(record::describe(the_world)),
+      speed(options.speed) {
+  for (const engine::GaitGroup& group : gait != nullptr ? gait->params().groups : std::vector<engine::GaitGroup>{}) {
+    for (const std::string& name : group.actuators) {
+      const engine::ActuatorRef& ref = world.actuator(name);
+      gait_names[static_cast<std::size_t>(&ref - world.actuators().data())] = name;
+    }
+  }
+  changed();
+  server = std::make_unique<Server>(*this, options.server);
+}
+
+std::optional<Download> LiveView::Impl::get(std::string_view path) {
+  if (path == "/") return Download{"text/html", "", page};
+  const bool recording = path.size() > kRecordings.size() + kHtml.size() && path.substr(0, kRecordings.size()) == kRecordings &&
+                         path.substr(path.size() - kHtml.size()) == kHtml;
+  if (!recording) return std::nullopt;
+  path.remove_prefix(kRecordings.size());
+  path.remove_suffix(kHtml.size());
+  return recordings.get(path);
+}
+
+std::string LiveView::Impl::greet(ViewerId) {
+  const std::lock_guard lock(mutex);
+  return hello_text(rules, run, state);
+}
+
+bool LiveView::Impl::ask(ViewerId viewer, Request request, std::size_t limit) {
+  {
+    const std::lock_guard lock(mutex);
+    if (requests.size() >= limit) return false;
+    requests.emplace_back(viewer, std::move(request));
+    pending = true;
+  }
+  control.wake();
+  return true;
+}
+
+std::string LiveView::Impl::hear(ViewerId viewer, std::string_view text, bool& next) {
+  Parsed parsed = parse_request(text, rules);
+  if (!parsed.request) return plain_text("error", parsed.error);
+  next = std::holds_alternative<Next>(*parsed.request);
+  if (next || ask(viewer, std::move(*parsed.request), kRequestsMax)) return "";
+  return plain_text("error", "too many requests at once: this one was not done");
+}
+
+void LiveView::Impl::gone(ViewerId viewer) { ask(viewer, Release{}, SIZE_MAX); }
+
+void LiveView::Impl::serve() {
+  if (!pending.load(std::memory_order_relaxed)) return;
+  std::deque<std::pair<ViewerId, Request>> now;
+  {
+    const std::lock_guard lock(mutex);
+    now.swap(requests);
+    pending = false;
+  }
+  if (world.pulls().empty()) pulls.clear();  // a reset let go
+  for (const auto& [viewer, request] : now) {
+    asking = viewer;
+    guarded([&, &what = request] { std::visit(*this, what); });
+  }
+  changed();
+}
+
+void LiveView::Impl::changed() {
+  std::vector<engine::ByHand> hands;
+  for (const std::string& name : gait_names) hands.push_back(name.empty() ? engine::ByHand{} : gait->by_hand(name));
+  std::string text = state_text({speed, gait, std::move(hands), &recordings});
+  {
+    const std::lock_guard lock(mutex);
+    if (text == state) return;
+    state = text;
+  }
+  if (server) server->tell(std::move(text));
+}
+
+void LiveView::Impl::sample() {
+  if (!recordings.running()) return;
+  try {
+    recordings.sample(world);
+  } catch (const record::RecordError& error) {
+    server->tell(plain_text("note", std::string("The recording ended: ") + error.what()));
+    guarded([&] { recordings.stop(world, error.what()); });
+    changed();
+  }
+}
+
+void LiveView::Impl::publish(bool now) {
+  if (!server->wanted() && !now) return;
+  const FrameInfo info{world.time_s(), factor.update(world.time_s()), control.paused(), recordings.running(),
+                       gait != nullptr && !gait->held()};
+  server->show(frames.make(world, info));
+}
+
+LiveView::LiveView(engine::World& world, engine::Gait* gait, topics::RunControl& control, LiveOptions options)
+    : impl_(std::make_unique<Impl>(world, gait, control, std::move(options))) {}
+LiveView::~LiveView() = default;
+
+std::string LiveView::url() const { return impl_->server->url(); }
+ServerCounts LiveView::counts() const { return impl_->server->counts(); }
+void LiveView::serve() { impl_->serve(); }
+std::optional<double> LiveView::speed() const noexcept { return impl_->speed; }
+std::uint64_t LiveView::speed_changes() const noexcept { return impl_->speed_changes; }
+
+void LiveView::stepped() {
+  impl_->sample();
+  impl_->publish(false);
+}
+
+void LiveView::idle() {
+  impl_->sample();
+  impl_->publish(true);
+}
+
+std::vector<fs::path> LiveView::finish(const std::string& why) {
+  Impl& v = *impl_;
+  if (v.recordings.running()) v.guarded([&] { v.recordings.stop(v.world, why); });
+  v.changed();
+  v.server->tell(plain_text("end", why.empty() ? "The run is over." : why));
+  std::vector<fs::path> out;
+  for (const Recordings::Done& one : v.recordings.done()) out.push_back(one.page);
+  return out;
+}
+
+}  // namespace vsa::view

@@ -1,0 +1,38 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "vsa/units.hpp"
+#include "vsa/view/request.hpp"
+
+namespace vsa::view {
+namespace {
+
+/// What the unit lets its motors do; a turn where it doesn't limit them.
+Span equilibrium_span(const device::UnitConfig& unit, int motors) {
+  Span out{-kPi, kPi};
+  for (int i = 0; i < motors && unit.memory.limits_on != 0; ++i) {
+    const auto [low, high] = unit.reference_range_raw(i);
+    out = {std::max(out.min, radians(Raw{low})), std::min(out.max, radians(Raw{high}))};
+  }
+  return out;
+}
+
+}  // namespace
+
+Rules rules_of(const engine::World& world, const engine::Gait* gait) {
+  Rules out;
+  for (std::size_t r = 0; r < world.robot_count(); ++r) {
+    for (const host::ActuatorConfig& a : world.robot(r).config().actuators) {
+      const auto& law = a.unit.actuator.transmission;
+      const bool has_preset = law && !law->preset_unit().empty();
+      out.actuators.push_back({equilibrium_span(a.unit, law ? law->motor_count() : 1), {0, has_preset ? a.unit.preset_max : 0}});
+    }
+  }
+  for (const engine::LinkInfo& link : world.links()) out.moves.push_back(!link.is_static);
+  out.gait = gait != nullptr;
+  if (gait == nullptr) return out;
+  for (const engine::GaitGroup& group : gait->params().groups) out.gait_groups.push_back(group.name);
+  return out;
+}
+
+}  // namespace vsa::view

@@ -1,0 +1,3 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+extern "C" int vsa_doctor_absent();
+extern "C" int vsa_doctor_lacking() { return vsa_doctor_absent(); }

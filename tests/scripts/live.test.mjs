@@ -1,0 +1,266 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// node live.test.mjs VSA NPM [CHROMIUM]: `vsa run … --view` and its page in a browser, with real clicks.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { launch, visit } from './browser.mjs';
+
+const vsa = process.argv[2];
+const kLong = { timeout: 300_000 };
+let browser;
+before(async () => {
+  browser = await launch('--use-angle=swiftshader', '--enable-unsafe-swiftshader');
+});
+const children = [];
+after(async () => {
+  for (const child of children) child.kill('SIGKILL');
+  await browser?.close();
+});
+
+/** Runs a world with its view; stop() ends it as Ctrl-C does and waits. */
+async function run(world, ...more) {
+  const directory = mkdtempSync(join(tmpdir(), 'vsa-live-'));
+  const child = spawn(vsa, ['run', world, '--view', '--no-topics', '--view-records', directory, ...more], { stdio: ['ignore', 'pipe', 'pipe'] });
+  children.push(child);
+  let said = '';
+  const url = await new Promise((resolve, reject) => {
+    child.stderr.on('data', (text) => {
+      said += text;
+      const found = /live view: (http:\/\/127\.0\.0\.1:\d+\/)/.exec(said);
+      if (found) resolve(found[1]);
+    });
+    child.on('exit', (code) => reject(new Error(`vsa ended with ${code}: ${said}`)));
+  });
+  const gone = new Promise((resolve) => child.on('exit', resolve));
+  const stop = async () => {
+    child.kill('SIGINT');
+    const code = await gone;
+    rmSync(directory, { recursive: true });
+    return code;
+  };
+  const open = (context = {}) => visit(browser, url, (asked) => asked.startsWith(url), { viewport: { width: 1280, height: 760 }, ...context });
+  return { url, directory, stop, open, child };
+}
+
+/** Until the page's own state satisfies `holds`, a function of window.vsaLive and `given`. */
+const until = (tab, holds, given) =>
+  tab.evaluate(
+    ([name, x]) =>
+      new Promise((resolve) => {
+        const checks = {
+          frames: (live, n) => live.frames >= n,
+          paused: (live, on) => live.frame?.paused === on,
+          angleAbove: (live, rad) => live.run.actuators[0].data.shaft_rad[0] > rad,
+          commanded: (live, rad) => Math.abs(live.run.actuators[0].data.equilibrium_command_rad[0] - rad) < 0.02,
+          stiffer: (live, than) => live.run.actuators[0].data.stiffness_Nm_per_rad[0] > than,
+          timeAbove: (live, t) => live.frame?.time > t,
+          timeBelow: (live, t) => live.frame?.time < t,
+          recording: (live, on) => live.frame?.recording === on,
+          recordings: (live, n) => live.state?.recordings.done.length === n,
+          pulled: (live, n) => live.frame?.pulls.length === 7 * n,
+          lifted: (live, [link, by]) => live.stage.groups[link].position.z > by,
+          amplitude: (live, rad) => Math.abs(live.state?.gait?.groups[0].amplitude_rad - rad) < 1e-6,
+          byHand: (live, i) => live.state?.by_hand[i][1] === true,
+          gaitHeld: (live, on) => live.state?.gait?.playing === !on,
+        };
+        const look = () => (checks[name](window.vsaLive, x) ? resolve() : requestAnimationFrame(look));
+        look();
+      }),
+    [holds, given],
+  );
+const time = (tab) => tab.evaluate(() => window.vsaLive.frame.time);
+
+/** Clicks a slider at a part of its length. */
+async function slide(tab, id, part) {
+  const box = await tab.locator(id).boundingBox();
+  const thumb = 18;
+  await tab.mouse.click(box.x + thumb / 2 + part * (box.width - thumb), box.y + box.height / 2);
+}
+
+test('a bench in the page', kLong, async (t) => {
+  const bench = await run('bench_free');
+  const { tab, wrong, close } = await bench.open();
+  await until(tab, 'frames', 5);
+
+  await t.test('runs in real time and says so', async () => {
+    assert.match(await tab.textContent('#status'), /running/);
+    assert.equal(await tab.inputValue('#speed'), '1');
+  });
+
+  await t.test('a slider moves the joint and another makes it stiffer', async () => {
+    await slide(tab, '#equilibrium', 0.65);
+    await until(tab, 'angleAbove', 0.4);
+    const soft = await tab.evaluate(() => window.vsaLive.run.actuators[0].data.stiffness_Nm_per_rad[0]);
+    await slide(tab, '#preset', 0.95);
+    await until(tab, 'stiffer', soft * 2);
+  });
+
+  await t.test('a number typed in is a command too, and never beyond the limits', async () => {
+    await tab.fill('#equilibrium-number', '-20');
+    await tab.press('#equilibrium-number', 'Enter');
+    await until(tab, 'commanded', (-20 * Math.PI) / 180);
+    await tab.fill('#equilibrium-number', '99999');
+    await tab.press('#equilibrium-number', 'Enter');
+    const limit = Number(await tab.getAttribute('#equilibrium', 'max'));
+    await until(tab, 'commanded', (limit * Math.PI) / 180);
+  });
+
+  await t.test('pause stops time, a step moves it by one step, play goes on, reset begins anew', async () => {
+    await tab.click('#play');
+    await until(tab, 'paused', true);
+    const stopped = await time(tab);
+    await tab.click('#step');
+    await until(tab, 'timeAbove', stopped);
+    assert.ok(Math.abs((await time(tab)) - stopped - 0.001) < 1e-9);
+    await tab.click('#reset');
+    await until(tab, 'timeBelow', 0.0005);
+    assert.equal(await time(tab), 0);
+    await tab.focus('#canvas');
+    await tab.keyboard.press('Space');
+    await until(tab, 'timeAbove', 0.2);
+  });
+
+  await t.test('the speed can be chosen', async () => {
+    await tab.selectOption('#speed', '4');
+    const from = await time(tab);
+    await until(tab, 'timeAbove', from + 2);
+    assert.equal(await tab.inputValue('#speed'), '4');
+  });
+
+  await t.test('the record button writes a replay page that can be fetched', async () => {
+    await tab.click('#record');
+    await until(tab, 'recording', true);
+    const from = await time(tab);
+    await until(tab, 'timeAbove', from + 0.5);
+    await tab.click('#record');
+    await until(tab, 'recordings', 1);
+    assert.ok(existsSync(join(bench.directory, 'recording-001', 'energy.csv')));
+    const [download] = await Promise.all([tab.waitForEvent('download'), tab.click('#recordings a')]);
+    assert.equal(download.suggestedFilename(), 'recording-001.html');
+    assert.equal(readFileSync(await download.path(), 'utf8'), readFileSync(join(bench.directory, 'recording-001', 'replay.html'), 'utf8'));
+  });
+
+  await t.test('two viewers see the same and what one does', async () => {
+    await tab.click('#play');
+    await until(tab, 'paused', true);
+    const other = await bench.open({ viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
+    await until(other.tab, 'paused', true);
+    const stopped = await time(tab);
+    await other.tab.click('#step');
+    await until(tab, 'timeAbove', stopped);
+    await tab.fill('#equilibrium-number', '10');
+    await tab.press('#equilibrium-number', 'Enter');
+    await tab.click('#step');
+    for (const page of [tab, other.tab]) await until(page, 'commanded', (10 * Math.PI) / 180);
+    assert.ok((await other.tab.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'a phone needs no scrolling sideways');
+    assert.deepEqual(other.wrong, []);
+    await other.close();
+  });
+
+  assert.deepEqual(await tab.evaluate(() => window.vsaLive.errors), []);
+  assert.deepEqual(wrong, []);
+  await close();
+  assert.equal(await bench.stop(), 0);
+});
+
+test('a snake in the page', kLong, async (t) => {
+  const snake = await run('snake_flat', '--gait', 'sidewind');
+  const { tab, wrong, close } = await snake.open();
+  await until(tab, 'frames', 5);
+
+  await t.test('shows contacts and curves', async () => {
+    assert.ok((await tab.evaluate(() => window.vsaLive.frame.contacts.length)) > 0);
+    await tab.click('#tab-curves');
+    assert.equal(await tab.locator('#curves figure').count(), 3);
+    await tab.click('#signals button:has-text("Motor currents")');
+    assert.equal(await tab.locator('#curves figure').count(), 4);
+    assert.ok((await tab.evaluate(() => window.vsaLive.history.count)) > 2);
+  });
+
+  await t.test('edits the gait while the snake crawls', async () => {
+    await tab.click('#tab-gait');
+    const box = tab.locator('input[type="number"][aria-label*="Amplitude A"]').first();
+    await box.fill('33');
+    await box.press('Enter');
+    await until(tab, 'amplitude', (33 * Math.PI) / 180);
+  });
+
+  await t.test('gives one joint to the hand and leaves the rest to the gait', async () => {
+    await tab.click('#modules button:has-text("joint_5")');
+    await slide(tab, '#preset', 0.2);
+    await until(tab, 'byHand', 5);
+    await tab.click('#tab-table');
+    await tab.locator('.row', { hasText: 'joint_5' }).locator('.hand', { hasText: 'preset by hand' }).waitFor();
+  });
+
+  await t.test('a dragged link is pulled and let go', async () => {
+    await tab.click('#tab-gait');
+    await tab.click('#gait-play');
+    await until(tab, 'gaitHeld', true);
+    const { link, x, y } = await tab.evaluate(() => {
+      const { stage, run } = window.vsaLive;
+      const canvas = stage.canvas.getBoundingClientRect();
+      stage.setFollowing(false);
+      // A link that nothing hides.
+      for (const actuator of run.actuators) {
+        for (const index of actuator.links) {
+          const at = stage.screen(index);
+          if (!at || stage.pick(canvas.left + at.x, canvas.top + at.y) !== index) continue;
+          return { link: index, x: canvas.left + at.x, y: canvas.top + at.y };
+        }
+      }
+      return null;
+    });
+    const before = await tab.evaluate((i) => window.vsaLive.stage.groups[i].position.z, link);
+    await tab.mouse.move(x, y);
+    await tab.mouse.down();
+    await tab.mouse.move(x, y - 60, { steps: 4 });
+    await tab.mouse.move(x, Math.max(80, y - 260), { steps: 4 });
+    await until(tab, 'pulled', 1);
+    await until(tab, 'lifted', [link, before + 0.05]);
+    await tab.mouse.up();
+    await until(tab, 'pulled', 0);
+  });
+
+  await t.test('the keyboard pulls too', async () => {
+    await tab.focus('#canvas');
+    await tab.keyboard.down('Shift');
+    await tab.keyboard.down('ArrowUp');
+    await until(tab, 'pulled', 1);
+    await tab.keyboard.up('ArrowUp');
+    await tab.keyboard.up('Shift');
+    await until(tab, 'pulled', 0);
+  });
+
+  await t.test('every control has a name and can be reached by the keyboard', async () => {
+    const nameless = await tab.evaluate(() =>
+      [...document.querySelectorAll('button, input, select, a')]
+        .filter((e) => e.checkVisibility())
+        .filter((e) => !(e.ariaLabel || e.textContent.trim() || e.title || e.labels?.length || document.querySelector(`label[for="${e.id}"]`)))
+        .map((e) => e.outerHTML),
+    );
+    assert.deepEqual(nameless, []);
+    const unreachable = await tab.evaluate(() =>
+      [...document.querySelectorAll('button:not([role="tab"]), input, select')].filter((e) => e.checkVisibility() && e.tabIndex < 0).map((e) => e.id),
+    );
+    assert.deepEqual(unreachable, []);
+  });
+
+  assert.deepEqual(await tab.evaluate(() => window.vsaLive.errors), []);
+  assert.deepEqual(wrong, []);
+  await close();
+  assert.equal(await snake.stop(), 0);
+});
+
+test('a page whose run has ended says so', kLong, async () => {
+  const bench = await run('bench_free');
+  const { tab, close } = await bench.open();
+  await until(tab, 'frames', 2);
+  await bench.stop();
+  await tab.locator('#status', { hasText: /over|lost/ }).waitFor();
+  await close();
+});
