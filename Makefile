@@ -8,6 +8,7 @@
 # make asan    the tests under the address and undefined-behaviour sanitizers
 # make fuzz    any bytes into the frame parser and into whole units, with clang's libFuzzer and sanitizers; FUZZ_S seconds each (300)
 # make test-gazebo   the plug-in in a real Gazebo Classic 11; where the system has none, in a private Debian 11 (0.5 GB, made once)
+# make test-gazebo-long   ten simulated minutes there, with test-long; make bench-gazebo   what the plug-in costs there
 # make test-gz       the plug-in in a real gz-sim, where there is one (VSA_GZ_PREFIX)
 # make experiments   what stiffness is good for (docs/17): pages in out/experiments; minutes
 # make experiments-snake   how far the snake gets over its terrains (docs/snake.md); about 20 minutes
@@ -16,8 +17,8 @@ FUZZ_S ?= 300
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo test test-long validate bench fuzz test-gazebo test-gz asan tidy format check-format experiments \
-  experiments-snake clean
+.PHONY: all setup build demo test test-long validate bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan tidy format \
+  check-format experiments experiments-snake clean
 
 all: build
 
@@ -44,6 +45,7 @@ test-long:
 	@cmake --preset release > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -L long
+	@sh scripts/test_gazebo.sh $(BUILD) long
 
 fuzz:
 	@sh scripts/setup.sh fuzz
@@ -54,6 +56,13 @@ test-gazebo:
 	@cmake --preset release > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa-gazebo-bench -- --quiet
 	@sh scripts/test_gazebo.sh $(BUILD)
+
+test-gazebo-long:
+	@sh scripts/test_gazebo.sh $(BUILD) long
+
+bench-gazebo:
+	@sh scripts/setup.sh classic
+	@sh scripts/test_gazebo.sh $(BUILD) bench
 
 test-gz: setup
 	@cmake --preset release > /dev/null

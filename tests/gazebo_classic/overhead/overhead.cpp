@@ -1,0 +1,230 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// gazebo_classic_overhead [ode|dart]: what the plug-in costs a step of the snake's world (12 modules), beside the physics alone.
+//
+// Two worlds in one process take turns, a block of steps each: one with the plug-in, one without, whose joints get the torques that
+// the first one's got. So both make the same motion, which is checked bit for bit, and the difference is the plug-in's. A clock
+// around the plug-in's own call gives a second figure.
+#include <ignition/msgs/double.pb.h>
+#include <ignition/msgs/model.pb.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <ignition/transport/Node.hh>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "classic_world.hpp"
+#include "gait_player.hpp"
+#include "vsa/host/topics.hpp"
+
+namespace {
+
+using namespace std::chrono;  // NOLINT(google-build-using-namespace): a program, not a header
+using gazebo::common::UpdateInfo;
+using gazebo::event::Events;
+using vsa::test::RobotWorld;
+
+constexpr int kBlock = 1000, kBlocks = 20, kWarmUp = 3000;
+constexpr std::size_t kModules = 12;
+const std::string kModel = "qbmove_snake";
+
+enum class Listening { none, states, all };
+
+/// A process of its own that listens to the robot's topics until its input ends, and then says how much came.
+int listen(bool to_all) {
+  std::atomic<long> states{0}, numbers{0};
+  {
+    ignition::transport::Node node;
+    std::function<void(const ignition::msgs::Model&)> on_states = [&](const auto&) { ++states; };
+    std::function<void(const ignition::msgs::Double&)> on_number = [&](const auto&) { ++numbers; };
+    if (!node.Subscribe(vsa::host::model_topic(kModel, "vsa/joint_state"), on_states)) return 1;
+    for (std::size_t i = 0; to_all && i < kModules; ++i) {
+      for (const char* leaf : {"stiffness", "deflection", "preset", "current_1", "current_2"}) {
+        if (!node.Subscribe(vsa::host::joint_topic(kModel, "joint_" + std::to_string(i), leaf), on_number)) return 1;
+      }
+    }
+    while (std::getchar() != EOF) {
+    }
+  }
+  std::cerr << "  the listener got " << states << " joint states and " << numbers << " numbers\n";
+  return states > 0 && (!to_all || numbers > 0) ? 0 : 1;
+}
+
+class Listener {
+ public:
+  explicit Listener(Listening listening) {
+    if (listening == Listening::none) return;
+    const std::string command =
+        "/proc/" + std::to_string(getpid()) + "/exe listen " + (listening == Listening::all ? "all" : "states");
+    pipe_ = popen(command.c_str(), "w");
+    if (pipe_ == nullptr) throw std::runtime_error("can't start the listener");
+  }
+  void end() {
+    if (pipe_ != nullptr && pclose(pipe_) != 0) throw std::runtime_error("the listener heard nothing");
+    pipe_ = nullptr;
+  }
+
+ private:
+  std::FILE* pipe_ = nullptr;
+};
+
+struct Spread {
+  double lower = 0, median = 0, upper = 0;
+};
+
+Spread spread(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+  };
+  return {at(0.25), at(0.5), at(0.75)};
+}
+
+std::string text(const Spread& s) {
+  std::ostringstream out;
+  out.precision(3);
+  out << s.median << " (" << s.lower << "–" << s.upper << ")";
+  return out.str();
+}
+
+std::string snake() {
+  std::string model = vsa::test::model_text(kModel);
+  return model.insert(model.find('>') + 1, "<pose>0 0 0.0335 0 0 0</pose>");
+}
+
+const std::string kGround = "<include><uri>model://terrain_flat</uri></include>";
+
+std::vector<gazebo::physics::JointPtr> joints_of(const vsa::test::ClassicWorld& world) {
+  std::vector<gazebo::physics::JointPtr> joints;
+  for (std::size_t i = 0; i < kModules; ++i) joints.push_back(world.joint(kModel, "joint_" + std::to_string(i)));
+  return joints;
+}
+
+class Comparison {
+ public:
+  Comparison(const std::string& engine, bool crawling) : bare_(without_plugin(), engine) {
+    before_ = Events::ConnectWorldUpdateBegin([this](const UpdateInfo& info) { before_plugin(info); });
+    ours_.emplace("ours", snake(), engine, kGround);  // the plug-in connects itself here
+    after_ = Events::ConnectWorldUpdateBegin([this](const UpdateInfo& info) { after_plugin(info); });
+    if (crawling) gait_.emplace(VSA_SOURCE_DIR "/models/gaits/sidewind.toml", ours_->robot());
+    ours_name_ = ours_->world->Name();
+    joints_ = joints_of(bare_);
+  }
+
+  void measure(Listening listening, const std::string& title) {
+    Listener listener(listening);
+    run_ours(kWarmUp);
+    run_bare(kWarmUp);
+    run_ours(kBlock);  // one ahead from here on: torques for the other
+    std::vector<double> ours, bare, difference, call;
+    double ours_us = last_ours_us_, call_us = last_call_us_;
+    for (int k = 0; k < kBlocks; ++k) {
+      const double mine = ours_us, my_call = call_us;
+      if (k % 2 == 0) run_ours(kBlock), ours_us = last_ours_us_, call_us = last_call_us_;
+      const double theirs = run_bare(kBlock);
+      if (k % 2 == 1) run_ours(kBlock), ours_us = last_ours_us_, call_us = last_call_us_;
+      ours.push_back(mine);
+      call.push_back(my_call);
+      bare.push_back(theirs);
+      difference.push_back(mine - theirs);
+    }
+    run_bare(kBlock);
+    check_same_motion();
+    listener.end();
+    std::cout << "| " << title << " | " << text(spread(bare)) << " | " << text(spread(ours)) << " | " << text(spread(difference))
+              << " | " << text(spread(call)) << " |\n";
+  }
+
+ private:
+  static std::string without_plugin() {
+    return vsa::test::world_sdf("bare", kGround + vsa::test::without(snake(), "<plugin", "</plugin>"));
+  }
+
+  void before_plugin(const UpdateInfo& info) {
+    if (gait_ && info.worldName == ours_name_)
+      gait_->play(info.simTime.sec * std::int64_t{1'000'000'000} + info.simTime.nsec - 1'000'000);
+    call_begin_ = steady_clock::now();
+  }
+
+  void after_plugin(const UpdateInfo& info) {
+    const auto now = steady_clock::now();
+    if (info.worldName == ours_name_) {
+      in_call_ += now - call_begin_;
+      for (std::size_t i = 0; i < kModules; ++i) torques_.push_back(ours_->torques()[i]);
+    } else {
+      for (std::size_t i = 0; i < kModules; ++i) joints_[i]->SetForce(0, torques_[taken_++]);
+    }
+  }
+
+  static double us_a_step(steady_clock::duration time, int steps) { return duration<double, std::micro>(time).count() / steps; }
+
+  void run_ours(int steps) {
+    in_call_ = {};
+    const auto start = steady_clock::now();
+    ours_->run(steps);
+    last_ours_us_ = us_a_step(steady_clock::now() - start, steps);
+    last_call_us_ = us_a_step(in_call_, steps);
+  }
+
+  double run_bare(int steps) {
+    const auto start = steady_clock::now();
+    bare_.run(steps);
+    return us_a_step(steady_clock::now() - start, steps);
+  }
+
+  void check_same_motion() {
+    if (taken_ != torques_.size()) throw std::runtime_error("the two worlds made different numbers of steps");
+    const auto own = joints_of(*ours_);
+    for (std::size_t i = 0; i < kModules; ++i) {
+      if (own[i]->Position(0) != joints_[i]->Position(0)) throw std::runtime_error("the two worlds moved differently");
+    }
+  }
+
+  vsa::test::ClassicWorld bare_;
+  std::optional<RobotWorld> ours_;
+  std::optional<vsa::test::GaitPlayer> gait_;
+  std::string ours_name_;
+  std::vector<gazebo::physics::JointPtr> joints_;  ///< of the world without the plug-in
+  std::vector<double> torques_;
+  std::size_t taken_ = 0;
+  steady_clock::time_point call_begin_;
+  steady_clock::duration in_call_{};
+  double last_ours_us_ = 0, last_call_us_ = 0;
+  gazebo::event::ConnectionPtr before_, after_;
+};
+
+int run(const std::string& engine) {
+  vsa::test::start_server();
+  std::cout
+      << "µs a step of 1 ms, " << engine << ": median (quartiles) of " << kBlocks << " blocks of " << kBlock << " steps, in turns\n"
+      << "| snake of 12 modules | physics alone | with our plug-in | difference | in the plug-in's call |\n|---|---|---|---|---|\n";
+  for (const bool crawling : {false, true}) {
+    Comparison comparison(engine, crawling);
+    const std::string motion = crawling ? "sidewinding" : "lying still";
+    comparison.measure(Listening::none, motion + ", nobody listens");
+    comparison.measure(Listening::states, motion + ", joint states at 100 Hz");
+    comparison.measure(Listening::all, motion + ", joint states and 60 numbers at 100 Hz");
+  }
+  gazebo::shutdown();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "ode";
+  try {
+    if (word == "listen") return listen(argc > 2 && std::string(argv[2]) == "all");
+    return run(word);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+}
