@@ -9,9 +9,10 @@
 #include <ignition/plugin/Register.hh>
 #endif
 
-#ifdef VSA_HAS_RESET
+#ifdef VSA_GZ_TRANSPORT
 VSA_ADD_PLUGIN(vsa::plugins::SimRobot, vsa::plugins::sim::System, vsa::plugins::SimRobot::ISystemConfigure,
-               vsa::plugins::SimRobot::ISystemReset, vsa::plugins::SimRobot::ISystemPreUpdate)
+               vsa::plugins::SimRobot::ISystemConfigureParameters, vsa::plugins::SimRobot::ISystemReset,
+               vsa::plugins::SimRobot::ISystemPreUpdate)
 #else
 VSA_ADD_PLUGIN(vsa::plugins::SimRobot, vsa::plugins::sim::System, vsa::plugins::SimRobot::ISystemConfigure,
                vsa::plugins::SimRobot::ISystemPreUpdate)
