@@ -48,7 +48,6 @@ test-long:
 	@sh scripts/test_gazebo.sh $(BUILD) long
 
 fuzz:
-	@sh scripts/setup.sh fuzz
 	@sh scripts/fuzz.sh $(FUZZ_S)
 
 test-gazebo:

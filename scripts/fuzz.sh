@@ -6,6 +6,10 @@
 set -eu
 cd "$(dirname "$0")/.."
 seconds=$1
+case "$seconds" in
+  '' | *[!0-9]* | 0*) echo "fuzz.sh: FUZZ_S = '$seconds': not a number of seconds (allowed: 1, 2, …)" >&2; exit 2 ;;
+esac
+sh scripts/setup.sh fuzz
 
 cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DVSA_FUZZ=ON -DVSA_SIMULATOR=OFF -DVSA_BENCH=OFF -DVSA_TESTS=OFF \
   -DCMAKE_CXX_COMPILER=clang++-14 -Wno-dev >/dev/null
