@@ -13,7 +13,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kListenersEvery{20}, kPausedEvery{100};
+constexpr milliseconds kPausedEvery{100};
 constexpr std::int64_t kLongestStep_ns = 16'000'000;  // host::Robot::advance
 
 host::Robot make_robot(const Attachment& attachment) {
@@ -71,14 +71,7 @@ void AttachedRobot::step(std::int64_t dt_ns) {
   }
 }
 
-void AttachedRobot::refresh(Clock::time_point now) {
-  if (now < next_listeners_) return;
-  next_listeners_ = now + kListenersEvery;
-  port_.refresh_listeners();
-}
-
 void AttachedRobot::publish_step(std::int64_t time_ns) {
-  refresh(Clock::now());
   topics_->update(time_ns);
 }
 
@@ -87,7 +80,6 @@ void AttachedRobot::publish_paused(std::int64_t time_ns) {
   const auto now = Clock::now();
   if (now < next_paused_) return;
   next_paused_ = now + kPausedEvery;
-  refresh(now);
   topics_->publish(time_ns);
 }
 

@@ -60,7 +60,6 @@ class AttachedRobot {
   using Clock = std::chrono::steady_clock;
 
   void stop(const std::string& why);
-  void refresh(Clock::time_point now);
 
   host::RobotTopics::Report report_;
   std::string model_;
@@ -70,7 +69,7 @@ class AttachedRobot {
   std::vector<double> torques_;
   std::int64_t time_ns_ = 0;
   bool stopped_ = false;
-  Clock::time_point next_listeners_{}, next_paused_{};
+  Clock::time_point next_paused_{};
   std::optional<host::RobotTopics> topics_;  ///< must outlive its port's handlers, so it comes before the port
   topics::IgnitionPort port_;
   ports::RobotPorts ports_;

@@ -2,11 +2,15 @@
 #include "vsa/topics/ignition_port.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <mutex>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "messages.hpp"
+#include "outbox.hpp"
 #include "stock.hpp"
 #include "vsa/topics/transport.hpp"
 
@@ -22,40 +26,124 @@ struct Gate {
   bool open = true;
 };
 
-/// A publisher and what was last known of its listeners; shared, so that the port can refresh it.
-struct Line {
-  Node::Publisher publisher;
-  std::atomic<bool> wanted{false};
-};
-
-class DoublePublisher final : public host::Publisher<double> {
+/// A topic: what waits to be sent on it, and what was last known of its listeners.
+class Line {
  public:
-  explicit DoublePublisher(std::shared_ptr<Line> line) : line_(std::move(line)) {}
-  [[nodiscard]] bool wanted() const noexcept override { return line_->wanted.load(std::memory_order_relaxed); }
-  void publish(std::int64_t time_ns, const double& value) override {
-    set_time(*message_.mutable_header()->mutable_stamp(), time_ns);
-    message_.set_data(value);
-    line_->publisher.Publish(message_);
+  explicit Line(Node::Publisher publisher) : publisher_(std::move(publisher)) {}
+  virtual ~Line() = default;
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+
+  [[nodiscard]] bool wanted() const noexcept { return wanted_.load(std::memory_order_relaxed); }
+  void look_for_listeners() { wanted_.store(publisher_.HasConnections(), std::memory_order_relaxed); }
+  virtual void send() = 0;
+  virtual void close() noexcept { wanted_ = false; }
+
+ protected:
+  template <class Message>
+  void publish(Message& message, std::int64_t time_ns) {
+    set_time(*message.mutable_header()->mutable_stamp(), time_ns);
+    publisher_.Publish(message);
   }
 
  private:
-  std::shared_ptr<Line> line_;
-  msgs::Double message_;
+  Node::Publisher publisher_;
+  std::atomic<bool> wanted_{false};
 };
 
-class StatesPublisher final : public host::Publisher<host::JointStates> {
+struct Doubles {
+  using Plain = double;
+  using Packed = msgs::Double;
+  static constexpr std::size_t kSlots = 16;
+  static void encode(double value, msgs::Double& out) { out.set_data(value); }
+};
+
+struct States {
+  using Plain = host::JointStates;
+  using Packed = msgs::Model;
+  static constexpr std::size_t kSlots = 8;
+  static void encode(const host::JointStates& states, msgs::Model& out) { topics::encode(states, out); }
+};
+
+template <class Kind>
+class LineOf final : public Line {
  public:
-  explicit StatesPublisher(std::shared_ptr<Line> line) : line_(std::move(line)) {}
-  [[nodiscard]] bool wanted() const noexcept override { return line_->wanted.load(std::memory_order_relaxed); }
-  void publish(std::int64_t time_ns, const host::JointStates& states) override {
-    encode(states, message_);
-    set_time(*message_.mutable_header()->mutable_stamp(), time_ns);
-    line_->publisher.Publish(message_);
+  using Line::Line;
+
+  template <class Hurry>
+  void put(std::int64_t time_ns, const typename Kind::Plain& message, const Hurry& hurry) {
+    box_.put([&](Stamped& slot) { slot.time_ns = time_ns, slot.message = message; }, hurry);
+  }
+  void send() override {
+    box_.drain([this](const Stamped& slot) {
+      Kind::encode(slot.message, packed_);
+      publish(packed_, slot.time_ns);
+    });
+  }
+  void close() noexcept override {
+    Line::close();
+    box_.close();
   }
 
  private:
-  std::shared_ptr<Line> line_;
-  msgs::Model message_;
+  struct Stamped {
+    std::int64_t time_ns = 0;
+    typename Kind::Plain message{};
+  };
+  Outbox<Stamped, Kind::kSlots> box_;
+  typename Kind::Packed packed_;
+};
+
+/// The port's thread: sends what waits, and asks the transport, which takes its lock for each, who listens.
+class Office {
+ public:
+  ~Office() {
+    sender_.reset();  // sends the last
+    for (const auto& line : lines_) line->close();
+  }
+  void add(std::shared_ptr<Line> line) {
+    const std::lock_guard lock(mutex_);
+    lines_.push_back(std::move(line));
+  }
+  void hurry() noexcept { sender_->hurry(); }
+
+ private:
+  std::chrono::milliseconds work() {
+    const std::lock_guard lock(mutex_);
+    const auto now = std::chrono::steady_clock::now();
+    const bool look = now >= next_look_;
+    if (look) next_look_ = now + kLookEvery;
+    bool wanted = false;
+    for (const auto& line : lines_) {
+      line->send();
+      if (look) line->look_for_listeners();
+      wanted = wanted || line->wanted();
+    }
+    return wanted ? kSendEvery : kLookEvery;
+  }
+
+  static constexpr std::chrono::milliseconds kSendEvery{1}, kLookEvery{20};
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<Line>> lines_;
+  std::chrono::steady_clock::time_point next_look_{};
+  std::optional<Sender> sender_{std::in_place, [this] { return work(); }};  ///< last: it uses the others
+};
+
+template <class Kind>
+class LinePublisher final : public host::Publisher<typename Kind::Plain> {
+ public:
+  LinePublisher(std::shared_ptr<LineOf<Kind>> line, std::weak_ptr<Office> office)
+      : line_(std::move(line)), office_(std::move(office)) {}
+  [[nodiscard]] bool wanted() const noexcept override { return line_->wanted(); }
+  void publish(std::int64_t time_ns, const typename Kind::Plain& message) override {
+    line_->put(time_ns, message, [this] {
+      if (const auto office = office_.lock()) office->hurry();
+    });
+  }
+
+ private:
+  std::shared_ptr<LineOf<Kind>> line_;
+  std::weak_ptr<Office> office_;
 };
 
 }  // namespace
@@ -77,18 +165,18 @@ struct IgnitionPort::Impl {
     return node.Subscribe(topic, callback) ? host::Outcome::ok : host::Outcome::refused;
   }
 
-  template <class Message>
-  std::shared_ptr<Line> advertise(const std::string& topic) {
-    auto line = std::make_shared<Line>();
-    line->publisher = node.Advertise<Message>(topic);
-    if (!line->publisher) return nullptr;
-    lines.push_back(line);
-    return line;
+  template <class Kind>
+  std::unique_ptr<LinePublisher<Kind>> advertise(const std::string& topic) {
+    Node::Publisher publisher = node.Advertise<typename Kind::Packed>(topic);
+    if (!publisher) return nullptr;
+    auto line = std::make_shared<LineOf<Kind>>(std::move(publisher));
+    office->add(line);
+    return std::make_unique<LinePublisher<Kind>>(std::move(line), office);
   }
 
   Node node;
   std::shared_ptr<Gate> gate = std::make_shared<Gate>();
-  std::vector<std::shared_ptr<Line>> lines;
+  std::shared_ptr<Office> office = std::make_shared<Office>();
 };
 
 IgnitionPort::IgnitionPort() {
@@ -99,7 +187,6 @@ IgnitionPort::IgnitionPort() {
 IgnitionPort::~IgnitionPort() {
   const std::lock_guard lock(impl_->gate->mutex);
   impl_->gate->open = false;
-  for (const auto& line : impl_->lines) line->wanted = false;
 }
 
 host::Outcome IgnitionPort::on_double(const std::string& topic, std::function<void(double)> handler) {
@@ -121,17 +208,11 @@ host::Outcome IgnitionPort::on_actuators(const std::string& topic, std::function
 }
 
 std::unique_ptr<host::Publisher<double>> IgnitionPort::advertise_double(const std::string& topic) {
-  auto line = impl_->advertise<msgs::Double>(topic);
-  return line ? std::make_unique<DoublePublisher>(std::move(line)) : nullptr;
+  return impl_->advertise<Doubles>(topic);
 }
 
 std::unique_ptr<host::Publisher<host::JointStates>> IgnitionPort::advertise_states(const std::string& topic) {
-  auto line = impl_->advertise<msgs::Model>(topic);
-  return line ? std::make_unique<StatesPublisher>(std::move(line)) : nullptr;
-}
-
-void IgnitionPort::refresh_listeners() {
-  for (const auto& line : impl_->lines) line->wanted.store(line->publisher.HasConnections(), std::memory_order_relaxed);
+  return impl_->advertise<States>(topic);
 }
 
 }  // namespace vsa::topics

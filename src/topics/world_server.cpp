@@ -154,7 +154,6 @@ void WorldServer::Impl::publish_stats(steady_clock::time_point now) {
 void WorldServer::Impl::refresh(steady_clock::time_point now) {
   if (now < next_listeners) return;
   next_listeners = now + kListenersEvery;
-  port.refresh_listeners();
   clock_wanted = clock.HasConnections();
   stats_wanted = stats.HasConnections();
 }

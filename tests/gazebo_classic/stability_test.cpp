@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "classic_world.hpp"
 
@@ -25,14 +26,14 @@ std::vector<std::string> shipped_presets() {
   return names;
 }
 
-/// The free bench with this preset at its stiffest, and its flange's inertia.
-std::string flange(const std::string& preset) {
+/// The free bench with this preset, its flange's inertia, at its stiffest or at its softest.
+std::string flange(const std::string& preset, bool stiffest = true) {
   std::string model = replaced(model_text("qbmove_bench_free"), "<izz>2.25e-05</izz>", "<izz>1e-4</izz>");
   const auto at = model.find("<ixx>1.16666667e-05</ixx>");
   model = model.substr(0, at) +
           replaced(replaced(model.substr(at), "1.16666667e-05</ixx>", "6e-5</ixx>"), "1.16666667e-05</iyy>", "6e-5</iyy>");
   const bool has_presets = read_file(VSA_SOURCE_DIR "/presets/" + preset + ".toml").find("preset_max") != std::string::npos;
-  model = replaced(model, "preset_rad=\"0.2\"", has_presets ? "preset_rad=\"0.785\"" : "preset_rad=\"0\"");
+  model = replaced(model, "preset_rad=\"0.2\"", !has_presets ? "" : stiffest ? "preset_rad=\"0.785\"" : "preset_rad=\"0\"");
   return replaced(model, "<preset>qbmove_maker_pro</preset>", "<preset>" + preset + "</preset>");
 }
 
@@ -79,39 +80,46 @@ TEST_P(Stability, ALightFlangeKickedFarNeverGainsEnergy) {
     const auto shaft = w.joint("qbmove_bench_free");
     shaft->SetPosition(0, kick_rad);
     Watch watch(w, shaft);
-    w.run(2000);
+    w.run(1000);
+    const double first_rad = std::exchange(watch.farthest_rad, 0.0);
+    w.run(1000);
     EXPECT_TRUE(watch.finite) << kick_rad;
     std::cout << preset() << ' ' << engine() << ' ' << kick_rad << ": " << watch.first_J << " J, grows to "
-              << watch.most_J / watch.first_J << ", swings to " << watch.farthest_rad << ", left " << shaft->GetVelocity(0)
-              << " rad/s\n";
-    EXPECT_LT(watch.most_J, watch.first_J * (1 + 1e-4)) << kick_rad;
-    EXPECT_LT(watch.farthest_rad, kick_rad + 0.01) << kick_rad;
+              << watch.most_J / watch.first_J << ", swings to " << first_rad << ", then to " << watch.farthest_rad << '\n';
+    EXPECT_LT(watch.most_J, watch.first_J * 1.005) << kick_rad;
+    // The springs' kilonewton metres drag the pulleys along, and the shaft swings about where these are then.
+    EXPECT_LT(first_rad, kick_rad + (kick_rad > 0.5 ? 1.0 : 0.02)) << kick_rad;
+    EXPECT_LE(watch.farthest_rad, first_rad) << kick_rad;
   }
 }
 
 TEST_P(Stability, AHardStopIsHitAndLeanedOnWithoutGain) {
-  const std::string stopped = replaced(replaced(flange(preset()), "<lower>-1e16</lower>", "<lower>-0.3</lower>"),
-                                       "<upper>1e16</upper>", "<upper>0.3</upper>");
-  RobotWorld w("stopped", stopped, engine(), "", false);
-  const auto shaft = w.joint("qbmove_bench_free");
-  shaft->SetVelocity(0, 20);
-  {
+  for (const bool stiffest : {false, true}) {
+    const std::string stopped = replaced(replaced(flange(preset(), stiffest), "<lower>-1e16</lower>", "<lower>-0.1</lower>"),
+                                         "<upper>1e16</upper>", "<upper>0.1</upper>");
+    RobotWorld w("stopped", stopped, engine(), "", false);
+    const auto shaft = w.joint("qbmove_bench_free");
+    shaft->SetVelocity(0, 40);
+    {
+      Watch watch(w, shaft);
+      w.run(2000);
+      std::cout << preset() << ' ' << engine() << " hit: " << watch.first_J << " J, grows to " << watch.most_J / watch.first_J
+                << ", from " << watch.lowest_rad << " to " << watch.highest_rad << '\n';
+      EXPECT_TRUE(watch.finite);
+      EXPECT_LT(watch.most_J, watch.first_J * 1.05);
+      EXPECT_GT(watch.highest_rad, stiffest ? 0.0 : 0.099) << "it gets there";
+      EXPECT_LT(watch.highest_rad, 0.15);
+    }
     Watch watch(w, shaft);
-    w.run(2000);
-    std::cout << preset() << ' ' << engine() << " hit: " << watch.first_J << " J, grows to " << watch.most_J / watch.first_J
-              << ", from " << watch.lowest_rad << " to " << watch.highest_rad << '\n';
+    ASSERT_TRUE(w.robot().command(0, 0.8, std::nullopt));
+    w.run(3000);
+    std::cout << preset() << ' ' << engine() << " lean: from " << watch.lowest_rad << " to " << watch.highest_rad << ", rests at "
+              << shaft->Position(0) << " with " << shaft->GetVelocity(0) << " rad/s, " << w.robot().read(0).torque_Nm << " N·m\n";
     EXPECT_TRUE(watch.finite);
-    EXPECT_LT(watch.most_J, watch.first_J * 1.05);
+    EXPECT_NEAR(shaft->Position(0), 0.1, 0.01);
+    EXPECT_LT(std::abs(shaft->GetVelocity(0)), 0.1);
+    EXPECT_LT(watch.highest_rad, 0.15);
   }
-  Watch watch(w, shaft);
-  ASSERT_TRUE(w.robot().command(0, 1.0, std::nullopt));
-  w.run(3000);
-  std::cout << preset() << ' ' << engine() << " lean: from " << watch.lowest_rad << " to " << watch.highest_rad << ", rests at "
-            << shaft->Position(0) << " with " << shaft->GetVelocity(0) << " rad/s, " << w.robot().read(0).torque_Nm << " N·m\n";
-  EXPECT_TRUE(watch.finite);
-  EXPECT_NEAR(shaft->Position(0), 0.3, 0.01);
-  EXPECT_LT(std::abs(shaft->GetVelocity(0)), 0.1);
-  EXPECT_LT(watch.highest_rad, 0.35);
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, Stability, testing::Combine(testing::ValuesIn(shipped_presets()), testing::Values("ode", "dart")),

@@ -10,7 +10,9 @@
 
 namespace vsa::topics {
 
-/// Once the port is destroyed no handler runs any more; publishers that outlive it say that nobody listens.
+/// What is published is packed and sent by a thread of the port, within about a millisecond of wall time and in order; it also asks
+/// the transport who listens, 50 times a second: until then nobody is taken to listen. A publisher is for one thread at a time.
+/// Once the port is destroyed, with all sent, no handler runs any more; publishers that outlive it say that nobody listens.
 class IgnitionPort final : public host::TopicPort {
  public:
   IgnitionPort();
@@ -23,10 +25,6 @@ class IgnitionPort final : public host::TopicPort {
   host::Outcome on_actuators(const std::string& topic, std::function<void(const host::ActuatorsCmd&)> handler) override;
   std::unique_ptr<host::Publisher<double>> advertise_double(const std::string& topic) override;
   std::unique_ptr<host::Publisher<host::JointStates>> advertise_states(const std::string& topic) override;
-
-  /// Asks the transport who listens, for all publishers. That takes its lock for each, so do it a few times a wall second, not at
-  /// the state rate; until the first call nobody is taken to listen.
-  void refresh_listeners();
 
  private:
   struct Impl;
