@@ -2,61 +2,13 @@
 #include "record/mcap_reader.hpp"
 
 #include <algorithm>
-#include <stdexcept>
+
+#include "record/mcap_cursor.hpp"
 
 namespace vsa::record::mcap_reader {
 namespace {
 
 using Times = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
-
-void need(bool good, const std::string& what) {
-  if (!good) throw std::runtime_error(what);
-}
-
-class Cursor {
- public:
-  explicit Cursor(std::string_view bytes) : rest_(bytes) {}
-  std::string_view take(std::uint64_t n) {
-    need(n <= rest_.size(), "cut short");
-    const std::string_view out = rest_.substr(0, n);
-    rest_.remove_prefix(n);
-    return out;
-  }
-  std::uint64_t number(int bytes) {
-    std::uint64_t v = 0;
-    int shift = 0;
-    for (const char c : take(static_cast<std::uint64_t>(bytes))) {
-      v |= static_cast<std::uint64_t>(static_cast<unsigned char>(c)) << shift;
-      shift += 8;
-    }
-    return v;
-  }
-  int id() { return static_cast<int>(number(2)); }
-  std::string text() { return std::string(take(number(4))); }
-  std::map<std::string, std::string> texts() {
-    Cursor inside(take(number(4)));
-    std::map<std::string, std::string> out;
-    while (!inside.done()) {
-      const std::string key = inside.text();
-      need(out.emplace(key, inside.text()).second, "a key twice: " + key);
-    }
-    return out;
-  }
-  std::map<int, std::uint64_t> numbers() {
-    Cursor inside(take(number(4)));
-    std::map<int, std::uint64_t> out;
-    while (!inside.done()) {
-      const int key = inside.id();
-      out[key] = inside.number(8);
-    }
-    return out;
-  }
-  [[nodiscard]] bool done() const { return rest_.empty(); }
-  [[nodiscard]] std::uint64_t left() const { return rest_.size(); }
-
- private:
-  std::string_view rest_;
-};
 
 std::vector<Record> split(std::string_view bytes, std::uint64_t from) {
   std::vector<Record> out;
@@ -115,16 +67,11 @@ class Reader {
       case 0x0B:
         statistics(r);
         break;
-      case 0x0C: {
-        const std::string name = c.text();
-        file.metadata[name] = c.texts();
-        metadata_at_.push_back({r.at, r.length, name});
+      case 0x0C:
+        metadata(r);
         break;
-      }
       case 0x0D:
-        need(c.number(8) == metadata_at_.at(metadata_indexes_).at, "metadata index: place");
-        need(c.number(8) == metadata_at_.at(metadata_indexes_).length, "metadata index: length");
-        need(c.text() == metadata_at_.at(metadata_indexes_++).name, "metadata index: name");
+        metadata_index(r);
         break;
       case 0x0E:
         summary_offset(r);
@@ -158,6 +105,19 @@ class Reader {
       need(fresh != in_summary_ && at->second == ch, "channel " + ch.topic + ": once in the data, the same in the summary");
     }
     need(c.done(), "more than the definition");
+  }
+
+  void metadata(const Record& r) {
+    Cursor c(r.content);
+    const std::string name = c.text();
+    file.metadata[name] = c.texts();
+    metadata_at_.push_back({r.at, r.length, name});
+  }
+
+  void metadata_index(const Record& r) {
+    const MetadataAt& of = metadata_at_.at(metadata_indexes_++);
+    Cursor c(r.content);
+    need(c.number(8) == of.at && c.number(8) == of.length && c.text() == of.name, "metadata index");
   }
 
   void chunk(const Record& r) {
