@@ -14,6 +14,7 @@ constexpr int kMaxIterations = 60;
 // not lost but booked as integrator error.
 constexpr double kRelativeTolerance = 1e-4;
 constexpr double kAbsoluteTolerance_Nm = 1e-6;
+constexpr double kRough_rad = 0.02;  // a correction that is larger isn't trusted unseen
 
 double load_curvature(const elastic::Hessian& h, int i) noexcept { return i == 0 ? h.x0x0 : h.x1x1; }
 
@@ -185,25 +186,27 @@ bool Actuator::correction(Segment& seg, std::array<double, 2>& step) const noexc
   return accepted;
 }
 
-SegmentResult Actuator::attempt(const ActuatorState& s, Segment& seg, double dq) const noexcept {
+SegmentResult Actuator::attempt(const ActuatorState& s, Segment& seg, double dq, bool rough) const noexcept {
   if (!seg.tried) foresee(s, seg);
   for (int i = 0; i < motors_; ++i) seg.dx[i] += seg.gain[i] * (dq - seg.in.dq);
   seg.in.dq = dq;
   const elastic::Positions from = positions(s, s.shaft);
   double last_residual = std::numeric_limits<double>::infinity();
   std::array<double, 2> last_dx = seg.dx;
+  bool settled = false;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const elastic::Positions to{from.q + dq, {from.x[0] + seg.dx[0], from.x[1] + seg.dx[1]}};
     seg.mean = params_.transmission->mean_over(from, to);
     if (tendon_.coulomb_Nm > 0) add_tendon_friction(seg, to, seg.mean);
     std::array<double, 2> step{};
-    if (correction(seg, step) || iteration + 1 == kMaxIterations) {
+    settled = correction(seg, step);
+    const double residual = std::max(std::abs(step[0]), std::abs(step[1]));
+    if (settled || (rough && residual < kRough_rad) || iteration + 1 == kMaxIterations) {
       for (int i = 0; i < 2; ++i) seg.dx[i] += step[i];
       seg.mean = carried(seg.mean, 0.0, step);
       break;
     }
     // A hardening spring can throw Newton far out; halve until the correction shrinks.
-    const double residual = std::max(std::abs(step[0]), std::abs(step[1]));
     const bool worse = !(residual < last_residual);
     for (int i = 0; i < 2; ++i) {
       const double next = worse ? 0.5 * (seg.dx[i] + last_dx[i]) : seg.dx[i] + step[i];
@@ -212,7 +215,7 @@ SegmentResult Actuator::attempt(const ActuatorState& s, Segment& seg, double dq)
     }
     if (!worse) last_residual = residual;
   }
-  return {seg.mean.torque, seg.slope};
+  return {seg.mean.torque, seg.slope, settled || !rough};
 }
 
 void Actuator::drive_motors(ActuatorState& s, const Segment& seg) const noexcept {

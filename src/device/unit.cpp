@@ -47,9 +47,9 @@ class PathTrials {
     return actuator_.foresee(state_, last_);
   }
 
-  /// The mean torque along y → y + dy, and its slope.
-  actuator::SegmentResult at(double dy) noexcept {
-    if (!start_) return actuator_.attempt(state_, last_, dy);
+  /// The mean torque along y → y + dy, and its slope. `rough`: of a step with one segment, as Actuator::attempt has it.
+  actuator::SegmentResult at(double dy, bool rough) noexcept {
+    if (!start_) return actuator_.attempt(state_, last_, dy, rough);
     state_ = *start_;
     actuator::SegmentResult sum;
     std::int64_t now = 0;
@@ -168,7 +168,7 @@ double Unit::end_step(UnitState& s, StepPlan& plan) noexcept {
   double walked = dy;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     walked = dy;
-    path = trials.at(walked);
+    path = trials.at(walked, iteration == 0);
     // Newton on the spring, exact on the friction.
     const double slope = std::max(path.slope, 0.0);
     const double yield = 1.0 / (1.0 + c * slope);
@@ -176,9 +176,11 @@ double Unit::end_step(UnitState& s, StepPlan& plan) noexcept {
     const double move = next.displacement - dy;
     torque = path.torque - slope * move + next.torque;
     // The linear correction leaves an error of second order; the stiffer the step (c·slope), the more of it reaches the shaft.
-    if (std::abs(slope * move) <= yield * yield * (kRelativeTolerance * std::abs(path.torque) + kAbsoluteTolerance_Nm)) break;
+    const bool near =
+        std::abs(slope * move) <= yield * yield * (kRelativeTolerance * std::abs(path.torque) + kAbsoluteTolerance_Nm);
+    if (near && path.settled) break;
     // The residual grows with dy, so its sign brackets the root; a hardening spring throws Newton out, bisection calls it back.
-    (move > 0 ? low : high) = dy;
+    if (path.settled) (move > 0 ? low : high) = dy;
     const bool inside = next.displacement > low && next.displacement < high;
     const bool shrinking = std::abs(move) < 0.7 * last_move;
     last_move = std::abs(move);

@@ -70,8 +70,9 @@ struct SegmentInput {
 };
 
 struct SegmentResult {
-  double torque = 0;  ///< mean torque of the transmission on the shaft
-  double slope = 0;   ///< −dτ̄/d(Δq), the motors' yielding included; ≥ 0 for a convex law
+  double torque = 0;    ///< mean torque of the transmission on the shaft
+  double slope = 0;     ///< −dτ̄/d(Δq), the motors' yielding included; ≥ 0 for a convex law
+  bool settled = true;  ///< the motors' displacements are found; else they are one Newton round nearer
 };
 
 /// A segment while it is solved: begun once, tried for as many shaft displacements as its owner needs, finished once.
@@ -114,7 +115,8 @@ class Actuator {
   /// The torque over the segment for dq = 0 and its slope, extrapolated from the last segment without a call of the law. The first
   /// attempt begins there.
   SegmentResult foresee(const ActuatorState& state, Segment& segment) const noexcept;
-  SegmentResult attempt(const ActuatorState& state, Segment& segment, double dq) const noexcept;
+  /// `rough`: one round only, for an owner who will try another dq anyway.
+  SegmentResult attempt(const ActuatorState& state, Segment& segment, double dq, bool rough = false) const noexcept;
   void finish(ActuatorState& state, const Segment& segment) const noexcept;
 
   /// Shaft friction over a whole host step along the predicted path; moves its anchor and books its heat.
