@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "vsa/config/faults_text.hpp"
 #include "vsa/config/plugin_xml.hpp"
 #include "vsa/errors.hpp"
 
@@ -45,6 +46,7 @@ AttachedRobot::AttachedRobot(const Attachment& attachment, host::RobotTopics::Re
       torques_(robot_.size(), 0.0) {
   ports_.open(robot_, model_, report_);
   topics_.emplace(robot_, model_, port_, report_);
+  faults_.emplace(robot_, model_);
 }
 
 void AttachedRobot::stop(const std::string& why) {
@@ -71,9 +73,7 @@ void AttachedRobot::step(std::int64_t dt_ns) {
   }
 }
 
-void AttachedRobot::publish_step(std::int64_t time_ns) {
-  topics_->update(time_ns);
-}
+void AttachedRobot::publish_step(std::int64_t time_ns) { topics_->update(time_ns); }
 
 void AttachedRobot::publish_paused(std::int64_t time_ns) {
   pace_.stood();
@@ -81,6 +81,16 @@ void AttachedRobot::publish_paused(std::int64_t time_ns) {
   if (now < next_paused_) return;
   next_paused_ = now + kPausedEvery;
   topics_->publish(time_ns);
+}
+
+bool AttachedRobot::apply_faults(const std::string& words, const std::string& where) {
+  try {
+    (void)config::apply_faults(robot_, words, where);
+    return true;
+  } catch (const InputError& error) {
+    report_(model_ + ": refused: " + error.what());
+    return false;
+  }
 }
 
 void AttachedRobot::reset() {

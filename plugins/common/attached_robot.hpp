@@ -25,6 +25,7 @@
 #include "vsa/host/topics.hpp"
 #include "vsa/ports/pace_watch.hpp"
 #include "vsa/ports/robot_ports.hpp"
+#include "vsa/topics/fault_service.hpp"
 #include "vsa/topics/ignition_port.hpp"
 
 namespace vsa::plugins {
@@ -52,7 +53,9 @@ class AttachedRobot {
   void step(std::int64_t dt_ns);
   void publish_step(std::int64_t time_ns);
   void publish_paused(std::int64_t time_ns);  ///< 10 times a wall second at most
-  void reset();                               ///< back to the first sample
+  /// As the service of faults does (docs/topics.md). False: refused and reported, nothing changed. `where` names the text.
+  bool apply_faults(const std::string& words, const std::string& where);
+  void reset();  ///< back to the first sample
 
   [[nodiscard]] bool stopped() const noexcept { return stopped_; }
 
@@ -72,6 +75,7 @@ class AttachedRobot {
   Clock::time_point next_paused_{};
   std::optional<host::RobotTopics> topics_;  ///< must outlive its port's handlers, so it comes before the port
   topics::IgnitionPort port_;
+  std::optional<topics::FaultService> faults_;
   ports::RobotPorts ports_;
   ports::PaceWatch pace_;
 };

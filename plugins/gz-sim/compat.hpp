@@ -23,12 +23,14 @@
 #include <gz/sim/components/ParentEntity.hh>
 #include <gz/sim/components/ParentLinkName.hh>
 #include <gz/sim/components/Pose.hh>
+#include <gz/transport/parameters/Registry.hh>
 
 #define VSA_ADD_PLUGIN GZ_ADD_PLUGIN
 #define VSA_ADD_PLUGIN_ALIAS GZ_ADD_PLUGIN_ALIAS
 #define VSA_ERROR gzerr
 #define VSA_WARNING gzwarn
 #define VSA_HAS_RESET 1
+#define VSA_HAS_PARAMETERS 1
 namespace vsa::plugins {
 namespace sim = gz::sim;
 namespace math = gz::math;

@@ -6,13 +6,20 @@
 
 #include "entities.hpp"
 #include "vsa/errors.hpp"
+#ifdef VSA_HAS_PARAMETERS
+#include <gz/msgs/stringmsg.pb.h>
+#endif
 
 namespace vsa::plugins {
 namespace {
 
 namespace components = sim::components;
+#ifdef VSA_HAS_PARAMETERS
+using gz::msgs::StringMsg;
+#endif
 
 constexpr int kRefreshSteps = 16;  // inverse inertias only serve the robot's prediction
+constexpr int kParameterRounds = 50;
 constexpr int kPhysicsSteps = 10;  // by then any physics has filled the joints' components
 
 bool has_one_axis(sim::Entity joint, const sim::EntityComponentManager& ecm) {
@@ -86,6 +93,9 @@ void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManage
     tree_.reset();
     return;
   }
+#ifdef VSA_HAS_PARAMETERS
+  if (registry_ != nullptr && rounds_to_look_-- <= 0) look_at_parameters();
+#endif
   const auto time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(info.simTime).count();
   if (info.paused) {
     robot_->publish_paused(time_ns);
@@ -129,9 +139,34 @@ void SimRobot::look_for_physics(const sim::EntityComponentManager& ecm) {
   VSA_ERROR << "vsa::Robot: " << text << std::endl;
 }
 
+#ifdef VSA_HAS_PARAMETERS
+void SimRobot::ConfigureParameters(gz::transport::parameters::ParametersRegistry& registry, sim::EntityComponentManager&) {
+  if (!robot_) return;
+  parameter_ = "model." + name_ + ".vsa.faults";
+  for (auto at = parameter_.find("::"); at != std::string::npos; at = parameter_.find("::")) parameter_.replace(at, 2, ".");
+  // Of a model that was removed and is back, the parameter is there already.
+  if (!registry.DeclareParameter(parameter_, StringMsg()) && !registry.SetParameter(parameter_, StringMsg())) return;
+  registry_ = &registry;
+}
+
+void SimRobot::look_at_parameters() {
+  rounds_to_look_ = kParameterRounds - 1;
+  StringMsg value;
+  if (!registry_->Parameter(parameter_, value) || value.data() == faults_) return;
+  if (robot_->apply_faults(value.data(), parameter_)) {
+    faults_ = value.data();
+  } else {
+    value.set_data(faults_);
+    registry_->SetParameter(parameter_, value);
+  }
+}
+#endif
+
 #ifdef VSA_HAS_RESET
 void SimRobot::Reset(const sim::UpdateInfo&, sim::EntityComponentManager&) {
   if (robot_) robot_->reset();
+  if (registry_ != nullptr) registry_->SetParameter(parameter_, StringMsg());
+  faults_.clear();  // a reset ends them
   steps_ = steps_to_refresh_ = 0;
 }
 #endif

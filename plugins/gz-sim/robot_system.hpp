@@ -49,6 +49,9 @@ class EntityTree {
 
 class SimRobot : public sim::System,
                  public sim::ISystemConfigure,
+#ifdef VSA_HAS_PARAMETERS
+                 public sim::ISystemConfigureParameters,
+#endif
 #ifdef VSA_HAS_RESET
                  public sim::ISystemReset,
 #endif
@@ -57,6 +60,10 @@ class SimRobot : public sim::System,
   void Configure(const sim::Entity& entity, const std::shared_ptr<const sdf::Element>& element, sim::EntityComponentManager& ecm,
                  sim::EventManager& events) override;
   void PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) override;
+#ifdef VSA_HAS_PARAMETERS
+  /// The world's parameter "model.M.vsa.faults", a StringMsg of the words that the service of faults takes.
+  void ConfigureParameters(gz::transport::parameters::ParametersRegistry& registry, sim::EntityComponentManager& ecm) override;
+#endif
 #ifdef VSA_HAS_RESET
   void Reset(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) override;
 #endif
@@ -74,6 +81,12 @@ class SimRobot : public sim::System,
   std::vector<sim::Entity> joints_;  ///< of the actuators
   std::unique_ptr<AttachedRobot> robot_;
   std::unique_ptr<EntityTree> tree_;
+#ifdef VSA_HAS_PARAMETERS
+  void look_at_parameters();
+  gz::transport::parameters::ParametersRegistry* registry_ = nullptr;
+  std::string parameter_, faults_;  ///< its name; its value, as far as it was taken
+  int rounds_to_look_ = 0;
+#endif
   int steps_ = 0;  ///< since the start or a reset, as far as anyone asks: see look_for_physics
   int steps_to_refresh_ = 0;
   std::int64_t last_dt_ns_ = 0;

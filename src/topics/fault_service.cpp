@@ -1,11 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "topics/fault_service.hpp"
+#include "vsa/topics/fault_service.hpp"
 
-#include <ignition/msgs/stringmsg.pb.h>
-
-#include <ignition/transport/Node.hh>
+#include <functional>
 #include <mutex>
 
+#include "stock.hpp"
 #include "vsa/config/faults_text.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
@@ -13,8 +12,6 @@
 
 namespace vsa::topics {
 namespace {
-
-namespace msgs = ignition::msgs;
 
 /// The transport copies its handlers before it calls them, so that one may run after its node has gone: this keeps it out.
 struct Desk {
@@ -39,7 +36,7 @@ struct Desk {
 
 struct FaultService::Impl {
   std::shared_ptr<Desk> desk = std::make_shared<Desk>();
-  ignition::transport::Node node;
+  transport::Node node;
 };
 
 FaultService::FaultService(host::Robot& robot, const std::string& model) : impl_(std::make_unique<Impl>()) {

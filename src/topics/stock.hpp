@@ -9,6 +9,7 @@
 #include <gz/msgs/double.pb.h>
 #include <gz/msgs/joint_trajectory.pb.h>
 #include <gz/msgs/model.pb.h>
+#include <gz/msgs/stringmsg.pb.h>
 #include <gz/msgs/time.pb.h>
 
 #include <gz/transport/Node.hh>
@@ -24,6 +25,7 @@ inline constexpr const char* kAddressVariable = "GZ_IP";
 #include <ignition/msgs/actuators.pb.h>
 #include <ignition/msgs/double.pb.h>
 #include <ignition/msgs/model.pb.h>
+#include <ignition/msgs/stringmsg.pb.h>
 #include <ignition/msgs/time.pb.h>
 
 #include <ignition/transport/Node.hh>

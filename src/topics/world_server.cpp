@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "messages.hpp"
-#include "topics/fault_service.hpp"
+#include "vsa/topics/fault_service.hpp"
 #include "vsa/topics/ignition_port.hpp"
 #include "vsa/topics/transport.hpp"
 

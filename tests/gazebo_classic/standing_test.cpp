@@ -3,9 +3,12 @@
 // A world that stands (paused, or not run) still tells its state, so that who comes late sees it.
 #include <gazebo/msgs/any.pb.h>
 #include <gtest/gtest.h>
+#include <ignition/msgs/double.pb.h>
 #include <ignition/msgs/model.pb.h>
+#include <ignition/msgs/stringmsg.pb.h>
 
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <gazebo/transport/transport.hh>
 #include <ignition/transport/Node.hh>
@@ -74,6 +77,35 @@ TEST(StandingWorld, ShowsASingleStepAndATimeThatIsSetBack) {
   EXPECT_TRUE(listener.wait_for(last_is(51'000'000)));
   w.world->ResetTime();
   EXPECT_TRUE(listener.wait_for(last_is(0)));
+}
+
+TEST(StandingWorld, TakesFaultsByTheirServiceForTheStepsThatFollow) {
+  ClassicWorld w(world_sdf("faults", include("qbmove_bench_load", "bench", kLeverLevel)));
+  w.run(10);
+  ignition::transport::Node node;
+  const auto asked = [&node](const std::string& words) {
+    ignition::msgs::StringMsg request, reply;
+    request.set_data(words);
+    bool answered = false;
+    return node.Request("/model/bench/vsa/faults", request, 5000, reply, answered) && answered ? reply.data() : "no answer";
+  };
+  EXPECT_EQ(asked("all lost_byte=2").substr(0, 8), "refused:");
+  auto equilibrium = node.Advertise<ignition::msgs::Double>("/model/bench/joint/shaft/cmd_equilibrium");
+  ignition::msgs::Double half;
+  half.set_data(0.5);
+  const auto moved = [&] {
+    const double from = w.angle("bench");
+    for (int i = 0; i < 40; ++i) {  // the two may still be finding each other
+      equilibrium.Publish(half);
+      w.run(50);
+    }
+    return w.angle("bench") - from;
+  };
+  w.run(2000);
+  EXPECT_EQ(asked("all lost_byte=1"), "ok: shaft");
+  EXPECT_NEAR(moved(), 0.0, 0.01) << "no frame reaches the unit";
+  EXPECT_EQ(asked("all none"), "ok: shaft");
+  EXPECT_GT(moved(), 0.3);
 }
 
 TEST(StandingWorld, IsHeardOnGazebosOwnTransportToo) {

@@ -16,6 +16,9 @@
 #include "gz_world.hpp"
 #include "vsa/bus/client.hpp"
 #include "vsa/serial/serial_channel.hpp"
+#ifdef VSA_HAS_PARAMETERS
+#include <gz/transport/parameters/Client.hh>
+#endif
 
 namespace vsa::test {
 namespace {
@@ -103,6 +106,68 @@ TEST(GzSimTopics, ATrajectoryIsFollowedInSimulatedTime) {
   w.run(2000);
   EXPECT_GT(w.angle("arm"), 0.35);
 }
+
+/// The equilibrium commanded, again and again, until the state tells of it.
+void command_equilibrium(SimWorld& w, States& states, double rad) {
+  Node node;
+  auto equilibrium = node.Advertise<msgs::Double>("/model/arm/joint/shaft/cmd_equilibrium");
+  msgs::Double number;
+  number.set_data(rad);
+  ASSERT_TRUE(run_until(w, [&] {
+    equilibrium.Publish(number);
+    const auto told = states.last().commands;
+    return !told.empty() && told[0].equilibrium_rad == rad;
+  }));
+}
+
+TEST(GzSimTopics, FaultsAreMadeAndMendedByTheirService) {
+  SimWorld w(sdf_text(world_text(bench("arm", kHanging))));
+  States states("arm");
+  Node node;
+  const auto asked = [&node](const std::string& words) {
+    msgs::StringMsg request, reply;
+    request.set_data(words);
+    bool answered = false;
+    return node.Request("/model/arm/vsa/faults", request, 5000, reply, answered) && answered ? reply.data() : "no answer";
+  };
+  EXPECT_EQ(asked("all lost_byte=2").substr(0, 8), "refused:");
+  EXPECT_EQ(asked("all lost_byte=1"), "ok: shaft");
+  w.run(10);
+  command_equilibrium(w, states, 0.5);
+  w.run(2000);
+  EXPECT_NEAR(w.angle("arm"), 0.0, 0.02) << "no frame reaches the unit";
+  EXPECT_EQ(asked("all none"), "ok: shaft");
+  w.run(3000);
+  EXPECT_GT(w.angle("arm"), 0.3);
+}
+
+#ifdef VSA_HAS_PARAMETERS
+TEST(GzSimTopics, FaultsAreMadeAndMendedByTheWorldsParameter) {
+  SimWorld w(sdf_text(world_text(bench("arm", kHanging))));
+  States states("arm");
+  gz::transport::parameters::ParametersClient client("/world/test");
+  const std::string name = "model.arm.vsa.faults";
+  const auto set = [&](const std::string& words) {
+    msgs::StringMsg value;
+    value.set_data(words);
+    return client.SetParameter(name, value);
+  };
+  w.run(10);
+  ASSERT_TRUE(set("all lost_byte=1"));
+  w.run(200);
+  command_equilibrium(w, states, 0.5);
+  w.run(2000);
+  EXPECT_NEAR(w.angle("arm"), 0.0, 0.02) << "no frame reaches the unit";
+  ASSERT_TRUE(set("all what"));
+  w.run(200);
+  msgs::StringMsg now;
+  ASSERT_TRUE(client.Parameter(name, now));
+  EXPECT_EQ(now.data(), "all lost_byte=1") << "what is refused is set back";
+  ASSERT_TRUE(set("all none"));
+  w.run(3000);
+  EXPECT_GT(w.angle("arm"), 0.3);
+}
+#endif
 
 TEST(GzSimTopics, StatesComeAtTheirRateOfSimulatedTime) {
   SimWorld w(sdf_text(world_text(bench("arm", kHanging))));
