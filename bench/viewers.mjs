@@ -4,7 +4,7 @@
 // viewer takes frames at 60 a second and draws nothing, so that what is measured is the run's own cost, not a browser's. It runs
 // `vsa run WORLD --view --speed max` anew for each and prints the real-time factor that the command tells at the end.
 import { spawn } from 'node:child_process';
-import { connect } from 'node:net';
+import { view } from './viewer.mjs';
 
 const given = process.argv.slice(2);
 const cut = given.includes('--') ? given.indexOf('--') : given.length;
@@ -14,43 +14,6 @@ if (!vsa || !world) {
   process.exit(2);
 }
 
-/** {"do":"next"} as a masked text frame (RFC 6455), mask 0. */
-const text = Buffer.from('{"do":"next"}');
-const next = Buffer.concat([Buffer.from([0x81, 0x80 | text.length, 0, 0, 0, 0]), text]);
-
-function view(port, counter) {
-  const socket = connect(port, '127.0.0.1', () =>
-    socket.write(
-      `GET /live HTTP/1.1\r\nHost: 127.0.0.1:${port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n` +
-        'Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n',
-    ),
-  );
-  let kept = Buffer.alloc(0);
-  let upgraded = false;
-  socket.on('data', (piece) => {
-    kept = Buffer.concat([kept, piece]);
-    if (!upgraded) {
-      const end = kept.indexOf('\r\n\r\n');
-      if (end < 0) return;
-      upgraded = true;
-      kept = kept.subarray(end + 4);
-    }
-    for (;;) {
-      if (kept.length < 4) return;
-      const short = kept[1] & 0x7f;
-      const [head, size] = short < 126 ? [2, short] : short === 126 ? [4, kept.readUInt16BE(2)] : [10, kept.length < 10 ? Infinity : Number(kept.readBigUInt64BE(2))];
-      if (kept.length < head + size) return;
-      if ((kept[0] & 0x0f) === 2) {
-        ++counter.frames;
-        socket.write(next);
-      }
-      kept = kept.subarray(head + size);
-    }
-  });
-  socket.on('error', () => {});
-  return socket;
-}
-
 async function run(viewers) {
   const child = spawn(vsa, ['run', world, '--view', '--no-topics', '--speed', 'max', ...given.slice(cut + 1)]);
   const counter = { frames: 0 };
@@ -58,11 +21,11 @@ async function run(viewers) {
   let out = '';
   child.stderr.on('data', (said) => {
     const port = /127\.0\.0\.1:(\d+)/.exec(said)?.[1];
-    if (port) sockets = Array.from({ length: viewers }, () => view(Number(port), counter));
+    if (port) sockets = Array.from({ length: viewers }, () => view(Number(port), () => ++counter.frames));
   });
   child.stdout.on('data', (said) => (out += said));
   await new Promise((resolve) => child.on('exit', resolve));
-  sockets.forEach((s) => s.destroy());
+  sockets.forEach((s) => s.close());
   const wall = Number(/in ([\d.]+) s of wall time/.exec(out)?.[1]);
   const simulated = Number(/simulated time\s+([\d.]+) s/.exec(out)?.[1]);
   const each = viewers ? counter.frames / viewers / wall : 0;

@@ -9,10 +9,10 @@ packages="
   libtomlplusplus-dev libtinyxml2-dev libcli11-dev libfmt-dev libexpected-dev nlohmann-json3-dev libboost-dev libceres-dev
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3-yaml
 "
-# The page tests drive Debian's Chromium; a developer's tools are asked for by name: setup.sh test tidy
+# The page tests drive Debian's Chromium, the man page's groff; a developer's tools are asked for by name: setup.sh test tidy
 for group in "$@"; do
   case "$group" in
-    test) packages="$packages chromium" ;;
+    test) packages="$packages chromium groff-base" ;;
     tidy) packages="$packages clang-format clang-tidy" ;;
     fuzz) packages="$packages clang-14 libclang-rt-14-dev" ;;
     classic) packages="$packages debootstrap" ;;

@@ -77,7 +77,7 @@ int show(const config::Preset& preset) {
 void setup_actuators(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ActuatorsOptions>();
   CLI::App* sub = app.add_subcommand("actuators", "list the actuator presets, or print one with units, bounds and sources");
-  sub->add_option("name", options->name, "preset to print");
+  sub->add_option("PRESET", options->name, "preset to print");
   sub->callback([options, &exit_code] { exit_code = run_actuators(*options); });
 }
 

@@ -15,20 +15,24 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string built_in_names(const fs::path& folder, const std::string& extension) {
-  const auto directory = config::find_data(folder);
-  if (!directory) return "";
+  std::string list;
+  for (const auto& name : built_in_files(folder, extension)) list += ", " + name;
+  return list;
+}
+
+}  // namespace
+
+std::vector<std::string> built_in_files(const fs::path& folder, const std::string& extension) {
   std::vector<std::string> names;
+  const auto directory = config::find_data(folder);
+  if (!directory) return names;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(*directory, none)) {
     if (entry.path().extension() == extension) names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
-  std::string list;
-  for (const auto& name : names) list += ", " + name;
-  return list;
+  return names;
 }
-
-}  // namespace
 
 fs::path find_file(const std::string& given, const std::string& what, const fs::path& folder, const std::string& extension) {
   std::error_code none;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace vsa::app {
 
@@ -10,5 +11,8 @@ namespace vsa::app {
 /// Throws InputError with the built-in names there are. `what`: "world", "gait".
 [[nodiscard]] std::filesystem::path find_file(const std::string& given, const std::string& what,
                                               const std::filesystem::path& folder, const std::string& extension);
+
+/// The stems of the built-in files, sorted.
+[[nodiscard]] std::vector<std::string> built_in_files(const std::filesystem::path& folder, const std::string& extension);
 
 }  // namespace vsa::app

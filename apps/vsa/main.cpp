@@ -4,10 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "actuators.hpp"
 #include "characterize.hpp"
 #include "command.hpp"
+#include "completion.hpp"
 #include "datasheet.hpp"
 #include "doctor.hpp"
 #include "emulate.hpp"
@@ -15,6 +19,7 @@
 #include "get.hpp"
 #include "identify.hpp"
 #include "interrupt.hpp"
+#include "man_page.hpp"
 #include "ping.hpp"
 #include "run.hpp"
 #include "set.hpp"
@@ -45,14 +50,10 @@ void refuse_empty(int argc, char** argv) {
   }
 }
 
-int run_application(int argc, char** argv) {
-  vsa::app::survive_broken_pipes();
-  refuse_empty(argc, argv);
-  CLI::App app{"vsa: simulates robots built of variable stiffness actuators", "vsa"};
+void set_up(CLI::App& app, int& exit_code) {
   app.set_version_flag("--version", "vsa " VSA_VERSION);
   app.require_subcommand(1);
   app.footer(kExamples);
-  int exit_code = vsa::app::kDone;
   vsa::app::setup_run(app, exit_code);
   vsa::app::setup_command(app, exit_code);
   vsa::app::setup_actuators(app, exit_code);
@@ -65,6 +66,29 @@ int run_application(int argc, char** argv) {
   vsa::app::setup_validate(app, exit_code);
   vsa::app::setup_datasheet(app, exit_code);
   vsa::app::setup_doctor(app, exit_code);
+}
+
+/// What shells and the build ask of the command, as its first argument; not for people and so not in the help.
+bool tell_about(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return false;
+  if (arguments[0] == "--man") {
+    std::cout << vsa::app::man_page(app, VSA_VERSION);
+  } else if (arguments[0] == "--complete") {
+    for (const auto& word : vsa::app::complete(app, {arguments.begin() + 1, arguments.end()})) std::cout << word << '\n';
+  } else {
+    return false;
+  }
+  if (!std::cout.flush()) throw std::runtime_error("can't write to standard output");
+  return true;
+}
+
+int run_application(int argc, char** argv) {
+  vsa::app::survive_broken_pipes();
+  CLI::App app{"vsa: simulates robots built of variable stiffness actuators", "vsa"};
+  int exit_code = vsa::app::kDone;
+  set_up(app, exit_code);
+  if (tell_about(app, {argv + (argc > 0 ? 1 : 0), argv + argc})) return vsa::app::kDone;
+  refuse_empty(argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -97,7 +97,7 @@ void setup_run(CLI::App& app, int& exit_code) {
   sub->add_option("--set", options->set, "Override a parameter of every actuator: key=value");
   sub->add_option("--fault", options->faults, "Break something from the start: \"ACTUATOR FAULT …\" or \"all FAULT …\"");
   sub->add_option("--gait", options->gait, "Play this gait in simulated time");
-  sub->add_option("--record", options->record, "Write CSV files and a replay page into this directory");
+  sub->add_option("--record", options->record, "Write CSV files, run.mcap and a replay page into this directory");
   sub->add_flag("--no-topics", options->no_topics, "Run without the transport");
   sub->add_flag("--paused", options->paused, "Start paused; the page or /world/W/control lets it run");
   sub->footer(kNotes + std::string(kFaultsHelp));

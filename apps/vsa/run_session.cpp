@@ -44,8 +44,9 @@ double travel_window_s(const std::optional<engine::Gait>& gait) {
 }
 
 /// The page's template is generated, so it lies beside the build, where the other data needn't be.
-record::RecorderOptions recorder_options() {
+record::RecorderOptions recorder_options(const std::vector<std::string>& faults) {
   record::RecorderOptions options;
+  for (const std::string& text : faults) (options.faults += options.faults.empty() ? "" : "; ") += text;
   options.page_template = config::find_data("web/replay.html").value_or("");
   return options;
 }
@@ -107,7 +108,7 @@ RunSession::RunSession(const RunOptions& options, Console& console)
   open_ports(report);
   if (options.view) open_view(options);
   // Last, so that a run that is refused has not touched an earlier record.
-  if (!options.record.empty()) recorder_.emplace(world_, options.record, recorder_options());
+  if (!options.record.empty()) recorder_.emplace(world_, options.record, recorder_options(faults_));
   if (duration_s_) end_ns_ = world_.time_ns() + std::llround(*duration_s_ * 1e9);
 }
 

@@ -102,7 +102,9 @@ void Gait::apply(World& world) {
       const ActuatorRef& ref = world.actuator(names[k]);
       const auto unless = [](bool hand, double value) { return hand ? std::nullopt : std::optional(value); };
       if (left.equilibrium && left.preset) continue;
-      world.robot(ref.robot).command(ref.index, unless(left.equilibrium, equilibrium(group, k, t_s)), unless(left.preset, preset));
+      double angle = equilibrium(group, k, t_s), stiffness = preset;
+      blend_back(world, ref, names[k], t_s, angle, stiffness);
+      world.robot(ref.robot).command(ref.index, unless(left.equilibrium, angle), unless(left.preset, stiffness));
     }
   }
 }

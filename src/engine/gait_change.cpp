@@ -108,15 +108,41 @@ void Gait::resume(double t_s) {
   state_.blend = GaitBlend{t_s, *state_.held_phase_rad, values()};
   state_.held_phase_rad.reset();
   state_.steering.trail.clear();
+  for (auto& [name, back] : state_.returning) back.t_s.reset();  // from where they stood
 }
 
 bool Gait::leave(std::string_view actuator, ByHand by_hand) {
   for (const GaitGroup& group : params_.groups) {
     if (std::find(group.actuators.begin(), group.actuators.end(), actuator) == group.actuators.end()) continue;
+    const ByHand before = this->by_hand(actuator);
+    GaitReturn& back = state_.returning[std::string(actuator)];
+    const ByHand joins{before.equilibrium && !by_hand.equilibrium, before.preset && !by_hand.preset};
+    if (joins.any()) back.t_s.reset();
+    back.of.equilibrium = !by_hand.equilibrium && (back.of.equilibrium || joins.equilibrium);
+    back.of.preset = !by_hand.preset && (back.of.preset || joins.preset);
+    if (!back.of.any()) state_.returning.erase(state_.returning.find(actuator));
     by_hand_.insert_or_assign(std::string(actuator), by_hand);
     return true;
   }
   return false;
+}
+
+void Gait::blend_back(const World& world, const ActuatorRef& ref, std::string_view name, double t_s, double& equilibrium,
+                      double& preset) {
+  const auto found = state_.returning.find(name);
+  if (found == state_.returning.end()) return;
+  GaitReturn& back = found->second;
+  if (!back.t_s) {
+    const host::ActuatorReading now = world.robot(ref.robot).read(ref.index);
+    back = {back.of, t_s, now.equilibrium_command_rad, now.preset_command};
+  }
+  const double part = (t_s - *back.t_s) / kGiveBack_s;
+  if (part >= 1) {
+    state_.returning.erase(found);
+    return;
+  }
+  if (back.of.equilibrium) equilibrium = std::lerp(back.equilibrium_rad, equilibrium, part);
+  if (back.of.preset) preset = std::lerp(back.preset, preset, part);
 }
 
 ByHand Gait::by_hand(std::string_view actuator) const {

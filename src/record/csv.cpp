@@ -2,11 +2,11 @@
 #include "vsa/record/csv.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <system_error>
 #include <utility>
 
 #include "record/energy_columns.hpp"
+#include "record/number_text.hpp"
 #include "record/output_file.hpp"
 #include "vsa/errors.hpp"
 
@@ -14,11 +14,6 @@ namespace vsa::record {
 namespace {
 
 namespace fs = std::filesystem;
-
-void put(std::string& line, double value) {
-  char text[32];
-  line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
 
 void cell(std::string& line, double value) {
   line += ',';

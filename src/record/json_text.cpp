@@ -2,26 +2,11 @@
 #include <bit>
 #include <cstdint>
 
+#include "record/utf8.hpp"
 #include "vsa/record/page.hpp"
 
 namespace vsa::record {
 namespace {
-
-/// Length of the well-formed UTF-8 sequence at `at`, 0 if it is none (overlong, surrogate, cut short, beyond U+10FFFF).
-std::size_t utf8_length(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U; };
-  const unsigned lead = byte(0);
-  if (lead < 0x80) return 1;
-  if (lead < 0xC2 || lead > 0xF4) return 0;
-  const std::size_t length = lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return 0;
-  }
-  const unsigned second = byte(1);
-  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F)) return 0;
-  if ((lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F)) return 0;
-  return length;
-}
 
 std::string escaped(unsigned char c) {
   constexpr std::string_view kHex = "0123456789abcdef";

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "vsa/config/faults_text.hpp"
+
 namespace vsa::record {
 namespace {
 
@@ -12,6 +14,17 @@ ActuatorInfo describe(const host::ActuatorConfig& config) {
     info.preset_unit = law->preset_unit();
     info.motors = law->motor_count();
   }
+  return info;
+}
+
+void add_faults(const ActuatorInfo& actuator, const device::Faults& faults, std::string& all) {
+  if (faults == device::Faults{}) return;
+  (all += all.empty() ? "" : "; ") += actuator.name + " " + config::faults_text(faults);
+}
+
+RunInfo info_of(const engine::World& world, const RecorderOptions& options) {
+  RunInfo info = record::describe(world);
+  if (!options.faults.empty()) info.faults = options.faults;
   return info;
 }
 
@@ -37,7 +50,9 @@ RunInfo describe(const engine::World& world) {
     RobotInfo robot{world.robot_model(r), {}};
     for (const host::ActuatorConfig& a : world.robot(r).config().actuators) {
       robot.actuators.push_back(describe(a));
-      robot.actuators.back().links = links_of_joint(robot.model, a.joint, robot.actuators.size() - 1, info.links);
+      const std::size_t index = robot.actuators.size() - 1;
+      robot.actuators.back().links = links_of_joint(robot.model, a.joint, index, info.links);
+      add_faults(robot.actuators.back(), world.robot(r).faults(index), info.faults);
     }
     info.robots.push_back(std::move(robot));
   }
@@ -45,7 +60,7 @@ RunInfo describe(const engine::World& world) {
 }
 
 Recorder::Recorder(const engine::World& world, const std::filesystem::path& directory, RecorderOptions options)
-    : record_(describe(world), directory, std::move(options)) {
+    : record_{info_of(world, options), directory, std::move(options)} {
   read(world, sample_);
   record_.add(sample_);
 }

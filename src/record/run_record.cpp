@@ -1,5 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <exception>
 #include <utility>
 
 #include "vsa/config/preset.hpp"
@@ -7,6 +8,7 @@
 #include "vsa/record/csv.hpp"
 #include "vsa/record/page.hpp"
 #include "vsa/record/recorder.hpp"
+#include "vsa/record/run_log.hpp"
 
 namespace vsa::record {
 namespace {
@@ -41,6 +43,7 @@ struct RunRecord::Impl {
   RecorderOptions options;
   std::string page_template;
   CsvFiles files;
+  RunLog log;  // behind the files: they hold the directory
   Cadence cadence;
   PageData page;
   std::int64_t last_ns = -1;
@@ -53,6 +56,7 @@ struct RunRecord::Impl {
         options(checked(std::move(o))),
         page_template(read_template(options.page_template)),
         files(info, directory),
+        log(info, directory, options.rate_Hz),
         cadence(options.rate_Hz),
         page(info, options.page_rate_Hz, options.page_frames_max) {}
 
@@ -60,16 +64,19 @@ struct RunRecord::Impl {
     notes.push_back("The world went back from " + seconds(last_ns) + " to " + seconds(time_ns) + ": the recording starts there.");
     cadence.restart();
     page.restart();
-    if (!files_failed) files.restart();
+    if (files_failed) return;
+    files.restart();
+    log.restart();
   }
 
   void write_files(const Sample& sample) {
     try {
       files.write(sample);
+      log.write(sample);
       cadence.taken(sample.time_ns);
     } catch (const RecordError& e) {
       files_failed = true;
-      notes.push_back("The CSV files end at " + seconds(sample.time_ns) + ". " + e.what());
+      notes.push_back("The data files end at " + seconds(sample.time_ns) + ". " + e.what());
       throw;
     }
   }
@@ -97,12 +104,24 @@ fs::path RunRecord::finish(const std::vector<Statistic>& summary, std::string_vi
   Impl& r = *impl_;
   PageText text{r.options.title.empty() ? r.info.world : r.options.title, summary, r.notes};
   if (!note.empty()) text.notes.emplace_back(note);
+  // First what is small and makes the data whole; the page is written all the same.
+  std::exception_ptr failed;
+  try {
+    r.log.close();
+    r.files.close();
+  } catch (const RecordError&) {
+    failed = std::current_exception();
+  }
   const fs::path file = r.directory / "replay.html";
   write_page(file, r.page_template, r.page.json(r.info, text));
-  r.files.close();
+  if (failed) std::rethrow_exception(failed);
   return file;
 }
 
-std::vector<fs::path> RunRecord::files() const { return impl_->files.files(); }
+std::vector<fs::path> RunRecord::files() const {
+  std::vector<fs::path> all = impl_->files.files();
+  all.push_back(impl_->log.file());
+  return all;
+}
 
 }  // namespace vsa::record

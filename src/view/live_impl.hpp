@@ -54,6 +54,7 @@ struct LiveView::Impl final : Host {
   void serve();
   void publish(bool now);
   void changed();
+  void collect();
   void sample();
   void set_pulls();
   template <class Work>

@@ -87,7 +87,16 @@ std::string LiveView::Impl::hear(ViewerId viewer, std::string_view text, bool& n
 
 void LiveView::Impl::gone(ViewerId viewer) { ask(viewer, Release{}, SIZE_MAX); }
 
+/// Pages of recordings that are written by now.
+void LiveView::Impl::collect() {
+  std::vector<std::string> problems;
+  if (!recordings.collect(problems)) return;
+  for (const std::string& problem : problems) server->tell(plain_text("note", problem));
+  changed();
+}
+
 void LiveView::Impl::serve() {
+  collect();
   if (!pending.load(std::memory_order_relaxed)) return;
   std::deque<std::pair<ViewerId, Request>> now;
   {
@@ -156,6 +165,8 @@ void LiveView::idle() {
 std::vector<fs::path> LiveView::finish(const std::string& why) {
   Impl& v = *impl_;
   if (v.recordings.running()) v.guarded([&] { v.recordings.stop(v.world, why); });
+  v.recordings.wait();
+  v.collect();
   v.changed();
   v.server->tell(plain_text("end", why.empty() ? "The run is over." : why));
   std::vector<fs::path> out;

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 namespace vsa::view {
 namespace {
@@ -35,12 +37,48 @@ void Recordings::sample(const engine::World& world) {
 }
 
 void Recordings::stop(const engine::World& world, std::string_view note) {
-  std::optional<record::Recorder> ended = std::move(recorder_);
+  if (!recorder_) return;
+  const std::vector<record::Statistic> summary{{"until", fmt::format("{:.2f} s", world.time_s())}};
+  auto write = [given = std::move(*recorder_), summary, why = std::string(note)]() mutable {
+    record::Recorder recorder = std::move(given);  // its memory goes with this thread
+    return recorder.finish(summary, why);
+  };
   recorder_.reset();
-  if (!ended) return;
-  const fs::path page = ended->finish({{"until", fmt::format("{:.2f} s", world.time_s())}}, note);
-  const std::lock_guard lock(mutex_);
-  done_.push_back({name_, page});
+  try {
+    endings_.push_back({name_, std::async(std::launch::async, std::move(write))});
+  } catch (const std::system_error& error) {
+    throw record::RecordError((under_ / name_).string() + ": no thread to write the page: " + error.what());
+  }
+}
+
+bool Recordings::collect(std::vector<std::string>& problems) {
+  const std::size_t before = endings_.size();
+  for (std::size_t i = 0; i < endings_.size();) {
+    Ending& ending = endings_[i];
+    if (ending.page.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+      ++i;
+      continue;
+    }
+    try {
+      const fs::path page = ending.page.get();
+      const std::lock_guard lock(mutex_);
+      done_.push_back({ending.name, page});
+    } catch (const std::exception& error) {  // a full disk, no memory, no thread
+      problems.push_back(ending.name + ": " + error.what());
+    }
+    endings_.erase(endings_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return endings_.size() != before;
+}
+
+void Recordings::wait() const {
+  for (const Ending& ending : endings_) ending.page.wait();
+}
+
+std::vector<std::string> Recordings::writing() const {
+  std::vector<std::string> names;
+  for (const Ending& ending : endings_) names.push_back(ending.name);
+  return names;
 }
 
 std::vector<Recordings::Done> Recordings::done() const {

@@ -1,9 +1,11 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the record button makes: one directory a recording, with CSV files and a replay page.
+// What the record button makes: one directory a recording, with CSV files, an MCAP file and a replay page. The page is written by a
+// thread of its own when a recording ends, so that the world goes on meanwhile.
 #pragma once
 
 #include <filesystem>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -27,8 +29,14 @@ class Recordings {
   /// Throws InputError, RecordError.
   void start(const engine::World& world);
   void sample(const engine::World& world);
-  /// Writes the page. Throws RecordError; the recording is over either way.
+  /// The recording is over; what is left of the files and the page are written behind the caller's back. Throws RecordError where
+  /// no thread can be had for that.
   void stop(const engine::World& world, std::string_view note);
+  /// Whether a page was finished or failed since the last call. What failed goes to `problems`.
+  bool collect(std::vector<std::string>& problems);
+  /// Until every page is written.
+  void wait() const;
+  [[nodiscard]] std::vector<std::string> writing() const;  ///< names of those that are being written
   [[nodiscard]] bool running() const noexcept { return recorder_.has_value(); }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }  ///< of the one under way or the last
   [[nodiscard]] std::filesystem::path directory() const { return under_ / name_; }
@@ -41,6 +49,11 @@ class Recordings {
   std::filesystem::path under_, template_;
   std::string name_;
   std::optional<record::Recorder> recorder_;
+  struct Ending {
+    std::string name;
+    std::future<std::filesystem::path> page;
+  };
+  std::vector<Ending> endings_;  ///< the loop's thread only
   mutable std::mutex mutex_;
   std::vector<Done> done_;  ///< under the mutex
 };

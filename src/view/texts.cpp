@@ -37,7 +37,7 @@ json recordings_json(const Recordings& recordings) {
   }
   json now = nullptr;
   if (recordings.running()) now = recordings.directory().string();
-  return {{"now", std::move(now)}, {"done", std::move(done)}};
+  return {{"now", std::move(now)}, {"writing", recordings.writing()}, {"done", std::move(done)}};
 }
 
 json span_json(const Span& span) { return {span.min, span.max}; }

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "record/fake_snake.hpp"
+#include "record/mcap_reader.hpp"
 #include "record/scratch.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/record/recorder.hpp"
@@ -29,6 +30,7 @@ class RunRecordTest : public testing::Test {
     }
   }
   [[nodiscard]] std::string links() const { return slurp(out() / "links.csv"); }
+  [[nodiscard]] mcap_reader::File log() const { return mcap_reader::read(slurp(out() / "run.mcap")); }
 
   Scratch dir_;
   RecorderOptions options_;
@@ -43,6 +45,8 @@ TEST_F(RunRecordTest, SamplesAtItsRateFromTimeZero) {
   feed(record, 0, 30);
   record.finish({}, {});
   EXPECT_EQ(links(), kLinksAt0And10And20);
+  EXPECT_TRUE(log().whole);
+  EXPECT_EQ(log().on("/world/bench/links").size(), 3u);
 }
 
 TEST_F(RunRecordTest, TakesEveryStepWhenTheRateIsAboveTheSteps) {
@@ -92,6 +96,7 @@ TEST_F(RunRecordTest, StartsOverWhenTheWorldIsResetAndSaysSo) {
   feed(record, 0, 25);
   const std::string text = slurp(record.finish({}, {}));
   EXPECT_EQ(links(), kLinksAt0And10And20);
+  EXPECT_EQ(log().on("/world/bench/links").size(), 3u);
   EXPECT_NE(text.find("The world went back from 0.490 s to 0.000 s"), std::string::npos) << text;
   EXPECT_NE(text.find("\"frames\":2"), std::string::npos);
 }
@@ -106,9 +111,22 @@ TEST_F(RunRecordTest, StillMakesThePageAfterTheDiskRefusedTheFiles) {
   feed(record, 1000, 1100);
   const std::string files = links();
   const std::string text = slurp(record.finish({}, {}));
+  EXPECT_TRUE(log().whole) << "there was room again";
   EXPECT_EQ(links(), files) << "nothing more is written to the files";
-  EXPECT_NE(text.find("The CSV files end at 0.0"), std::string::npos) << text;
+  EXPECT_NE(text.find("The data files end at 0.0"), std::string::npos) << text;
   EXPECT_NE(text.find("File too large"), std::string::npos) << text;
+}
+
+TEST_F(RunRecordTest, StillMakesThePageWhereTheLogCantBeFinished) {
+  RunRecord record = start();
+  feed(record, 0, 25);
+  const std::string message = message_of<RecordError>([&] {
+    const FileSizeLimit disk(4000);  // more than this page, less than the log's schemas
+    record.finish({}, {});
+  });
+  EXPECT_NE(message.find("run.mcap: can't write: File too large"), std::string::npos) << message;
+  EXPECT_TRUE(log().whole && log().messages.empty()) << "what there was room for";
+  EXPECT_GT(fs::file_size(out() / "replay.html"), 500u);
 }
 
 TEST_F(RunRecordTest, RefusesRatesThatAreNone) {

@@ -5,6 +5,8 @@ source=$1 build=$2
 work=$build/consumer
 rm -rf "$work"
 cmake --install "$build" --prefix "$work/prefix" > /dev/null
+test -s "$work/prefix/share/man/man1/vsa.1"
+cmp "$source/apps/vsa/vsa.bash" "$work/prefix/share/bash-completion/completions/vsa"
 cmake -Wno-dev -S "$source/examples/library" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null
 cmake --build "$work/build"
 cmake -Wno-dev -S "$source/examples/snake_gait_topics" -B "$work/topics" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null

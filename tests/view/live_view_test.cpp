@@ -4,7 +4,9 @@
 #include "vsa/view/live_view.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -202,8 +204,12 @@ TEST(LiveView, RecordsAndServesTheReplayPage) {
   EXPECT_TRUE(get(run.port(), "/recordings/recording-001.html").rfind("HTTP/1.1 404", 0) == 0) << "not before it is whole";
   for (int i = 0; i < 500; ++i) run.turn();
   page.say(R"({"do":"record","on":false})");
-  ASSERT_TRUE(run.until([&] { return std::filesystem::exists(run.scratch.path() / "records/recording-001/replay.html"); }));
-  const json done = text_of(page, "state")["recordings"]["done"];
+  json done;
+  std::thread hearing([&] {
+    while (done.empty()) done = text_of(page, "state").at("recordings").at("done");
+  });
+  ASSERT_TRUE(run.until([&] { return get(run.port(), "/recordings/recording-001.html").rfind("HTTP/1.1 200", 0) == 0; }));
+  hearing.join();
   ASSERT_EQ(done.size(), 1U);
   EXPECT_EQ(done[0]["url"], "/recordings/recording-001.html");
   EXPECT_NE(get(run.port(), done[0]["url"]).find("\"frames\":"), std::string::npos);
@@ -213,6 +219,68 @@ TEST(LiveView, RecordsAndServesTheReplayPage) {
   }
   const auto rows = record::slurp(run.scratch.path() / "records/recording-001/energy.csv");
   EXPECT_GT(std::count(rows.begin(), rows.end(), '\n'), 40);
+}
+
+/// A recording whose page can't be written on: the file that it goes to first is a pipe that nobody reads.
+struct StuckRecording {
+  Session run{"bench_free.sdf"};
+  Client page{run.port()};
+  std::filesystem::path directory = run.scratch.path() / "records" / "recording-001", pipe = directory / "replay.html.part";
+
+  bool begin_and_stop() {
+    page.say(R"({"do":"record","on":true})");
+    if (!run.until([&] { return std::filesystem::exists(directory / "energy.csv"); })) return false;
+    if (::mkfifo(pipe.c_str(), 0600) != 0) return false;
+    page.say(R"({"do":"record","on":false})");
+    return heard([](const json& r) { return r.at("now").is_null() && r.at("writing") == json::parse(R"(["recording-001"])"); });
+  }
+  /// Turns the loop until the page hears of such recordings.
+  bool heard(const std::function<bool(const json&)>& such) {
+    std::atomic<bool> so{false};
+    std::thread hearing([&] {
+      for (json state = text_of(page, "state"); !state.empty(); state = text_of(page, "state")) {
+        if (such(state.at("recordings"))) break;
+      }
+      so = true;
+    });
+    const bool in_time = run.until([&] { return so.load(); });
+    hearing.join();
+    return in_time;
+  }
+};
+
+TEST(LiveView, GoesOnWhileTheReplayPageIsWritten) {
+  StuckRecording stuck;
+  ASSERT_TRUE(stuck.begin_and_stop());
+  const double stopped_s = stuck.run.world.time_s();
+  for (int i = 0; i < 1000; ++i) stuck.run.turn();
+  EXPECT_GE(stuck.run.world.time_s(), stopped_s + 0.5);
+  EXPECT_TRUE(get(stuck.run.port(), "/recordings/recording-001.html").rfind("HTTP/1.1 404", 0) == 0);
+  // The next recording doesn't wait either.
+  stuck.page.say(R"({"do":"record","on":true})");
+  EXPECT_TRUE(
+      stuck.run.until([&] { return std::filesystem::exists(stuck.run.scratch.path() / "records/recording-002/energy.csv"); }));
+  EXPECT_EQ(record::slurp(stuck.pipe).substr(0, 3), "<p>") << "the pipe gives way";
+  EXPECT_TRUE(stuck.heard([](const json& r) { return r.at("writing").empty() && r.at("done").size() == 1; }));
+  EXPECT_EQ(stuck.run.view->finish("").size(), 2U) << "and the end of the run waits for every page";
+}
+
+TEST(LiveView, TellsThatAReplayPageCouldNotBeWritten) {
+  StuckRecording stuck;
+  ASSERT_TRUE(stuck.begin_and_stop());
+  std::filesystem::create_directory(stuck.directory / "replay.html");  // the page can't take its place
+  std::string note;
+  std::atomic<bool> told{false};
+  std::thread hearing([&] {
+    note = text_of(stuck.page, "note")["text"];
+    told = true;
+  });
+  static_cast<void>(record::slurp(stuck.pipe));
+  EXPECT_TRUE(stuck.run.until([&] { return told.load(); }));
+  hearing.join();
+  EXPECT_EQ(note.rfind("recording-001: ", 0), 0U) << note;
+  EXPECT_NE(note.find("replay.html"), std::string::npos) << note;
+  EXPECT_TRUE(stuck.run.view->finish("").empty());
 }
 
 TEST(LiveView, TellsWhyARecordingCantBegin) {

@@ -14,7 +14,8 @@
 // A model that moved less than min_travel_m in the period has no direction: the last one holds.
 //
 // While it plays it can be changed (change()): amplitude, offset, π/λ, δ, preset and ω go to their new values linearly in kBlend_s
-// and the phase is ∫ω dt, so that commands never jump. Time that goes backwards starts over with the new values.
+// and the phase is ∫ω dt, so that commands never jump. Nor do those of an actuator that somebody gives back (leave()). Time that
+// goes backwards starts over with the new values.
 //
 // A gait file (TOML; angles in degrees as in the paper's Table II):
 //
@@ -129,16 +130,25 @@ struct GaitBlend {
   GaitChange from;
 };
 
+/// Which commands of an actuator the gait leaves to somebody else.
+struct ByHand {
+  bool equilibrium = false, preset = false;
+  [[nodiscard]] bool any() const noexcept { return equilibrium || preset; }
+};
+
+/// An actuator that was given back: its commands blend from where the hand left them to the gait's.
+struct GaitReturn {
+  ByHand of;                               ///< which of the two come back
+  std::optional<double> t_s;               ///< since when; none: from the next commands on
+  double equilibrium_rad = 0, preset = 0;  ///< commanded then
+};
+
 struct GaitState {
   std::int64_t last_slot = -1;  ///< time_ns / period_ns of the last commands
   SteeringState steering;
   std::optional<GaitBlend> blend;
   std::optional<double> held_phase_rad;  ///< while it is held
-};
-
-/// Which commands of an actuator the gait leaves to somebody else.
-struct ByHand {
-  bool equilibrium = false, preset = false;
+  std::map<std::string, GaitReturn, std::less<>> returning;
 };
 
 class Gait {
@@ -167,7 +177,9 @@ class Gait {
   void hold(double t_s);
   void resume(double t_s);
   [[nodiscard]] bool held() const noexcept { return state_.held_phase_rad.has_value(); }
-  /// From its next commands on. An actuator that isn't the gait's: false. A reset doesn't undo it.
+  static constexpr double kGiveBack_s = 0.5;
+  /// From its next commands on. What was by hand and no longer is goes from where the hand left it to the gait's own values,
+  /// linearly in kGiveBack_s. An actuator that isn't the gait's: false. A reset doesn't undo it.
   bool leave(std::string_view actuator, ByHand by_hand);
   [[nodiscard]] ByHand by_hand(std::string_view actuator) const;
 
@@ -178,6 +190,8 @@ class Gait {
   void bind_motion(const World& world, Problems& problems) const;
   void play_motion(World& world) const;
   void steer_model(const World& world, double t_s);
+  void blend_back(const World& world, const ActuatorRef& ref, std::string_view name, double t_s, double& equilibrium,
+                  double& preset);
   [[nodiscard]] WaveParams wave(const GaitGroup& group, double t_s) const;
   [[nodiscard]] double frequency(double t_s) const;
   [[nodiscard]] double phase(double t_s) const;

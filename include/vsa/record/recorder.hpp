@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Records a run: CSV files (csv.hpp) and a replay page (page.hpp).
+// Records a run: CSV files (csv.hpp), an MCAP file (run_log.hpp) and a replay page (page.hpp).
 //
 //   vsa::record::Recorder recorder(world, "out");     // the sample at the present time is taken here, before the first step
 //   while (…) { world.step(); recorder.sample(world); }
@@ -25,6 +25,9 @@ struct RecorderOptions {
   double page_rate_Hz = 50;            ///< of the page, (0, 1e6]; halved as often as page_frames_max asks
   std::size_t page_frames_max = 4000;  ///< at least 2
   std::string title;                   ///< of the page; empty: the world's name
+  /// What was ordered to break from the start, as `vsa run --fault` takes it (orders are taken at the first step, so the world
+  /// can't tell before). Empty: what is broken in the world now.
+  std::string faults{};
   /// Empty: data_directory()/web/replay.html.
   std::filesystem::path page_template;
 };

@@ -36,6 +36,8 @@ struct RunInfo {
   double step_s = 0;
   std::vector<RobotInfo> robots;
   std::vector<engine::LinkInfo> links;
+  std::string
+      faults{};  ///< what is broken from the start and the seeds of its chances, as `vsa run --fault` takes it; empty: nothing
 };
 
 /// One moment. The same shape for every sample of a run.

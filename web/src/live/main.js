@@ -85,11 +85,12 @@ function setState(state) {
   table.setByHand(state.by_hand);
   $('tab-gait').hidden = !state.gait;
   if (state.gait) gaitPanel.set(state.gait, live.bounds);
-  const { now, done } = state.recordings;
+  const { now, writing, done } = state.recordings;
   $('record').setAttribute('aria-pressed', String(Boolean(now)));
   $('record').querySelector('span').textContent = now ? 'Stop' : 'Record';
-  $('recordings').hidden = !now && !done.length;
+  $('recordings').hidden = !now && !writing.length && !done.length;
   $('recordings').replaceChildren(...(now ? [element('span', 'recording', `Recording into ${now}`)] : []));
+  $('recordings').append(...writing.map((name) => element('span', '', `Writing ${name} …`)));
   for (const one of done) {
     const a = element('a', '', `${one.name}.html`);
     Object.assign(a, { href: one.url, download: `${one.name}.html`, title: one.path });
