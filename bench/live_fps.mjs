@@ -19,7 +19,7 @@ const url = await new Promise((resolve, reject) => {
 const browser = await launch('--use-angle=swiftshader', '--enable-unsafe-swiftshader');
 const { tab } = await visit(browser, url, (asked) => asked.startsWith(url), { viewport: { width: 1280, height: 760 } });
 await tab.click('#tab-curves');
-await tab.waitForFunction(() => window.vsaLive.frames > 60);
+await tab.evaluate(() => new Promise((resolve) => { const look = () => (window.vsaLive.frames > 60 ? resolve() : requestAnimationFrame(look)); look(); }));
 const counts = await tab.evaluate(
   (seconds) =>
     new Promise((resolve) => {

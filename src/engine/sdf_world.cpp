@@ -20,8 +20,10 @@ void read_physics(ReadContext& c, const sdf::World& world) {
   if (physics == nullptr) return;
   c.out.step_s = physics->MaxStepSize();
   const sdf::ElementPtr element = physics->Element();
-  for (const char* engine : {"ode", "bullet", "simbody", "dart"}) {
-    if (child(element, engine)) c.notes.add("solver settings of other engines are left out", std::string("physics/") + engine);
+  for (const std::string engine : {"ode", "bullet", "simbody", "dart"}) {
+    // A world for several hosts may hold settings for each; what its own type asks for is missed here.
+    if (engine == physics->EngineType() && child(element, engine))
+      c.notes.add("solver settings of other engines are left out", "physics/" + engine);
   }
 }
 

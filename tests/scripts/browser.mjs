@@ -5,15 +5,16 @@
 // from NPM/node_modules. Without Chromium it says so and ends with 77, which ctest reports as skipped.
 import { existsSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { join } from 'node:path';
+import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
-const [pages, npm, given] = process.argv.slice(2);
+const [pages, npmGiven, given] = process.argv.slice(2);
 const chromiumPath = [given, process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser'].find((p) => p && existsSync(p));
 if (!chromiumPath) {
   console.log('page test left out: no chromium (Debian: apt install chromium; elsewhere set CHROMIUM)');
   process.exit(77);
 }
+const npm = resolve(npmGiven);
 const { chromium } = createRequire(join(npm, 'package.json'))('playwright-core');
 const kArguments = [
   '--headless', '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
