@@ -5,8 +5,8 @@
 
 namespace {
 
-using vsa::ports::PaceWatch;
 using std::chrono::milliseconds;
+using vsa::ports::PaceWatch;
 
 /// Steps of 1 ms, each `wall_ms` of wall time, for so many seconds of it. How often it was told.
 struct Host {
