@@ -153,7 +153,7 @@ void SimRobot::look_at_parameters() {
   rounds_to_look_ = kParameterRounds - 1;
   StringMsg value;
   if (!registry_->Parameter(parameter_, value) || value.data() == faults_) return;
-  if (robot_->apply_faults(value.data(), parameter_)) {
+  if (robot_->apply_faults(value.data().empty() ? "all none" : value.data(), parameter_)) {
     faults_ = value.data();
   } else {
     value.set_data(faults_);

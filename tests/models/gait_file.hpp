@@ -1,12 +1,13 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Gait files made up by tests, and what is wrong with them.
+// Gait files made up by tests, what is wrong with them, and what they hold.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include "vsa/engine/gait.hpp"
@@ -35,6 +36,13 @@ inline std::string problems_of(const std::filesystem::path& file) {
     return error.what();
   }
   return "";
+}
+
+inline const GaitGroup& group(const Gait& gait, const std::string& name) {
+  for (const GaitGroup& g : gait.params().groups) {
+    if (g.name == name) return g;
+  }
+  throw std::runtime_error("no group " + name);
 }
 
 }  // namespace vsa::engine
