@@ -7,6 +7,7 @@ import { launch, open as openPage } from './browser.mjs';
 
 const kWebGl = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 
+const kUntil_ms = 60_000;
 let browser;
 before(async () => {
   browser = await launch(...kWebGl);
@@ -30,18 +31,26 @@ const picture = (tab) =>
   });
 const time = (tab) => tab.evaluate(() => window.vsaReplay.playback.time);
 /** Until the replay plays past t. (The page's policy forbids eval, which playwright's own waiting needs.) */
-const reaches = (tab, t) =>
-  tab.evaluate(
-    (goal) =>
+async function reaches(tab, t) {
+  const late = await tab.evaluate(
+    ([goal, most_ms]) =>
       new Promise((resolve) => {
-        const look = () => (window.vsaReplay.playback.time > goal ? resolve() : requestAnimationFrame(look));
+        const { playback } = window.vsaReplay;
+        const start = performance.now();
+        const look = () => {
+          if (playback.time > goal) resolve(null);
+          else if (performance.now() - start > most_ms) resolve({ time: playback.time, playing: playback.playing });
+          else setTimeout(look, 20);
+        };
         look();
       }),
-    t,
+    [t, kUntil_ms],
   );
+  assert.equal(late, null, `not past ${t} s of the replay within ${kUntil_ms / 1000} s: ${JSON.stringify(late)}`);
+}
 const differing = (a, b) => a.filter((v, i) => v !== b[i]).length;
 
-test('the page of a snake', { timeout: 300_000 }, async (t) => {
+test('the page of a snake', { timeout: 150_000 }, async (t) => {
   const { tab, wrong, close } = await open('snake');
 
   await t.test('shows a picture that is not blank', async () => {

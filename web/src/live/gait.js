@@ -25,7 +25,8 @@ export class GaitPanel {
   /** State of the gait as the run tells it. */
   set(gait, bounds) {
     const fresh = !this.gait;
-    const busy = this.root.contains(document.activeElement) && performance.now() - (this.touched ?? 0) < 800;
+    // What was put in here and isn't sent yet must not be lost, however slow the pictures are.
+    const busy = this.waiting || (this.root.contains(document.activeElement) && performance.now() - (this.touched ?? 0) < 800);
     if (this.playButton) this.playButton.textContent = gait.playing ? 'Hold the gait' : 'Play the gait';
     if (busy && !fresh) {
       this.gait.playing = gait.playing;

@@ -281,4 +281,4 @@ dark.addEventListener('change', () => {
 everyFrame();
 
 // For the browser's console and the tests.
-window.vsaLive = Object.assign(live, { link, stage, modules, commands, table, curves });
+window.vsaLive = Object.assign(live, { link, stage, modules, commands, table, curves, pulls });
