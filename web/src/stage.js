@@ -5,21 +5,23 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { centrePath, frameAt, mainModel } from './data.js';
 import { dark, scenery } from './palette.js';
-import { gridTexture, kTerrainGrid, Scenery } from './scenery.js';
-import { geometryOf, materialOf, place, shadeByHeight } from './shapes.js';
+import { kExposure, Scenery } from './scenery.js';
+import { geometryOf, meshesOf, place } from './shapes.js';
 import { Trace } from './trace.js';
 
 const kView = new THREE.Vector3(-0.3, -1, 0.5).normalize();
 
 export class Stage {
-  constructor(run, canvas, { antialias = true } = {}) {
+  /** `coarse`: for a machine that draws with the processor. */
+  constructor(run, canvas, { coarse = false } = {}) {
     this.run = run;
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias });
+    this.coarse = coarse;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !coarse });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     this.renderer.toneMapping = THREE.NeutralToneMapping;
-    this.renderer.toneMappingExposure = 1.15;
+    this.renderer.toneMappingExposure = kExposure;
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(34, 1, 0.01, 600);
     this.camera.up.set(0, 0, 1);
@@ -33,7 +35,7 @@ export class Stage {
     this.selected = [];
     this.moving = new Map(run.moving.map((link, slot) => [link, slot]));
     this.size = this.reach();
-    this.scenery = new Scenery(this.renderer, this.scene, this.size);
+    this.scenery = new Scenery(this.renderer, this.scene, this.size, coarse);
     this.groups = run.links.map((link) => this.build(link));
     const still = this.groups.filter((_, i) => run.links[i].pose);
     this.trace = new Trace(run, this.path, this.restHeight(), still);
@@ -58,9 +60,8 @@ export class Stage {
   restHeight() {
     let half = Infinity;
     for (const i of this.run.moving) {
-      const box = new THREE.Box3();
-      for (const mesh of this.groups[i].children) box.union(mesh.geometry.boundingBox ?? new THREE.Box3());
-      if (!box.isEmpty()) half = Math.min(half, Math.min(...box.getSize(new THREE.Vector3()).toArray()) / 2);
+      const { size } = this.groups[i].userData;
+      if (this.groups[i].children.length) half = Math.min(half, Math.min(...size.toArray()) / 2);
     }
     return Number.isFinite(half) ? half : 0;
   }
@@ -68,27 +69,26 @@ export class Stage {
   build(link) {
     const group = new THREE.Group();
     const still = Boolean(link.pose);
+    const parts = [];
+    const box = new THREE.Box3(); // of the largest shapes, each in its own frame
     for (const shape of link.visuals) {
       const level = still && shape.kind === 'plane' && Math.abs(link.pose[4]) + Math.abs(link.pose[5]) < 1e-6;
       if (level) {
         this.scenery.ground(group);
         continue;
       }
-      const geometry = geometryOf(shape, this.run, still);
+      const geometry = geometryOf(shape, this.run, still, this.coarse);
       if (!geometry) continue;
       geometry.computeBoundingBox();
-      const mesh = new THREE.Mesh(geometry, materialOf(shape));
-      if (shape.kind === 'heightmap') {
-        shadeByHeight(geometry, shape.rgba);
-        mesh.material.map = gridTexture(kTerrainGrid);
-      }
-      // Triangles come in the link's frame already.
-      if (shape.geometry === undefined) place(mesh, shape.pose);
-      mesh.castShadow = shape.kind !== 'plane';
+      box.union(geometry.boundingBox);
+      parts.push({ shape, geometry });
+    }
+    for (const mesh of meshesOf(parts)) {
       mesh.receiveShadow = true;
       mesh.userData.link = this.run.links.indexOf(link);
       group.add(mesh);
     }
+    group.userData.size = box.getSize(new THREE.Vector3());
     if (still) place(group, link.pose);
     this.scene.add(group);
     return group;

@@ -22,6 +22,7 @@ const calm = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
 const kLongest_s = 30;
 const kRate_Hz = 60;
 const kCurves_ms = calm ? 250 : 50; // between two drawings
+const kSoftwareCurves_ms = Math.max(kCurves_ms, 100);
 const kTable_ms = 80;
 const kNote_ms = 8000;
 const kSoftware_ms = 30; // between two pictures where the processor draws them: it has other things to do
@@ -164,6 +165,7 @@ function makeStage() {
     if (!gl) throw new Error('no webgl2 context');
     stage = new LiveStage(run, $('canvas'), gl);
     gl.getExtension('WEBGL_lose_context')?.loseContext();
+    document.documentElement.classList.toggle('software', stage.software);
   } catch (error) {
     const strong = element('strong', '', 'No 3-D view: this browser has no WebGL.');
     $('view-message').replaceChildren(strong, 'Sliders, numbers and curves work without it.');
@@ -241,7 +243,7 @@ function everyFrame() {
       commands.follow();
       if (!$('table').hidden) table.draw();
     }
-    if (now - curvesAt >= kCurves_ms && !$('curves-pane').hidden) {
+    if (now - curvesAt >= (stage?.software ? kSoftwareCurves_ms : kCurves_ms) && !$('curves-pane').hidden) {
       curvesAt = now;
       curves.draw();
     }

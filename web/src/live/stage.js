@@ -17,8 +17,11 @@ const kQualities = [
   { pixels: 0.75, shadow: 512, plain: true },
   { pixels: 0.5, shadow: 512, plain: true },
 ];
-const kPlainSky = 1.9; // light from the sky in place of the reflections
-const kSlow_ms = 40; // a picture that takes longer is made coarser
+// Where the processor draws: shadows of one look-up a pixel, whose edges are hard, so their map is finer than the picture.
+const kSoftwareQualities = [1, 0.75, 0.6, 0.5].map((pixels) => ({ pixels, shadow: 1024, plain: true }));
+// A picture that takes longer is made coarser.
+const kSlow_ms = 40;
+const kSoftwareSlow_ms = 60;
 const kLook = 30; // pictures between two decisions
 
 /** Whether WebGL is drawn by the processor. */
@@ -41,7 +44,7 @@ function contactMarks() {
 export class LiveStage extends Stage {
   constructor(run, canvas, gl) {
     const soft = software(gl);
-    super(run, canvas, { antialias: !soft });
+    super(run, canvas, { coarse: soft });
     this.model = mainModel(run);
     this.marks = contactMarks();
     this.feet = new THREE.InstancedMesh(
@@ -55,16 +58,17 @@ export class LiveStage extends Stage {
     this.weight = 9.81 * run.moving.reduce((sum, i) => sum + (run.links[i].mass_kg || 0), 0);
     this.drawn = [];
     this.software = soft;
-    this.setQuality(soft ? 2 : 0);
+    this.qualities = soft ? kSoftwareQualities : kQualities;
+    this.setQuality(soft ? 1 : 0);
     this.controls.enableDamping = !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
   }
 
   setQuality(level) {
     this.quality = level;
-    const { shadow, plain } = kQualities[level];
-    if (plain && this.scene.environment) this.makePlain();
+    const { shadow, plain } = this.qualities[level];
+    if (plain && !this.plain) this.makePlain();
     const sun = this.scenery.sun;
-    this.renderer.shadowMap.type = level > 1 ? THREE.PCFShadowMap : THREE.PCFSoftShadowMap;
+    this.renderer.shadowMap.type = this.software ? THREE.BasicShadowMap : level > 1 ? THREE.PCFShadowMap : THREE.PCFSoftShadowMap;
     if (sun.shadow.mapSize.x !== shadow) {
       sun.shadow.mapSize.set(shadow, shadow);
       sun.shadow.map?.dispose();
@@ -82,21 +86,16 @@ export class LiveStage extends Stage {
       mesh.material.dispose();
       mesh.material = plain;
     });
-    this.scene.environment = null;
-    this.scenery.hemisphere.intensity *= kPlainSky;
+    this.plain = true;
+    this.scenery.withoutReflections();
     this.highlight(this.selected);
-  }
-
-  paint() {
-    super.paint();
-    if (this.scene.environment === null) this.scenery.hemisphere.intensity *= kPlainSky;
   }
 
   resize() {
     super.resize();
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!width || !height || this.quality === undefined) return;
-    this.renderer.setPixelRatio(Math.min(kQualities[this.quality].pixels, window.devicePixelRatio));
+    this.renderer.setPixelRatio(Math.min(this.qualities[this.quality].pixels, window.devicePixelRatio));
     this.renderer.setSize(width, height, false);
   }
 
@@ -106,7 +105,7 @@ export class LiveStage extends Stage {
     if (this.drawn.length < kLook) return;
     const middle = this.drawn.sort((a, b) => a - b)[kLook >> 1];
     this.drawn = [];
-    if (middle > kSlow_ms && this.quality + 1 < kQualities.length) this.setQuality(this.quality + 1);
+    if (middle > (this.software ? kSoftwareSlow_ms : kSlow_ms) && this.quality + 1 < this.qualities.length) this.setQuality(this.quality + 1);
   }
 
   /** The run's arrays hold a new moment. */
