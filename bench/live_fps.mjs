@@ -1,44 +1,60 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // node live_fps.mjs VSA NPM [CHROMIUM]: pictures a second of the live page, by the page's own clock, while the 12-module snake crawls in
-// real time with its curves shown. One line: the median of 20 seconds, and what the machine draws with.
+// real time with its curves shown. A line for each way in which a browser does without a GPU: as it does by itself (WebGL by SwiftShader,
+// the page itself by its own software) and with everything, also the page, by SwiftShader. The median of 20 seconds, the extremes, the
+// picture's size that the page has chosen, and what the machine draws with.
 import { spawn } from 'node:child_process';
 import { launch, visit } from '../tests/scripts/browser.mjs';
 
 const kSeconds = 20;
-const child = spawn(process.argv[2], ['run', 'snake_flat', '--gait', 'sidewind', '--view', '--no-topics'], { stdio: ['ignore', 'ignore', 'pipe'] });
-const url = await new Promise((resolve, reject) => {
-  let said = '';
-  child.stderr.on('data', (text) => {
-    said += text;
-    const found = /live view: (http:\/\/127\.0\.0\.1:\d+\/)/.exec(said);
-    if (found) resolve(found[1]);
+const kWays = {
+  'by itself': ['--disable-gpu', '--enable-unsafe-swiftshader'],
+  'all by SwiftShader': ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+};
+
+/** Starts the run; its page's address. */
+function start(child) {
+  return new Promise((resolve, reject) => {
+    let said = '';
+    child.stderr.on('data', (text) => {
+      said += text;
+      const found = /live view: (http:\/\/127\.0\.0\.1:\d+\/)/.exec(said);
+      if (found) resolve(found[1]);
+    });
+    child.on('exit', (code) => reject(new Error(`vsa ended with ${code}: ${said}`)));
   });
-  child.on('exit', (code) => reject(new Error(`vsa ended with ${code}: ${said}`)));
-});
-const browser = await launch('--use-angle=swiftshader', '--enable-unsafe-swiftshader');
-const { tab } = await visit(browser, url, (asked) => asked.startsWith(url), { viewport: { width: 1280, height: 760 } });
-await tab.click('#tab-curves');
-await tab.evaluate(() => new Promise((resolve) => { const look = () => (window.vsaLive.frames > 60 ? resolve() : requestAnimationFrame(look)); look(); }));
-const counts = await tab.evaluate(
-  (seconds) =>
-    new Promise((resolve) => {
-      const seen = [];
-      const look = () => {
-        seen.push(window.vsaLive.fps);
-        if (seen.length === seconds) resolve(seen);
-        else setTimeout(look, 1000);
-      };
-      setTimeout(look, 2000);
-    }),
-  kSeconds,
-);
-const renderer = await tab.evaluate(() => {
+}
+
+/** In the page: its own count once a second, after it has settled; then the picture's size and the renderer. */
+async function count(seconds) {
+  const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+  const { vsaLive: live } = window;
+  while (live.frames < 60) await wait(100);
+  await wait(5000);
+  const seen = [];
+  while (seen.length < seconds) {
+    await wait(1000);
+    seen.push(live.fps);
+  }
   const gl = document.createElement('canvas').getContext('webgl2');
   const info = gl?.getExtension('WEBGL_debug_renderer_info');
-  return info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : 'unknown';
-});
-counts.sort((a, b) => a - b);
-console.log(`${counts[kSeconds / 2].toFixed(0)} pictures a second (${counts[0].toFixed(0)} to ${counts.at(-1).toFixed(0)}), drawn by ${renderer}`);
-await browser.close();
-child.kill('SIGINT');
+  const { width, height } = live.stage.canvas;
+  return { seen, size: `${width} × ${height}`, renderer: info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : 'unknown' };
+}
+
+for (const [way, flags] of Object.entries(kWays)) {
+  const child = spawn(process.argv[2], ['run', 'snake_flat', '--gait', 'sidewind', '--view', '--no-topics'], { stdio: ['ignore', 'ignore', 'pipe'] });
+  const url = await start(child);
+  const browser = await launch(...flags);
+  const context = { viewport: { width: 1280, height: 760 }, reducedMotion: 'no-preference' };
+  const { tab } = await visit(browser, url, (asked) => asked.startsWith(url), context);
+  await tab.click('#tab-curves');
+  const { seen, size, renderer } = await tab.evaluate(count, kSeconds);
+  seen.sort((a, b) => a - b);
+  const [least, middle, most] = [seen[0], seen[kSeconds / 2], seen.at(-1)].map((x) => x.toFixed(0));
+  console.log(`${way}: ${middle} pictures a second (${least} to ${most}) of ${size} points, drawn by ${renderer}`);
+  await browser.close();
+  child.removeAllListeners('exit');
+  child.kill('SIGINT');
+}

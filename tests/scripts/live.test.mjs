@@ -14,7 +14,7 @@ const kLong = { timeout: 150_000 };
 const kUntil_ms = 60_000; // for one thing to happen in the page; on an idle machine each takes a second or two
 let browser;
 before(async () => {
-  browser = await launch('--use-angle=swiftshader', '--enable-unsafe-swiftshader');
+  browser = await launch('--disable-gpu', '--enable-unsafe-swiftshader');
 });
 const children = [];
 after(async () => {

@@ -102,7 +102,7 @@ function partOf(shape, geometry) {
 }
 
 /** Meshes of [{shape, geometry}] of one link: as few as their materials allow, as each is a call to the graphics card. */
-export function meshesOf(parts) {
+export function meshesOf(parts, coarse) {
   const alike = new Map();
   const meshes = [];
   for (const { shape, geometry } of parts) {
@@ -111,7 +111,7 @@ export function meshesOf(parts) {
       const mesh = new THREE.Mesh(geometry, materialOf(shape));
       mesh.material.map = gridTexture(kTerrainGrid);
       if (shape.geometry === undefined) place(mesh, shape.pose);
-      mesh.castShadow = true;
+      mesh.castShadow = !coarse; // a terrain has many triangles, and its shading shows its slopes
       meshes.push(mesh);
       continue;
     }

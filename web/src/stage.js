@@ -83,7 +83,7 @@ export class Stage {
       box.union(geometry.boundingBox);
       parts.push({ shape, geometry });
     }
-    for (const mesh of meshesOf(parts)) {
+    for (const mesh of meshesOf(parts, this.coarse)) {
       mesh.receiveShadow = true;
       mesh.userData.link = this.run.links.indexOf(link);
       group.add(mesh);
