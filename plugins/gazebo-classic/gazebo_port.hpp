@@ -1,8 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // host::TopicPort on Gazebo Classic's own transport, so that `gz topic`, which every installation has, commands and shows a robot:
-// single numbers as gazebo.msgs.Any of type DOUBLE under the same names. Trajectories, arrays and joint states have no stock
-// message there: they are on ignition-transport only.
+// single numbers that come in as gazebo.msgs.Any of type DOUBLE under the same names; all numbers that go out as one
+// gazebo.msgs.Param_V, /model/M/vsa/readings, its parameters "time" and "joint_0/stiffness", …: a publisher each would slow the
+// world's steps. Trajectories, arrays and joint states have no stock message there: they are on ignition-transport only.
 #pragma once
 
 #include <memory>
@@ -14,8 +15,8 @@ namespace vsa::plugins {
 
 class GazeboPort final : public host::TopicPort {
  public:
-  explicit GazeboPort(const std::string& world);
-  ~GazeboPort() override;  ///< no handler runs any more
+  GazeboPort(const std::string& world, const std::string& model);  ///< model: scoped name
+  ~GazeboPort() override;                                          ///< no handler runs any more
   GazeboPort(const GazeboPort&) = delete;
   GazeboPort& operator=(const GazeboPort&) = delete;
 

@@ -61,7 +61,7 @@ void ClassicRobot::attach(const sdf::ElementPtr& element) {
   }
   const auto report = [](const std::string& line) { gzwarn << "vsa::Robot: " << line << std::endl; };
   robot_ = std::make_unique<AttachedRobot>(attachment, report);
-  own_port_ = std::make_unique<GazeboPort>(world_);
+  own_port_ = std::make_unique<GazeboPort>(world_, attachment.model);
   own_topics_.emplace(robot_->robot(), attachment.model, *own_port_, report);
   for (const host::ActuatorConfig& a : robot_->config().actuators) {
     joints_.push_back(std::find_if(known.begin(), known.end(), [&](const NamedJoint& k) { return k.name == a.joint; })->joint);

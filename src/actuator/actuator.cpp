@@ -54,7 +54,8 @@ void Actuator::place(ActuatorState& s, double shaft) const noexcept {
   const elastic::Response r = params_.transmission->evaluate(positions(s, shaft));
   s.load = r.load;
   s.end = {r.torque, r.load, {}};
-  s.tendon_anchor = s.spring_w = params_.transmission->signed_energies(positions(s, shaft));
+  s.origin = params_.transmission->origin(positions(s, shaft));
+  s.tendon_anchor = s.spring_w = params_.transmission->signed_energies_of(s.origin);
   s.ledger = {};
   s.ledger.elastic = r.energy;
   book_motors(s);
@@ -62,8 +63,9 @@ void Actuator::place(ActuatorState& s, double shaft) const noexcept {
 }
 
 double Actuator::energy_at(ActuatorState& s, double shaft) const noexcept {
-  if (tendon_.coulomb_Nm <= 0) return params_.transmission->energy(positions(s, shaft));
-  s.spring_w = params_.transmission->signed_energies(positions(s, shaft));
+  s.origin = params_.transmission->moved(s.origin, positions(s, shaft));
+  if (tendon_.coulomb_Nm <= 0) return params_.transmission->energy_of(s.origin);
+  s.spring_w = params_.transmission->signed_energies_of(s.origin);
   return std::abs(s.spring_w[0]) + std::abs(s.spring_w[1]);
 }
 
@@ -190,13 +192,13 @@ SegmentResult Actuator::attempt(const ActuatorState& s, Segment& seg, double dq,
   if (!seg.tried) foresee(s, seg);
   for (int i = 0; i < motors_; ++i) seg.dx[i] += seg.gain[i] * (dq - seg.in.dq);
   seg.in.dq = dq;
-  const elastic::Positions from = positions(s, s.shaft);
+  const elastic::Positions& from = s.origin.at;
   double last_residual = std::numeric_limits<double>::infinity();
   std::array<double, 2> last_dx = seg.dx;
   bool settled = false;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const elastic::Positions to{from.q + dq, {from.x[0] + seg.dx[0], from.x[1] + seg.dx[1]}};
-    seg.mean = params_.transmission->mean_over(from, to);
+    seg.mean = params_.transmission->mean_from(s.origin, to);
     if (tendon_.coulomb_Nm > 0) add_tendon_friction(seg, to, seg.mean);
     std::array<double, 2> step{};
     settled = correction(seg, step);

@@ -72,6 +72,12 @@ bool Chain::all_ready(const Speech& s) const noexcept {
   return true;
 }
 
+/// What the program just said goes on the line; the scratch it said it in is empty again.
+inline void Chain::collect(std::size_t station, std::int64_t heard_ps) {
+  state_.someone_waits = state_.someone_waits || stations_[station].state->bytes_waiting;
+  if (!out_.silent()) speak(station, heard_ps);  // most frames are for another unit
+}
+
 bool Chain::step_frames(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost& host) {
   const Speech s = state_.speeches.front();
   if (s.start_ps > until_ps) return false;
@@ -94,7 +100,6 @@ bool Chain::step_frames(std::int64_t until_ps, std::int64_t host_ps, bus::LineHo
   const std::int64_t now_ns = to_ns(s.end_ps);
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (!state_.ears[i].wiring.powered || static_cast<int>(i) == s.speaker) continue;
-    out_.clear();
     stations_[i].program->receive_frame(*stations_[i].state, frame, now_ns, out_);
     collect(i, s.end_ps);
   }
@@ -136,18 +141,14 @@ void Chain::hear(std::size_t station, std::uint8_t byte, std::int64_t at_ps) {
   if (!ear.wiring.powered || ear.dice.hits(ear.wiring.lost_byte)) return;
   if (ear.dice.hits(ear.wiring.flipped_byte)) byte = static_cast<std::uint8_t>(byte ^ (1U << (ear.dice.next() % 8)));
   const Station& s = stations_[station];
-  out_.clear();
   s.program->receive(*s.state, byte, to_ns(at_ps), out_);
   collect(station, at_ps);
 }
 
-/// What the program just said goes on the line.
-void Chain::collect(std::size_t station, std::int64_t heard_ps) {
-  const firmware::ProgramState& s = *stations_[station].state;
-  state_.someone_waits = state_.someone_waits || s.bytes_waiting;
+void Chain::speak(std::size_t station, std::int64_t heard_ps) {
   ChainState::Ear& ear = state_.ears[station];
   if (out_.baud_changed) {
-    ear.receiver.rate = {static_cast<std::int64_t>(firmware::baud_Hz(s.baud_divider))};
+    ear.receiver.rate = {static_cast<std::int64_t>(firmware::baud_Hz(stations_[station].state->baud_divider))};
     find_rates();
   }
   for (int r = 0; r < out_.count; ++r) {
@@ -162,6 +163,7 @@ void Chain::collect(std::size_t station, std::int64_t heard_ps) {
     else
       say_through_fault(static_cast<int>(station), start, out_.view(reply));
   }
+  out_.clear();
 }
 
 void Chain::say(int speaker, std::int64_t start_ps, std::span<const std::uint8_t> bytes, bus::LineRate rate) {
@@ -218,7 +220,6 @@ void Chain::wake(std::int64_t now_ps) {
   state_.someone_waits = false;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (!state_.ears[i].wiring.powered) continue;
-    out_.clear();
     stations_[i].program->poll(*stations_[i].state, to_ns(now_ps), out_);
     collect(i, now_ps);
   }
@@ -236,7 +237,6 @@ std::int64_t Chain::next_event_ps() const noexcept {
 
 void Chain::tick(std::size_t station, const firmware::TickInputs& in, std::int64_t now_ns) noexcept {
   if (!state_.ears[station].wiring.powered) return;
-  out_.clear();
   stations_[station].program->tick(*stations_[station].state, in, now_ns, out_);
   collect(station, now_ns * kPsPerNs);
 }

@@ -20,10 +20,6 @@ constexpr double kReach_rad = 0.25;
 
 double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 
-std::int64_t substep(const UnitConfig& config) noexcept {
-  return static_cast<std::int64_t>(std::llround(config.substep_max_s * 1e9));
-}
-
 struct Span {
   std::int64_t t_ns, dt_ns, substep_ns;
 };
@@ -128,9 +124,8 @@ void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int6
 firmware::TickInputs Unit::sample(UnitState& s, StepPlan& plan, std::int64_t at_ns) noexcept {
   const std::int64_t until = at_ns - plan.t_ns;
   if (until > 0 && plan.walked_ns == 0) plan.start = s.actuator;
-  const auto substep_ns = substep(config_);
   while (plan.walked_ns < until) {
-    const std::int64_t h_ns = std::min(substep_ns, until - plan.walked_ns);
+    const std::int64_t h_ns = std::min(substep_ns_, until - plan.walked_ns);
     const double share = static_cast<double>(h_ns) / static_cast<double>(plan.dt_ns);
     actuator_.segment(s.actuator, seconds(h_ns), {plan.dy * share, s.held.voltage, s.held.terminal});
     plan.walked_ns += h_ns;
@@ -156,7 +151,7 @@ double Unit::end_step(UnitState& s, StepPlan& plan) noexcept {
   if (plan.walked_ns > 0) s.actuator = plan.start;
   const double c = plan.c, u = plan.y - s.actuator.shaft_anchor;
   double dy = plan.dy;
-  PathTrials trials(actuator_, s.actuator, {plan.held.data(), plan.held_count}, {plan.t_ns, plan.dt_ns, substep(config_)});
+  PathTrials trials(actuator_, s.actuator, {plan.held.data(), plan.held_count}, {plan.t_ns, plan.dt_ns, substep_ns_});
   if (const auto foreseen = trials.foresee()) {
     const double yield = 1.0 / (1.0 + c * std::max(foreseen->slope, 0.0));
     const auto next = drive::solve_friction(shaft_friction_, u, (plan.free + c * foreseen->torque) * yield, c * yield);

@@ -36,6 +36,7 @@ std::array<std::int32_t, 2> UnitConfig::reference_range_raw(int i) const noexcep
 
 Unit::Unit(UnitConfig config)
     : config_(std::move(config)),
+      substep_ns_(std::llround(config_.substep_max_s * 1e9)),
       program_(config_.program),
       shaft_friction_(config_.actuator.shaft_friction),
       actuator_(config_.actuator) {}

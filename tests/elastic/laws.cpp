@@ -126,6 +126,43 @@ TEST(ElasticLaws, SignedEnergiesSumToTheEnergyAndTheirSlopesAreTheTensions) {
   }
 }
 
+TEST(ElasticLaws, MeansFromAnOriginAreThoseOfItsPositions) {
+  std::mt19937 rng(5);
+  for (const Law& l : laws()) {
+    for (int n = 0; n < 500; ++n) {
+      const Positions a = random_place(rng);
+      Positions b = random_place(rng);
+      if (n % 2 == 0) b = {a.q + 1e-2 * b.q, {a.x[0] + 1e-2 * b.x[0], a.x[1] + 1e-2 * b.x[1]}};
+      const SegmentMean asked = l.law->mean_over(a, b), m = l.law->mean_from(l.law->origin(a), b);
+      const double scale = 1e-13 * (1 + std::abs(asked.load[0]) + std::abs(asked.load[1]));
+      EXPECT_NEAR(m.torque, asked.torque, scale) << l.name;
+      for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(m.load[i], asked.load[i], scale) << l.name;
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) EXPECT_NEAR(hessian(m.slope, i, j), hessian(asked.slope, i, j), 20 * scale) << l.name;
+      }
+    }
+  }
+}
+
+TEST(ElasticLaws, AnOriginMovedALongWayInSmallAndLargeStepsStillHasTheEnergiesOfWhereItIs) {
+  std::mt19937 rng(6);
+  std::uniform_real_distribution<double> d(-1, 1);
+  for (const Law& l : laws()) {
+    Positions at = random_place(rng);
+    vsa::elastic::Origin here = l.law->origin(at);
+    for (int n = 0; n < 20000; ++n) {
+      const double reach = n % 100 == 0 ? 0.3 : 0.01;
+      const auto step = [&](double p) { return std::abs(p) < 0.8 ? p + reach * d(rng) : 0.7 * p; };
+      at = {step(at.q), {step(at.x[0]), step(at.x[1])}};
+      here = l.law->moved(here, at);
+      const double energy = l.law->energy(at);
+      const auto w = l.law->signed_energies(at), found = l.law->signed_energies_of(here);
+      ASSERT_NEAR(l.law->energy_of(here), energy, 1e-13 * (1 + energy)) << l.name << " after " << n;
+      for (std::size_t i = 0; i < 2; ++i) ASSERT_NEAR(found[i], w[i], 1e-13 * (1 + energy)) << l.name << " after " << n;
+    }
+  }
+}
+
 TEST(ElasticLaws, DefaultQuadratureAgreesWithTheClosedFormOnAShortSegment) {
   const Positions a{0.3, {0.5, -0.4}}, b{0.31, {0.49, -0.405}};
   const SegmentMean closed = maker_pro().mean_over(a, b);

@@ -12,14 +12,17 @@ server=$!
 trap 'kill "$server" 2>/dev/null || true; wait "$server" 2>/dev/null || true; rm -f "$log"' EXIT
 
 joint=/model/qbmove_bench_load/joint/shaft
-# What the last number of a topic says; nothing where none comes within 2 s.
-last() { timeout 10 gz topic -u -e "$1" -d 2 2>/dev/null | sed -n 's/.*double_value: *//p' | tail -n 1; }
+# The last preset that the robot told; nothing where none comes within 2 s.
+preset() {
+  timeout 10 gz topic -u -e /model/qbmove_bench_load/vsa/readings -d 2 2>/dev/null |
+    sed -n 's|.*name: "shaft/preset" value { type: DOUBLE double_value: \([^ ]*\).*|\1|p' | tail -n 1
+}
 
 # Messages can be lost while two processes find each other: repeat the command until the state follows.
 for try in 1 2 3 4 5 6 7 8 9 10; do
   kill -0 "$server" 2>/dev/null || { echo "gzserver died:"; tail -n 20 "$log"; exit 1; }
   timeout 10 gz topic -p "$joint/cmd_preset" -m 'type: DOUBLE double_value: 0.6' >/dev/null 2>&1 || true
-  preset=$(last "$joint/preset" | cut -d' ' -f1)
+  preset=$(preset)
   echo "try $try: preset ${preset:-unknown}"
   case "$preset" in
     0.5[5-9]* | 0.6*) echo "the module followed the command-line client"; exit 0 ;;

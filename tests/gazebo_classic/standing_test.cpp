@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // A world that stands (paused, or not run) still tells its state, so that who comes late sees it.
-#include <gazebo/msgs/any.pb.h>
+#include <gazebo/msgs/param_v.pb.h>
 #include <gtest/gtest.h>
 #include <ignition/msgs/double.pb.h>
 #include <ignition/msgs/model.pb.h>
@@ -118,14 +118,20 @@ TEST(StandingWorld, IsHeardOnGazebosOwnTransportToo) {
   node->Init(w.world->Name());
   struct Sink {
     std::function<void(double)> take;
-    void receive(const boost::shared_ptr<const gazebo::msgs::Any>& message) { take(message->double_value()); }
+    void receive(const boost::shared_ptr<const gazebo::msgs::Param_V>& message) {
+      EXPECT_EQ(message->param(0).name(), "time");
+      EXPECT_EQ(message->param_size(), 6);
+      for (const gazebo::msgs::Param& param : message->param()) {
+        if (param.name() == "shaft/preset") take(param.value().double_value());
+      }
+    }
   };
   Sink sink{[&](double preset) {
     const std::lock_guard lock(mutex);
     presets.push_back(preset);
     arrived.notify_all();
   }};
-  auto subscriber = node->Subscribe("/model/bench/joint/shaft/preset", &Sink::receive, &sink);
+  auto subscriber = node->Subscribe("/model/bench/vsa/readings", &Sink::receive, &sink);
   {
     std::unique_lock lock(mutex);
     EXPECT_TRUE(arrived.wait_for(lock, std::chrono::seconds(20), [&] { return presets.size() >= 3; }));

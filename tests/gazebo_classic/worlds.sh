@@ -23,9 +23,9 @@ check() {
   told=
   for seconds in 1 1 1 2 2 4 4 8 8 8; do
     kill -0 "$server" 2>/dev/null || fail "$1: gzserver died"
-    topic=$(timeout 20 gz topic -l 2>/dev/null | grep '^/model/.*/preset$' | head -n 1) || true
+    topic=$(timeout 20 gz topic -l 2>/dev/null | grep '^/model/.*/vsa/readings$' | head -n 1) || true
     [ -n "$topic" ] || continue
-    told=$(timeout 20 gz topic -u -e "$topic" -d "$seconds" 2>/dev/null | sed -n 's/.*double_value: *//p' | tail -n 1) || true
+    told=$(timeout 20 gz topic -u -e "$topic" -d "$seconds" 2>/dev/null | sed -n 's|.*name: "\([^"]*/preset\)" value { type: DOUBLE double_value: \([^ ]*\).*|\1 \2|p' | tail -n 1) || true
     [ -z "$told" ] || break
   done
   [ -n "$told" ] || fail "$1: its robot tells nothing"
@@ -34,7 +34,7 @@ check() {
   server=
   # A machine without a screen or a sound card says so.
   ! grep '\[Err\]' "$log" | grep -v 'RenderEngine.cc\|OpenAL.cc' || fail "$1: errors on its log"
-  echo "$1: $topic = $told"
+  echo "$1: $topic: $told"
 }
 
 for world in "$source_tree"/models/worlds/*.sdf; do check "$(basename "$world" .sdf)" "$world"; done

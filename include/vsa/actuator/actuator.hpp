@@ -59,6 +59,7 @@ struct ActuatorState {
   std::array<double, 2> tendon_anchor{};  ///< z_w of each spring's friction, J
   std::array<double, 2> spring_w{};       ///< the springs' signed energies now, J; where there is tendon friction
   std::array<double, 2> load{};           ///< mean spring load on each pulley over the last segment
+  elastic::Origin origin;                 ///< where the springs are: pulleys' angles and `shaft`
   elastic::SegmentMean end;               ///< torque and loads at the last segment's end, to first order; its slopes
   Ledger ledger;
 };
@@ -144,7 +145,7 @@ class Actuator {
   void drive_motors(ActuatorState& state, const Segment& segment) const noexcept;
   [[nodiscard]] elastic::Positions positions(const ActuatorState& state, double shaft) const noexcept;
   void book_motors(ActuatorState& state) const noexcept;
-  /// H; where there is tendon friction the springs' signed energies are kept too.
+  /// Moves the origin there and gives H; where there is tendon friction the springs' signed energies are kept too.
   [[nodiscard]] double energy_at(ActuatorState& state, double shaft) const noexcept;
 
   ActuatorParams params_;

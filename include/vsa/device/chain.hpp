@@ -108,6 +108,7 @@ class Chain {
   void say(int speaker, std::int64_t start_ps, std::span<const std::uint8_t> bytes, bus::LineRate rate);
   void say_through_fault(int station, std::int64_t start_ps, std::span<const std::uint8_t> bytes);
   void collect(std::size_t station, std::int64_t heard_ps);
+  void speak(std::size_t station, std::int64_t heard_ps);
   void hear(std::size_t station, std::uint8_t byte, std::int64_t at_ps);
   void wake(std::int64_t now_ps);
   void drop_first();

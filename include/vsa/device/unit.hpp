@@ -131,6 +131,7 @@ class Unit {
   [[nodiscard]] double supply_V(const UnitState& state) const noexcept;
 
   UnitConfig config_;
+  std::int64_t substep_ns_;
   firmware::Program program_;
   drive::Friction shaft_friction_;
   actuator::Actuator actuator_;

@@ -49,6 +49,14 @@ struct SegmentMean {
   Hessian slope;
 };
 
+/// A place, and what the law keeps of it, so that means over segments that begin there and places close to it cost little. What is
+/// kept means nothing to anyone else; a law may keep nothing.
+struct Origin {
+  Positions at;
+  std::array<double, 4> kept{};
+  int moves = 0;  ///< since it was worked out from `at` alone
+};
+
 /// What a user commands. The preset's unit belongs to the law (see Transmission::preset_unit).
 struct EquilibriumPreset {
   double equilibrium = 0;  ///< rad
@@ -69,6 +77,19 @@ class Transmission {
   /// Default: three-point Gauss–Legendre quadrature of evaluate() along the segment; what it misses is booked by the caller
   /// as integrator error. Laws with a closed form override it.
   [[nodiscard]] virtual SegmentMean mean_over(const Positions& from, const Positions& to) const noexcept;
+
+  /// The three together: where many segments follow each other, as in a simulation. They give what the functions of Positions do,
+  /// but for rounding, which moved() doesn't let grow. Defaults keep nothing and call those.
+  [[nodiscard]] virtual Origin origin(const Positions& at) const noexcept { return {at}; }
+  [[nodiscard]] virtual Origin moved(const Origin&, const Positions& to) const noexcept { return origin(to); }
+  [[nodiscard]] virtual SegmentMean mean_from(const Origin& from, const Positions& to) const noexcept {
+    return mean_over(from.at, to);
+  }
+  /// H and w (below) at an origin.
+  [[nodiscard]] virtual double energy_of(const Origin& here) const noexcept { return energy(here.at); }
+  [[nodiscard]] virtual std::array<double, 2> signed_energies_of(const Origin& here) const noexcept {
+    return signed_energies(here.at);
+  }
 
   /// Motor references x_ref for a commanded (equilibrium, preset).
   [[nodiscard]] virtual std::array<double, 2> references(const EquilibriumPreset& command) const noexcept = 0;

@@ -39,6 +39,13 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] double energy(const Positions& at) const noexcept override;
   /// Closed form: the mean of k sinh(a δ) from δ₀ to δ₁ is k sinh(a m) sinhc(a Δ/2), m = (δ₀+δ₁)/2, Δ = δ₁−δ₀.
   [[nodiscard]] SegmentMean mean_over(const Positions& from, const Positions& to) const noexcept override;
+  /// Kept: sinh and cosh − 1 of each a_i δ_i. From there the addition theorems give a segment's means and the next origin by short
+  /// series, without exp, as long as no a_i δ_i moves by more than 0.1; every 64th origin is worked out anew.
+  [[nodiscard]] Origin origin(const Positions& at) const noexcept override;
+  [[nodiscard]] Origin moved(const Origin& from, const Positions& to) const noexcept override;
+  [[nodiscard]] SegmentMean mean_from(const Origin& from, const Positions& to) const noexcept override;
+  [[nodiscard]] double energy_of(const Origin& here) const noexcept override;
+  [[nodiscard]] std::array<double, 2> signed_energies_of(const Origin& here) const noexcept override;
   [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& command) const noexcept override;
   [[nodiscard]] EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override;
 
@@ -59,6 +66,10 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] double spring_energy(std::size_t i, double deflection) const noexcept;
   [[nodiscard]] Mean mean_inside(std::size_t i, double begin, double end) const noexcept;
   [[nodiscard]] Mean mean(std::size_t i, double begin, double end) const noexcept;
+  [[nodiscard]] Mean mean_near(std::size_t i, const Origin& from, double begin, double move) const noexcept;
+  static void add(std::size_t i, const Mean& mean, SegmentMean& to) noexcept;
+  [[nodiscard]] bool near(std::size_t i, double begin, double move) const noexcept;
+  [[nodiscard]] double energy_of(std::size_t i, const Origin& here) const noexcept;
 
   TwoSinhParams params_;
   std::array<Spring, 2> edge_{};  // at δ = d

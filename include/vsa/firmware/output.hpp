@@ -30,6 +30,7 @@ struct Output {
   Output() noexcept {}  // the bytes stay as they are: clearing 16 kB a tick would cost more than the tick
   void clear() noexcept { used = count = 0, baud_changed = bootloader = false; }
 
+  [[nodiscard]] bool silent() const noexcept { return count == 0 && !baud_changed && !bootloader; }
   [[nodiscard]] std::span<const std::uint8_t> view(const Reply& r) const noexcept { return {bytes.data() + r.begin, r.size}; }
   /// Where the next reply's bytes go.
   [[nodiscard]] std::span<std::uint8_t> room() noexcept { return std::span{bytes}.subspan(used); }
