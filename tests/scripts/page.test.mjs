@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch, open as openPage } from './browser.mjs';
 
-const kWebGl = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+const kWebGl = ['--disable-gpu', '--enable-unsafe-swiftshader'];
 
 const kUntil_ms = 60_000;
 let browser;
@@ -50,7 +50,7 @@ async function reaches(tab, t) {
 }
 const differing = (a, b) => a.filter((v, i) => v !== b[i]).length;
 
-test('the page of a snake', { timeout: 150_000 }, async (t) => {
+test('the page of a snake', { timeout: 300_000 }, async (t) => {
   const { tab, wrong, close } = await open('snake');
 
   await t.test('shows a picture that is not blank', async () => {

@@ -136,7 +136,8 @@ export class Scenery {
 
   /** A level plane of the world: drawn to the horizon, with its grid. */
   ground(parent) {
-    const mesh = new THREE.Mesh(new THREE.CircleGeometry(kGroundRadius, 64), this.coarse ? flatGroundMaterial() : new THREE.MeshStandardMaterial({ roughness: 0.96 }));
+    const material = this.coarse ? flatGroundMaterial() : new THREE.MeshStandardMaterial({ roughness: 0.96 });
+    const mesh = new THREE.Mesh(new THREE.CircleGeometry(kGroundRadius, 64), material);
     // A terrain that lies on the plane wins over it.
     Object.assign(mesh.material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 });
     mesh.receiveShadow = true;

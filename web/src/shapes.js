@@ -21,7 +21,7 @@ const kCoarse = { sphere: [14, 9], cylinder: 14, capsule: [4, 12], edge: 0 };
 
 /**
  * Null where there is nothing to draw (a mesh without triangles). The geometry is in the shape's frame, meshes' in the link's. `coarse`:
- * a tenth of the triangles, for machines that draw with the processor.
+ * a seventh of a snake's triangles, for machines that draw with the processor.
  */
 export function geometryOf(shape, run, still, coarse = false) {
   const [a, b, c] = shape.size;

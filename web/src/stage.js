@@ -70,7 +70,7 @@ export class Stage {
     const group = new THREE.Group();
     const still = Boolean(link.pose);
     const parts = [];
-    const box = new THREE.Box3(); // of the largest shapes, each in its own frame
+    const box = new THREE.Box3(); // around all shapes, each in its own frame
     for (const shape of link.visuals) {
       const level = still && shape.kind === 'plane' && Math.abs(link.pose[4]) + Math.abs(link.pose[5]) < 1e-6;
       if (level) {
