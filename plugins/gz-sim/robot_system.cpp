@@ -134,8 +134,9 @@ void SimRobot::look_for_physics(const sim::EntityComponentManager& ecm) {
   }
   const std::string text =
       name_ +
-      ": no physics moves it: its world has no physics system. A world with <plugin>s of its own must name the physics "
-      "among them; into a world without any gz-sim loads it, but Fortress before 6.8 only where no model has a plug-in either.";
+      ": no physics moves it: its world has no physics system. Up to Harmonic a world with <plugin>s of its own must name the "
+      "physics among them; later ones add that of server.config, unless <gz:policies> forbids it. Into a world without any gz-sim "
+      "loads it, but Fortress before 6.8 only where no model has a plug-in either.";
   VSA_ERROR << "vsa::Robot: " << text << std::endl;
 }
 

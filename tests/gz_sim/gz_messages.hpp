@@ -9,11 +9,13 @@
 #include <gz/msgs/entity.pb.h>
 #include <gz/msgs/entity_factory.pb.h>
 #include <gz/msgs/log_playback_control.pb.h>
+#include <gz/msgs/world_control.pb.h>
 #else
 #include <ignition/msgs/boolean.pb.h>
 #include <ignition/msgs/entity.pb.h>
 #include <ignition/msgs/entity_factory.pb.h>
 #include <ignition/msgs/log_playback_control.pb.h>
+#include <ignition/msgs/world_control.pb.h>
 #endif
 
 namespace vsa::test {

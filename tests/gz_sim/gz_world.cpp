@@ -14,10 +14,12 @@
 #define VSA_SIM_LIBRARY "gz-sim"
 #define VSA_SIM_CLASS "gz::sim::systems::"
 #define VSA_PATH_VARIABLE "GZ_SIM_SYSTEM_PLUGIN_PATH"
+#define VSA_CONFIG_VARIABLE "GZ_SIM_SERVER_CONFIG_PATH"
 #else
 #define VSA_SIM_LIBRARY "ignition-gazebo"
 #define VSA_SIM_CLASS "ignition::gazebo::systems::"
 #define VSA_PATH_VARIABLE "IGN_GAZEBO_SYSTEM_PLUGIN_PATH"
+#define VSA_CONFIG_VARIABLE "IGN_GAZEBO_SERVER_CONFIG_PATH"
 #endif
 
 namespace vsa::test {
@@ -59,6 +61,7 @@ void put(sim::EntityComponentManager& ecm, const std::string& model, const std::
 
 void prepare() {
   setenv(VSA_PATH_VARIABLE, VSA_SIM_PLUGIN_DIR, 1);
+  setenv(VSA_CONFIG_VARIABLE, "", 1);  // from Ionic on its systems come to worlds that name their own, too
   for (const char* name : {"IGN_IP", "GZ_IP"}) setenv(name, "127.0.0.1", 1);
   const std::string partition = "vsa_test_" + std::to_string(getpid());
   for (const char* name : {"IGN_PARTITION", "GZ_PARTITION"}) setenv(name, partition.c_str(), 0);
