@@ -23,6 +23,7 @@
 #include "ping.hpp"
 #include "run.hpp"
 #include "set.hpp"
+#include "unknown_word.hpp"
 #include "validate.hpp"
 #include "vsa/errors.hpp"
 
@@ -87,10 +88,15 @@ int run_application(int argc, char** argv) {
   CLI::App app{"vsa: simulates robots built of variable stiffness actuators", "vsa"};
   int exit_code = vsa::app::kDone;
   set_up(app, exit_code);
-  if (tell_about(app, {argv + (argc > 0 ? 1 : 0), argv + argc})) return vsa::app::kDone;
+  const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  if (tell_about(app, arguments)) return vsa::app::kDone;
   refuse_empty(argc, argv);
+  vsa::app::refuse_unknown_command(app, arguments);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& error) {
+    vsa::app::refuse_unexpected(app);
+    return app.exit(error), vsa::app::kBadInput;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? vsa::app::kDone : vsa::app::kBadInput;
   }

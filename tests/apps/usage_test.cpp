@@ -40,6 +40,13 @@ TEST(Usage, WrongArgumentsAreBadUsage) {
   EXPECT_EQ(run_vsa({"command", "", "20"}).exit_code, 2);
 }
 
+TEST(Usage, AWordNobodyKnowsIsNamedWithTheNearestThatMeansSomething) {
+  expect_bad_input(run_vsa({"rnu", "snake_flat"}), {"rnu", "no such command, did you mean run?", "doctor"});
+  expect_bad_input(run_vsa({"run", "bench_free", "--duratoin-s", "3"}), {"vsa run", "--duratoin-s", "did you mean --duration-s?"});
+  expect_bad_input(run_vsa({"run", "bench_free", "--duratoin-s=3"}), {"--duratoin-s: no such option"});
+  expect_bad_input(run_vsa({"actuators", "qbmove_maker_pro", "twice"}), {"vsa actuators", "twice", "one word too many"});
+}
+
 TEST(Usage, AnEmptyArgumentIsRefusedAndNamed) {
   expect_bad_input(run_vsa({"run", "bench_free", "--duration-s", "0.01", "--record", ""}), {"--record", "empty"});
   expect_bad_input(run_vsa({"command", "10", "20", "--joint", ""}), {"--joint", "empty"});

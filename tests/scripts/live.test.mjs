@@ -290,6 +290,19 @@ test('a snake in the page', kLong, async (t) => {
     await until(tab, 'pulled', null);
   });
 
+  await t.test('the picture gets coarser where it comes too slowly, and finer again when that has passed', async () => {
+    const levels = await tab.evaluate(() => {
+      const { stage } = window.vsaLive;
+      stage.drawn = [];
+      const after = (ms, pictures) => {
+        for (let i = 0; i < pictures; ++i) stage.timed(ms);
+        return stage.quality;
+      };
+      return [after(500, 120), after(20, 300), after(500, 30), after(20, 900)];
+    });
+    assert.deepEqual(levels, [3, 2, 3, 3], 'a level that was too much right away is not tried again');
+  });
+
   await t.test('every control has a name and can be reached by the keyboard', async () => {
     const nameless = await tab.evaluate(() =>
       [...document.querySelectorAll('button, input, select, a')]

@@ -23,6 +23,8 @@ const kSoftwareQualities = [1, 0.75, 0.6, 0.5].map((pixels) => ({ pixels, shadow
 const kSlow_ms = 40;
 const kSoftwareSlow_ms = 60;
 const kLook = 30; // pictures between two decisions
+const kEasy = 0.6; // of the limit: fast enough to try a finer picture …
+const kEasyLooks = 10; // … if it stays so for this many decisions
 
 /** Whether WebGL is drawn by the processor. */
 function software(gl) {
@@ -57,6 +59,10 @@ export class LiveStage extends Stage {
     this.scene.add(this.marks, this.feet, this.hands);
     this.weight = 9.81 * run.moving.reduce((sum, i) => sum + (run.links[i].mass_kg || 0), 0);
     this.drawn = [];
+    this.easy = 0;
+    this.finest = 0;
+    this.justFiner = false;
+    this.plain = false;
     this.software = soft;
     this.qualities = soft ? kSoftwareQualities : kQualities;
     this.setQuality(soft ? 1 : 0);
@@ -99,13 +105,27 @@ export class LiveStage extends Stage {
     this.renderer.setSize(width, height, false);
   }
 
-  /** Coarser where pictures come too slowly. */
+  /**
+   * Coarser where pictures come too slowly; finer again when the machine has long had time to spare, as after a load that passed. A level
+   * that proved too much right after is not tried again, and materials without reflections stay.
+   */
   timed(ms) {
     this.drawn.push(ms);
     if (this.drawn.length < kLook) return;
     const middle = this.drawn.sort((a, b) => a - b)[kLook >> 1];
     this.drawn = [];
-    if (middle > (this.software ? kSoftwareSlow_ms : kSlow_ms) && this.quality + 1 < this.qualities.length) this.setQuality(this.quality + 1);
+    const slow = this.software ? kSoftwareSlow_ms : kSlow_ms;
+    this.easy = middle < kEasy * slow ? this.easy + 1 : 0;
+    if (middle > slow && this.quality + 1 < this.qualities.length) {
+      if (this.justFiner) this.finest = this.quality + 1;
+      this.setQuality(this.quality + 1);
+    }
+    this.justFiner = false;
+    if (this.easy < kEasyLooks || this.quality <= this.finest) return;
+    if (this.qualities[this.quality - 1].plain !== this.plain) return;
+    this.easy = 0;
+    this.justFiner = true;
+    this.setQuality(this.quality - 1);
   }
 
   /** The run's arrays hold a new moment. */

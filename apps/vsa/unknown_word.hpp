@@ -1,0 +1,19 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Words of a command line that mean nothing: named, with the nearest that does.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace vsa::app {
+
+/// Throws InputError where the first word is no command.
+void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& arguments);
+
+/// After a parse that failed for words nobody expected (CLI::ExtrasError): throws InputError for the first option among them, else
+/// for the first word; returns where there is none.
+void refuse_unexpected(const CLI::App& app);
+
+}  // namespace vsa::app
