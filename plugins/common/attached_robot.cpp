@@ -62,7 +62,8 @@ void AttachedRobot::step(std::int64_t dt_ns) {
     return;
   }
   for (std::size_t i = 0; i < in_.size(); ++i) {
-    // Seven digits are plenty for a prediction, and the links' poses, from which it is worked out, differ by rounding after a reset.
+    // Seven digits are plenty for a prediction, and the links' poses, from which it is worked out, differ by rounding after a
+    // reset.
     if (auto& inverse = in_[i].inverse_inertia) inverse = static_cast<float>(*inverse);
     if (std::isfinite(in_[i].angle_rad) && std::isfinite(in_[i].speed_rad_per_s)) continue;
     stop("joint " + robot_.config().actuators[i].joint + " is no longer at a finite angle or speed");
