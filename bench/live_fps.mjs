@@ -2,16 +2,31 @@
 //
 // node live_fps.mjs VSA NPM [CHROMIUM]: pictures a second of the live page, by the page's own clock, while the 12-module snake crawls in
 // real time with its curves shown. A line for each way in which a browser does without a GPU: as it does by itself (WebGL by SwiftShader,
-// the page itself by its own software) and with everything, also the page, by SwiftShader. The median of 20 seconds, the extremes, the
-// picture's size that the page has chosen, and what the machine draws with.
+// the page itself by its own software) and with everything, also the page, by SwiftShader. A third line is for machines without a GPU too:
+// the page as it runs with one, all its shapes, shadows and reflections asked for, by a WebGL that draws nothing. It tells what the page
+// itself can do, not what a GPU can. The median of 20 seconds, the extremes, the picture's size that the page has chosen, and what the
+// machine draws with.
 import { spawn } from 'node:child_process';
 import { launch, visit } from '../tests/scripts/browser.mjs';
 
 const kSeconds = 20;
+const kBySoftware = ['--disable-gpu', '--enable-unsafe-swiftshader'];
 const kWays = {
-  'by itself': ['--disable-gpu', '--enable-unsafe-swiftshader'],
-  'all by SwiftShader': ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  'by itself': { flags: kBySoftware },
+  'all by SwiftShader': { flags: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'] },
+  'page alone, nothing drawn': { flags: kBySoftware, before: drawNothing },
 };
+
+/** In the page: WebGL takes every call, is asked for as much as a GPU, and draws nothing. */
+function drawNothing() {
+  const { prototype } = WebGL2RenderingContext;
+  for (const name of ['drawElements', 'drawArrays', 'drawElementsInstanced', 'drawArraysInstanced', 'drawRangeElements', 'clear']) prototype[name] = () => {};
+  const { getParameter } = prototype;
+  const kRenderer = 0x9246; // UNMASKED_RENDERER_WEBGL
+  prototype.getParameter = function (name) {
+    return name === kRenderer ? 'nothing' : getParameter.call(this, name);
+  };
+}
 
 /** Starts the run; its page's address. */
 function start(child) {
@@ -43,12 +58,12 @@ async function count(seconds) {
   return { seen, size: `${width} × ${height}`, renderer: info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : 'unknown' };
 }
 
-for (const [way, flags] of Object.entries(kWays)) {
+for (const [way, { flags, before }] of Object.entries(kWays)) {
   const child = spawn(process.argv[2], ['run', 'snake_flat', '--gait', 'sidewind', '--view', '--no-topics'], { stdio: ['ignore', 'ignore', 'pipe'] });
   const url = await start(child);
   const browser = await launch(...flags);
   const context = { viewport: { width: 1280, height: 760 }, reducedMotion: 'no-preference' };
-  const { tab } = await visit(browser, url, (asked) => asked.startsWith(url), context);
+  const { tab } = await visit(browser, url, (asked) => asked.startsWith(url), context, before);
   await tab.click('#tab-curves');
   const { seen, size, renderer } = await tab.evaluate(count, kSeconds);
   seen.sort((a, b) => a - b);

@@ -96,7 +96,8 @@ int run_application(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError& error) {
     vsa::app::refuse_unexpected(app);
-    return app.exit(error), vsa::app::kBadInput;
+    app.exit(error);
+    return vsa::app::kBadInput;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? vsa::app::kDone : vsa::app::kBadInput;
   }

@@ -9,12 +9,6 @@
 namespace vsa::app {
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
-
 std::vector<std::string> commands_of(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
@@ -36,7 +30,7 @@ void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>&
   const std::vector<std::string> known = commands_of(app);
   if (std::find(known.begin(), known.end(), arguments.front()) != known.end()) return;
   const std::string& word = arguments.front();
-  throw InputError({"", "command", word, "no such command, did you mean " + config::nearest(word, known) + "?", joined(known)});
+  throw InputError({"", word, "", "no such command, did you mean " + config::nearest(word, known) + "?", config::join(known)});
 }
 
 void refuse_unexpected(const CLI::App& app) {
@@ -45,10 +39,11 @@ void refuse_unexpected(const CLI::App& app) {
     if (words.empty()) continue;
     const auto is_option = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
     const auto option = std::find_if(words.begin(), words.end(), is_option);
-    const std::string where = "vsa " + command->get_name(), help = "what " + where + " --help lists";
-    if (option == words.end()) throw InputError({"", where, words.front(), "one word too many", help});
+    const std::string help = "what vsa " + command->get_name() + " --help lists";
+    if (option == words.end()) throw InputError({command->get_name(), words.front(), "", "one word too many", help});
     const std::string name = option->substr(0, option->find('='));
-    throw InputError({"", where, name, "no such option, did you mean " + config::nearest(name, options_of(*command)) + "?", help});
+    throw InputError(
+        {command->get_name(), name, "", "no such option, did you mean " + config::nearest(name, options_of(*command)) + "?", help});
   }
 }
 

@@ -79,13 +79,6 @@ TwoSinh::Spring TwoSinh::spring(std::size_t i, double deflection) const noexcept
           e.stiffness};
 }
 
-double TwoSinh::spring_energy(std::size_t i, double deflection) const noexcept {
-  const double beyond = std::abs(deflection) - params_.linear_beyond_rad;
-  if (beyond > 0) return edge_[i].energy + beyond * (edge_[i].torque + 0.5 * beyond * edge_[i].stiffness);
-  const double a = params_.a_per_rad[i];
-  return params_.k_Nm[i] / a * hyperbolic(a * deflection).cosh_less_1 + 0.5 * params_.c_Nm_per_rad[i] * deflection * deflection;
-}
-
 TwoSinh::Mean TwoSinh::mean_inside(std::size_t i, double begin, double end) const noexcept {
   const double k = params_.k_Nm[i], a = params_.a_per_rad[i], half_c = 0.5 * params_.c_Nm_per_rad[i];
   const Hyperbolic h = hyperbolic(0.5 * a * (begin + end));
@@ -124,18 +117,9 @@ Response TwoSinh::evaluate(const Positions& at) const noexcept {
   return r;
 }
 
-double TwoSinh::energy(const Positions& at) const noexcept {
-  return spring_energy(0, at.q - at.x[0]) + spring_energy(1, at.q - at.x[1]);
-}
+double TwoSinh::energy(const Positions& at) const noexcept { return energy_of(origin(at)); }
 
-std::array<double, 2> TwoSinh::signed_energies(const Positions& at) const noexcept {
-  std::array<double, 2> w{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double deflection = at.q - at.x[i];
-    w[i] = std::copysign(spring_energy(i, deflection), deflection);
-  }
-  return w;
-}
+std::array<double, 2> TwoSinh::signed_energies(const Positions& at) const noexcept { return signed_energies_of(origin(at)); }
 
 inline void TwoSinh::add(std::size_t i, const Mean& m, SegmentMean& to) noexcept {
   to.torque -= m.torque;
@@ -201,7 +185,8 @@ SegmentMean TwoSinh::mean_from(const Origin& from, const Positions& to) const no
 
 inline double TwoSinh::energy_of(std::size_t i, const Origin& here) const noexcept {
   const double deflection = here.at.q - here.at.x[i];
-  if (std::abs(deflection) > params_.linear_beyond_rad) return spring_energy(i, deflection);
+  const double beyond = std::abs(deflection) - params_.linear_beyond_rad;
+  if (beyond > 0) return edge_[i].energy + beyond * (edge_[i].torque + 0.5 * beyond * edge_[i].stiffness);
   return params_.k_Nm[i] / params_.a_per_rad[i] * here.kept[2 * i + 1] + 0.5 * params_.c_Nm_per_rad[i] * deflection * deflection;
 }
 

@@ -23,10 +23,14 @@ const kPatience = { timeout: 60_000 }; // software rendering on a busy machine
 
 export const launch = (...more) => chromium.launch({ executablePath: chromiumPath, args: [...kArguments, ...more], ...kPatience });
 
-/** Opens an address; `wrong` fills with console errors, exceptions and requests that `allowed` doesn't allow. */
-export async function visit(browser, url, allowed, context = {}) {
+/**
+ * Opens an address; `wrong` fills with console errors, exceptions and requests that `allowed` doesn't allow. `before`: a function that runs
+ * in the page before its own scripts.
+ */
+export async function visit(browser, url, allowed, context = {}, before = () => {}) {
   const tab = await (await browser.newContext({ viewport: { width: 1000, height: 640 }, reducedMotion: 'reduce', ...context })).newPage();
   tab.setDefaultTimeout(kPatience.timeout);
+  await tab.addInitScript(before);
   const wrong = [];
   tab.on('console', (m) => m.type() === 'error' && wrong.push(`console: ${m.text()}`));
   tab.on('pageerror', (e) => wrong.push(`exception: ${e.stack}`));

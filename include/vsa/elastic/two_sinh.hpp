@@ -63,7 +63,6 @@ class TwoSinh final : public Transmission {
   };
   [[nodiscard]] Spring inside(std::size_t i, double deflection) const noexcept;
   [[nodiscard]] Spring spring(std::size_t i, double deflection) const noexcept;
-  [[nodiscard]] double spring_energy(std::size_t i, double deflection) const noexcept;
   [[nodiscard]] Mean mean_inside(std::size_t i, double begin, double end) const noexcept;
   [[nodiscard]] Mean mean(std::size_t i, double begin, double end) const noexcept;
   [[nodiscard]] Mean mean_near(std::size_t i, const Origin& from, double begin, double move) const noexcept;
