@@ -201,13 +201,9 @@ class Bench(Live):
 
     def test_a_preset_from_ros_stiffens_the_joint(self):
         stiffness = self.listen(Float64, 'shaft/stiffness')
-        found = []
         self.command('shaft/cmd_equilibrium', Float64(data=0.0), self.at(equilibrium_rad=0.0), 'equilibrium 0')
-        for preset_rad in (0.2, 0.6):
-            self.command('shaft/cmd_preset', Float64(data=preset_rad), self.at(preset_rad=preset_rad), f'preset {preset_rad}')
-            count = len(stiffness)
-            found.append(self.until(lambda: stiffness[-1].data if len(stiffness) > count else None, 'stiffness'))
-        self.assertGreater(found[1], 5 * found[0])
+        self.command('shaft/cmd_preset', Float64(data=0.2), lambda: stiffness and stiffness[-1].data < 1.5, 'soft, Nm/rad')
+        self.command('shaft/cmd_preset', Float64(data=0.6), lambda: stiffness[-1].data > 8, 'stiff, Nm/rad')
 
     def test_actuators_set_equilibrium_and_preset_together(self):
         self.command('cmd_array', Actuators(position=[-0.4, 0.3]),
@@ -262,8 +258,9 @@ class Snake(Live):
             # 0.5 is asked for; the joints in the middle carry most and stay behind most.
             self.assertTrue(0.3 < amplitude_rad < 0.55, f'joint_{n}: {amplitude_rad}')
             phases.append(phase_rad)
-        for n in range(11):
-            self.assertAlmostEqual((phases[n] - phases[n + 1]) % (2 * math.pi), 0.6, delta=0.25, msg=f'joint_{n + 1} after joint_{n}')
+        lags = [(phases[n] - phases[n + 1]) % (2 * math.pi) for n in range(11)]
+        self.assertTrue(all(0.2 < lag < 1.0 for lag in lags), lags)
+        self.assertAlmostEqual(sum(lags) / 11, 0.6, delta=0.03, msg='rad a joint')
 
 
 def wave_of(states, frequency_Hz):
