@@ -18,6 +18,8 @@ import tempfile
 import time
 import unittest
 
+import yaml
+
 SOURCE, VSA = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
 TRANSPORT = 'libignition-transport11'
 PATIENCE_S = 60
@@ -131,6 +133,22 @@ class Live(unittest.TestCase):
         self.addCleanup(self.node.destroy_subscription, subscription)
         return heard
 
+    def check_every_line_of_the_bridge(self):
+        """Each topic to ROS brings a message, each topic from ROS has the bridge for a listener."""
+        kinds = {'Clock': Clock, 'Float64': Float64, 'JointState': JointState}
+        config = yaml.safe_load((SOURCE / 'ros2' / 'config' / self.robot / 'bridge.yaml').read_text())
+        silent = {entry['ros_topic_name']: kinds[entry['ros_type_name'].split('/')[-1]] for entry in config if entry['direction'] == 'GZ_TO_ROS'}
+        deaf = {entry['ros_topic_name'] for entry in config if entry['direction'] == 'ROS_TO_GZ'}
+        self.assertTrue(silent and deaf)
+
+        def hear(name):
+            return lambda _: silent.pop(name, None)
+
+        for name, kind in list(silent.items()):
+            self.addCleanup(self.node.destroy_subscription, self.node.create_subscription(kind, name, hear(name), 10))
+        self.until(lambda: not silent, f'a message on each of {list(silent)}')
+        self.until(lambda: all(self.node.count_subscribers(name) == 1 for name in deaf), f'a listener on each of {deaf}')
+
     def command(self, name, message, reached, what):
         """Sends until it shows: the bridge's own way to the robot may not have been found yet."""
         publisher = self.node.create_publisher(type(message), f'/{self.robot}/{name}', 10)
@@ -176,6 +194,9 @@ class Bench(Live):
             return state and (equilibrium_rad is None or abs(state.equilibrium_rad - equilibrium_rad) < 0.05) and (
                 preset_rad is None or abs(state.preset_rad - preset_rad) < 0.05)
         return look
+
+    def test_every_line_of_its_bridge_works(self):
+        self.check_every_line_of_the_bridge()
 
     def test_joint_states_tell_of_shaft_and_motors_in_simulated_time(self):
         clock = []
@@ -242,6 +263,9 @@ class Bench(Live):
 
 class Snake(Live):
     world, launch, robot = 'snake_flat', 'snake.launch.py', 'qbmove_snake'
+
+    def test_every_line_of_its_bridge_works(self):
+        self.check_every_line_of_the_bridge()
 
     def test_the_wave_of_the_page_runs_over_the_snake(self):
         page = (SOURCE / 'docs' / '14-ros2.md').read_text()
