@@ -92,19 +92,18 @@ class Side:
                 self.process.wait()
 
 
-class Live(unittest.TestCase):
+class Live:
     """A world with the embedded engine in real time, the launch file's bridge, and a node of this test."""
 
-    world = launch = robot = None
+    world = robot = None
+    launch = ('world.launch.py',)
 
     @classmethod
     def setUpClass(cls):
-        if cls.world is None:
-            raise unittest.SkipTest('only the classes below have a world')
         cls.sides = []
         cls.addClassCleanup(lambda: [side.stop() for side in reversed(cls.sides)])
         cls.start('vsa', VSA, 'run', cls.world, '--realtime')
-        cls.start('launch', 'ros2', 'launch', 'vsa_ros2', cls.launch, 'simulator:=false')
+        cls.start('launch', 'ros2', 'launch', 'vsa_ros2', *cls.launch, 'simulator:=false')
         rclpy.init()
         cls.addClassCleanup(rclpy.shutdown)
         cls.node = rclpy.create_node('vsa_live_test')
@@ -133,11 +132,12 @@ class Live(unittest.TestCase):
         self.addCleanup(self.node.destroy_subscription, subscription)
         return heard
 
-    def check_every_line_of_the_bridge(self):
-        """Each topic to ROS brings a message, each topic from ROS has the bridge for a listener."""
+    def test_every_line_of_its_bridge_works(self):
+        # Each topic to ROS brings a message, each topic from ROS has the bridge for a listener.
         kinds = {'Clock': Clock, 'Float64': Float64, 'JointState': JointState}
         config = yaml.safe_load((SOURCE / 'ros2' / 'config' / self.robot / 'bridge.yaml').read_text())
-        silent = {entry['ros_topic_name']: kinds[entry['ros_type_name'].split('/')[-1]] for entry in config if entry['direction'] == 'GZ_TO_ROS'}
+        silent = {entry['ros_topic_name']: kinds[entry['ros_type_name'].split('/')[-1]] for entry in config
+                  if entry['direction'] == 'GZ_TO_ROS'}
         deaf = {entry['ros_topic_name'] for entry in config if entry['direction'] == 'ROS_TO_GZ'}
         self.assertTrue(silent and deaf)
 
@@ -146,7 +146,7 @@ class Live(unittest.TestCase):
 
         for name, kind in list(silent.items()):
             self.addCleanup(self.node.destroy_subscription, self.node.create_subscription(kind, name, hear(name), 10))
-        self.until(lambda: not silent, f'a message on each of {list(silent)}')
+        self.until(lambda: not silent, silent)  # when it fails, those that brought nothing
         self.until(lambda: all(self.node.count_subscribers(name) == 1 for name in deaf), f'a listener on each of {deaf}')
 
     def command(self, name, message, reached, what):
@@ -178,8 +178,8 @@ class State:
         self.equilibrium_rad, self.preset_rad = sum(motors) / 2, (motors[0] - motors[1]) / 2
 
 
-class Bench(Live):
-    world, launch, robot = 'bench_load', 'bench_load.launch.py', 'qbmove_bench_load'
+class Bench(Live, unittest.TestCase):
+    world, launch, robot = 'bench_load', ('bench_load.launch.py',), 'qbmove_bench_load'
 
     def setUp(self):
         self.states = self.listen(JointState, 'joint_states')
@@ -194,9 +194,6 @@ class Bench(Live):
             return state and (equilibrium_rad is None or abs(state.equilibrium_rad - equilibrium_rad) < 0.05) and (
                 preset_rad is None or abs(state.preset_rad - preset_rad) < 0.05)
         return look
-
-    def test_every_line_of_its_bridge_works(self):
-        self.check_every_line_of_the_bridge()
 
     def test_joint_states_tell_of_shaft_and_motors_in_simulated_time(self):
         clock = []
@@ -217,7 +214,7 @@ class Bench(Live):
         self.command('shaft/cmd_equilibrium', Float64(data=0.5), self.at(equilibrium_rad=0.5), 'equilibrium 0.5')
         # 1 kg on a lever of 0.15 m (models/robots.toml), hanging at 0 rad.
         self.until(lambda: abs(self.last().velocity_rad_s) < 0.002
-                   and abs(self.last().effort_Nm - 1.0 * 9.81 * 0.15 * math.sin(self.last().position_rad)) < 0.02, 'rest')
+                   and abs(self.last().effort_Nm - 1.0 * 9.81 * 0.15 * math.sin(self.last().position_rad)) < 0.04, 'rest')
         self.assertGreater(self.last().position_rad, 0.3)
 
     def test_a_preset_from_ros_stiffens_the_joint(self):
@@ -261,11 +258,8 @@ class Bench(Live):
         self.until(self.at(0.5), "what the page's command asks for")
 
 
-class Snake(Live):
-    world, launch, robot = 'snake_flat', 'snake.launch.py', 'qbmove_snake'
-
-    def test_every_line_of_its_bridge_works(self):
-        self.check_every_line_of_the_bridge()
+class Snake(Live, unittest.TestCase):
+    world, launch, robot = 'snake_flat', ('snake.launch.py',), 'qbmove_snake'
 
     def test_the_wave_of_the_page_runs_over_the_snake(self):
         page = (SOURCE / 'docs' / '14-ros2.md').read_text()
@@ -294,6 +288,20 @@ def wave_of(states, frequency_Hz):
     sine = sum(rad * math.sin(angle) for rad, angle in turns) * 2 / len(turns)
     cosine = sum(rad * math.cos(angle) for rad, angle in turns) * 2 / len(turns)
     return math.hypot(sine, cosine), math.atan2(cosine, sine)
+
+
+# The other robots, by the launch file for any of them.
+for other_world, other_robot in (('module', 'qbmove'), ('bench_free', 'qbmove_bench_free'), ('bench_throw', 'qbmove_bench_throw'),
+                                 ('gripper_soft', 'qbmove_gripper'), ('manipulator_3r', 'qbmove_manipulator_3r'), ('frank', 'frank')):
+    name = other_world.title().replace('_', '')
+    globals()[name] = type(name, (Live, unittest.TestCase), {'world': other_world, 'robot': other_robot,
+                                           'launch': ('world.launch.py', f'robot:={other_robot}')})
+
+
+class Robots(unittest.TestCase):
+    def test_every_robot_with_a_bridge_is_tried(self):
+        tried = {kind.robot for kind in Live.__subclasses__()}
+        self.assertEqual(tried, {folder.name for folder in (SOURCE / 'ros2' / 'config').iterdir()})
 
 
 if __name__ == '__main__':
