@@ -15,6 +15,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kPausedEvery{100};
+constexpr int kInertiaSteps = 16;
 constexpr std::int64_t kLongestStep_ns = 16'000'000;  // host::Robot::advance
 
 host::Robot make_robot(const Attachment& attachment) {
@@ -55,6 +56,17 @@ void AttachedRobot::stop(const std::string& why) {
   report_(model_ + ": " + why + ": its actuators give no torque until the world is reset");
 }
 
+bool AttachedRobot::wants_inertias() noexcept {
+  if (steps_to_inertias_-- > 0) return false;
+  steps_to_inertias_ = kInertiaSteps - 1;
+  return true;
+}
+
+void AttachedRobot::set_inverse_inertia(std::size_t actuator, std::optional<double> inverse) noexcept {
+  if (inverse) inverse = static_cast<float>(*inverse);
+  in_[actuator].inverse_inertia = inverse;
+}
+
 void AttachedRobot::step(std::int64_t dt_ns) {
   if (stopped_) return;
   if (dt_ns <= 0 || dt_ns > kLongestStep_ns) {
@@ -62,9 +74,6 @@ void AttachedRobot::step(std::int64_t dt_ns) {
     return;
   }
   for (std::size_t i = 0; i < in_.size(); ++i) {
-    // Seven digits are plenty for a prediction, and the links' poses, from which it is worked out, differ by rounding after a
-    // reset.
-    if (auto& inverse = in_[i].inverse_inertia) inverse = static_cast<float>(*inverse);
     if (std::isfinite(in_[i].angle_rad) && std::isfinite(in_[i].speed_rad_per_s)) continue;
     stop("joint " + robot_.config().actuators[i].joint + " is no longer at a finite angle or speed");
     return;
@@ -100,6 +109,7 @@ void AttachedRobot::reset() {
   robot_.reset();
   pace_.stood();
   time_ns_ = 0;
+  steps_to_inertias_ = 0;
   stopped_ = false;
   std::fill(torques_.begin(), torques_.end(), 0.0);
 }

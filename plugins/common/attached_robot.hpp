@@ -3,7 +3,8 @@
 // What a plug-in of any Gazebo does with its robot; the adapters only carry numbers in and out.
 //
 //   AttachedRobot robot({element_xml, "world: model", "model", joints_of_the_model}, report);
-//   every step:    for each actuator i: robot.in()[i] = {angle, speed, inverse inertia};
+//   every step:    if (robot.wants_inertias()) for each actuator i: robot.set_inverse_inertia(i, …);
+//                  for each actuator i: angle and speed into robot.in()[i]
 //                  robot.step(dt_ns);
 //                  for each actuator i: apply robot.torques()[i]
 //                  robot.publish_step(end of the step, simulated)
@@ -48,6 +49,12 @@ class AttachedRobot {
   [[nodiscard]] std::span<host::JointIn> in() noexcept { return in_; }
   [[nodiscard]] std::span<const double> torques() const noexcept { return torques_; }
 
+  /// Once before each step: whether A is due. It is every 16th step, since it only serves the robot's prediction.
+  [[nodiscard]] bool wants_inertias() noexcept;
+  /// A = (M⁻¹)_jj, 1/(kg·m²) or 1/kg; none: that of the preset's shaft. Kept to seven digits: plenty for a prediction, and the
+  /// links' poses, from which hosts work it out, differ by rounding after a reset.
+  void set_inverse_inertia(std::size_t actuator, std::optional<double> inverse) noexcept;
+
   /// One step of the host. A step length that the units don't know, or a joint that is no longer finite, stops the actuators with
   /// one reported line: torques are 0 until reset().
   void step(std::int64_t dt_ns);
@@ -71,6 +78,7 @@ class AttachedRobot {
   std::vector<host::JointIn> in_;
   std::vector<double> torques_;
   std::int64_t time_ns_ = 0;
+  int steps_to_inertias_ = 0;
   bool stopped_ = false;
   Clock::time_point next_paused_{};
   std::optional<host::RobotTopics> topics_;  ///< must outlive its port's handlers, so it comes before the port

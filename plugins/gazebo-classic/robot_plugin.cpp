@@ -20,7 +20,6 @@ using gazebo::physics::Base;
 using gazebo::physics::JointPtr;
 using gazebo::physics::ModelPtr;
 
-constexpr int kRefreshSteps = 16;  // inverse inertias only serve the robot's prediction
 constexpr std::chrono::milliseconds kLookEvery{100};
 
 std::int64_t nanoseconds(const gazebo::common::Time& time) { return time.sec * std::int64_t{1'000'000'000} + time.nsec; }
@@ -87,12 +86,13 @@ void ClassicRobot::update(const gazebo::common::UpdateInfo& info) {
 }
 
 void ClassicRobot::step() {
-  if (steps_to_refresh_-- <= 0) {
+  if (robot_->wants_inertias()) {
     tree_->update();
-    steps_to_refresh_ = kRefreshSteps - 1;
+    for (std::size_t i = 0; i < joints_.size(); ++i) robot_->set_inverse_inertia(i, tree_->inverse(i));
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    robot_->in()[i] = {joints_[i]->Position(0), joints_[i]->GetVelocity(0), tree_->inverse(i)};
+    robot_->in()[i].angle_rad = joints_[i]->Position(0);
+    robot_->in()[i].speed_rad_per_s = joints_[i]->GetVelocity(0);
   }
   robot_->step(std::llround(model_->GetWorld()->Physics()->GetMaxStepSize() * 1e9));
   for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i]->SetForce(0, robot_->torques()[i]);
@@ -109,7 +109,6 @@ void ClassicRobot::publish_where_it_stands() {
 void ClassicRobot::Reset() {
   const std::lock_guard lock(mutex_);
   if (robot_) robot_->reset();
-  steps_to_refresh_ = 0;
 }
 
 GZ_REGISTER_MODEL_PLUGIN(ClassicRobot)

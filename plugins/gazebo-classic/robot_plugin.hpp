@@ -44,7 +44,6 @@ class ClassicRobot : public gazebo::ModelPlugin {
   std::vector<gazebo::physics::JointPtr> joints_;  ///< of the actuators
   std::unique_ptr<AttachedRobot> robot_;
   std::unique_ptr<ModelTree> tree_;
-  int steps_to_refresh_ = 0;
   std::mutex mutex_;                             ///< guards what is below, and the robot
   std::int64_t now_ns_ = 0;                      ///< simulated
   bool stepped_ = false;                         ///< since the timer looked

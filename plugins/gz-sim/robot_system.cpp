@@ -18,7 +18,6 @@ namespace components = sim::components;
 using gz::msgs::StringMsg;
 #endif
 
-constexpr int kRefreshSteps = 16;  // inverse inertias only serve the robot's prediction
 constexpr int kParameterRounds = 50;
 constexpr int kPhysicsSteps = 10;  // by then any physics has filled the joints' components
 
@@ -110,13 +109,13 @@ void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManage
 
 void SimRobot::step(std::int64_t dt_ns, sim::EntityComponentManager& ecm) {
   if (steps_ <= kPhysicsSteps && steps_++ == kPhysicsSteps) look_for_physics(ecm);
-  if (steps_to_refresh_-- <= 0) {
+  if (robot_->wants_inertias()) {
     tree_->update(ecm);
-    steps_to_refresh_ = kRefreshSteps - 1;
+    for (std::size_t i = 0; i < joints_.size(); ++i) robot_->set_inverse_inertia(i, tree_->inverse(i));
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    robot_->in()[i] = {first_number<components::JointPosition>(joints_[i], ecm),
-                       first_number<components::JointVelocity>(joints_[i], ecm), tree_->inverse(i)};
+    robot_->in()[i].angle_rad = first_number<components::JointPosition>(joints_[i], ecm);
+    robot_->in()[i].speed_rad_per_s = first_number<components::JointVelocity>(joints_[i], ecm);
   }
   const bool stopped = robot_->stopped();
   robot_->step(dt_ns);
@@ -168,7 +167,7 @@ void SimRobot::Reset(const sim::UpdateInfo&, sim::EntityComponentManager&) {
   if (robot_) robot_->reset();
   if (registry_ != nullptr) registry_->SetParameter(parameter_, StringMsg());
   faults_.clear();  // a reset ends them
-  steps_ = steps_to_refresh_ = 0;
+  steps_ = 0;
 }
 #endif
 

@@ -88,7 +88,6 @@ class SimRobot : public sim::System,
   int rounds_to_look_ = 0;
 #endif
   int steps_ = 0;  ///< since the start or a reset, as far as anyone asks: see look_for_physics
-  int steps_to_refresh_ = 0;
   std::int64_t last_dt_ns_ = 0;
 };
 

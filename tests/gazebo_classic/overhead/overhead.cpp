@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// gazebo_classic_overhead [ode|dart]: what the plug-in costs a step of the snake's world (12 modules), beside the physics alone.
+// gazebo_classic_overhead [ode|dart [PEER.sdf]]: what the plug-in costs a step of the snake's world (12 modules), beside the
+// physics alone; and beside the plug-ins of another world, PEER.sdf (peer.hpp).
 //
 // Two worlds in one process take turns, a block of steps each: one with the plug-in, one without, whose joints get the torques that
 // the first one's got. So both make the same motion, which is checked bit for bit, and the difference is the plug-in's. A clock
@@ -17,11 +18,12 @@
 #include <ignition/transport/Node.hh>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
 #include "classic_world.hpp"
 #include "gait_player.hpp"
+#include "peer.hpp"
+#include "spread.hpp"
 #include "vsa/host/topics.hpp"
 
 namespace {
@@ -30,6 +32,8 @@ using namespace std::chrono;  // NOLINT(google-build-using-namespace): a program
 using gazebo::common::UpdateInfo;
 using gazebo::event::Events;
 using vsa::test::RobotWorld;
+using vsa::test::spread;
+using vsa::test::text;
 
 constexpr int kBlock = 1000, kBlocks = 20, kWarmUp = 3000;
 constexpr std::size_t kModules = 12;
@@ -75,25 +79,6 @@ class Listener {
   std::FILE* pipe_ = nullptr;
 };
 
-struct Spread {
-  double lower = 0, median = 0, upper = 0;
-};
-
-Spread spread(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-  };
-  return {at(0.25), at(0.5), at(0.75)};
-}
-
-std::string text(const Spread& s) {
-  std::ostringstream out;
-  out.precision(3);
-  out << s.median << " (" << s.lower << "–" << s.upper << ")";
-  return out.str();
-}
-
 std::string snake() {
   std::string model = vsa::test::model_text(kModel);
   return model.insert(model.find('>') + 1, "<pose>0 0 0.0335 0 0 0</pose>");
@@ -116,6 +101,25 @@ class Comparison {
     if (crawling) gait_.emplace(VSA_SOURCE_DIR "/models/gaits/sidewind.toml", ours_->robot());
     ours_name_ = ours_->world->Name();
     joints_ = joints_of(bare_);
+  }
+
+  /// Blocks of ours and of the peer's in turns.
+  void measure_beside(vsa::test::Peer& peer) {
+    Listener listener(Listening::states);
+    run_ours(kWarmUp);
+    (void)peer.run(kWarmUp);
+    std::vector<double> ours, theirs, their_step, share;
+    for (int k = 0; k < kBlocks; ++k) {
+      run_ours(kBlock);
+      const vsa::test::PeerCost cost = peer.run(kBlock);
+      ours.push_back(last_call_us_);
+      theirs.push_back(cost.call_us);
+      their_step.push_back(cost.step_us);
+      share.push_back(last_call_us_ / cost.call_us);
+    }
+    listener.end();
+    std::cout << "| " << text(spread(their_step)) << " | " << text(spread(theirs)) << " | " << text(spread(ours)) << " | "
+              << text(spread(share)) << " |\n";
   }
 
   void measure(Listening listening, const std::string& title) {
@@ -200,8 +204,7 @@ class Comparison {
   gazebo::event::ConnectionPtr before_, after_;
 };
 
-int run(const std::string& engine) {
-  vsa::test::start_server();
+void compare_with_physics(const std::string& engine) {
   std::cout
       << "µs a step of 1 ms, " << engine << ": median (quartiles) of " << kBlocks << " blocks of " << kBlock << " steps, in turns\n"
       << "| snake of 12 modules | physics alone | with our plug-in | difference | in the plug-in's call |\n|---|---|---|---|---|\n";
@@ -212,6 +215,20 @@ int run(const std::string& engine) {
     comparison.measure(Listening::states, motion + ", joint states at 100 Hz");
     comparison.measure(Listening::all, motion + ", joint states and 60 numbers at 100 Hz");
   }
+}
+
+void compare_with_peer(const std::string& engine, const std::string& world) {
+  vsa::test::Peer peer(world, engine);
+  Comparison comparison(engine, false);
+  std::cout << "µs a step, " << engine << ": median (quartiles) of " << kBlocks << " blocks of " << kBlock
+            << " steps, in turns with those of " << world << "\n"
+            << "| its step | in its plug-ins' calls | in ours, still, joint states at 100 Hz | ours : its |\n|---|---|---|---|\n";
+  comparison.measure_beside(peer);
+}
+
+int run(const std::string& engine, const std::string& peer_world) {
+  vsa::test::start_server();
+  peer_world.empty() ? compare_with_physics(engine) : compare_with_peer(engine, peer_world);
   gazebo::shutdown();
   return 0;
 }
@@ -222,7 +239,8 @@ int main(int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "ode";
   try {
     if (word == "listen") return listen(argc > 2 && std::string(argv[2]) == "all");
-    return run(word);
+    if (word == "peer") return vsa::test::serve_peer(argc > 2 ? argv[2] : "", argc > 3 ? argv[3] : "");
+    return run(word, argc > 2 ? argv[2] : "");
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;
