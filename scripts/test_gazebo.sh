@@ -7,7 +7,8 @@
 #   test_gazebo.sh BUILD          the tests; BUILD: the release build, for the embedded engine's side of the bench comparison
 #   test_gazebo.sh BUILD long     ten simulated minutes and 100 spawned models, only where Gazebo 11 or the private root is there already
 #   test_gazebo.sh BUILD bench    what the plug-in costs beside the physics; with VSA_PEER_WORLD, a world file below this source tree,
-#                                 also beside that world's plug-ins (GAZEBO_MODEL_PATH and GAZEBO_PLUGIN_PATH, relative to it, find them)
+#                                 beside that world's plug-ins instead (GAZEBO_MODEL_PATH and GAZEBO_PLUGIN_PATH, relative to the tree,
+#                                 find them)
 set -eu
 cd "$(dirname "$0")/.."
 build=$1
@@ -46,10 +47,11 @@ case "$what" in
   test) run sh -c 'cd build/classic && ctest --output-on-failure -LE long' ;;
   long) run sh -c 'cd build/classic && VSA_TEST_LONG=1 ctest --verbose -L long' ;;
   bench)
-    run sh -c 'build/classic/bin/gazebo_classic_overhead ode && build/classic/bin/gazebo_classic_overhead dart'
     if [ -n "${VSA_PEER_WORLD:-}" ]; then
       run env GAZEBO_MODEL_PATH="${GAZEBO_MODEL_PATH:-}" GAZEBO_PLUGIN_PATH="${GAZEBO_PLUGIN_PATH:-}" \
         build/classic/bin/gazebo_classic_overhead ode "$VSA_PEER_WORLD"
+    else
+      run sh -c 'build/classic/bin/gazebo_classic_overhead ode && build/classic/bin/gazebo_classic_overhead dart'
     fi
     ;;
   *) echo "test_gazebo.sh: $what?" >&2; exit 2 ;;

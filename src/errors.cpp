@@ -15,18 +15,19 @@ std::string join(const std::vector<Problem>& problems) {
 
 constexpr std::size_t kLongestShown = 300;
 
-/// What somebody gave, on one line and without what would steer a terminal; a text that goes on and on is cut, between characters.
+/// On one line and without what would steer a terminal: control characters, those of two bytes too, as \xNN.
 std::string shown(const std::string& text) {
+  constexpr char kDigits[] = "0123456789abcdef";
   std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool begins = (byte & 0xC0U) != 0x80U;  // a character of UTF-8
-    if (begins && out.size() > kLongestShown) return out + "… (" + std::to_string(text.size()) + " bytes)";
-    if (byte >= 0x20 && byte != 0x7F) {
-      out += c;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
+    const auto before = i > 0 ? static_cast<unsigned char>(text[i - 1]) : 0U;
+    const bool c1 = (byte == 0xC2 && next >= 0x80 && next < 0xA0) || (before == 0xC2 && byte >= 0x80 && byte < 0xA0);
+    if (byte >= 0x20 && byte != 0x7F && !c1) {
+      out += text[i];
       continue;
     }
-    constexpr char kDigits[] = "0123456789abcdef";
     out += "\\x";
     out += kDigits[byte >> 4];
     out += kDigits[byte & 0xFU];
@@ -34,13 +35,21 @@ std::string shown(const std::string& text) {
   return out;
 }
 
+/// What goes on and on is cut, between characters of UTF-8 where it has any.
+std::string shortened(const std::string& text) {
+  if (text.size() <= kLongestShown) return text;
+  std::size_t end = kLongestShown;
+  while (end > kLongestShown - 4 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + "… (" + std::to_string(text.size()) + " bytes)";
+}
+
 }  // namespace
 
 std::string Problem::text() const {
   std::string out;
   if (!file.empty()) out += shown(file) + ": ";
-  if (!key.empty()) out += shown(key);
-  if (!value.empty()) out += (key.empty() ? "" : " = ") + shown(value);
+  if (!key.empty()) out += shown(shortened(key));
+  if (!value.empty()) out += (key.empty() ? "" : " = ") + shown(shortened(value));
   if (!key.empty() || !value.empty()) out += ": ";
   out += message;
   if (!allowed.empty()) out += " (allowed: " + allowed + ")";

@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // gazebo_classic_overhead [ode|dart [PEER.sdf]]: what the plug-in costs a step of the snake's world (12 modules), beside the
-// physics alone; and beside the plug-ins of another world, PEER.sdf (peer.hpp).
+// physics alone or, with PEER.sdf, beside the plug-ins of that world (peer.hpp).
 //
 // Two worlds in one process take turns, a block of steps each: one with the plug-in, one without, whose joints get the torques that
 // the first one's got. So both make the same motion, which is checked bit for bit, and the difference is the plug-in's. A clock
@@ -228,7 +228,10 @@ void compare_with_peer(const std::string& engine, const std::string& world) {
 
 int run(const std::string& engine, const std::string& peer_world) {
   vsa::test::start_server();
-  peer_world.empty() ? compare_with_physics(engine) : compare_with_peer(engine, peer_world);
+  if (peer_world.empty())
+    compare_with_physics(engine);
+  else
+    compare_with_peer(engine, peer_world);
   gazebo::shutdown();
   return 0;
 }
