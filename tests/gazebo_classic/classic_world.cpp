@@ -83,17 +83,6 @@ std::string without(std::string text, const std::string& from, const std::string
   return text.erase(a, b + to.size() - a);
 }
 
-long resident_kB() {
-  std::ifstream in("/proc/self/status");
-  std::string word;
-  while (in >> word) {
-    if (word == "VmRSS:") break;
-  }
-  long kB = 0;
-  in >> kB;
-  return kB;
-}
-
 bool long_run() { return std::getenv("VSA_TEST_LONG") != nullptr; }
 
 ClassicWorld::ClassicWorld(const std::string& sdf, const std::string& engine) {

@@ -33,7 +33,6 @@ void start_server();
 [[nodiscard]] std::string replaced(std::string text, const std::string& what, const std::string& with);
 /// What comes before and after it, from the first `from` to the next `to`.
 [[nodiscard]] std::string without(std::string text, const std::string& from, const std::string& to);
-[[nodiscard]] long resident_kB();
 [[nodiscard]] bool long_run();  ///< VSA_TEST_LONG
 
 class ClassicWorld {

@@ -24,6 +24,7 @@
 #include "gait_player.hpp"
 #include "peer.hpp"
 #include "spread.hpp"
+#include "vsa/errors.hpp"
 #include "vsa/host/topics.hpp"
 
 namespace {
@@ -217,8 +218,7 @@ void compare_with_physics(const std::string& engine) {
   }
 }
 
-void compare_with_peer(const std::string& engine, const std::string& world) {
-  vsa::test::Peer peer(world, engine);
+void compare_with_peer(vsa::test::Peer& peer, const std::string& engine, const std::string& world) {
   Comparison comparison(engine, false);
   std::cout << "µs a step, " << engine << ": median (quartiles) of " << kBlocks << " blocks of " << kBlock
             << " steps, in turns with those of " << world << "\n"
@@ -227,11 +227,13 @@ void compare_with_peer(const std::string& engine, const std::string& world) {
 }
 
 int run(const std::string& engine, const std::string& peer_world) {
+  std::optional<vsa::test::Peer> peer;
+  if (!peer_world.empty()) peer.emplace(peer_world, engine);
   vsa::test::start_server();
-  if (peer_world.empty())
-    compare_with_physics(engine);
+  if (peer)
+    compare_with_peer(*peer, engine, peer_world);
   else
-    compare_with_peer(engine, peer_world);
+    compare_with_physics(engine);
   gazebo::shutdown();
   return 0;
 }
@@ -242,8 +244,11 @@ int main(int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "ode";
   try {
     if (word == "listen") return listen(argc > 2 && std::string(argv[2]) == "all");
-    if (word == "peer") return vsa::test::serve_peer(argc > 2 ? argv[2] : "", argc > 3 ? argv[3] : "");
+    if (word == "peer") vsa::test::serve_peer(argc > 2 ? argv[2] : "", argc > 3 ? argv[3] : "");
     return run(word, argc > 2 ? argv[2] : "");
+  } catch (const vsa::InputError& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "classic_world.hpp"
+#include "vsa/errors.hpp"
 
 namespace vsa::test {
 namespace {
@@ -18,7 +19,6 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr int kLoadSteps = 100;  // Gazebo loads a world's plug-ins within its first steps
-constexpr double kNobody_us = 0.2;
 
 bool receive(int line, void* to, std::size_t size) { return recv(line, to, size, MSG_WAITALL) == static_cast<ssize_t>(size); }
 
@@ -51,6 +51,12 @@ Peer::Peer(const std::string& world_file, const std::string& engine) {
     _exit(1);
   }
   close(ends[1]);
+  try {
+    (void)run(1);
+  } catch (const std::runtime_error&) {
+    throw InputError(
+        {world_file, "", "", "can't be timed, its process said why", "a world whose models' plug-ins listen to a step's begin"});
+  }
 }
 
 Peer::~Peer() {
@@ -62,18 +68,24 @@ PeerCost Peer::run(int steps) {
   PeerCost cost;
   if (!send_all(line_, &steps, sizeof steps) || !receive(line_, &cost, sizeof cost))
     throw std::runtime_error("the other world's process ended");
-  if (cost.call_us < kNobody_us) throw std::runtime_error("in the other world no plug-in listens to the begin of a step");
   return cost;
 }
 
-int serve_peer(const std::string& world_file, const std::string& engine) {
+namespace {
+
+void serve(const std::string& world_file, const std::string& engine) {
   start_server();
   steady_clock::time_point begin;
   steady_clock::duration in_call{};
   using gazebo::event::Events;
   const auto before = Events::ConnectWorldUpdateBegin([&](const auto&) { begin = steady_clock::now(); });
   ClassicWorld world(read_file(world_file), engine);
+  world.world->Physics()->SetRealTimeUpdateRate(0);
+  const unsigned alone =
+      Events::worldUpdateBegin.ConnectionCount();  // ours and Gazebo's own; models load theirs in the first steps
   world.run(kLoadSteps);
+  if (Events::worldUpdateBegin.ConnectionCount() == alone)
+    throw std::runtime_error("no model's plug-in listens to the begin of a step");
   const auto after = Events::ConnectWorldUpdateBegin([&](const auto&) { in_call += steady_clock::now() - begin; });
   int steps = 0;
   while (receive(STDIN_FILENO, &steps, sizeof steps)) {
@@ -81,13 +93,22 @@ int serve_peer(const std::string& world_file, const std::string& engine) {
     const auto start = steady_clock::now();
     world.run(steps);
     const PeerCost cost{us(steady_clock::now() - start, steps), us(in_call, steps)};
-    if (!finite(world.world)) {
-      std::cerr << world_file << ": a joint is no longer at a finite angle\n";
-      _exit(1);
-    }
-    if (!send_all(STDIN_FILENO, &cost, sizeof cost)) break;
+    if (!finite(world.world)) throw std::runtime_error("a joint is no longer at a finite angle");
+    if (!send_all(STDIN_FILENO, &cost, sizeof cost)) return;
   }
-  _exit(0);  // the other plug-ins may not know how to end
+}
+
+}  // namespace
+
+void serve_peer(const std::string& world_file, const std::string& engine) {
+  // The other plug-ins, and Gazebo where it didn't load, may not know how to end.
+  try {
+    serve(world_file, engine);
+    _exit(0);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << std::endl;
+    _exit(2);
+  }
 }
 
 }  // namespace vsa::test

@@ -18,13 +18,14 @@ struct PeerCost {
 class Peer {
  public:
   /// Starts this program again, with the world of this file. Models and libraries are found by GAZEBO_MODEL_PATH and
-  /// GAZEBO_PLUGIN_PATH.
+  /// GAZEBO_PLUGIN_PATH. InputError where that world doesn't load or nothing listens there; its own process has said why. Before
+  /// this process has threads.
   Peer(const std::string& world_file, const std::string& engine);
   ~Peer();
   Peer(const Peer&) = delete;
   Peer& operator=(const Peer&) = delete;
 
-  /// The mean over so many steps. Throws where the process is gone, or nothing listens there.
+  /// The mean over so many steps. Throws where the process is gone.
   [[nodiscard]] PeerCost run(int steps);
 
  private:
@@ -33,6 +34,6 @@ class Peer {
 };
 
 /// The other process: answers on standard input, which is a socket, until that ends.
-int serve_peer(const std::string& world_file, const std::string& engine);
+[[noreturn]] void serve_peer(const std::string& world_file, const std::string& engine);
 
 }  // namespace vsa::test
