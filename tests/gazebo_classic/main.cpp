@@ -7,8 +7,8 @@
 
 #include "classic_world.hpp"
 
-/// One server for all tests of this program. It isn't shut down: a thread of Gazebo's transport may still read from a connection that
-/// the shutdown closes (gazebo-classic issue 1908). Every test has removed its own world before.
+/// One server for all tests of this program. It isn't shut down: a thread of Gazebo's transport may still read from a connection
+/// that the shutdown closes (gazebo-classic issue 1908). Every test has removed its own world before.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   vsa::test::start_server();

@@ -88,6 +88,11 @@ std::string model_text(const std::string& model, const std::string& name, const 
   return text.insert(text.find('>') + 1, "<pose>" + pose + "</pose>");
 }
 
+std::string without_plugin(std::string model) {
+  const auto from = model.find("<plugin");
+  return model.erase(from, model.find("</plugin>") + 9 - from);
+}
+
 std::string bench(const std::string& name, const std::string& pose) { return model_text("qbmove_bench_load", name, pose); }
 
 std::string world_text(const std::string& inside, const WorldText& world) {
@@ -150,8 +155,7 @@ OwnRobot::OwnRobot(std::string& model, std::string name) : name_(std::move(name)
   sdf::init(parsed);
   if (!sdf::readString(sdf_text(model), parsed)) throw std::runtime_error("no SDF: " + name_);
   element_ = parsed->Root()->GetElement("model")->GetElement("plugin");
-  const auto from = model.find("<plugin"), to = model.find("</plugin>") + 9;
-  model.erase(from, to - from);
+  model = without_plugin(model);
 }
 
 void OwnRobot::before_step(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) {

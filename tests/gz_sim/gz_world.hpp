@@ -40,6 +40,7 @@ void prepare();
 
 /// <model>…</model>: one of models/, under another name and at a pose.
 [[nodiscard]] std::string model_text(const std::string& model, const std::string& name, const std::string& pose = "0 0 0 0 0 0");
+[[nodiscard]] std::string without_plugin(std::string model);
 [[nodiscard]] std::string bench(const std::string& name, const std::string& pose);
 
 struct WorldText {

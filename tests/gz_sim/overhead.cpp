@@ -56,9 +56,7 @@ std::string world(const std::string& name, const std::string& snake) {
 }
 
 std::string sprung_snake() {
-  std::string model = model_text("qbmove_snake", "sprung", kSnakePose);
-  const auto from = model.find("<plugin");
-  model.erase(from, model.find("</plugin>") + 9 - from);
+  std::string model = without_plugin(model_text("qbmove_snake", "sprung", kSnakePose));
   const std::string none = "<damping>0</damping>";
   for (auto at = model.find(none); at != std::string::npos; at = model.find(none, at)) {
     model.replace(at, none.size(), "<damping>0.1</damping><spring_stiffness>5</spring_stiffness>");
