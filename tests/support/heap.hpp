@@ -15,8 +15,8 @@ namespace vsa::test {
 /// once, it takes whenever its threads come to it (Gazebo Classic 5 MB at once).
 [[nodiscard]] long usual_growth(const std::vector<long>& kB);
 
-/// What may grow in a part of so many steps: half of malloc's smallest block a step. Gazebo Classic takes up to 8 kB whenever it is told
-/// to run, however long.
+/// What may grow in a part of so many steps: half of malloc's smallest block a step. Gazebo Classic takes up to 8 kB whenever it is
+/// told to run, however long.
 [[nodiscard]] constexpr long may_grow_kB(long steps) { return steps * 16 / 1000; }
 
 }  // namespace vsa::test
