@@ -69,7 +69,7 @@ void prepare() {
   for (const char* name : {"IGN_PARTITION", "GZ_PARTITION"}) setenv(name, partition.c_str(), 0);
   // Discovery of its own, too: processes of other partitions connect to every service that they hear of, and after one has ended
   // they connect to its process again (gz-transport, NodeShared::OnNewSrvDisconnection), 66 kB each time.
-  const int port = 20'000 + 2 * (getpid() % 10'000);
+  const int port = 20'000 + 2 * (getpid() % 6'000);
   for (const char* name : {"IGN_DISCOVERY_MSG_PORT", "GZ_DISCOVERY_MSG_PORT"}) setenv(name, std::to_string(port).c_str(), 0);
   for (const char* name : {"IGN_DISCOVERY_SRV_PORT", "GZ_DISCOVERY_SRV_PORT"}) setenv(name, std::to_string(port + 1).c_str(), 0);
 }

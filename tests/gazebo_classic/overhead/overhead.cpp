@@ -245,6 +245,7 @@ int main(int argc, char** argv) {
   try {
     if (word == "listen") return listen(argc > 2 && std::string(argv[2]) == "all");
     if (word == "peer") vsa::test::serve_peer(argc > 2 ? argv[2] : "", argc > 3 ? argv[3] : "");
+    if (word != "ode" && word != "dart") throw vsa::InputError({"", "engine", word, "isn't one of ours", "ode, dart"});
     return run(word, argc > 2 ? argv[2] : "");
   } catch (const vsa::InputError& error) {
     std::cerr << error.what() << '\n';
