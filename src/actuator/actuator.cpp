@@ -29,11 +29,17 @@ elastic::SegmentMean carried(elastic::SegmentMean mean, double dq, const std::ar
 
 }  // namespace
 
+drive::FrictionParams shaft_friction(const ActuatorParams& params) noexcept {
+  drive::FrictionParams p = params.shaft_friction;
+  if (p.coulomb_Nm > 0) p.presliding_rad = std::max(p.presliding_rad, kLeastPresliding_rad);
+  return p;
+}
+
 Actuator::Actuator(ActuatorParams params)
     : params_(std::move(params)),
       motor_(drive::at_pulley(params_.motor, params_.gearbox.ratio)),
       friction_(drive::at_pulley(params_.gearbox.friction, params_.gearbox.ratio)),
-      shaft_friction_(params_.shaft_friction),
+      shaft_friction_(actuator::shaft_friction(params_)),
       tendon_(drive::FrictionParams{params_.tendon.friction, params_.tendon.presliding_J}),
       motors_(params_.transmission->motor_count()),
       springs_(params_.transmission->spring_count()) {}
@@ -54,6 +60,7 @@ void Actuator::place(ActuatorState& s, double shaft) const noexcept {
   const elastic::Response r = params_.transmission->evaluate(positions(s, shaft));
   s.load = r.load;
   s.end = {r.torque, r.load, {}};
+  s.end_ahead = {};
   s.origin = params_.transmission->origin(positions(s, shaft));
   s.tendon_anchor = s.spring_w = params_.transmission->signed_energies_of(s.origin);
   s.ledger = {};
@@ -93,6 +100,8 @@ void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentIn
   for (int i = 0; i < 2; ++i) seg.stepper[i] = &stepper(h_s, in.terminal[i]);
   seg.in = in;
   seg.tried = false;
+  seg.ahead = {};
+  seg.damping = params_.tendon.damping_s / h_s;
   for (int i = 0; i < motors_; ++i) {
     // The limit of the gears' friction follows the load of the last segment; its bristle's stiffness doesn't, so that a limit that
     // grows adds no energy and one that shrinks burns what it lets go.
@@ -114,23 +123,36 @@ void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentIn
   }
 }
 
-void Actuator::add_tendon_friction(const Segment& seg, const elastic::Positions& to, elastic::SegmentMean& mean) const noexcept {
+void Actuator::add_tendon_friction(Segment& seg, const elastic::Positions& to) const noexcept {
+  elastic::SegmentMean& mean = seg.mean;
+  const Lead& lead = seg.in.lead;
+  const double shift = seg.shift(seg.in.dq), ahead_rad = seg.in.dq / lead.share - lead.drift;  // q' − y' of the step
   for (int i = 0; i < springs_; ++i) {
+    double& xx = i == 0 ? mean.slope.x0x0 : mean.slope.x1x1;
     const double deflection = seg.in.dq - seg.dx[i];
     const double end = to.q - to.x[i];
     // The mean tension times the deflection's change is the energy's change: w at the end costs no call of the law.
-    const double energy = std::max(std::abs(seg.w[i]) + mean.load[i] * deflection, 0.0);
+    const double signed_tension = mean.load[i] - 2.0 * xx * shift;
+    const double energy = std::max(std::abs(seg.w[i]) + signed_tension * deflection, 0.0);
     const double w = std::copysign(energy, end);
-    const drive::FrictionStep step = drive::follow_friction(tendon_, seg.w_u[i], w - seg.w[i]);
     // Mean |tension| over the segment, Δw/Δδ; by the elastic mean where the spring doesn't pass through zero.
     const bool same_side = (w < 0) == (seg.w[i] < 0);
-    const double tension = same_side ? std::abs(mean.load[i]) : std::abs((w - seg.w[i]) / deflection);
-    double& xx = i == 0 ? mean.slope.x0x0 : mean.slope.x1x1;
+    const double tension = same_side ? std::abs(signed_tension) : std::abs((w - seg.w[i]) / deflection);
     const double tension_slope = w < 0 ? -xx : xx;
     const double end_tension = tension + deflection * tension_slope;
-    const bool sliding = std::abs(seg.w_u[i] + (w - seg.w[i])) > tendon_.presliding_rad;
-    const double torque = step.torque * tension;
-    const double slope = (sliding ? 0.0 : 0.5 * tendon_.stiffness * end_tension * tension) - step.torque * tension_slope;
+    const double z = tendon_.presliding_rad, reached = seg.w_u[i] + (w - seg.w[i]), leading = reached + end_tension * ahead_rad;
+    // The damper adds T_d ẇ to the bend, ẇ the mean over the segment.
+    const double per_dw = seg.damping, damper = per_dw * (w - seg.w[i]);
+    const double held = 0.5 * (1.0 - lead.tendon[i]);
+    const double begin = seg.w_u[i] + damper, middle = std::clamp(reached, -z, z) + damper, ahead = leading + damper;
+    const double level = -tendon_.stiffness * (held * (std::clamp(begin, -z, z) + std::clamp(middle, -z, z)) +
+                                               lead.tendon[i] * std::clamp(ahead, -z, z));
+    const double stick = tendon_.stiffness * end_tension * tension;
+    seg.ahead[i] = std::abs(ahead) > z ? 0.0 : lead.tendon[i] * stick;
+    const double bends = (std::abs(begin) > z ? 0.0 : per_dw) +
+                         (std::abs(middle) > z ? 0.0 : (std::abs(reached) > z ? 0.0 : 1.0) + per_dw);
+    const double slope = held * stick * bends - level * tension_slope + seg.ahead[i] * (1.0 + per_dw);
+    const double torque = level * tension;
     mean.torque += torque;
     mean.load[i] -= torque;
     mean.slope.qq += slope;
@@ -143,27 +165,51 @@ void Actuator::move_tendons(ActuatorState& s, const Segment& seg) const noexcept
   const std::array<double, 2>& w = s.spring_w;
   s.ledger.tendon_bristle = 0;
   for (int i = 0; i < springs_; ++i) {
-    const drive::FrictionStep step = drive::follow_friction(tendon_, seg.w_u[i], w[i] - seg.w[i]);
-    s.ledger.tendon_friction += drive::friction_heat(tendon_, seg.w_u[i], step);
+    const double u = seg.w_u[i], dw = w[i] - seg.w[i], damper = seg.damping * dw, z = tendon_.presliding_rad;
+    const drive::FrictionStep step = drive::follow_friction(tendon_, u, dw);
+    const double end = u + dw - step.anchor_travel;
+    const double bent_more = std::clamp(u + damper, -z, z) - u + std::clamp(end + damper, -z, z) - end;
+    s.ledger.tendon_friction += drive::friction_heat(tendon_, u, step) + 0.5 * tendon_.stiffness * bent_more * dw;
     s.tendon_anchor[i] += step.anchor_travel;
     s.ledger.tendon_bristle += drive::bristle_energy(tendon_, w[i] - s.tendon_anchor[i]);
   }
 }
 
+// With S the mean's slopes for the segment's end, of which a_i belong to a tendon's friction that looks ahead:
+//   −dτ̄/d(Δy)    = S_qq R + Σ a_i (R_a − R) + Σ S_qx,i dx_i/d(Δy)
+//   −dload_i/d(Δy) = S_qx,i R − a_i (R_a − R) + S_xx,i dx_i/d(Δy)
+// R = share + 3w: end and shift; R_a = share + 1: end and q' − y'. What came before in the step moves the start, too: R + 2·before
+// and R_a + before. seg.gain comes as the pulley's own give, ∂dx_i/∂load_i.
+void Actuator::slopes(Segment& seg, const elastic::SegmentMean& mean, const std::array<double, 2>& ahead) const noexcept {
+  const Lead& lead = seg.in.lead;
+  const double rate = lead.share + 3.0 * lead.spring, whole = rate + 2.0 * lead.before;
+  const double more = 1.0 + lead.share - rate, whole_more = 1.0 + lead.share + lead.before - whole;
+  seg.slope = mean.slope.qq * whole + (ahead[0] + ahead[1]) * whole_more;
+  for (int i = 0; i < motors_; ++i) {
+    const double give = seg.gain[i], qx = mean.slope.qx[i];
+    seg.gain[i] = -give * (qx * rate - ahead[i] * more) / lead.share;
+    seg.slope -= give * qx * (qx * whole - ahead[i] * whole_more);
+  }
+}
+
 SegmentResult Actuator::foresee(const ActuatorState& s, Segment& seg) const noexcept {
-  SegmentResult r{s.end.torque, s.end.slope.qq};
+  // The mean at dq = 0 looks ahead by this; slopes are those of a segment's end, half of the law's own.
+  const double shift = 2.0 * seg.shift(0);
+  SegmentResult r{s.end.torque - s.end.slope.qq * shift, 0};
   for (int i = 0; i < motors_; ++i) {
     const double c = seg.stepper[i]->compliance();
-    // load̄ ≈ end.load − qx·dq − κ·dx, at dq = 0.
+    // load̄ ≈ end.load − qx·(dq + shift) − κ·dx, at dq = 0.
     const double qx = s.end.slope.qx[i];
     const double yield = 1.0 / (1.0 + c * std::max(load_curvature(s.end.slope, i), 0.0));
-    const auto found = drive::solve_friction(seg.gear[i], seg.gear_u[i], (seg.free[i] + c * s.end.load[i]) * yield, c * yield);
+    const double target = (seg.free[i] + c * (s.end.load[i] - qx * shift)) * yield;
+    const auto found = drive::solve_friction(seg.gear[i], seg.gear_u[i], target, c * yield);
     const double bristle = found.anchor_travel != 0.0 ? 0.0 : 0.5 * seg.gear[i].stiffness;
     seg.dx[i] = found.displacement;
-    seg.gain[i] = -qx * c * yield / (1.0 + c * yield * bristle);
+    seg.gain[i] = c * yield / (1.0 + c * yield * bristle);
     r.torque -= qx * seg.dx[i];
-    r.slope += qx * seg.gain[i];
   }
+  slopes(seg, s.end, s.end_ahead);
+  r.slope = seg.slope;
   seg.in.dq = 0;
   seg.tried = true;
   return r;
@@ -171,7 +217,6 @@ SegmentResult Actuator::foresee(const ActuatorState& s, Segment& seg) const noex
 
 bool Actuator::correction(Segment& seg, std::array<double, 2>& step) const noexcept {
   bool accepted = true;
-  seg.slope = seg.mean.slope.qq;
   for (int i = 0; i < motors_; ++i) {
     const double c = seg.stepper[i]->compliance();
     // load(dx) ≈ load − κ·step; κ > −1/(2c) keeps the linear problem monotone where a law isn't convex.
@@ -182,9 +227,9 @@ bool Actuator::correction(Segment& seg, std::array<double, 2>& step) const noexc
     step[i] = seg.friction[i].displacement - seg.dx[i];
     accepted = accepted && std::abs(kappa * step[i]) <= kRelativeTolerance * std::abs(seg.mean.load[i]) + kAbsoluteTolerance_Nm;
     const double bristle = seg.friction[i].anchor_travel != 0.0 ? 0.0 : 0.5 * seg.gear[i].stiffness;
-    seg.gain[i] = -seg.mean.slope.qx[i] * c * yield / (1.0 + c * yield * bristle);
-    seg.slope += seg.mean.slope.qx[i] * seg.gain[i];
+    seg.gain[i] = c * yield / (1.0 + c * yield * bristle);
   }
+  slopes(seg, seg.mean, seg.ahead);
   return accepted;
 }
 
@@ -198,8 +243,8 @@ SegmentResult Actuator::attempt(const ActuatorState& s, Segment& seg, double dq,
   bool settled = false;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const elastic::Positions to{from.q + dq, {from.x[0] + seg.dx[0], from.x[1] + seg.dx[1]}};
-    seg.mean = params_.transmission->mean_from(s.origin, to);
-    if (tendon_.coulomb_Nm > 0) add_tendon_friction(seg, to, seg.mean);
+    seg.mean = params_.transmission->mean_from(s.origin, to, seg.shift(dq));
+    if (tendon_.coulomb_Nm > 0) add_tendon_friction(seg, to);
     std::array<double, 2> step{};
     settled = correction(seg, step);
     const double residual = std::max(std::abs(step[0]), std::abs(step[1]));
@@ -242,7 +287,8 @@ void Actuator::drive_motors(ActuatorState& s, const Segment& seg) const noexcept
     s.motor_anchor[i] += seg.friction[i].anchor_travel;
     s.load[i] = seg.mean.load[i];
   }
-  s.end = carried(seg.mean, seg.in.dq, seg.dx);
+  s.end = carried(seg.mean, seg.in.dq - 2.0 * seg.shift(seg.in.dq), seg.dx);
+  s.end_ahead = seg.ahead;
 }
 
 void Actuator::finish(ActuatorState& s, const Segment& seg) const noexcept {
@@ -267,37 +313,40 @@ SegmentResult Actuator::segment(ActuatorState& s, double h_s, const SegmentInput
   return result;
 }
 
-drive::FrictionStep Actuator::shaft_friction(ActuatorState& s, double displacement) const noexcept {
+drive::FrictionStep Actuator::shaft_friction(ActuatorState& s, double displacement, double drift, double weight) const noexcept {
   // The segments have moved state.shaft already: the friction's own start is behind it.
   const double u = s.shaft - displacement - s.shaft_anchor;
-  const drive::FrictionStep step = drive::follow_friction(shaft_friction_, u, displacement);
-  s.ledger.shaft_friction += drive::friction_heat(shaft_friction_, u, step);
+  drive::FrictionStep step = drive::follow_friction(shaft_friction_, u, displacement);
+  const double heat = drive::friction_heat(shaft_friction_, u, step);
+  const double torque = drive::leading_friction(shaft_friction_, u, displacement, drift, weight).torque;
+  s.ledger.integrator -= (torque - step.torque) * displacement;
+  s.ledger.shaft_friction += heat;
   s.shaft_anchor += step.anchor_travel;
   s.ledger.shaft_bristle = drive::bristle_energy(shaft_friction_, s.shaft - s.shaft_anchor);
+  step.torque = torque;
   return step;
+}
+
+void Actuator::move_shaft(ActuatorState& s, double shaft) const noexcept {
+  Ledger& l = s.ledger;
+  const double z = shaft_friction_.presliding_rad;
+  s.shaft = shaft;
+  s.shaft_anchor = shaft - std::clamp(shaft - s.shaft_anchor, -z, z);
+  l.elastic = energy_at(s, shaft);
+  l.shaft_bristle = drive::bristle_energy(shaft_friction_, s.shaft - s.shaft_anchor);
+  if (tendon_.coulomb_Nm <= 0) return;
+  l.tendon_bristle = 0;
+  for (int i = 0; i < springs_; ++i) {
+    const double u = std::clamp(s.spring_w[i] - s.tendon_anchor[i], -tendon_.presliding_rad, tendon_.presliding_rad);
+    s.tendon_anchor[i] = s.spring_w[i] - u;
+    l.tendon_bristle += drive::bristle_energy(tendon_, u);
+  }
 }
 
 void Actuator::settle(ActuatorState& s, double actual, double applied_torque, double actual_dy, double path_work) const noexcept {
   Ledger& l = s.ledger;
   const double predicted = l.elastic + l.shaft_bristle + l.tendon_bristle;
-  s.shaft = actual;
-  if (params_.shaft_friction.presliding_rad > 0) {
-    const double z = params_.shaft_friction.presliding_rad;
-    s.shaft_anchor = actual - std::clamp(actual - s.shaft_anchor, -z, z);
-  } else {
-    s.shaft_anchor = actual;
-  }
-  l.elastic = energy_at(s, actual);
-  l.shaft_bristle = drive::bristle_energy(shaft_friction_, s.shaft - s.shaft_anchor);
-  if (tendon_.coulomb_Nm > 0) {
-    const std::array<double, 2>& w = s.spring_w;
-    l.tendon_bristle = 0;
-    for (int i = 0; i < springs_; ++i) {
-      const double u = std::clamp(w[i] - s.tendon_anchor[i], -tendon_.presliding_rad, tendon_.presliding_rad);
-      s.tendon_anchor[i] = w[i] - u;
-      l.tendon_bristle += drive::bristle_energy(tendon_, u);
-    }
-  }
+  move_shaft(s, actual);
   const double work = applied_torque * actual_dy;
   l.coupling += (predicted - (l.elastic + l.shaft_bristle + l.tendon_bristle)) - (work - path_work);
   l.delivered += work;
@@ -305,8 +354,35 @@ void Actuator::settle(ActuatorState& s, double actual, double applied_torque, do
   l.delivered_moved += std::abs(work);
 }
 
+void Actuator::relocate(ActuatorState& s, double shaft) const noexcept {
+  Ledger& l = s.ledger;
+  const double before = l.stored();
+  move_shaft(s, shaft);
+  const elastic::Response r = spring(s, shaft);
+  s.end = {r.torque, r.load, {}};
+  s.end_ahead = {};
+  l.delivered += l.pending;  // the step under way ends as it was foreseen
+  l.pending = 0;
+  l.stored_at_start += l.stored() - before;
+}
+
 elastic::Response Actuator::spring(const ActuatorState& s, double shaft) const noexcept {
   return params_.transmission->evaluate(positions(s, shaft));
+}
+
+elastic::Response Actuator::response(const ActuatorState& s, double shaft) const noexcept {
+  elastic::Response r = spring(s, shaft);
+  const double z = shaft_friction_.presliding_rad;
+  r.torque -= shaft_friction_.stiffness * std::clamp(shaft - s.shaft_anchor, -z, z);
+  if (tendon_.coulomb_Nm <= 0) return r;
+  const std::array<double, 2> w = params_.transmission->signed_energies(positions(s, shaft));
+  for (int i = 0; i < springs_; ++i) {
+    const double u = std::clamp(w[i] - s.tendon_anchor[i], -tendon_.presliding_rad, tendon_.presliding_rad);
+    const double torque = -tendon_.stiffness * u * std::abs(r.load[i]);
+    r.torque += torque;
+    r.load[i] -= torque;
+  }
+  return r;
 }
 
 double Actuator::motor_current(const ActuatorState& s, int i, double voltage, drive::Terminal terminal) const noexcept {

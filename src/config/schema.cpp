@@ -66,6 +66,8 @@ constexpr Parameter kTable[] = {
      [](Unit& u, double v) { u.actuator.tendon.friction = v; }},
     {"tendon.presliding_J", "J", Kind::number, 0, 10, "", "change of a spring's energy before that friction slides",
      Need::defaulted, "0", "slides at once", [](Unit& u, double v) { u.actuator.tendon.presliding_J = v; }},
+    {"tendon.damping_s", "s", Kind::number, 0, 0.1, "", "damper of the bristle that presliding bends, over its stiffness",
+     Need::defaulted, "0", "no damper", [](Unit& u, double v) { u.actuator.tendon.damping_s = v; }},
     {"sensor.encoder_bits", "bit", Kind::integer, 1, 16, "", "resolution of all three encoders, 2^bits a turn", Need::defaulted,
      "12", kSensor, [](Unit& u, double v) { u.actuator.encoder.bits = static_cast<int>(v); }},
     {"sensor.encoder_zero_rad", "rad", Kind::number, -3.2, 3.2, "", "reading = angle + zero, all three encoders", Need::defaulted,

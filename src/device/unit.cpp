@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 
 namespace vsa::device {
@@ -12,83 +10,15 @@ namespace {
 
 using firmware::kTickNs;
 
-constexpr int kMaxIterations = 80;
 constexpr double kRelativeTolerance = 1e-4;
 constexpr double kAbsoluteTolerance_Nm = 1e-6;
-/// A guess may lie where the spring's exponential law has no numbers left, so it goes no further than this at once.
-constexpr double kReach_rad = 0.25;
 
 double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 
-struct Span {
-  std::int64_t t_ns, dt_ns, substep_ns;
-};
-
-/// Trials of the shaft's path over a step, with voltages that are known. Each begins at the same state; the last one is kept. All
-/// but a step's last segment run on the state itself, put back for the next trial; most steps have that one only.
-class PathTrials {
- public:
-  PathTrials(actuator::Actuator& actuator, actuator::ActuatorState& state, std::span<const Held> held, const Span& span) noexcept
-      : actuator_(actuator), state_(state), held_(held), span_(span) {
-    if (length(0) < span_.dt_ns) {
-      start_ = state_;
-    } else {
-      begin_last(0, 0);
-    }
-  }
-
-  /// What the last segment lets expect for dy = 0; none for a step of several segments.
-  [[nodiscard]] std::optional<actuator::SegmentResult> foresee() noexcept {
-    if (start_) return std::nullopt;
-    return actuator_.foresee(state_, last_);
-  }
-
-  /// The mean torque along y → y + dy, and its slope. `rough`: of a step with one segment, as Actuator::attempt has it.
-  actuator::SegmentResult at(double dy, bool rough) noexcept {
-    if (!start_) return actuator_.attempt(state_, last_, dy, rough);
-    state_ = *start_;
-    actuator::SegmentResult sum;
-    std::int64_t now = 0;
-    std::size_t interval = 0;
-    for (std::int64_t h = length(0); now + h < span_.dt_ns; h = length(now)) {
-      const actuator::SegmentInput in{dy * share(h), held_[interval].voltage, held_[interval].terminal};
-      add(sum, actuator_.segment(state_, seconds(h), in), now, h);
-      now += h;
-      if ((span_.t_ns + now) % kTickNs == 0) ++interval;
-    }
-    begin_last(now, interval);
-    add(sum, actuator_.attempt(state_, last_, dy * share(span_.dt_ns - now)), now, span_.dt_ns - now);
-    return sum;
-  }
-
-  void finish() noexcept { actuator_.finish(state_, last_); }
-
- private:
-  [[nodiscard]] std::int64_t length(std::int64_t now) const noexcept {
-    return std::min({span_.substep_ns, kTickNs - (span_.t_ns + now) % kTickNs, span_.dt_ns - now});
-  }
-  [[nodiscard]] double share(std::int64_t h_ns) const noexcept {
-    return static_cast<double>(h_ns) / static_cast<double>(span_.dt_ns);
-  }
-  void begin_last(std::int64_t now, std::size_t interval) noexcept {
-    actuator_.begin(state_, last_, seconds(span_.dt_ns - now), {0.0, held_[interval].voltage, held_[interval].terminal});
-  }
-  void add(actuator::SegmentResult& sum, const actuator::SegmentResult& r, std::int64_t now, std::int64_t h) const noexcept {
-    sum.torque += r.torque * share(h);
-    // r.slope is for the segment's own end; with the whole path its start moves too. 1 for a single segment.
-    sum.slope += r.slope * share(h) * (2.0 * share(now) + share(h));
-  }
-
-  actuator::Actuator& actuator_;
-  actuator::ActuatorState& state_;
-  std::optional<actuator::ActuatorState> start_;
-  std::span<const Held> held_;
-  Span span_;
-  actuator::Segment last_;
-};
-
-double within_reach(double from_rad, double to_rad) noexcept {
-  return std::clamp(to_rad, from_rad - kReach_rad, from_rad + kReach_rad);
+/// w for a spring of this stiffness on this inverse inertia: x⁴/(16 + x⁴), x = ω·dt.
+double weight(double x_squared) noexcept {
+  const double x4 = x_squared * x_squared;
+  return x4 / (16.0 + x4);
 }
 
 }  // namespace
@@ -99,35 +29,49 @@ void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int6
   plan.dt_ns = dt_ns;
   plan.in = in;
   plan.y = in.angle - 0.5 * dt * in.speed;
+  plan.free = plan.dy = dt * in.speed;
+  plan.last_torque = 0;
   if (!s.started) {
     actuator_.place(s.actuator, plan.y);
+  } else if (in.placed) {
+    actuator_.relocate(s.actuator, plan.y);
   } else {
     actuator_.settle(s.actuator, plan.y, s.applied_torque, plan.y - s.start_y, s.path_work);
+    // All else that moved the joint in the last step goes on: a_other dt²/2 = dt²/2·Δv/dt_last − Σ C τ_last.
+    plan.free += 0.5 * dt * dt * (in.speed - s.last_speed) / s.last_dt;
+    plan.last_torque = s.applied_torque;
   }
-  const double other = s.started ? (in.speed - s.last_speed) / s.last_dt - in.inverse_inertia * s.applied_torque : 0.0;
-  plan.c = 0.5 * dt * dt * in.inverse_inertia;
-  plan.free = dt * in.speed + 0.5 * dt * dt * other;
-  plan.dy = plan.free;
-  if (s.started) {
-    // τ̄ ≈ end torque − slope·dy: a light shaft behind a stiff spring moves far less than the last torque would throw it.
-    const elastic::SegmentMean& end = s.actuator.end;
-    const double yield = 1.0 / (1.0 + plan.c * std::max(end.slope.qq, 0.0));
-    const double u = plan.y - s.actuator.shaft_anchor;
-    plan.dy = drive::solve_friction(shaft_friction_, u, (plan.free + plan.c * end.torque) * yield, plan.c * yield).displacement;
-  }
-  plan.dy = within_reach(0, plan.dy);
+  look_ahead(s, plan, dt);
   plan.walked_ns = 0;
   plan.held_count = 0;
   if (t_ns % kTickNs != 0) plan.held[plan.held_count++] = s.held;
 }
 
+void Unit::look_ahead(const UnitState& s, StepPlan& plan, double dt) const noexcept {
+  const double scale = dt * dt * plan.in.inverse_inertia;
+  const elastic::Tangent tangent = config_.actuator.transmission->tangent_of(s.actuator.origin);
+  plan.lead.drift = 0.5 * dt * plan.in.speed;
+  plan.lead.spring = weight(scale * tangent.stiffness);
+  for (std::size_t i = 0; i < 2; ++i)
+    plan.lead.tendon[i] = weight(scale * tendon_.stiffness * tangent.tension[i] * tangent.tension[i]);
+  plan.shaft_weight = weight(scale * shaft_friction_.stiffness);
+}
+
+std::int64_t Unit::segment_ns(const StepPlan& plan, std::int64_t walked) const noexcept {
+  return std::min({substep_ns_, kTickNs - (plan.t_ns + walked) % kTickNs, plan.dt_ns - walked});
+}
+
 firmware::TickInputs Unit::sample(UnitState& s, StepPlan& plan, std::int64_t at_ns) noexcept {
   const std::int64_t until = at_ns - plan.t_ns;
   if (until > 0 && plan.walked_ns == 0) plan.start = s.actuator;
+  const double whole = static_cast<double>(plan.dt_ns);
   while (plan.walked_ns < until) {
     const std::int64_t h_ns = std::min(substep_ns_, until - plan.walked_ns);
-    const double share = static_cast<double>(h_ns) / static_cast<double>(plan.dt_ns);
-    actuator_.segment(s.actuator, seconds(h_ns), {plan.dy * share, s.held.voltage, s.held.terminal});
+    actuator::SegmentInput in{0.0, s.held.voltage, s.held.terminal, plan.lead};
+    in.lead.before = static_cast<double>(plan.walked_ns) / whole;
+    in.lead.share = static_cast<double>(h_ns) / whole;
+    in.dq = plan.dy * in.lead.share;
+    actuator_.segment(s.actuator, seconds(h_ns), in);
     plan.walked_ns += h_ns;
   }
   // What the host will do with the shaft if the prediction holds: q' = q + dt·v'.
@@ -138,6 +82,9 @@ firmware::TickInputs Unit::sample(UnitState& s, StepPlan& plan, std::int64_t at_
 double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept {
   StepPlan plan;
   begin_step(s, plan, t_ns, dt_ns, in);
+  const JointInStep joint{this, &s, &plan};
+  alone_.set({&in.inverse_inertia, 1}, dt_ns);
+  alone_.predict({&joint, 1});
   for (std::int64_t at = first_tick_ns(t_ns); at < t_ns + dt_ns; at += kTickNs) {
     const firmware::TickInputs sensors = sample(s, plan, at);
     out_.clear();
@@ -148,54 +95,94 @@ double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const Sha
 }
 
 double Unit::end_step(UnitState& s, StepPlan& plan) noexcept {
-  if (plan.walked_ns > 0) s.actuator = plan.start;
-  const double c = plan.c, u = plan.y - s.actuator.shaft_anchor;
-  double dy = plan.dy;
-  PathTrials trials(actuator_, s.actuator, {plan.held.data(), plan.held_count}, {plan.t_ns, plan.dt_ns, substep_ns_});
-  if (const auto foreseen = trials.foresee()) {
-    const double yield = 1.0 / (1.0 + c * std::max(foreseen->slope, 0.0));
-    const auto next = drive::solve_friction(shaft_friction_, u, (plan.free + c * foreseen->torque) * yield, c * yield);
-    dy = within_reach(dy, next.displacement);
-  }
-  double low = -std::numeric_limits<double>::infinity(), high = -low, last_move = high;
+  const JointInStep joint{this, &s, &plan};
   double torque = 0;
-  actuator::SegmentResult path;
-  double walked = dy;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    walked = dy;
-    path = trials.at(walked, iteration == 0);
-    // Newton on the spring, exact on the friction.
-    const double slope = std::max(path.slope, 0.0);
-    const double yield = 1.0 / (1.0 + c * slope);
-    const auto next = drive::solve_friction(shaft_friction_, u, (plan.free + c * (path.torque + slope * dy)) * yield, c * yield);
-    const double move = next.displacement - dy;
-    torque = path.torque - slope * move + next.torque;
-    // The linear correction leaves an error of second order; the stiffer the step (c·slope), the more of it reaches the shaft.
-    const bool near =
-        std::abs(slope * move) <= yield * yield * (kRelativeTolerance * std::abs(path.torque) + kAbsoluteTolerance_Nm);
-    if (near && path.settled) break;
-    // The residual grows with dy, so its sign brackets the root; a hardening spring throws Newton out, bisection calls it back.
-    if (path.settled) (move > 0 ? low : high) = dy;
-    const bool inside = next.displacement > low && next.displacement < high;
-    const bool shrinking = std::abs(move) < 0.7 * last_move;
-    last_move = std::abs(move);
-    const bool bracketed = std::isfinite(low) && std::isfinite(high);
-    if (bracketed)
-      dy = inside && shrinking ? next.displacement : 0.5 * (low + high);
-    else
-      dy = within_reach(dy, next.displacement);
-    if (!std::isfinite(dy)) break;
+  alone_.set({&plan.in.inverse_inertia, 1}, plan.dt_ns);
+  alone_.solve({&joint, 1}, {&torque, 1});
+  return torque;
+}
+
+drive::FrictionTorque Unit::shaft_rub(const UnitState& s, const StepPlan& plan, double dy) const noexcept {
+  return drive::leading_friction(shaft_friction_, plan.y - s.actuator.shaft_anchor, dy, plan.lead.drift, plan.shaft_weight);
+}
+
+ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) const noexcept {
+  const drive::FrictionTorque rub = shaft_rub(s, plan, dy);
+  // Where a light shaft stands behind a stiff spring, it moves far less than the last torque would throw it.
+  const elastic::SegmentMean& end = s.actuator.end;
+  const double rate = 1.0 + 3.0 * plan.lead.spring, slope = std::max(end.slope.qq, 0.0);
+  const double shift = -2.0 * plan.lead.spring * plan.lead.drift;
+  return {end.torque - slope * (shift + rate * dy) + rub.torque, rate * slope + rub.slope};
+}
+
+void Unit::begin_trials(UnitState& s, StepPlan& plan) noexcept {
+  if (plan.walked_ns > 0) {
+    s.actuator = plan.start;
+  } else if (segment_ns(plan, 0) < plan.dt_ns) {
+    plan.start = s.actuator;
   }
-  trials.finish();
-  const double spring_work = path.torque * walked;
-  const auto rub = actuator_.shaft_friction(s.actuator, walked);
-  s.path_work = s.actuator.ledger.pending = spring_work + rub.torque * walked;
+  if (segment_ns(plan, 0) == plan.dt_ns)
+    actuator_.begin(s.actuator, plan.last, seconds(plan.dt_ns), {0.0, plan.held[0].voltage, plan.held[0].terminal, plan.lead});
+}
+
+ShaftTorque Unit::foresee(const UnitState& s, StepPlan& plan, double dy) const noexcept {
+  if (segment_ns(plan, 0) < plan.dt_ns) return expect(s, plan, dy);
+  const drive::FrictionTorque rub = shaft_rub(s, plan, dy);
+  const actuator::SegmentResult r = actuator_.foresee(s.actuator, plan.last);
+  const double slope = std::max(r.slope, 0.0);
+  return {r.torque - slope * dy + rub.torque, slope + rub.slope};
+}
+
+ShaftTorque Unit::attempt(UnitState& s, StepPlan& plan, double dy, bool rough) noexcept {
+  const drive::FrictionTorque rub = shaft_rub(s, plan, dy);
+  plan.dy = dy;
+  std::int64_t now = 0, h = segment_ns(plan, 0);
+  if (h == plan.dt_ns) {
+    plan.path = actuator_.attempt(s.actuator, plan.last, dy, rough);
+  } else {
+    s.actuator = plan.start;
+    plan.path = {};
+    std::size_t interval = 0;
+    for (;; h = segment_ns(plan, now)) {
+      const double share = seconds(h) / seconds(plan.dt_ns);
+      actuator::SegmentInput in{dy * share, plan.held[interval].voltage, plan.held[interval].terminal, plan.lead};
+      in.lead.before = seconds(now) / seconds(plan.dt_ns);
+      in.lead.share = share;
+      actuator_.begin(s.actuator, plan.last, seconds(h), in);
+      const actuator::SegmentResult r = actuator_.attempt(s.actuator, plan.last, in.dq);
+      plan.path.torque += r.torque * share;
+      plan.path.slope += r.slope * share;
+      now += h;
+      if (now == plan.dt_ns) break;
+      actuator_.finish(s.actuator, plan.last);
+      if ((plan.t_ns + now) % kTickNs == 0) ++interval;
+    }
+  }
+  return {plan.path.torque + rub.torque, std::max(plan.path.slope, 0.0) + rub.slope, plan.path.settled};
+}
+
+ShaftTorque Unit::carried(const UnitState& s, const StepPlan& plan, double move) const noexcept {
+  const drive::FrictionTorque before = shaft_rub(s, plan, plan.dy), after = shaft_rub(s, plan, plan.dy + move);
+  const double c = 0.5 * seconds(plan.dt_ns) * seconds(plan.dt_ns) * plan.in.inverse_inertia;
+  const double change = plan.path.slope * move, yield = 1.0 / (1.0 + c * std::max(plan.path.slope, 0.0));
+  const double slack = kRelativeTolerance * std::abs(plan.path.torque) + kAbsoluteTolerance_Nm;
+  // The linear correction leaves an error of second order; the stiffer the step (c·slope), the more of it reaches the shaft.
+  const bool near = std::abs(change) <= yield * yield * slack && std::abs(after.torque - before.torque + before.slope * move) <= slack;
+  return {plan.path.torque - change + after.torque, std::max(plan.path.slope, 0.0) + after.slope, near && plan.path.settled};
+}
+
+void Unit::finish(UnitState& s, StepPlan& plan, double move, double torque) noexcept {
+  actuator_.finish(s.actuator, plan.last);
+  const double spring_work = plan.path.torque * plan.dy;
+  const auto rub = actuator_.shaft_friction(s.actuator, plan.dy, plan.lead.drift, plan.shaft_weight);
+  s.path_work = s.actuator.ledger.pending = spring_work + rub.torque * plan.dy;
   s.start_y = plan.y;
   s.applied_torque = torque;
   s.last_speed = plan.in.speed;
   s.last_dt = seconds(plan.dt_ns);
   s.started = true;
-  return torque;
+  s.reached.speed = 2.0 * (plan.dy + move) / s.last_dt - plan.in.speed;
+  s.reached.angle = plan.in.angle + s.last_dt * s.reached.speed;
 }
 
 }  // namespace vsa::device

@@ -38,8 +38,10 @@ Unit::Unit(UnitConfig config)
     : config_(std::move(config)),
       substep_ns_(std::llround(config_.substep_max_s * 1e9)),
       program_(config_.program),
-      shaft_friction_(config_.actuator.shaft_friction),
-      actuator_(config_.actuator) {}
+      shaft_friction_(actuator::shaft_friction(config_.actuator)),
+      tendon_(drive::FrictionParams{config_.actuator.tendon.friction, config_.actuator.tendon.presliding_J}),
+      actuator_(config_.actuator),
+      alone_(1) {}
 
 std::array<Ticks, 2> Unit::inputs_for(double equilibrium_rad, double preset) const noexcept {
   const double kept = std::clamp(preset, -config_.preset_max, config_.preset_max);
@@ -57,6 +59,7 @@ UnitState Unit::switched_on(double shaft_rad, std::uint8_t id, std::int64_t now_
   shipped.id = id;
   s.program = program_.fresh(now_ns, shipped);
   s.actuator = actuator_.initial({0.0, 0.0}, shaft_rad);
+  s.reached.angle = shaft_rad;
   return s;
 }
 

@@ -1,6 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/elastic/transmission.hpp"
 
+#include <cmath>
+
 namespace vsa::elastic {
 namespace {
 
@@ -18,6 +20,11 @@ void add_scaled(Hessian& sum, const Hessian& h, double w) noexcept {
 }
 
 }  // namespace
+
+Tangent Transmission::tangent_of(const Origin& here) const noexcept {
+  const Response r = evaluate(here.at);
+  return {r.curvature.qq, {std::abs(r.load[0]), std::abs(r.load[1])}};
+}
 
 SegmentMean Transmission::mean_over(const Positions& from, const Positions& to) const noexcept {
   // Gauss–Legendre on [0, 1], exact for laws up to fifth order along the segment.

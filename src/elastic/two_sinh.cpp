@@ -166,21 +166,40 @@ Origin TwoSinh::moved(const Origin& from, const Positions& to) const noexcept {
   return here;
 }
 
-inline TwoSinh::Mean TwoSinh::mean_near(std::size_t i, const Origin& from, double begin, double move) const noexcept {
+inline TwoSinh::Mean TwoSinh::mean_near(std::size_t i, const Origin& from, double begin, double move, double ahead) const noexcept {
   const double k = params_.k_Nm[i], a = params_.a_per_rad[i], half_c = 0.5 * params_.c_Nm_per_rad[i];
-  const double z = 0.5 * a * move;
-  const Sinhc s = short_sinhc(z);
-  const Hyperbolic h = elastic::moved(from.kept[2 * i], from.kept[2 * i + 1], z * s.value, z);
-  return {k * h.sinh * s.value + half_c * (begin + begin + move), 0.5 * a * k * (h.cosh * s.value + h.sinh * s.slope) + half_c};
+  const double half = 0.5 * a * move, middle = half + a * ahead;
+  const Sinhc s = short_sinhc(half);
+  const double sinh_middle = ahead == 0.0 ? half * s.value : middle * short_sinhc(middle).value;
+  const Hyperbolic h = elastic::moved(from.kept[2 * i], from.kept[2 * i + 1], sinh_middle, middle);
+  const double ends = begin + ahead + (begin + ahead + move);
+  return {k * h.sinh * s.value + half_c * ends, 0.5 * a * k * (h.cosh * s.value + h.sinh * s.slope) + half_c};
 }
 
-SegmentMean TwoSinh::mean_from(const Origin& from, const Positions& to) const noexcept {
+SegmentMean TwoSinh::mean_from(const Origin& from, const Positions& to, double ahead) const noexcept {
   SegmentMean mean;
   for (std::size_t i = 0; i < 2; ++i) {
     const double begin = from.at.q - from.at.x[i], end = to.q - to.x[i];
-    add(i, near(i, begin, end - begin) ? mean_near(i, from, begin, end - begin) : this->mean(i, begin, end), mean);
+    const bool close = near(i, begin, end - begin) && (ahead == 0.0 || (near(i, begin, ahead) && near(i, begin, end - begin + ahead)));
+    add(i, close ? mean_near(i, from, begin, end - begin, ahead) : this->mean(i, begin + ahead, end + ahead), mean);
   }
   return mean;
+}
+
+Tangent TwoSinh::tangent_of(const Origin& here) const noexcept {
+  Tangent t;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double k = params_.k_Nm[i], a = params_.a_per_rad[i], c = params_.c_Nm_per_rad[i];
+    const double deflection = here.at.q - here.at.x[i], beyond = std::abs(deflection) - params_.linear_beyond_rad;
+    if (beyond > 0) {
+      t.stiffness += edge_[i].stiffness;
+      t.tension[i] = edge_[i].torque + beyond * edge_[i].stiffness;
+    } else {
+      t.stiffness += a * k * (1.0 + here.kept[2 * i + 1]) + c;
+      t.tension[i] = std::abs(k * here.kept[2 * i] + c * deflection);
+    }
+  }
+  return t;
 }
 
 inline double TwoSinh::energy_of(std::size_t i, const Origin& here) const noexcept {

@@ -69,6 +69,8 @@ MujocoPhysics::MujocoPhysics(ModelPtr model, const WorldDescription& world, cons
   }
   unit_.resize(static_cast<std::size_t>(m->nv));
   column_.resize(unit_.size());
+  damped_ = std::any_of(m->dof_damping, m->dof_damping + m->nv, [](mjtNum d) { return d > 0; });
+  if (damped_) mass_matrix_.resize(static_cast<std::size_t>(m->nM));
   jacobian_.resize(3 * unit_.size());
   mobility_.resize(3 * unit_.size());
   make_data();
@@ -108,12 +110,43 @@ void MujocoPhysics::prepare() {
   mju_zero(data_->qfrc_applied, m->nv);
 }
 
-double MujocoPhysics::inverse_inertia(std::size_t joint) {
-  const int v = joint_[joint].v;
-  std::fill(unit_.begin(), unit_.end(), 0.0);
-  unit_[static_cast<std::size_t>(v)] = 1;
-  mj_solveM(model_.get(), data_.get(), column_.data(), unit_.data(), 1);
-  return column_[static_cast<std::size_t>(v)];
+std::vector<std::vector<std::size_t>> MujocoPhysics::trees(std::span<const std::size_t> joints) const {
+  std::vector<std::pair<int, std::vector<std::size_t>>> found;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    int root = joint_[joints[i]].v;
+    while (model_->dof_parentid[root] >= 0) root = model_->dof_parentid[root];
+    const auto same = std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.first == root; });
+    if (same == found.end()) {
+      found.push_back({root, {i}});
+    } else {
+      same->second.push_back(i);
+    }
+  }
+  std::vector<std::vector<std::size_t>> out;
+  for (auto& [root, members] : found) out.push_back(std::move(members));
+  return out;
+}
+
+// mj_Euler steps v' = v + dt·(M + dt·D)⁻¹ f with the joints' damping D.
+void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<double> out) {
+  const mjModel* m = model_.get();
+  if (damped_) {
+    std::copy(data_->qM, data_->qM + m->nM, mass_matrix_.begin());
+    for (int i = 0; i < m->nv; ++i) data_->qM[m->dof_Madr[i]] += m->opt.timestep * m->dof_damping[i];
+    mj_factorM(m, data_.get());
+  }
+  const std::size_t n = joints.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const int v = joint_[joints[i]].v;
+    unit_[static_cast<std::size_t>(v)] = 1;
+    mj_solveM(m, data_.get(), column_.data(), unit_.data(), 1);
+    unit_[static_cast<std::size_t>(v)] = 0;
+    for (std::size_t k = 0; k < n; ++k) out[i * n + k] = column_[static_cast<std::size_t>(joint_[joints[k]].v)];
+  }
+  if (damped_) {
+    std::copy(mass_matrix_.begin(), mass_matrix_.end(), data_->qM);
+    mj_factorM(m, data_.get());
+  }
 }
 
 void MujocoPhysics::apply(std::size_t joint, double torque) { data_->qfrc_applied[joint_[joint].v] = torque; }

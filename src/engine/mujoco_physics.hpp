@@ -25,7 +25,8 @@ class MujocoPhysics final : public Physics {
   MujocoPhysics(ModelPtr model, const WorldDescription& world, const std::vector<TreeNode>& tree);
 
   void prepare() override;
-  double inverse_inertia(std::size_t joint) override;
+  std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const override;
+  void mobility(std::span<const std::size_t> joints, std::span<double> out) override;
   void apply(std::size_t joint, double torque) override;
   void pull(const Pull& pull) override;
   std::optional<Fault> advance() override;
@@ -62,7 +63,8 @@ class MujocoPhysics final : public Physics {
   std::vector<Address> joint_;  // of a one-axis joint
   std::vector<int> root_;       // of a link: the joint id of its free root, −1: tied to the world
   std::vector<std::string> q_owner_, v_owner_;
-  std::vector<mjtNum> before_, unit_, column_, jacobian_, mobility_;
+  std::vector<mjtNum> before_, unit_, column_, jacobian_, mobility_, mass_matrix_;
+  bool damped_ = false;  // some joint has damping, which MuJoCo's Euler takes implicitly
   bool stepped_ = false;  // data_ holds the contacts of the last step
 };
 

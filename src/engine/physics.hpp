@@ -40,8 +40,11 @@ class Physics {
   virtual ~Physics() = default;
 
   virtual void prepare() = 0;
-  /// (M⁻¹)_jj of a one-axis joint, 1/(kg·m²); valid between prepare() and advance().
-  [[nodiscard]] virtual double inverse_inertia(std::size_t joint) = 0;
+  /// One-axis joints whose torques move each other, by groups: indices into `joints`. Fixed for a world.
+  [[nodiscard]] virtual std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const = 0;
+  /// B of those joints: how advance() answers to torques, (v' − v)/dt = … + B τ, contacts and limits aside. By rows, 1/(kg·m²);
+  /// between prepare() and advance().
+  virtual void mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
   virtual void apply(std::size_t joint, double torque) = 0;
   /// Adds the spring's force to what is applied; after all apply() of the step.
   virtual void pull(const Pull& pull) = 0;

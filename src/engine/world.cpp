@@ -146,8 +146,13 @@ void World::set_joint(std::string_view joint, double angle, double speed) {
     throw InputError(
         Problem{"", "joint", std::string(joint), fmt::format("can't be set to {}, {}", angle, speed), "finite numbers"});
   }
-  impl_->physics->set_joint(impl_->one_axis_joint(joint), {angle, speed});
+  const std::size_t index = impl_->one_axis_joint(joint);
+  impl_->physics->set_joint(index, {angle, speed});
   impl_->refresh = true;
+  for (RobotSlot& slot : impl_->robots) {
+    for (std::size_t i = 0; i < slot.joints.size(); ++i)
+      if (slot.joints[i] == index) slot.in[i].placed = true;
+  }
 }
 
 void World::displace_model(std::string_view model, double yaw_rad, std::array<double, 3> t) {

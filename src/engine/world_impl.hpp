@@ -1,7 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// A World's insides. States: physics, time and step count, the robots, and the inverse inertias last asked for; Snapshot holds them
-// all.
+// A World's insides. States: physics, time and step count, the robots, and the mobilities last asked for; Snapshot holds them all.
 #pragma once
 
 #include "description.hpp"
@@ -11,12 +10,17 @@ namespace vsa::engine {
 
 struct SdfSource;
 
+/// B of a robot's trees, and where its joints were then.
+struct Mobility {
+  std::vector<double> matrices, angles;
+};
+
 struct World::Snapshot {
   PhysicsState physics;
   std::int64_t time_ns = 0, steps = 0;
   bool refresh = true;
   std::vector<std::shared_ptr<const host::Robot::Snapshot>> robots;
-  std::vector<std::vector<double>> inverse_inertia;
+  std::vector<Mobility> mobility;
 };
 
 /// One <plugin>: a robot and what passes between it and the engine.
@@ -25,7 +29,9 @@ struct RobotSlot {
   host::Robot robot;
   std::vector<std::size_t> joints;  ///< of its actuators, into WorldDescription::joints
   std::vector<host::JointIn> in;
-  std::vector<double> torques, inverse_inertia;
+  std::vector<double> torques;
+  std::vector<std::vector<std::size_t>> trees;  ///< of joints, by index into WorldDescription::joints
+  Mobility mobility;
 };
 
 struct World::Impl {
@@ -37,13 +43,16 @@ struct World::Impl {
   std::vector<ActuatorRef> actuators;
   std::vector<Pull> pulls;
   std::int64_t dt_ns = 0, time_ns = 0, steps = 0;
-  bool refresh = true;  ///< inverse inertias are asked for in the next step whatever its number
+  bool refresh = true;  ///< mobilities are asked for in the next step whatever its number
   std::shared_ptr<const Snapshot> initial;
 
   [[nodiscard]] static std::unique_ptr<Impl> load(const SdfSource& source, WorldOptions options);
   void add_robots(const std::string& file, Problems& problems);
   void step();
+  void join_trees();
+  [[nodiscard]] bool wants_mobility(const RobotSlot& slot) const;
   void drive();
+  void observe();
   [[nodiscard]] std::size_t one_axis_joint(std::string_view scoped) const;
   [[nodiscard]] std::vector<std::size_t> links_of(std::string_view model) const;
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;

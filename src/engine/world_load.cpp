@@ -73,8 +73,13 @@ struct RobotBuilder {
       std::vector<std::size_t> joints = match(config, plugin, where);
       if (joints.size() != config.actuators.size()) return std::nullopt;
       const std::size_t n = joints.size();
-      return RobotSlot{plugin.model,           host::Robot(std::move(config)), std::move(joints), std::vector<host::JointIn>(n),
-                       std::vector<double>(n), std::vector<double>(n)};
+      return RobotSlot{plugin.model,
+                       host::Robot(std::move(config)),
+                       std::move(joints),
+                       std::vector<host::JointIn>(n),
+                       std::vector<double>(n),
+                       {},
+                       {}};
     } catch (const InputError& error) {
       problems.add_all(error);
       return std::nullopt;
@@ -125,6 +130,7 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
   problems.throw_if_any();
   impl->physics = make_mujoco(impl->world, static_cast<double>(impl->dt_ns) * 1e-9, source.label(), problems);
   problems.throw_if_any();
+  impl->join_trees();
   impl->initial = impl->snapshot();
   return impl;
 }

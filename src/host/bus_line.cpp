@@ -57,16 +57,16 @@ void BusLine::tick(std::int64_t at_ns) noexcept {
   }
 }
 
-void BusLine::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out) noexcept {
-  for (const BusMember& m : members_) {
-    const JointIn& joint = in[m.index];
-    const double inverse = joint.inverse_inertia ? *joint.inverse_inertia : 1.0 / m.unit->config().actuator.shaft_inertia_kgm2;
-    m.slot->shaft_rad = joint.angle_rad;
-    m.unit->begin_step(m.slot->unit, *m.plan, t_ns, dt_ns, {joint.angle_rad, joint.speed_rad_per_s, inverse});
-  }
-  const std::int64_t end_ns = t_ns + dt_ns;
+std::size_t BusLine::use(std::span<device::StepPlan> plans, std::size_t first) noexcept {
+  for (BusMember& m : members_) m.plan = &plans[first++];
+  return first;
+}
+
+void BusLine::run_ticks(std::int64_t t_ns, std::int64_t end_ns) noexcept {
   for (std::int64_t at = device::Unit::first_tick_ns(t_ns); at < end_ns; at += firmware::kTickNs) tick(at);
-  for (const BusMember& m : members_) torques_out[m.index] = m.unit->end_step(m.slot->unit, *m.plan);
+}
+
+void BusLine::end(std::int64_t end_ns) noexcept {
   // A frame whose bytes set out in this step carries what was commanded by now, even if it arrives in the next. A client's line
   // runs by itself.
   if (!port_) chain_.run_to(end_ns, master_);

@@ -22,7 +22,7 @@ struct JointIn;
 struct BusMember {
   device::Unit* unit;
   ActuatorSlot* slot;
-  device::StepPlan* plan;  ///< scratch of one step; buses may share it
+  device::StepPlan* plan;  ///< scratch of one step; clusters may share it
   std::uint8_t id;
   std::size_t index;  ///< of the actuator in its robot
 };
@@ -37,8 +37,13 @@ class BusLine final : private bus::MasterClient {
   /// `members` by id; they stay where they are.
   BusLine(const BusConfig& config, std::vector<BusMember> members);
 
-  /// One host step of its units. Bus by bus, so that a unit's state is fetched once a step where a robot has a thousand.
-  void advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out) noexcept;
+  /// Gives its members plans from the `first` on; returns the next free one.
+  std::size_t use(std::span<device::StepPlan> plans, std::size_t first) noexcept;
+
+  // One host step: begin, the ticks, then the joints are solved (host/cluster.hpp), end.
+  void run_ticks(std::int64_t t_ns, std::int64_t end_ns) noexcept;
+  void end(std::int64_t end_ns) noexcept;
+  [[nodiscard]] const std::vector<BusMember>& members() const noexcept { return members_; }
   void shift_time(std::int64_t by_ns) noexcept;
   void set_wiring(const ActuatorSlot& slot, const device::Faults& faults) noexcept;
 

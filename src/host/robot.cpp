@@ -47,13 +47,36 @@ std::optional<std::size_t> Robot::find(std::string_view actuator_name) const noe
   return std::nullopt;
 }
 
-void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out) noexcept {
+void Robot::join(std::vector<std::vector<std::size_t>> trees) {
+  Problems problems;
+  std::vector<bool> seen(size());
+  for (const auto& tree : trees) {
+    for (const std::size_t a : tree) {
+      if (a >= size() || seen[a])
+        problems.add({"", "tree", std::to_string(a), a < size() ? "is in a tree already" : "no such actuator",
+                      "each index below " + std::to_string(size()) + " once"});
+      if (a < size()) seen[a] = true;
+    }
+  }
+  problems.throw_if_any();
+  impl_->make_clusters(std::move(trees));
+}
+
+std::size_t Robot::mobility_size() const noexcept { return impl_->mobility_size; }
+
+void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
+                    std::span<const double> mobility) noexcept {
   Impl& d = *impl_;
   d.expect(t_ns);
   d.take_commands();
   d.take_faults();
-  for (const auto& bus : d.buses) bus->advance(t_ns, dt_ns, in, torques_out);
+  for (Cluster& cluster : d.clusters) d.state.unsettled += cluster.advance(t_ns, dt_ns, in, torques_out, mobility);
   d.state.time_ns = t_ns + dt_ns;
+}
+
+void Robot::observe(std::span<const JointIn> joints) noexcept {
+  for (std::size_t i = 0; i < size(); ++i)
+    impl_->state.actuators[i].unit.reached = {joints[i].angle_rad, joints[i].speed_rad_per_s};
 }
 
 bool Robot::command(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset) {

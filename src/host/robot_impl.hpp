@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/bus_line.hpp"
+#include "host/cluster.hpp"
 #include "host/command_queue.hpp"
 #include "host/state.hpp"
 #include "vsa/host/robot.hpp"
@@ -31,9 +32,10 @@ struct Robot::Impl {
       slot.unit = units[i]->initial(a.initial_equilibrium_rad, a.initial_preset, a.initial_equilibrium_rad,
                                     static_cast<std::uint8_t>(a.id));
     }
-    plans.resize(units.size());  // as long as the longest bus could be: they share them
+    plans.resize(units.size());  // as many as the largest cluster could have: they share them
     notices.reserve(units.size());
     make_buses();
+    make_clusters({});
     initial.state = state;
     for (const auto& bus : buses) initial.buses.push_back(bus->state());
   }
@@ -47,10 +49,23 @@ struct Robot::Impl {
                        [this](std::size_t x, std::size_t y) { return config.actuators[x].id < config.actuators[y].id; });
       std::vector<BusMember> members;
       for (const std::size_t i : on_it)
-        members.push_back(
-            {units[i].get(), &state.actuators[i], &plans[members.size()], static_cast<std::uint8_t>(config.actuators[i].id), i});
+        members.push_back({units[i].get(), &state.actuators[i], nullptr, static_cast<std::uint8_t>(config.actuators[i].id), i});
       buses.push_back(std::make_unique<BusLine>(config.buses[b], std::move(members)));
     }
+  }
+
+  void make_clusters(std::vector<std::vector<std::size_t>> trees) {
+    ClusterParts parts;
+    mobility_size = 0;
+    for (const auto& tree : trees) mobility_size += tree.size() * tree.size();
+    for (const auto& bus : buses) parts.buses.push_back(bus.get());
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      parts.bus_of.push_back(config.actuators[i].bus);
+      parts.joints.push_back({units[i].get(), &state.actuators[i].unit, nullptr});
+    }
+    parts.trees = std::move(trees);
+    clusters = host::make_clusters(parts);
+    for (Cluster& cluster : clusters) cluster.use(plans);
   }
 
   /// Units with equal parameters share one instance: a thousand of them then fit the processor's cache. States are their own.
@@ -119,6 +134,8 @@ struct Robot::Impl {
   RobotState state;
   std::vector<device::StepPlan> plans;
   std::vector<std::unique_ptr<BusLine>> buses;
+  std::vector<Cluster> clusters;
+  std::size_t mobility_size = 0;
   Snapshot initial;
   CommandQueue queue;
   FaultQueue faults;

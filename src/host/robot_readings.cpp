@@ -19,15 +19,17 @@ ActuatorReading Robot::read(std::size_t actuator) const {
   const auto attained = unit.config().actuator.transmission->attained({u.actuator.motor[0].angle, u.actuator.motor[1].angle});
   r.equilibrium_rad = attained.equilibrium;
   r.preset = attained.preset;
-  r.shaft_rad = slot.shaft_rad;
-  r.shaft_speed_rad_per_s = u.last_speed;
+  r.shaft_rad = u.reached.angle;
+  r.shaft_speed_rad_per_s = u.reached.speed;
   r.deflection_rad = r.shaft_rad - r.equilibrium_rad;
-  r.stiffness_Nm_per_rad = unit.physics().spring(u.actuator, r.shaft_rad).curvature.qq;
-  r.torque_Nm = u.applied_torque;
+  const elastic::Response now = unit.physics().response(u.actuator, r.shaft_rad);
+  r.stiffness_Nm_per_rad = now.curvature.qq;
+  r.torque_Nm = now.torque;
+  r.mean_torque_Nm = u.applied_torque;
   for (int m = 0; m < unit.physics().motors(); ++m) {
     r.motor_rad[m] = u.actuator.motor[m].angle;
     r.motor_speed_rad_per_s[m] = u.actuator.motor[m].speed;
-    r.motor_torque_Nm[m] = u.actuator.load[m];
+    r.motor_torque_Nm[m] = now.load[m];
     r.current_A[m] = unit.physics().motor_current(u.actuator, m, u.held.voltage[m], u.held.terminal[m]);
   }
   r.measured = impl_->buses[impl_->config.actuators[actuator].bus]->measured(slot, unit);

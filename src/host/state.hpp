@@ -47,13 +47,13 @@ struct Track {
 struct ActuatorSlot {
   device::UnitState unit;
   Track equilibrium, preset;
-  double shaft_rad = 0;
   std::array<Ticks, 3> measured{};
   bool noted_preset = false, noted_limits = false, noted_port = false;
 };
 
 struct RobotState {
-  std::int64_t time_ns = 0;  ///< where the next step is expected
+  std::int64_t time_ns = 0;   ///< where the next step is expected
+  std::size_t unsettled = 0;  ///< steps of joints whose solution didn't settle
   std::vector<ActuatorSlot> actuators;
 };
 

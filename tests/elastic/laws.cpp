@@ -133,7 +133,7 @@ TEST(ElasticLaws, MeansFromAnOriginAreThoseOfItsPositions) {
       const Positions a = random_place(rng);
       Positions b = random_place(rng);
       if (n % 2 == 0) b = {a.q + 1e-2 * b.q, {a.x[0] + 1e-2 * b.x[0], a.x[1] + 1e-2 * b.x[1]}};
-      const SegmentMean asked = l.law->mean_over(a, b), m = l.law->mean_from(l.law->origin(a), b);
+      const SegmentMean asked = l.law->mean_over(a, b), m = l.law->mean_from(l.law->origin(a), b, 0);
       const double scale = 1e-13 * (1 + std::abs(asked.load[0]) + std::abs(asked.load[1]));
       EXPECT_NEAR(m.torque, asked.torque, scale) << l.name;
       for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(m.load[i], asked.load[i], scale) << l.name;

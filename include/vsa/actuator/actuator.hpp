@@ -13,6 +13,8 @@
 // There a loss μ|T| is a friction of constant level μ, so Hayward's and Armstrong's law (drive/friction.hpp) holds with "angle" w,
 // "torque" μ and presliding w_max: shaft torque −μ s |T_i|, pulley load +μ s |T_i|, s = (w_i − z_i)/w_max within ±1. It is passive
 // in every branch as that law is: presliding stores ½(μ/w_max)(w − z)², sliding burns μ|T| per rad. Range: 0 ≤ μ < 1.
+// The bristle has a damper of the time constant T_d: s = (w − z + T_d ẇ)/w_max within ±1. That only ever burns more, by
+// (μ/w_max)(clamp(u + T_d ẇ) − u)ẇ ≥ 0, and nothing where the motion is slow. Without it a bent bristle is a spring that rings.
 //
 // GEAR LOSS: the limit of the gearbox's friction grows by λ·|load_i| of the last segment. Its bristle's stiffness stays, so a
 // growing limit adds no energy, and one that shrinks burns what it lets go.
@@ -35,6 +37,7 @@ namespace vsa::actuator {
 struct TendonParams {
   double friction = 0;      ///< μ, loss torque a spring torque, [0, 1)
   double presliding_J = 0;  ///< w_max: how much a spring's energy changes before that friction slides, ≥ 0
+  double damping_s = 0;     ///< T_d: the bristle's damper over its stiffness, ≥ 0
   bool operator==(const TendonParams&) const = default;
 };
 
@@ -51,6 +54,11 @@ struct ActuatorParams {
   bool operator==(const ActuatorParams&) const = default;
 };
 
+/// The output shaft's friction as the coupling needs it: with a bristle. A presliding of 0 is taken as kLeastPresliding_rad, a
+/// hundredth of an encoder's count or less, so that what holds the shaft has a slope.
+inline constexpr double kLeastPresliding_rad = 1e-5;
+[[nodiscard]] drive::FrictionParams shaft_friction(const ActuatorParams& params) noexcept;
+
 struct ActuatorState {
   std::array<drive::MotorState, 2> motor{};
   std::array<double, 2> motor_anchor{};
@@ -61,18 +69,29 @@ struct ActuatorState {
   std::array<double, 2> load{};           ///< mean spring load on each pulley over the last segment
   elastic::Origin origin;                 ///< where the springs are: pulleys' angles and `shaft`
   elastic::SegmentMean end;               ///< torque and loads at the last segment's end, to first order; its slopes
+  std::array<double, 2> end_ahead{};      ///< the part of those slopes that looks ahead
   Ledger ledger;
+};
+
+/// Where a segment lies in its host step, and how far ahead its springs and frictions look (the blend of host/robot.hpp). The
+/// default is a segment by itself, taken in its middle.
+struct Lead {
+  double before = 0, share = 1;    ///< parts of the step's displacement Δy: made before the segment, made in it
+  double drift = 0;                ///< ½ dt v, rad
+  double spring = 0;               ///< w of the springs, 0 … 1
+  std::array<double, 2> tendon{};  ///< w of each tendon's friction, 0 … 1
 };
 
 struct SegmentInput {
   double dq = 0;  ///< shaft displacement along the path
   std::array<double, 2> voltage{};
   std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
+  Lead lead{};
 };
 
 struct SegmentResult {
   double torque = 0;    ///< mean torque of the transmission on the shaft
-  double slope = 0;     ///< −dτ̄/d(Δq), the motors' yielding included; ≥ 0 for a convex law
+  double slope = 0;     ///< −dτ̄/d(Δy) of the step's displacement, the motors' yielding included; ≥ 0 for a convex law
   bool settled = true;  ///< the motors' displacements are found; else they are one Newton round nearer
 };
 
@@ -88,12 +107,17 @@ class Segment {
   std::array<double, 2> gear_u{};
   std::array<double, 2> w{}, w_u{};  // the springs' signed energies, and their distance from the anchors
   std::array<double, 2> free{};      // the motors' displacements without load
+  double damping = 0;                // T_d/h of the tendons' bristles
   // what the last trial found
   std::array<double, 2> dx{};    // the pulleys' displacements
   std::array<double, 2> gain{};  // ∂dx/∂dq
   std::array<drive::FrictionStep, 2> friction{};
   elastic::SegmentMean mean;
+  std::array<double, 2> ahead{};  // the part of mean.slope by which the tendons' frictions look ahead
   double slope = 0;
+
+  /// w·(q' − middle of the path): by how much the springs look ahead.
+  [[nodiscard]] double shift(double dq) const noexcept { return in.lead.spring * (1.5 * dq / in.lead.share - in.lead.drift); }
 };
 
 /// Parameters at the pulley and the prepared motor steps. Immutable but for prepare(); a state belongs to whoever owns time.
@@ -120,15 +144,21 @@ class Actuator {
   SegmentResult attempt(const ActuatorState& state, Segment& segment, double dq, bool rough = false) const noexcept;
   void finish(ActuatorState& state, const Segment& segment) const noexcept;
 
-  /// Shaft friction over a whole host step along the predicted path; moves its anchor and books its heat.
-  drive::FrictionStep shaft_friction(ActuatorState& state, double displacement) const noexcept;
+  /// Shaft friction over a whole host step along the predicted path; moves its anchor and books its heat. `lead` as of a segment
+  /// that is the whole step, `weight` the friction's own w.
+  drive::FrictionStep shaft_friction(ActuatorState& state, double displacement, double drift = 0, double weight = 0) const noexcept;
 
   /// The host moved the shaft to `actual` where the unit had predicted state.shaft. Books the difference:
   ///   coupling += (H + B)(predicted) − (H + B)(actual) − (τ_ret Δy_actual − τ_path Δy_path)
   /// and delivered += τ_ret Δy_actual. τ_ret is the torque that the host applied, τ_path Δy_path the work the segments booked.
   void settle(ActuatorState& state, double actual, double applied_torque, double actual_dy, double path_work) const noexcept;
 
+  /// Somebody put the shaft elsewhere: the springs follow, and what is stored from now on is what the balance begins with.
+  void relocate(ActuatorState& state, double shaft) const noexcept;
+
   [[nodiscard]] elastic::Response spring(const ActuatorState& state, double shaft) const noexcept;
+  /// The springs' response with the torques of the frictions on the shaft's side: what acts if the shaft is there.
+  [[nodiscard]] elastic::Response response(const ActuatorState& state, double shaft) const noexcept;
   [[nodiscard]] double motor_current(const ActuatorState& state, int i, double voltage, drive::Terminal terminal) const noexcept;
   [[nodiscard]] int motors() const noexcept { return motors_; }
 
@@ -138,13 +168,16 @@ class Actuator {
     drive::MotorStepper driven, open;
   };
   const drive::MotorStepper& stepper(double h_s, drive::Terminal terminal) noexcept;
-  void add_tendon_friction(const Segment& segment, const elastic::Positions& to, elastic::SegmentMean& mean) const noexcept;
+  void add_tendon_friction(Segment& segment, const elastic::Positions& to) const noexcept;
   void move_tendons(ActuatorState& state, const Segment& segment) const noexcept;
   /// One Newton correction of the pulleys from the mean at segment.dx; returns whether it was small enough to be the last.
   bool correction(Segment& segment, std::array<double, 2>& step) const noexcept;
   void drive_motors(ActuatorState& state, const Segment& segment) const noexcept;
+  void slopes(Segment& segment, const elastic::SegmentMean& mean, const std::array<double, 2>& ahead) const noexcept;
   [[nodiscard]] elastic::Positions positions(const ActuatorState& state, double shaft) const noexcept;
   void book_motors(ActuatorState& state) const noexcept;
+  /// The springs and the frictions on the shaft's side where the shaft is; anchors that it left behind follow.
+  void move_shaft(ActuatorState& state, double shaft) const noexcept;
   /// Moves the origin there and gives H; where there is tendon friction the springs' signed energies are kept too.
   [[nodiscard]] double energy_at(ActuatorState& state, double shaft) const noexcept;
 

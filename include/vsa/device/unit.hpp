@@ -5,12 +5,12 @@
 //
 // A host step [t, t + dt) is cut at every firmware tick and at substep_max_s. At a tick, the encoders are sampled on the path first
 // predicted, the program runs, and the bridges hold their voltages until the next tick. Each tick happens once; the physics between
-// them is then solved for the path that the shaft really takes (host/robot.hpp), with those voltages. Only ticks inside a step
-// depend on the prediction, whose error is of second order in the step.
+// them is then solved for the path that the shaft really takes (device/joint_solver.hpp), with those voltages. Only ticks inside a
+// step depend on the prediction, whose error is of second order in the step.
 //
-// Whoever has several units on a line runs the ticks himself, all units' first tick before anyone's second, with the bytes between
-// (device/chain.hpp):
-//     begin_step;  for each tick { bytes up to step_tick_ns;  sample;  the program's tick;  hold };  end_step
+// Where several units share a line or a robot, their owner runs the ticks, all units' first tick before anyone's second, with the
+// bytes between (device/chain.hpp), and solves the joints of a kinematic tree together:
+//     begin_step;  predict;  for each tick { bytes up to step_tick_ns;  sample;  the program's tick;  hold };  solve
 // `step` does this for a unit alone.
 //
 // What isn't the program: encoder, ADC, bridge. The program's duty, a percentage after its supply limit, drives the bridge as
@@ -25,6 +25,7 @@
 #include "vsa/actuator/actuator.hpp"
 #include "vsa/device/dice.hpp"
 #include "vsa/device/faults.hpp"
+#include "vsa/device/joint_solver.hpp"
 #include "vsa/firmware/program.hpp"
 
 namespace vsa::device {
@@ -55,6 +56,11 @@ struct Held {
   std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
 };
 
+/// A shaft's angle (rad) and speed (rad/s).
+struct ShaftMotion {
+  double angle = 0, speed = 0;
+};
+
 struct UnitState {
   actuator::ActuatorState actuator;
   Held held;
@@ -67,6 +73,7 @@ struct UnitState {
   double path_work = 0;
   double last_speed = 0;
   double last_dt = 0;
+  ShaftMotion reached;  ///< where the shaft is at the last step's end, as foreseen
   firmware::ProgramState program;
   Faults faults;
   std::array<std::int32_t, 3> last_encoder{};  ///< what a stuck encoder says
@@ -76,18 +83,34 @@ struct UnitState {
 struct ShaftIn {
   double angle = 0;            ///< q at the step's start, rad
   double speed = 0;            ///< v, rad/s
-  double inverse_inertia = 0;  ///< A, 1/(kg·m²); 0: the shaft's motion is prescribed
+  double inverse_inertia = 0;  ///< A = B_jj, 1/(kg·m²); 0: the shaft's motion is prescribed
+  /// Somebody put the shaft there since the last step: its change of angle was no work, that of its speed no acceleration.
+  bool placed = false;
 };
 
 /// A host step under way: the owner's scratch, of no meaning between steps.
 struct StepPlan {
   std::int64_t t_ns = 0, dt_ns = 0;
   ShaftIn in;
-  double y = 0, c = 0, free = 0, dy = 0;
+  double y = 0;                ///< where the path begins
+  double free = 0;             ///< Δy if the torques of this tree stay what they were
+  double last_torque = 0;      ///< that they were
+  double dy = 0;               ///< Δy as far as it is known
+  actuator::Lead lead;         ///< of the step as a whole
+  double shaft_weight = 0;     ///< w of the shaft's friction
   std::int64_t walked_ns = 0;  ///< how far the actuator has gone to be sampled
   std::size_t held_count = 0;
   std::array<Held, kMaxTicksPerStep + 1> held;
   actuator::ActuatorState start;  ///< where it stood, if it went
+  actuator::Segment last;         ///< of the path's trials
+  actuator::SegmentResult path;   ///< what the last trial found for the transmission
+};
+
+/// The whole torque on a shaft for a displacement Δy of its step.
+struct ShaftTorque {
+  double torque = 0;  ///< N·m
+  double slope = 0;   ///< −dτ/d(Δy), N·m/rad
+  bool settled = true;
 };
 
 class Unit {
@@ -109,7 +132,22 @@ class Unit {
   firmware::TickInputs sample(UnitState& state, StepPlan& plan, std::int64_t at_ns) noexcept;
   /// After the program's tick: what the bridges do until the next.
   void hold(UnitState& state, StepPlan& plan) const noexcept;
+  /// Solves a unit alone and ends its step; returns the torque.
   double end_step(UnitState& state, StepPlan& plan) noexcept;
+
+  // For whoever solves: expect (before the ticks) | begin_trials, foresee, attempt as often as needed, finish.
+
+  /// The torque for a small Δy, from what the last step left.
+  [[nodiscard]] ShaftTorque expect(const UnitState& state, const StepPlan& plan, double dy) const noexcept;
+  void begin_trials(UnitState& state, StepPlan& plan) noexcept;
+  /// As `expect`, with what the bridges do now. Steps of one segment only; the others keep to `expect`.
+  [[nodiscard]] ShaftTorque foresee(const UnitState& state, StepPlan& plan, double dy) const noexcept;
+  /// The torque along y → y + dy. `rough`: of a step with one segment, as Actuator::attempt has it.
+  ShaftTorque attempt(UnitState& state, StepPlan& plan, double dy, bool rough) noexcept;
+  /// The torque of the last attempt, carried to a Δy that is `move` further, and whether that may be the answer.
+  [[nodiscard]] ShaftTorque carried(const UnitState& state, const StepPlan& plan, double move) const noexcept;
+  /// Ends the step at the last attempt; `torque` is what the host gets.
+  void finish(UnitState& state, StepPlan& plan, double move, double torque) noexcept;
 
   /// As if SET_INPUTS had just arrived.
   void set_inputs(UnitState& state, std::array<Ticks, 2> inputs) const noexcept;
@@ -129,12 +167,17 @@ class Unit {
  private:
   [[nodiscard]] firmware::TickInputs read_sensors(UnitState& state, double shaft) const noexcept;
   [[nodiscard]] double supply_V(const UnitState& state) const noexcept;
+  void look_ahead(const UnitState& state, StepPlan& plan, double dt_s) const noexcept;
+  [[nodiscard]] drive::FrictionTorque shaft_rub(const UnitState& state, const StepPlan& plan, double dy) const noexcept;
+  [[nodiscard]] std::int64_t segment_ns(const StepPlan& plan, std::int64_t walked_ns) const noexcept;
 
   UnitConfig config_;
   std::int64_t substep_ns_;
   firmware::Program program_;
   drive::Friction shaft_friction_;
+  drive::Friction tendon_;
   actuator::Actuator actuator_;
+  JointSolver alone_;
   firmware::Output out_;  // of a unit without a line: nobody hears it
 };
 

@@ -50,6 +50,16 @@ struct FrictionStep {
 /// The same law for a known displacement.
 [[nodiscard]] FrictionStep follow_friction(const Friction& p, double u, double displacement) noexcept;
 
+/// Torque and its slope −dτ/d(Δx).
+struct FrictionTorque {
+  double torque = 0, slope = 0;
+};
+
+/// The law blended towards the end of an engine's step (host/robot.hpp): the mean over x → x + Δx with the weight 1 − w, and with
+/// the weight w where the part is then, x + 2Δx − drift. Needs a bristle: z_max > 0, or τ_c = 0.
+[[nodiscard]] FrictionTorque leading_friction(const Friction& p, double u, double displacement, double drift,
+                                              double weight) noexcept;
+
 /// ½(τ_c/z_max)u², J; 0 where z_max = 0.
 [[nodiscard]] double bristle_energy(const Friction& p, double u) noexcept;
 
@@ -116,6 +126,13 @@ inline FrictionStep solve_friction(const Friction& p, double u, double free, dou
   step.displacement = free + compliance * step.torque;
   step.anchor_travel = u + step.displacement - end;
   return step;
+}
+
+inline FrictionTorque leading_friction(const Friction& p, double u, double displacement, double drift, double weight) noexcept {
+  const double z = p.presliding_rad, end = u + displacement, ahead = end + displacement - drift, held = 0.5 * (1.0 - weight);
+  const double torque = -p.stiffness * (held * (u + std::clamp(end, -z, z)) + weight * std::clamp(ahead, -z, z));
+  const double slope = (std::abs(end) > z ? 0.0 : held) + (std::abs(ahead) > z ? 0.0 : 2.0 * weight);
+  return {torque, p.stiffness * slope};
 }
 
 inline double bristle_energy(const Friction& p, double u) noexcept { return 0.5 * p.stiffness * u * u; }

@@ -57,6 +57,12 @@ struct Origin {
   int moves = 0;  ///< since it was worked out from `at` alone
 };
 
+/// The spring's own slope and tensions at a place: what tells how fast the swing on it is.
+struct Tangent {
+  double stiffness = 0;             ///< σ = ∂²H/∂q², N·m/rad
+  std::array<double, 2> tension{};  ///< |T_i| of the springs that the law names, N·m
+};
+
 /// What a user commands. The preset's unit belongs to the law (see Transmission::preset_unit).
 struct EquilibriumPreset {
   double equilibrium = 0;  ///< rad
@@ -82,9 +88,11 @@ class Transmission {
   /// but for rounding, which moved() doesn't let grow. Defaults keep nothing and call those.
   [[nodiscard]] virtual Origin origin(const Positions& at) const noexcept { return {at}; }
   [[nodiscard]] virtual Origin moved(const Origin&, const Positions& to) const noexcept { return origin(to); }
-  [[nodiscard]] virtual SegmentMean mean_from(const Origin& from, const Positions& to) const noexcept {
-    return mean_over(from.at, to);
+  /// The mean over from → to with the shaft (not the inputs) moved ahead by `ahead_rad` at both ends.
+  [[nodiscard]] virtual SegmentMean mean_from(const Origin& from, const Positions& to, double ahead_rad) const noexcept {
+    return mean_over({from.at.q + ahead_rad, from.at.x}, {to.q + ahead_rad, to.x});
   }
+  [[nodiscard]] virtual Tangent tangent_of(const Origin& here) const noexcept;
   /// H and w (below) at an origin.
   [[nodiscard]] virtual double energy_of(const Origin& here) const noexcept { return energy(here.at); }
   [[nodiscard]] virtual std::array<double, 2> signed_energies_of(const Origin& here) const noexcept {

@@ -43,7 +43,8 @@ class TwoSinh final : public Transmission {
   /// series, without exp, as long as no a_i δ_i moves by more than 0.1; every 64th origin is worked out anew.
   [[nodiscard]] Origin origin(const Positions& at) const noexcept override;
   [[nodiscard]] Origin moved(const Origin& from, const Positions& to) const noexcept override;
-  [[nodiscard]] SegmentMean mean_from(const Origin& from, const Positions& to) const noexcept override;
+  [[nodiscard]] SegmentMean mean_from(const Origin& from, const Positions& to, double ahead_rad) const noexcept override;
+  [[nodiscard]] Tangent tangent_of(const Origin& here) const noexcept override;
   [[nodiscard]] double energy_of(const Origin& here) const noexcept override;
   [[nodiscard]] std::array<double, 2> signed_energies_of(const Origin& here) const noexcept override;
   [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& command) const noexcept override;
@@ -65,7 +66,7 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] Spring spring(std::size_t i, double deflection) const noexcept;
   [[nodiscard]] Mean mean_inside(std::size_t i, double begin, double end) const noexcept;
   [[nodiscard]] Mean mean(std::size_t i, double begin, double end) const noexcept;
-  [[nodiscard]] Mean mean_near(std::size_t i, const Origin& from, double begin, double move) const noexcept;
+  [[nodiscard]] Mean mean_near(std::size_t i, const Origin& from, double begin, double move, double ahead) const noexcept;
   static void add(std::size_t i, const Mean& mean, SegmentMean& to) noexcept;
   [[nodiscard]] bool near(std::size_t i, double begin, double move) const noexcept;
   [[nodiscard]] double energy_of(std::size_t i, const Origin& here) const noexcept;

@@ -3,15 +3,24 @@
 // All that a simulator sees of a robot made of VSAs: shaft angles and speeds in, shaft torques out.
 //
 // THE SHAFT COUPLING, one decision for every host
-// A host integrates v' = v + dt·(a_other + A τ), q' = q + dt·v' (semi-implicit Euler: MuJoCo, DART, ODE and Bullet do). Seen from
+// A host integrates v' = v + dt·(a_other + B τ), q' = q + dt·v' (semi-implicit Euler: MuJoCo, DART, ODE and Bullet do), B = (M⁻¹)_aa
+// over the actuated joints of a kinematic tree. Seen from
 //     y = q − (dt/2) v,
-// the same step reads y' = y + dt·(v + v')/2: the midpoint rule. So the unit works with y as its shaft angle, predicts
-//     Δy = dt·v + (dt²/2)·(a_other + A τ̄)                                                                    (1)
-// and returns τ̄, the MEAN torque of the spring over the segment y → y + Δy (elastic::SegmentMean), with (1) solved for Δy.
-// Then τ̄·Δy = −ΔH exactly: an engine with that A gains exactly what the spring loses, at any step and any stiffness.
-//   A        1/(effective inertia about the joint) = (M⁻¹)_jj, 1/(kg·m²). The host may give it per joint; else the configured
-//   value. a_other  acceleration by all else (gravity, contacts, other joints), taken from the last step: (v − v_before)/dt − A
-//   τ̄_before.
+// the same step reads y' = y + dt·(v + v')/2: the midpoint rule. So a unit works with y as its shaft angle, and the joints of a tree
+// are solved together (device/joint_solver.hpp) for
+//     Δy = dt·v + (dt²/2)·(a_other + B τ)                                                                    (1)
+// With τ the MEAN torque of the spring over y → y + Δy (elastic::SegmentMean) τ·Δy = −ΔH exactly: an engine with that B gains
+// exactly what the springs lose, at any step and any stiffness, in chains as in one joint.
+//
+// What a step can't resolve would then ring near Nyquist for ever. So the springs look ahead, towards where the engine will have the
+// shaft, q' = q + dt·v' = y + 2Δy − (dt/2) v:
+//     path y → y + Δy, shifted by w (q' − (y + Δy/2)),   w = x⁴/(16 + x⁴),   x = ω·dt,  ω² = B_jj σ            (2)
+// w is nothing for what is resolved (x = 0.3: 5e-4) and 1 for what isn't: then (2) is backward Euler in q, which brings it to rest.
+// Frictions look ahead with a w of their own, from their bristle's stiffness: −k [(1 − w)(u + u')/2 + w u(q')]. In the middle of
+// a step they do no work on v' = −v, and a held joint would buzz. What (2) takes from the energy is the ledger's `integrator`.
+//   B        1/(kg·m²); per tree with `join` and the last argument of `advance`, else the diagonal per joint, else the configured
+//   shaft_inertia_kgm2.     a_other  acceleration by all else (gravity, contacts, other joints), from the last step:
+//   (v − v_before)/dt − B τ_before.
 // What (1) mispredicts is not hidden: it is the `coupling` entry of the energy ledger.
 #pragma once
 
@@ -64,11 +73,14 @@ struct RobotConfig {
 struct JointIn {
   double angle_rad = 0;
   double speed_rad_per_s = 0;
-  /// A = (M⁻¹)_jj, 1/(kg·m²); none: the unit's configured shaft_inertia_kgm2 is used.
+  /// B_jj = (M⁻¹)_jj, 1/(kg·m²); none: the unit's configured shaft_inertia_kgm2 is used. Joints of a tree with a matrix have it there.
   std::optional<double> inverse_inertia;
+  /// Somebody put the joint there since the last step; what that did to angle and speed is neither work nor acceleration.
+  bool placed = false;
 };
 
-/// What an actuator is doing, for topics and recordings. Physical truth; the unit's own readings are `measured`.
+/// What an actuator is doing, for topics and recordings: all at one instant, the end of the last step. Physical truth; the unit's own
+/// readings are `measured`.
 struct ActuatorReading {
   double equilibrium_command_rad = 0;
   double preset_command = 0;
@@ -78,10 +90,11 @@ struct ActuatorReading {
   double shaft_speed_rad_per_s = 0;
   double deflection_rad = 0;  ///< shaft − equilibrium
   double stiffness_Nm_per_rad = 0;
-  double torque_Nm = 0;  ///< on the shaft by the actuator, mean over the last step
+  double torque_Nm = 0;       ///< on the shaft by springs and frictions
+  double mean_torque_Nm = 0;  ///< the same as the host got it: over the last step
   std::array<double, 2> motor_rad{};
   std::array<double, 2> motor_speed_rad_per_s{};
-  std::array<double, 2> motor_torque_Nm{};  ///< spring load on each pulley, mean over the last step
+  std::array<double, 2> motor_torque_Nm{};  ///< on each pulley by its spring and tendon
   std::array<double, 2> current_A{};
   std::array<Ticks, 3> measured{};  ///< motor 1, motor 2, shaft as the bus master last read them; with a client, as they'd be read
 };
@@ -104,9 +117,21 @@ class Robot {
   [[nodiscard]] std::size_t size() const noexcept;  ///< number of actuators
   [[nodiscard]] std::optional<std::size_t> find(std::string_view actuator_name) const noexcept;
 
+  /// Which actuators' joints move each other: those of one kinematic tree. An actuator that is in none moves its own joint only.
+  /// Before the first step; throws InputError for an index twice or out of range.
+  void join(std::vector<std::vector<std::size_t>> trees);
+  /// How many numbers `mobility` has: Σ n² over the trees.
+  [[nodiscard]] std::size_t mobility_size() const noexcept;
+
   /// One host step [t, t + dt) in integer nanoseconds. in/out have one entry an actuator, in config order. dt in 1 ns … 16 ms.
+  /// `mobility`: B of each tree, by rows, one after the other in the order of `join`, 1/(kg·m²); empty: each joint by itself.
   /// Allocates nothing, throws nothing, logs nothing.
-  void advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out) noexcept;
+  void advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
+               std::span<const double> mobility = {}) noexcept;
+
+  /// Where the joints are after the host's step, for readings; without it those tell what the units foresaw, which only differs
+  /// where contacts or others push.
+  void observe(std::span<const JointIn> joints) noexcept;
 
   /// From any thread; taken at the next step's start in order of arrival. NaN or infinity: refused (false). None: keep.
   bool command(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset);

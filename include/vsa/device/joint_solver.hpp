@@ -1,0 +1,67 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Joints of one kinematic tree, solved together: the Δy of each, with the torques that all of them cause (host/robot.hpp).
+//
+//   Δy = free + C (τ(Δy) − τ_last)          C = dt²/2·B, B = (M⁻¹)_aa over the tree's actuated joints, symmetric positive definite
+//   g(Δy) = C⁻¹ (Δy − free) − τ(Δy) + τ_last = 0
+//
+// g is a gradient: of the kinetic part and the springs' energies over the path, convex where the laws are. Newton with C⁻¹ + S,
+// S = −∂τ/∂Δy of each joint, by LDLᵀ; a step that overshoots is shortened until the slope along it no longer grows.
+//
+// States: none. Matrices are kept until the mobility or the step length changes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace vsa::device {
+
+class Unit;
+struct UnitState;
+struct StepPlan;
+
+struct JointInStep {
+  Unit* unit = nullptr;
+  UnitState* state = nullptr;
+  StepPlan* plan = nullptr;
+};
+
+class JointSolver {
+ public:
+  /// Everything that a step needs is allocated here.
+  explicit JointSolver(std::size_t joints);
+
+  [[nodiscard]] std::size_t size() const noexcept { return n_; }
+
+  /// B by rows, n × n, 1/(kg·m²). One that isn't finite and positive definite leaves each joint by itself with its diagonal, and
+  /// `coupled` says so. A diagonal entry of 0 (n = 1 only): the motion is prescribed.
+  void set(std::span<const double> mobility, std::int64_t dt_ns) noexcept;
+  [[nodiscard]] bool coupled() const noexcept { return coupled_; }
+
+  /// A first Δy for every plan, from what the last steps left: for ticks inside a step.
+  void predict(std::span<const JointInStep> joints) noexcept;
+  /// Solves, ends every unit's step, writes the torques. False: not settled after kMaxIterations; the torques are those of the last
+  /// attempt.
+  bool solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
+
+  static constexpr int kMaxIterations = 80;
+
+ private:
+  void factor_mobility() noexcept;
+  void gradient(std::span<const JointInStep> joints) noexcept;
+  bool newton() noexcept;
+  void guess(std::span<const JointInStep> joints) noexcept;
+  [[nodiscard]] double along() const noexcept;
+
+  std::size_t n_;
+  std::int64_t dt_ns_ = 0;
+  bool coupled_ = false;
+  std::vector<double> mobility_;  // as set
+  std::vector<double> inertia_;   // C⁻¹
+  std::vector<double> work_;      // the factor of C⁻¹ + S
+  std::vector<double> dy_, base_, move_, gradient_, torque_, slope_;
+};
+
+}  // namespace vsa::device

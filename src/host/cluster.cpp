@@ -1,0 +1,119 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "host/cluster.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "host/state.hpp"
+
+namespace vsa::host {
+namespace {
+
+/// Whether a tick falls into the step other than at its start: what its sensors see must be foreseen.
+bool has_ticks_inside(std::int64_t t_ns, std::int64_t dt_ns) noexcept {
+  return device::Unit::first_tick_ns(t_ns + 1) < t_ns + dt_ns;
+}
+
+/// Groups of buses by the trees between them.
+std::vector<std::size_t> group_buses(const ClusterParts& parts) {
+  std::vector<std::size_t> group(parts.buses.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (const auto& tree : parts.trees) {
+    for (const std::size_t a : tree) {
+      const std::size_t from = group[parts.bus_of[a]], to = group[parts.bus_of[tree.front()]];
+      std::replace(group.begin(), group.end(), std::max(from, to), std::min(from, to));
+    }
+  }
+  return group;
+}
+
+Tree make_tree(const ClusterParts& parts, std::vector<std::size_t> actuators) {
+  Tree tree(actuators.size());
+  for (const std::size_t a : actuators) tree.joints.push_back(parts.joints[a]);
+  tree.actuators = std::move(actuators);
+  tree.scratch.resize(tree.actuators.size() * tree.actuators.size());
+  tree.torques.resize(tree.actuators.size());
+  return tree;
+}
+
+}  // namespace
+
+std::vector<Cluster> make_clusters(const ClusterParts& parts) {
+  const std::vector<std::size_t> group = group_buses(parts);
+  std::vector<std::vector<BusLine*>> buses(parts.buses.size());
+  std::vector<std::vector<Tree>> trees(parts.buses.size());
+  for (std::size_t b = 0; b < parts.buses.size(); ++b) buses[group[b]].push_back(parts.buses[b]);
+  std::vector<bool> taken(parts.joints.size());
+  std::size_t at = 0;
+  for (const auto& joined : parts.trees) {
+    if (joined.empty()) continue;
+    for (const std::size_t a : joined) taken[a] = true;
+    Tree tree = make_tree(parts, joined);
+    tree.joined = true;
+    tree.mobility_at = at;
+    at += joined.size() * joined.size();
+    trees[group[parts.bus_of[joined.front()]]].push_back(std::move(tree));
+  }
+  // In the order in which the bus has them, which is that of their plans.
+  for (const BusLine* bus : parts.buses) {
+    for (const BusMember& m : bus->members())
+      if (!taken[m.index]) trees[group[parts.bus_of[m.index]]].push_back(make_tree(parts, {m.index}));
+  }
+  std::vector<Cluster> out;
+  for (std::size_t g = 0; g < buses.size(); ++g)
+    if (!buses[g].empty()) out.emplace_back(std::move(buses[g]), std::move(trees[g]));
+  return out;
+}
+
+void Cluster::use(std::span<device::StepPlan> plans) noexcept {
+  std::size_t next = 0;
+  for (BusLine* bus : buses_) next = bus->use(plans, next);
+  for (Tree& tree : trees_) {
+    for (device::JointInStep& joint : tree.joints) {
+      for (const BusLine* bus : buses_) {
+        for (const BusMember& m : bus->members())
+          if (&m.slot->unit == joint.state) joint.plan = m.plan;
+      }
+    }
+  }
+}
+
+void Cluster::begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
+                    std::span<const double> mobility) noexcept {
+  const std::size_t n = tree.joints.size();
+  std::span<const double> matrix = tree.scratch;
+  if (tree.joined && !mobility.empty()) {
+    matrix = mobility.subspan(tree.mobility_at, n * n);
+  } else {
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::optional<double>& own = in[tree.actuators[i]].inverse_inertia;
+      tree.scratch[i * n + i] = own ? *own : 1.0 / tree.joints[i].unit->config().actuator.shaft_inertia_kgm2;
+    }
+  }
+  tree.solver.set(matrix, dt_ns);
+  for (std::size_t i = 0; i < n; ++i) {
+    const JointIn& joint = in[tree.actuators[i]];
+    const device::JointInStep& j = tree.joints[i];
+    j.unit->begin_step(*j.state, *j.plan, t_ns, dt_ns,
+                       {joint.angle_rad, joint.speed_rad_per_s, matrix[i * n + i], joint.placed});
+  }
+}
+
+std::size_t Cluster::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
+                             std::span<const double> mobility) noexcept {
+  for (Tree& tree : trees_) begin(tree, t_ns, dt_ns, in, mobility);
+  if (has_ticks_inside(t_ns, dt_ns)) {
+    for (Tree& tree : trees_) tree.solver.predict(tree.joints);
+  }
+  for (BusLine* bus : buses_) bus->run_ticks(t_ns, t_ns + dt_ns);
+  std::size_t unsettled = 0;
+  for (Tree& tree : trees_) {
+    if (!tree.solver.solve(tree.joints, tree.torques)) unsettled += tree.joints.size();
+    for (std::size_t i = 0; i < tree.joints.size(); ++i) torques_out[tree.actuators[i]] = tree.torques[i];
+  }
+  for (BusLine* bus : buses_) bus->end(t_ns + dt_ns);
+  return unsettled;
+}
+
+}  // namespace vsa::host

@@ -1,0 +1,60 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Buses and kinematic trees that hang together: a tree's joints are solved after the ticks of all buses that its units are on. A
+// robot is stepped cluster by cluster, so that a unit's state is fetched once a step where a robot has a thousand.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "host/bus_line.hpp"
+#include "vsa/device/joint_solver.hpp"
+
+namespace vsa::host {
+
+struct ActuatorSlot;
+struct JointIn;
+
+/// Joints that are solved together.
+struct Tree {
+  explicit Tree(std::size_t size) : solver(size) {}
+  device::JointSolver solver;
+  std::vector<device::JointInStep> joints;
+  std::vector<std::size_t> actuators;
+  std::size_t mobility_at = 0;  ///< where its matrix begins among the host's
+  bool joined = false;          ///< by the host: it may have a matrix
+  std::vector<double> scratch;  ///< the diagonal where the host gives no matrix
+  std::vector<double> torques;
+};
+
+class Cluster {
+ public:
+  Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees) : buses_(std::move(buses)), trees_(std::move(trees)) {}
+
+  /// Where its units may write during a step; as many as it has, and clusters may share them.
+  void use(std::span<device::StepPlan> plans) noexcept;
+
+  /// One host step of its units; how many of them the solver left unsettled.
+  std::size_t advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
+                      std::span<const double> mobility) noexcept;
+
+ private:
+  static void begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
+                    std::span<const double> mobility) noexcept;
+
+  std::vector<BusLine*> buses_;
+  std::vector<Tree> trees_;
+};
+
+/// What they are made of. Every actuator gets a tree, if not by `trees` one of its own; every bus is in one cluster.
+struct ClusterParts {
+  std::vector<BusLine*> buses;
+  std::vector<std::size_t> bus_of;  ///< of an actuator
+  std::vector<device::JointInStep> joints;  ///< by actuator; their plans come with Cluster::use
+  std::vector<std::vector<std::size_t>> trees;
+};
+[[nodiscard]] std::vector<Cluster> make_clusters(const ClusterParts& parts);
+
+}  // namespace vsa::host

@@ -1,0 +1,49 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Chains of modules in series that hang from the world.
+#pragma once
+
+#include <sstream>
+#include <string>
+
+namespace vsa::test {
+
+struct SerialWorld {
+  int joints = 2;
+  std::string type = "qbmove_maker_pro";
+  double preset = 0.785;
+  double step_s = 1e-3;
+  bool gravity = false;
+  bool alternating = false;  ///< axes y, x, y, x …; else all y
+  double mass_kg = 0.45, inertia_kgm2 = 3.3e-4, length_m = 0.08;
+  double last_mass_kg = 0, last_inertia_kgm2 = 0;  ///< of the last link, where they differ
+  std::string overrides;                           ///< <override …/> elements for every actuator
+};
+
+inline std::string serial_world(const SerialWorld& w) {
+  std::ostringstream s;
+  s.precision(17);
+  s << "<sdf version='1.7'><world name='w'><gravity>0 0 " << (w.gravity ? "-9.81" : "0")
+    << "</gravity><physics name='p' type='ode'><max_step_size>" << w.step_s
+    << "</max_step_size></physics><model name='m'><link name='l0'><inertial><mass>1</mass></inertial></link>"
+    << "<joint name='fix' type='fixed'><parent>world</parent><child>l0</child></joint>";
+  for (int i = 1; i <= w.joints; ++i) {
+    const bool last = i == w.joints;
+    const double mass = last && w.last_mass_kg > 0 ? w.last_mass_kg : w.mass_kg;
+    const double inertia = last && w.last_inertia_kgm2 > 0 ? w.last_inertia_kgm2 : w.inertia_kgm2;
+    s << "<link name='l" << i << "'><pose>0 0 " << -w.length_m * (i - 1) << " 0 0 0</pose><inertial><pose>0 0 " << -w.length_m / 2
+      << " 0 0 0</pose><mass>" << mass << "</mass><inertia><ixx>" << inertia << "</ixx><iyy>" << inertia << "</iyy><izz>"
+      << inertia << "</izz></inertia></inertial></link><joint name='j" << i << "' type='revolute'><parent>l" << i - 1
+      << "</parent><child>l" << i << "</child><axis><xyz>" << (w.alternating && i % 2 == 0 ? "1 0 0" : "0 1 0")
+      << "</xyz></axis></joint>";
+  }
+  s << "<plugin name='vsa::Robot' filename='libvsa-robot.so'>";
+  for (int i = 1; i <= w.joints; ++i) {
+    s << "<actuator><joint>j" << i << "</joint><preset>" << w.type << "</preset><bus id='" << i
+      << "'>b</bus><initial equilibrium_rad='0' preset_rad='" << w.preset << "'/>" << w.overrides << "</actuator>";
+  }
+  s << "<bus name='b'/></plugin></model></world></sdf>";
+  return s.str();
+}
+
+}  // namespace vsa::test
