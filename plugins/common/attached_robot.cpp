@@ -15,7 +15,6 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kPausedEvery{100};
-constexpr int kInertiaSteps = 16;
 constexpr std::int64_t kLongestStep_ns = 16'000'000;  // host::Robot::advance
 
 host::Robot make_robot(const Attachment& attachment) {
@@ -44,7 +43,8 @@ AttachedRobot::AttachedRobot(const Attachment& attachment, host::RobotTopics::Re
       robot_(make_robot(attachment)),
       joints_(attachment.where, driven(robot_.config(), attachment)),
       in_(robot_.size()),
-      torques_(robot_.size(), 0.0) {
+      torques_(robot_.size(), 0.0),
+      watch_(robot_.size()) {
   ports_.open(robot_, model_, report_);
   topics_.emplace(robot_, model_, port_, report_);
   faults_.emplace(robot_, model_);
@@ -56,15 +56,15 @@ void AttachedRobot::stop(const std::string& why) {
   report_(model_ + ": " + why + ": its actuators give no torque until the world is reset");
 }
 
-bool AttachedRobot::wants_inertias() noexcept {
-  if (steps_to_inertias_-- > 0) return false;
-  steps_to_inertias_ = kInertiaSteps - 1;
-  return true;
-}
-
-void AttachedRobot::set_inverse_inertia(std::size_t actuator, std::optional<double> inverse) noexcept {
-  if (inverse) inverse = static_cast<float>(*inverse);
-  in_[actuator].inverse_inertia = inverse;
+void AttachedRobot::join(const std::vector<std::vector<std::size_t>>& trees) {
+  if (trees.empty() && robot_.size() > 0) {
+    report_(model_ +
+            ": no tree of hinges, sliders and fixed joints (a loop, a ball joint, another model's link): its joints are solved one "
+            "by one with their types' shaft.inertia_kgm2");
+    return;
+  }
+  robot_.join(trees);
+  mobility_.resize(robot_.mobility_size());
 }
 
 void AttachedRobot::step(std::int64_t dt_ns) {
@@ -78,7 +78,7 @@ void AttachedRobot::step(std::int64_t dt_ns) {
     stop("joint " + robot_.config().actuators[i].joint + " is no longer at a finite angle or speed");
     return;
   }
-  robot_.advance(time_ns_, dt_ns, in_, torques_);
+  robot_.advance(time_ns_, dt_ns, in_, torques_, mobility_);
   time_ns_ += dt_ns;
   if (!ports_.all().empty() && pace_.fell_behind(Clock::now(), time_ns_)) {
     report_(model_ + ": slower than real time: units on serial ports answer in time, but move more slowly than a client expects");
@@ -109,7 +109,7 @@ void AttachedRobot::reset() {
   robot_.reset();
   pace_.stood();
   time_ns_ = 0;
-  steps_to_inertias_ = 0;
+  watch_.again();
   stopped_ = false;
   std::fill(torques_.begin(), torques_.end(), 0.0);
 }

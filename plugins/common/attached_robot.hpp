@@ -3,8 +3,9 @@
 // What a plug-in of any Gazebo does with its robot; the adapters only carry numbers in and out.
 //
 //   AttachedRobot robot({element_xml, "world: model", "model", joints_of_the_model}, report);
-//   every step:    if (robot.wants_inertias()) for each actuator i: robot.set_inverse_inertia(i, …);
-//                  for each actuator i: angle and speed into robot.in()[i]
+//   once:          robot.join(trees of its actuators' joints)
+//   every step:    for each actuator i: angle and speed into robot.in()[i]
+//                  if (robot.wants_mobility()) fill robot.mobility();
 //                  robot.step(dt_ns);
 //                  for each actuator i: apply robot.torques()[i]
 //                  robot.publish_step(end of the step, simulated)
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include "driven_joints.hpp"
+#include "vsa/host/mobility_watch.hpp"
 #include "vsa/host/robot.hpp"
 #include "vsa/host/topics.hpp"
 #include "vsa/ports/pace_watch.hpp"
@@ -49,11 +51,12 @@ class AttachedRobot {
   [[nodiscard]] std::span<host::JointIn> in() noexcept { return in_; }
   [[nodiscard]] std::span<const double> torques() const noexcept { return torques_; }
 
-  /// Once before each step: whether A is due. It is every 16th step, since it only serves the robot's prediction.
-  [[nodiscard]] bool wants_inertias() noexcept;
-  /// A = (M⁻¹)_jj, 1/(kg·m²) or 1/kg; none: that of the preset's shaft. Kept to seven digits: plenty for a prediction, and the
-  /// links' poses, from which hosts work it out, differ by rounding after a reset.
-  void set_inverse_inertia(std::size_t actuator, std::optional<double> inverse) noexcept;
+  /// Which actuators' joints move each other (host::Robot::join). None where the model is no tree: that is reported, and each joint
+  /// is then solved by itself with its type's shaft inertia.
+  void join(const std::vector<std::vector<std::size_t>>& trees);
+  /// Once before each step, when in() is filled: whether B is due.
+  [[nodiscard]] bool wants_mobility() noexcept { return !mobility_.empty() && watch_.due(in_); }
+  [[nodiscard]] std::span<double> mobility() noexcept { return mobility_; }
 
   /// One step of the host. A step length that the units don't know, or a joint that is no longer finite, stops the actuators with
   /// one reported line: torques are 0 until reset().
@@ -76,9 +79,9 @@ class AttachedRobot {
   host::Robot robot_;
   DrivenJoints joints_;
   std::vector<host::JointIn> in_;
-  std::vector<double> torques_;
+  std::vector<double> torques_, mobility_;
+  host::MobilityWatch watch_;
   std::int64_t time_ns_ = 0;
-  int steps_to_inertias_ = 0;
   bool stopped_ = false;
   Clock::time_point next_paused_{};
   std::optional<host::RobotTopics> topics_;  ///< must outlive its port's handlers, so it comes before the port

@@ -7,6 +7,7 @@
 #include <gazebo/physics/Joint.hh>
 #include <gazebo/physics/Link.hh>
 #include <gazebo/physics/Model.hh>
+#include <utility>
 
 namespace vsa::plugins {
 namespace {
@@ -37,20 +38,19 @@ std::optional<TreeBody::Joint> kind(const JointPtr& joint) {
 ModelTree::ModelTree(const ModelPtr& model, const std::vector<JointPtr>& driven) {
   std::vector<LinkPtr> links;
   collect_links(model, links);
-  if (!build(links)) {
-    items_.clear();
-    bodies_.clear();
-  }
-  inertia_ = host::TreeInertia(bodies_.size());
-  inverse_.assign(bodies_.size(), 0.0);
+  std::vector<TreeBody> bodies;
+  if (!build(links, bodies)) return;
+  std::vector<std::size_t> body_of;
   for (const JointPtr& joint : driven) {
     const auto at = std::find_if(items_.begin(), items_.end(), [&](const Item& item) { return item.joint == joint; });
-    body_of_.push_back(static_cast<std::size_t>(at - items_.begin()));
+    if (at == items_.end()) return;
+    body_of.push_back(static_cast<std::size_t>(at - items_.begin()));
   }
+  tree_ = DrivenTree(std::move(bodies), std::move(body_of));
 }
 
 /// Parents first. False: no tree.
-bool ModelTree::build(const std::vector<LinkPtr>& links) {
+bool ModelTree::build(const std::vector<LinkPtr>& links, std::vector<TreeBody>& bodies) {
   std::vector<LinkPtr> waiting = links;
   while (!waiting.empty()) {
     const std::size_t before = waiting.size();
@@ -72,7 +72,7 @@ bool ModelTree::build(const std::vector<LinkPtr>& links) {
         body.parent = static_cast<std::size_t>(at - items_.begin());
       }
       items_.push_back({*it, joint});
-      bodies_.push_back(body);
+      bodies.push_back(body);
       it = waiting.erase(it);
     }
     if (waiting.size() == before) return false;  // a loop, or a parent in another model
@@ -80,10 +80,10 @@ bool ModelTree::build(const std::vector<LinkPtr>& links) {
   return true;
 }
 
-void ModelTree::update() {
+void ModelTree::mobility(std::span<double> out) {
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const LinkPtr& link = items_[i].link;
-    TreeBody& body = bodies_[i];
+    TreeBody& body = tree_.bodies()[i];
     const auto inertia = link->WorldInertiaMatrix();
     for (unsigned r = 0; r < 3; ++r) {
       for (unsigned c = 0; c < 3; ++c) body.inertia_kgm2[3 * r + c] = inertia(r, c);
@@ -94,13 +94,7 @@ void ModelTree::update() {
     body.axis = array(items_[i].joint->GlobalAxis(0));
     body.anchor = array(items_[i].joint->WorldPose().Pos());
   }
-  inertia_.update(bodies_, inverse_);
-}
-
-std::optional<double> ModelTree::inverse(std::size_t driven) const {
-  if (body_of_[driven] >= inverse_.size()) return std::nullopt;
-  const double value = inverse_[body_of_[driven]];
-  return std::isfinite(value) && value > 0 ? std::optional(value) : std::nullopt;
+  tree_.mobility(out);
 }
 
 }  // namespace vsa::plugins

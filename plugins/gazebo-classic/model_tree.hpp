@@ -1,26 +1,25 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// A model's links as a tree of bodies, for the inverse inertias of its joints, which Gazebo's engines don't tell.
+// A model's links as a tree of bodies, for the mobility of its joints, which Gazebo's engines don't tell.
 #pragma once
 
 #include <gazebo/physics/PhysicsTypes.hh>
-#include <optional>
+#include <span>
 #include <vector>
 
-#include "vsa/host/tree_inertia.hpp"
+#include "driven_tree.hpp"
 
 namespace vsa::plugins {
 
 class ModelTree {
  public:
-  /// Of the model and those nested in it. `driven`: the joints that are asked for.
+  /// Of the model and those nested in it. `driven`: the actuators' joints. No tree where the model isn't one of hinges, sliders and
+  /// fixed joints (loops, ball joints, links of other models).
   ModelTree(const gazebo::physics::ModelPtr& model, const std::vector<gazebo::physics::JointPtr>& driven);
 
-  /// Takes the links' present places.
-  void update();
-  /// None where the model is no tree of hinges, sliders and fixed joints (loops, ball joints, links of other models), or has no
-  /// mass there: the preset's own value serves then.
-  [[nodiscard]] std::optional<double> inverse(std::size_t driven) const;
+  [[nodiscard]] const std::vector<std::vector<std::size_t>>& trees() const noexcept { return tree_.trees(); }
+  /// B of those trees with the links where they are now.
+  void mobility(std::span<double> out);
 
  private:
   struct Item {
@@ -28,13 +27,10 @@ class ModelTree {
     gazebo::physics::JointPtr joint;  ///< that it hangs on; null: free
   };
 
-  bool build(const std::vector<gazebo::physics::LinkPtr>& links);
+  bool build(const std::vector<gazebo::physics::LinkPtr>& links, std::vector<host::TreeBody>& bodies);
 
   std::vector<Item> items_;
-  std::vector<vsa::host::TreeBody> bodies_;
-  std::vector<std::size_t> body_of_;  ///< one a driven joint
-  std::vector<double> inverse_;
-  vsa::host::TreeInertia inertia_{0};
+  DrivenTree tree_;
 };
 
 }  // namespace vsa::plugins

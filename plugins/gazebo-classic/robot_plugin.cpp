@@ -66,6 +66,7 @@ void ClassicRobot::attach(const sdf::ElementPtr& element) {
     joints_.push_back(std::find_if(known.begin(), known.end(), [&](const NamedJoint& k) { return k.name == a.joint; })->joint);
   }
   tree_ = std::make_unique<ModelTree>(model_, joints_);
+  robot_->join(tree_->trees());
   using gazebo::event::Events;
   connection_ = Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo& info) { update(info); });
   time_reset_ = Events::ConnectTimeReset([this] {  // of any world
@@ -86,14 +87,11 @@ void ClassicRobot::update(const gazebo::common::UpdateInfo& info) {
 }
 
 void ClassicRobot::step() {
-  if (robot_->wants_inertias()) {
-    tree_->update();
-    for (std::size_t i = 0; i < joints_.size(); ++i) robot_->set_inverse_inertia(i, tree_->inverse(i));
-  }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     robot_->in()[i].angle_rad = joints_[i]->Position(0);
     robot_->in()[i].speed_rad_per_s = joints_[i]->GetVelocity(0);
   }
+  if (robot_->wants_mobility()) tree_->mobility(robot_->mobility());
   robot_->step(std::llround(model_->GetWorld()->Physics()->GetMaxStepSize() * 1e9));
   for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i]->SetForce(0, robot_->torques()[i]);
 }

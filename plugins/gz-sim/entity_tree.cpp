@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "entities.hpp"
 #include "robot_system.hpp"
@@ -39,21 +40,20 @@ EntityTree::EntityTree(sim::Entity model, const std::vector<sim::Entity>& driven
   std::vector<sim::Entity> links, joints;
   for (const NamedEntity& e : entities_below<components::Link>(model, ecm)) links.push_back(e.entity);
   for (const NamedEntity& e : entities_below<components::Joint>(model, ecm)) joints.push_back(e.entity);
-  if (!build(links, joints, ecm)) {
-    items_.clear();
-    bodies_.clear();
-  }
-  inertia_ = host::TreeInertia(bodies_.size());
-  inverse_.assign(bodies_.size(), 0.0);
+  std::vector<TreeBody> bodies;
+  if (!build(links, joints, ecm, bodies)) return;
+  std::vector<std::size_t> body_of;
   for (const sim::Entity joint : driven) {
     const auto at = std::find_if(items_.begin(), items_.end(), [&](const Item& item) { return item.joint == joint; });
-    body_of_.push_back(static_cast<std::size_t>(at - items_.begin()));
+    if (at == items_.end()) return;
+    body_of.push_back(static_cast<std::size_t>(at - items_.begin()));
   }
+  tree_ = DrivenTree(std::move(bodies), std::move(body_of));
 }
 
 /// Parents first. False: no tree.
 bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<sim::Entity>& joints,
-                       const sim::EntityComponentManager& ecm) {
+                       const sim::EntityComponentManager& ecm, std::vector<TreeBody>& bodies) {
   struct Waiting {
     Item item;
     TreeBody body;
@@ -85,13 +85,13 @@ bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<
     });
     if (next == waiting.end()) return false;
     items_.push_back(next->item);
-    bodies_.push_back(next->body);
+    bodies.push_back(next->body);
     waiting.erase(next);
   }
   return true;
 }
 
-void EntityTree::update(const sim::EntityComponentManager& ecm) {
+void EntityTree::mobility(const sim::EntityComponentManager& ecm, std::span<double> out) {
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const auto* inertial = ecm.Component<components::Inertial>(items_[i].link);
     if (inertial == nullptr) continue;
@@ -99,7 +99,7 @@ void EntityTree::update(const sim::EntityComponentManager& ecm) {
     const math::Pose3d center = link * inertial->Data().Pose();
     const math::Matrix3d turn(center.Rot());
     const math::Matrix3d inertia = turn * inertial->Data().MassMatrix().Moi() * turn.Transposed();
-    TreeBody& body = bodies_[i];
+    TreeBody& body = tree_.bodies()[i];
     for (unsigned r = 0; r < 3; ++r) {
       for (unsigned c = 0; c < 3; ++c) body.inertia_kgm2[3 * r + c] = inertia(r, c);
     }
@@ -109,13 +109,7 @@ void EntityTree::update(const sim::EntityComponentManager& ecm) {
     body.axis = array(joint.Rot().RotateVector(items_[i].axis));
     body.anchor = array(joint.Pos());
   }
-  inertia_.update(bodies_, inverse_);
-}
-
-std::optional<double> EntityTree::inverse(std::size_t driven) const {
-  if (body_of_[driven] >= inverse_.size()) return std::nullopt;
-  const double value = inverse_[body_of_[driven]];
-  return std::isfinite(value) && value > 0 ? std::optional(value) : std::nullopt;
+  tree_.mobility(out);
 }
 
 }  // namespace vsa::plugins

@@ -83,6 +83,7 @@ void SimRobot::attach(const sdf::Element& element, sim::EntityComponentManager& 
     first_number<components::JointVelocity>(joint, ecm);
   }
   tree_ = std::make_unique<EntityTree>(model_, joints_, ecm);
+  robot_->join(tree_->trees());
 }
 
 void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) {
@@ -109,14 +110,11 @@ void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManage
 
 void SimRobot::step(std::int64_t dt_ns, sim::EntityComponentManager& ecm) {
   if (steps_ <= kPhysicsSteps && steps_++ == kPhysicsSteps) look_for_physics(ecm);
-  if (robot_->wants_inertias()) {
-    tree_->update(ecm);
-    for (std::size_t i = 0; i < joints_.size(); ++i) robot_->set_inverse_inertia(i, tree_->inverse(i));
-  }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     robot_->in()[i].angle_rad = first_number<components::JointPosition>(joints_[i], ecm);
     robot_->in()[i].speed_rad_per_s = first_number<components::JointVelocity>(joints_[i], ecm);
   }
+  if (robot_->wants_mobility()) tree_->mobility(ecm, robot_->mobility());
   const bool stopped = robot_->stopped();
   robot_->step(dt_ns);
   if (robot_->stopped() && !stopped) {  // the reason is a warning, which gz-sim doesn't show unasked

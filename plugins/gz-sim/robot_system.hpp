@@ -19,17 +19,18 @@
 
 #include "attached_robot.hpp"
 #include "compat.hpp"
-#include "vsa/host/tree_inertia.hpp"
+#include "driven_tree.hpp"
 
 namespace vsa::plugins {
 
-/// A model's links as a tree of bodies, for the inverse inertias of its joints, which the components don't have.
+/// A model's links as a tree of bodies, for the mobility of its joints, which the components don't have. No tree where the model isn't
+/// one of hinges, sliders and fixed joints.
 class EntityTree {
  public:
   EntityTree(sim::Entity model, const std::vector<sim::Entity>& driven, const sim::EntityComponentManager& ecm);
-  void update(const sim::EntityComponentManager& ecm);
-  /// None where the model is no tree of hinges, sliders and fixed joints: the preset's own value serves then.
-  [[nodiscard]] std::optional<double> inverse(std::size_t driven) const;
+  [[nodiscard]] const std::vector<std::vector<std::size_t>>& trees() const noexcept { return tree_.trees(); }
+  /// B of those trees with the links where they are now.
+  void mobility(const sim::EntityComponentManager& ecm, std::span<double> out);
 
  private:
   struct Item {
@@ -38,13 +39,11 @@ class EntityTree {
     math::Vector3d axis;      ///< in the joint
   };
 
-  bool build(const std::vector<sim::Entity>& links, const std::vector<sim::Entity>& joints, const sim::EntityComponentManager& ecm);
+  bool build(const std::vector<sim::Entity>& links, const std::vector<sim::Entity>& joints, const sim::EntityComponentManager& ecm,
+             std::vector<host::TreeBody>& bodies);
 
   std::vector<Item> items_;
-  std::vector<host::TreeBody> bodies_;
-  std::vector<std::size_t> body_of_;  ///< one a driven joint
-  std::vector<double> inverse_;
-  host::TreeInertia inertia_{0};
+  DrivenTree tree_;
 };
 
 class SimRobot : public sim::System,

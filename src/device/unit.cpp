@@ -47,11 +47,13 @@ void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int6
   if (t_ns % kTickNs != 0) plan.held[plan.held_count++] = s.held;
 }
 
-void Unit::look_ahead(const UnitState& s, StepPlan& plan, double dt) const noexcept {
+void Unit::look_ahead(UnitState& s, StepPlan& plan, double dt) const noexcept {
   const double scale = dt * dt * plan.in.inverse_inertia;
   const elastic::Tangent tangent = config_.actuator.transmission->tangent_of(s.actuator.origin);
   plan.lead.drift = 0.5 * dt * plan.in.speed;
-  plan.lead.spring = weight(scale * tangent.stiffness);
+  const double x_squared = scale * tangent.stiffness;
+  if (x_squared > 1.0 && s.unresolved == 0.0) s.unresolved = x_squared;
+  plan.lead.spring = weight(x_squared);
   for (std::size_t i = 0; i < 2; ++i)
     plan.lead.tendon[i] = weight(scale * tendon_.stiffness * tangent.tension[i] * tangent.tension[i]);
   plan.shaft_weight = weight(scale * shaft_friction_.stiffness);

@@ -148,7 +148,7 @@ void World::set_joint(std::string_view joint, double angle, double speed) {
   }
   const std::size_t index = impl_->one_axis_joint(joint);
   impl_->physics->set_joint(index, {angle, speed});
-  impl_->refresh = true;
+  impl_->forget_mobility();
   for (RobotSlot& slot : impl_->robots) {
     for (std::size_t i = 0; i < slot.joints.size(); ++i)
       if (slot.joints[i] == index) slot.in[i].placed = true;
@@ -162,7 +162,7 @@ void World::displace_model(std::string_view model, double yaw_rad, std::array<do
   if (!impl_->physics->displace(impl_->links_of(model), yaw_rad, {t[0], t[1], t[2]})) {
     throw InputError(Problem{"", "model", std::string(model), "is fixed to the world and can't be moved", "a free model"});
   }
-  impl_->refresh = true;
+  impl_->forget_mobility();
 }
 
 }  // namespace vsa::engine

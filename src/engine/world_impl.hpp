@@ -5,20 +5,21 @@
 
 #include "description.hpp"
 #include "physics.hpp"
+#include "vsa/host/mobility_watch.hpp"
 
 namespace vsa::engine {
 
 struct SdfSource;
 
-/// B of a robot's trees, and where its joints were then.
+/// B of a robot's trees, and when it is asked for again.
 struct Mobility {
-  std::vector<double> matrices, angles;
+  std::vector<double> matrices;
+  host::MobilityWatch watch;
 };
 
 struct World::Snapshot {
   PhysicsState physics;
   std::int64_t time_ns = 0, steps = 0;
-  bool refresh = true;
   std::vector<std::shared_ptr<const host::Robot::Snapshot>> robots;
   std::vector<Mobility> mobility;
 };
@@ -43,16 +44,16 @@ struct World::Impl {
   std::vector<ActuatorRef> actuators;
   std::vector<Pull> pulls;
   std::int64_t dt_ns = 0, time_ns = 0, steps = 0;
-  bool refresh = true;  ///< mobilities are asked for in the next step whatever its number
   std::shared_ptr<const Snapshot> initial;
 
   [[nodiscard]] static std::unique_ptr<Impl> load(const SdfSource& source, WorldOptions options);
   void add_robots(const std::string& file, Problems& problems);
   void step();
   void join_trees();
-  [[nodiscard]] bool wants_mobility(const RobotSlot& slot) const;
+  void ask_mobility(RobotSlot& slot);
   void drive();
   void observe();
+  void forget_mobility();  ///< something was moved
   [[nodiscard]] std::size_t one_axis_joint(std::string_view scoped) const;
   [[nodiscard]] std::vector<std::size_t> links_of(std::string_view model) const;
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;

@@ -79,7 +79,7 @@ struct RobotBuilder {
                        std::vector<host::JointIn>(n),
                        std::vector<double>(n),
                        {},
-                       {}};
+                       Mobility{}};
     } catch (const InputError& error) {
       problems.add_all(error);
       return std::nullopt;

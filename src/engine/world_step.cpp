@@ -2,8 +2,7 @@
 //
 // A step:
 //   1  prepare()              everything that depends on q
-//   2  where a joint has turned by kTurned_rad since, every 16th step at the latest
-//                             B of the driven joints of every tree
+//   2  where host::MobilityWatch says so   B of the driven joints of every tree
 //   3  Robot::advance         q, v, B → torque, for [t, t + dt)
 //   4  apply, hands, advance()  v' = v + dt·a, q' = q + dt·v'
 //   5  Robot::observe         q', v', for readings
@@ -17,10 +16,7 @@
 namespace vsa::engine {
 namespace {
 
-constexpr std::int64_t kRefreshSteps = 16;
 constexpr double kNanosecond = 1e-9;
-/// What B is off by after this is a few hundredths where an arm folds.
-constexpr double kTurned_rad = 0.02;
 
 }  // namespace
 
@@ -34,15 +30,21 @@ void World::Impl::join_trees() {
       for (const std::size_t i : tree) slot.trees.back().push_back(slot.joints[i]);
     }
     slot.mobility.matrices.resize(slot.robot.mobility_size());
-    slot.mobility.angles.resize(slot.joints.size());
+    slot.mobility.watch = host::MobilityWatch(slot.joints.size());
   }
 }
 
-bool World::Impl::wants_mobility(const RobotSlot& slot) const {
-  if (refresh || steps % kRefreshSteps == 0) return true;
-  for (std::size_t i = 0; i < slot.joints.size(); ++i)
-    if (std::abs(slot.in[i].angle_rad - slot.mobility.angles[i]) > kTurned_rad) return true;
-  return false;
+void World::Impl::ask_mobility(RobotSlot& slot) {
+  std::size_t at = 0;
+  for (const auto& tree : slot.trees) {
+    const std::size_t size = tree.size() * tree.size();
+    physics->mobility(tree, std::span(slot.mobility.matrices).subspan(at, size));
+    at += size;
+  }
+}
+
+void World::Impl::forget_mobility() {
+  for (RobotSlot& slot : robots) slot.mobility.watch.again();
 }
 
 void World::Impl::drive() {
@@ -52,19 +54,10 @@ void World::Impl::drive() {
       slot.in[i].angle_rad = state.position;
       slot.in[i].speed_rad_per_s = state.speed;
     }
-    if (wants_mobility(slot)) {
-      std::size_t at = 0;
-      for (const auto& tree : slot.trees) {
-        const std::size_t size = tree.size() * tree.size();
-        physics->mobility(tree, std::span(slot.mobility.matrices).subspan(at, size));
-        at += size;
-      }
-      for (std::size_t i = 0; i < slot.joints.size(); ++i) slot.mobility.angles[i] = slot.in[i].angle_rad;
-    }
+    if (slot.mobility.watch.due(slot.in)) ask_mobility(slot);
     slot.robot.advance(time_ns, dt_ns, slot.in, slot.torques, slot.mobility.matrices);
     for (std::size_t i = 0; i < slot.joints.size(); ++i) physics->apply(slot.joints[i], slot.torques[i]);
   }
-  refresh = false;
 }
 
 void World::Impl::observe() {
@@ -86,7 +79,7 @@ void World::Impl::step() {
   for (const Pull& pull : pulls) physics->pull(pull);
   if (const std::optional<Fault> fault = physics->advance()) {
     for (std::size_t i = 0; i < robots.size(); ++i) robots[i].robot.restore(*before[i]);
-    refresh = true;
+    forget_mobility();
     throw SimulationError(fmt::format("the simulation blew up at t = {:.6f} s: {}: {} = {:.6g}",
                                       static_cast<double>(time_ns) * kNanosecond, fault->where, fault->quantity, fault->value));
   }
@@ -100,7 +93,6 @@ std::shared_ptr<const World::Snapshot> World::Impl::snapshot() const {
   out->physics = physics->save();
   out->time_ns = time_ns;
   out->steps = steps;
-  out->refresh = refresh;
   for (const RobotSlot& slot : robots) {
     out->robots.push_back(slot.robot.snapshot());
     out->mobility.push_back(slot.mobility);
@@ -112,7 +104,6 @@ void World::Impl::restore(const Snapshot& s) {
   physics->restore(s.physics);
   time_ns = s.time_ns;
   steps = s.steps;
-  refresh = s.refresh;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     robots[i].robot.restore(*s.robots[i]);
     robots[i].mobility = s.mobility[i];

@@ -2,6 +2,7 @@
 #include "host/cluster.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -13,6 +14,13 @@ namespace {
 /// Whether a tick falls into the step other than at its start: what its sensors see must be foreseen.
 bool has_ticks_inside(std::int64_t t_ns, std::int64_t dt_ns) noexcept {
   return device::Unit::first_tick_ns(t_ns + 1) < t_ns + dt_ns;
+}
+
+/// Whether a host's matrix can be used at all: bodies without mass have none.
+bool usable(std::span<const double> matrix, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i)
+    if (!(matrix[i * n + i] > 0) || !std::isfinite(matrix[i * n + i])) return false;
+  return true;
 }
 
 /// Groups of buses by the trees between them.
@@ -83,7 +91,8 @@ void Cluster::begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span
                     std::span<const double> mobility) noexcept {
   const std::size_t n = tree.joints.size();
   std::span<const double> matrix = tree.scratch;
-  if (tree.joined && !mobility.empty()) {
+  const bool given = tree.joined && !mobility.empty() && usable(mobility.subspan(tree.mobility_at, n * n), n);
+  if (given) {
     matrix = mobility.subspan(tree.mobility_at, n * n);
   } else {
     for (std::size_t i = 0; i < n; ++i) {

@@ -67,25 +67,25 @@ class Queue {
 using CommandQueue = Queue<Order>;
 using FaultQueue = Queue<FaultOrder>;
 
-enum class NoticeKind { preset, limits, port };
+enum class NoticeKind { preset, limits, port, unresolved, unsettled, energy };
 
-struct RangeNotice {
+struct RawNotice {
   std::size_t actuator;
   NoticeKind kind;
   double value;
 };
 
-/// At most three notices an actuator between resets, so room for them is made once.
+/// At most one notice of a kind per actuator between resets, so room for them is made once.
 class NoticeList {
  public:
-  void reserve(std::size_t actuators) { list_.reserve(3 * actuators); }
-  void push_back(const RangeNotice& notice) noexcept {
+  void reserve(std::size_t actuators) { list_.reserve(6 * actuators); }
+  void push_back(const RawNotice& notice) noexcept {
     const std::lock_guard lock(mutex_);
     if (list_.size() < list_.capacity()) list_.push_back(notice);
   }
-  [[nodiscard]] std::vector<RangeNotice> take() {
+  [[nodiscard]] std::vector<RawNotice> take() {
     const std::lock_guard lock(mutex_);
-    std::vector<RangeNotice> out(list_);
+    std::vector<RawNotice> out(list_);
     list_.clear();
     return out;
   }
@@ -96,7 +96,7 @@ class NoticeList {
 
  private:
   std::mutex mutex_;
-  std::vector<RangeNotice> list_;
+  std::vector<RawNotice> list_;
 };
 
 }  // namespace vsa::host

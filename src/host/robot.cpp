@@ -72,6 +72,7 @@ void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const Joint
   d.take_faults();
   for (Cluster& cluster : d.clusters) d.state.unsettled += cluster.advance(t_ns, dt_ns, in, torques_out, mobility);
   d.state.time_ns = t_ns + dt_ns;
+  if (++d.state.steps % kLookSteps == 0 && size() > 0) d.look();
 }
 
 void Robot::observe(std::span<const JointIn> joints) noexcept {

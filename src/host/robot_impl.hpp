@@ -18,6 +18,10 @@
 
 namespace vsa::host {
 
+inline constexpr std::int64_t kLookSteps = 128;
+inline constexpr double kCreated = 0.01;  ///< energy out of nothing, over what moved, that is told
+inline constexpr double kCreatedLeast_J = 1e-3;
+
 struct Robot::Impl {
   explicit Impl(RobotConfig c) : config(std::move(c)) {
     units.reserve(config.actuators.size());
@@ -111,6 +115,19 @@ struct Robot::Impl {
       out = out || x[m] < radians(Raw{low}) || x[m] > radians(Raw{high});
     }
     notice(i, slot.noted_limits, out, NoticeKind::limits, q);
+  }
+
+  /// What a user should know of the run as a whole; now and then.
+  void look() noexcept {
+    actuator::Ledger sum;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      ActuatorSlot& slot = state.actuators[i];
+      notice(i, slot.noted_unresolved, slot.unit.unresolved > 0, NoticeKind::unresolved, slot.unit.unresolved);
+      sum += slot.unit.actuator.ledger;
+    }
+    notice(0, state.noted_unsettled, state.unsettled > 0, NoticeKind::unsettled, static_cast<double>(state.unsettled));
+    const bool created = sum.coupling < -std::max(kCreated * sum.moved(), kCreatedLeast_J);
+    notice(0, state.noted_energy, created, NoticeKind::energy, -sum.coupling / sum.moved());
   }
 
   void expect(std::int64_t t_ns) noexcept {

@@ -1,13 +1,27 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // What a robot tells of itself.
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "host/robot_impl.hpp"
 #include "vsa/firmware/arithmetic.hpp"
+#include "vsa/host/resolution.hpp"
 
 namespace vsa::host {
+namespace {
+
+/// With three digits.
+std::string rounded(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
+}  // namespace
 
 ActuatorReading Robot::read(std::size_t actuator) const {
   const ActuatorSlot& slot = impl_->state.actuators.at(actuator);
@@ -46,7 +60,7 @@ actuator::Ledger Robot::ledger() const {
 
 std::vector<Notice> Robot::take_notices() {
   std::vector<Notice> out;
-  for (const RangeNotice& n : impl_->notices.take()) {
+  for (const RawNotice& n : impl_->notices.take()) {
     const ActuatorConfig& a = impl_->config.actuators[n.actuator];
     const auto unit = std::string(a.unit.actuator.transmission->preset_unit());
     const std::string limit = std::to_string(a.unit.preset_max);
@@ -58,6 +72,25 @@ std::vector<Notice> Robot::take_notices() {
       case NoticeKind::limits:
         text += ": equilibrium " + std::to_string(n.value) +
                 " rad with this preset drives a motor beyond its limits: clamped as the unit does";
+        break;
+      case NoticeKind::unresolved: {
+        const double x = std::sqrt(n.value);
+        const Resolution r = resolution(x);
+        text += ": its spring on the inertia behind the joint swings with ω·dt = " + rounded(x) +
+                ": at this step length such a swing " +
+                (r.frequency > 0 ? "has " + rounded(r.frequency) + " times its frequency and " + rounded(r.radius) +
+                                       " times its amplitude after each step"
+                                 : std::string("is damped away")) +
+                "; steps shorter by a factor of " + rounded(x / 0.3) + " resolve it";
+        break;
+      }
+      case NoticeKind::unsettled:
+        text = "the joints' solution did not settle in " + std::to_string(static_cast<long long>(n.value)) +
+               " steps: shorter steps are needed";
+        break;
+      case NoticeKind::energy:
+        text = "energy out of nothing: " + rounded(100 * n.value) +
+               " % of what actuators and bodies exchanged (the ledger's coupling): shorter steps are needed";
         break;
       case NoticeKind::port:
         text += ": commands aren't taken: its bus belongs to the serial port " + *impl_->config.buses[a.bus].serial_port;

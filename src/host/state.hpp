@@ -48,12 +48,14 @@ struct ActuatorSlot {
   device::UnitState unit;
   Track equilibrium, preset;
   std::array<Ticks, 3> measured{};
-  bool noted_preset = false, noted_limits = false, noted_port = false;
+  bool noted_preset = false, noted_limits = false, noted_port = false, noted_unresolved = false;
 };
 
 struct RobotState {
   std::int64_t time_ns = 0;   ///< where the next step is expected
+  std::int64_t steps = 0;
   std::size_t unsettled = 0;  ///< steps of joints whose solution didn't settle
+  bool noted_unsettled = false, noted_energy = false;
   std::vector<ActuatorSlot> actuators;
 };
 

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/host/tree_inertia.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vsa::host {
@@ -81,7 +82,8 @@ Matrix inverse_of(Matrix m) {
 
 TreeInertia::TreeInertia(std::size_t bodies) : nodes_(bodies) {}
 
-void TreeInertia::gather(const std::vector<TreeBody>& bodies) noexcept {
+void TreeInertia::update(const std::vector<TreeBody>& bodies) noexcept {
+  if (bodies.empty()) return;
   const Vector3 origin = bodies.front().center_of_mass;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     nodes_[i].inertia = spatial_inertia(bodies[i], origin);
@@ -93,6 +95,7 @@ void TreeInertia::gather(const std::vector<TreeBody>& bodies) noexcept {
     const bool moves = joint == TreeBody::Joint::revolute || joint == TreeBody::Joint::prismatic;
     n.momentum = times(n.inertia, n.axis);
     n.reciprocal = moves ? 1 / dot(n.axis, n.momentum) : 0.0;
+    if (joint == TreeBody::Joint::free) n.response = inverse_of(n.inertia);
     if (bodies[i].parent == TreeBody::kGround) continue;
     Matrix& parent = nodes_[bodies[i].parent].inertia;
     for (std::size_t r = 0; r < 6; ++r) {
@@ -101,27 +104,62 @@ void TreeInertia::gather(const std::vector<TreeBody>& bodies) noexcept {
   }
 }
 
-void TreeInertia::update(const std::vector<TreeBody>& bodies, std::vector<double>& inverse) noexcept {
-  if (bodies.empty()) return;
-  gather(bodies);
+/// Everything's acceleration for a unit torque at this body's joint.
+void TreeInertia::pull(const std::vector<TreeBody>& bodies, std::size_t joint) noexcept {
+  for (Node& n : nodes_) {
+    n.bias = {};
+    n.drive = 0;
+  }
+  nodes_[joint].drive = 1;
+  for (std::size_t i = joint;;) {
+    Node& n = nodes_[i];
+    if (i != joint) n.drive = -dot(n.axis, n.bias) * (n.reciprocal != 0 ? 1.0 : 0.0);
+    const std::size_t parent = bodies[i].parent;
+    if (parent == TreeBody::kGround) break;
+    for (std::size_t k = 0; k < 6; ++k) nodes_[parent].bias[k] += n.bias[k] + n.momentum[k] * n.drive * n.reciprocal;
+    i = parent;
+  }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Node& n = nodes_[i];
     if (bodies[i].joint == TreeBody::Joint::free) {
-      n.response = inverse_of(n.inertia);
-      inverse[i] = 0;
+      n.acceleration = times(n.response, n.bias);
+      for (double& a : n.acceleration) a = -a;
+      n.answer = 0;
       continue;
     }
-    n.response = bodies[i].parent == TreeBody::kGround ? Matrix{} : nodes_[bodies[i].parent].response;
-    const double d = n.reciprocal;
-    const Vector w = times(n.response, n.momentum);  // Ω_parent U
-    const double uw = dot(n.momentum, w);
-    inverse[i] = d + d * d * uw;
-    for (std::size_t r = 0; r < 6; ++r) {
-      for (std::size_t c = 0; c < 6; ++c) {
-        n.response[r][c] += (d + d * d * uw) * n.axis[r] * n.axis[c] - d * (n.axis[r] * w[c] + w[r] * n.axis[c]);
-      }
-    }
+    n.acceleration = bodies[i].parent == TreeBody::kGround ? Vector{} : nodes_[bodies[i].parent].acceleration;
+    n.answer = n.reciprocal * (n.drive - dot(n.momentum, n.acceleration));
+    for (std::size_t k = 0; k < 6; ++k) n.acceleration[k] += n.axis[k] * n.answer;
   }
+}
+
+void TreeInertia::mobility(const std::vector<TreeBody>& bodies, std::span<const std::size_t> of, std::span<double> out) noexcept {
+  const std::size_t n = of.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    pull(bodies, of[j]);
+    for (std::size_t i = j; i < n; ++i) out[i * n + j] = out[j * n + i] = nodes_[of[i]].answer;
+  }
+}
+
+std::vector<std::vector<std::size_t>> joined(const std::vector<TreeBody>& bodies, std::span<const std::size_t> of) {
+  std::vector<std::size_t> root;  // of each of `of`: the last body that moves on the way to the ground
+  for (std::size_t body : of) {
+    std::size_t last = body;
+    for (; body != TreeBody::kGround; body = bodies[body].parent)
+      if (bodies[body].joint != TreeBody::Joint::fixed) last = body;
+    root.push_back(last);
+  }
+  std::vector<std::vector<std::size_t>> out;
+  std::vector<std::size_t> of_tree;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const auto at = static_cast<std::size_t>(std::find(of_tree.begin(), of_tree.end(), root[i]) - of_tree.begin());
+    if (at == of_tree.size()) {
+      of_tree.push_back(root[i]);
+      out.emplace_back();
+    }
+    out[at].push_back(i);
+  }
+  return out;
 }
 
 }  // namespace vsa::host

@@ -113,7 +113,7 @@ TEST(Coupling, ALightFlangeComesToRestThoughTicksFallInsideItsSteps) {
 }
 
 TEST(Coupling, AFrictionlessFlangeKeepsItsEnergyOverTenPeriods) {
-  // Kicked by 0.2 rad at the largest preset, J = 1e-4, 0.5 ms: at least 90 % after ten periods.
+  // Kicked by 0.2 rad at the largest preset, J = 1e-4, 0.5 ms: ω·dt = 0.35. What is resolved (below 0.3) keeps 99 %.
   OneJoint joint(without_losses(), 0.0, 0.785, 1e-4, 500'000);
   joint.q = 0.2;
   joint.step();
@@ -124,7 +124,8 @@ TEST(Coupling, AFrictionlessFlangeKeepsItsEnergyOverTenPeriods) {
     crossings += (last < 0) != (joint.q < 0);
     ASSERT_LT(joint.t_ns, 1'000'000'000);
   }
-  EXPECT_NEAR(joint.energy() / before, 1.0, 1e-3);
+  EXPECT_GT(joint.energy() / before, 0.99);
+  EXPECT_LT(joint.energy() / before, 1.0);
 }
 
 TEST(Coupling, ConvergesWithTheSecondOrderOfItsMidpointRule) {

@@ -16,9 +16,21 @@ TreeBody body(std::size_t parent, Joint joint, std::array<double, 3> axis, std::
   return {parent, joint, axis, anchor, mass, center, {inertia, 0, 0, 0, inertia, 0, 0, 0, inertia}};
 }
 
+/// B over the joints of all bodies.
+std::vector<double> mobility(const std::vector<TreeBody>& bodies) {
+  std::vector<std::size_t> all(bodies.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::vector<double> out(bodies.size() * bodies.size(), -1);
+  TreeInertia tree(bodies.size());
+  tree.update(bodies);
+  tree.mobility(bodies, all, out);
+  return out;
+}
+
 std::vector<double> inverse(const std::vector<TreeBody>& bodies) {
-  std::vector<double> out(bodies.size(), -1);
-  TreeInertia(bodies.size()).update(bodies, out);
+  const auto b = mobility(bodies);
+  std::vector<double> out;
+  for (std::size_t i = 0; i < bodies.size(); ++i) out.push_back(b[i * (bodies.size() + 1)]);
   return out;
 }
 
@@ -49,17 +61,35 @@ TEST(TreeInertia, ABodyFixedToAnotherAddsToIt) {
   EXPECT_EQ(a[1], 0.0);
 }
 
-TEST(TreeInertia, ADoublePendulumHasTheDiagonalOfItsInverseMassMatrix) {
+TEST(TreeInertia, ADoublePendulumHasItsInverseMassMatrix) {
   const double l1 = 0.4, c1 = 0.15, c2 = 0.25, m1 = 1.2, m2 = 0.8, i1 = 0.02, i2 = 0.03, q1 = 0.3, q2 = 0.9;
   const std::array<double, 3> elbow{l1 * std::cos(q1), l1 * std::sin(q1), 0};
-  const auto a = inverse(
+  const auto b = mobility(
       {body(TreeBody::kGround, Joint::revolute, kZ, {0, 0, 0}, m1, {c1 * std::cos(q1), c1 * std::sin(q1), 0}, i1),
        body(0, Joint::revolute, kZ, elbow, m2, {elbow[0] + c2 * std::cos(q1 + q2), elbow[1] + c2 * std::sin(q1 + q2), 0}, i2)});
   const double m22 = i2 + m2 * c2 * c2, m12 = m22 + m2 * l1 * c2 * std::cos(q2);
   const double m11 = i1 + m1 * c1 * c1 + i2 + m2 * (l1 * l1 + c2 * c2 + 2 * l1 * c2 * std::cos(q2));
   const double det = m11 * m22 - m12 * m12;
-  EXPECT_NEAR(a[0], m22 / det, 1e-9);
-  EXPECT_NEAR(a[1], m11 / det, 1e-9);
+  EXPECT_NEAR(b[0], m22 / det, 1e-9);
+  EXPECT_NEAR(b[1], -m12 / det, 1e-9);
+  EXPECT_NEAR(b[2], -m12 / det, 1e-9);
+  EXPECT_NEAR(b[3], m11 / det, 1e-9);
+}
+
+TEST(TreeInertia, ArmsOnAFixedBaseAreTreesOfTheirOwnAndThoseOfAFreeBaseAreOne) {
+  const auto tree = [](Joint base) {
+    return std::vector<TreeBody>{body(TreeBody::kGround, base, kZ, {}, 1.0, {0, 0, 0}, 0.05),
+                                 body(0, Joint::revolute, kZ, {0.1, 0, 0}, 0.4, {0.2, 0, 0}, 0.004),
+                                 body(0, Joint::revolute, kZ, {-0.1, 0, 0}, 0.6, {-0.3, 0, 0}, 0.006),
+                                 body(1, Joint::revolute, kZ, {0.3, 0, 0}, 0.2, {0.4, 0, 0}, 0.001)};
+  };
+  const std::vector<std::size_t> driven{3, 2, 1};
+  using Groups = std::vector<std::vector<std::size_t>>;
+  EXPECT_EQ(vsa::host::joined(tree(Joint::fixed), driven), (Groups{{0, 2}, {1}}));
+  EXPECT_EQ(vsa::host::joined(tree(Joint::free), driven), (Groups{{0, 1, 2}}));
+  const auto fixed = mobility(tree(Joint::fixed)), free = mobility(tree(Joint::free));
+  EXPECT_EQ(fixed[1 * 4 + 2], 0.0) << "they don't move each other";
+  EXPECT_GT(free[1 * 4 + 2], 1.0) << "one turns the base, and with it the other";
 }
 
 TEST(TreeInertia, ABranchedTreeDoesNotDependOnTheOrderOfItsBranches) {

@@ -73,7 +73,8 @@ struct UnitState {
   double path_work = 0;
   double last_speed = 0;
   double last_dt = 0;
-  ShaftMotion reached;  ///< where the shaft is at the last step's end, as foreseen
+  double unresolved = 0;  ///< (ω·dt)² of its spring on the inertia behind the joint, where it first went beyond 1
+  ShaftMotion reached;    ///< where the shaft is at the last step's end, as foreseen
   firmware::ProgramState program;
   Faults faults;
   std::array<std::int32_t, 3> last_encoder{};  ///< what a stuck encoder says
@@ -167,7 +168,7 @@ class Unit {
  private:
   [[nodiscard]] firmware::TickInputs read_sensors(UnitState& state, double shaft) const noexcept;
   [[nodiscard]] double supply_V(const UnitState& state) const noexcept;
-  void look_ahead(const UnitState& state, StepPlan& plan, double dt_s) const noexcept;
+  void look_ahead(UnitState& state, StepPlan& plan, double dt_s) const noexcept;
   [[nodiscard]] drive::FrictionTorque shaft_rub(const UnitState& state, const StepPlan& plan, double dy) const noexcept;
   [[nodiscard]] std::int64_t segment_ns(const StepPlan& plan, std::int64_t walked_ns) const noexcept;
 

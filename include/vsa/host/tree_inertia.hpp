@@ -1,18 +1,20 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// A_j = (M⁻¹)_jj of every joint of a tree of rigid bodies, for hosts whose engine doesn't tell it (host/robot.hpp needs it).
+// B = (M⁻¹)_aa of joints of a tree of rigid bodies, for hosts whose engine doesn't tell it (host/robot.hpp needs it): column j is
+// how all joints accelerate for a unit torque at joint j.
 //
-// With S the joint's axis as a spatial vector, I the articulated inertia of a body and all that hangs on it, and Ω the acceleration
-// of the parent for a force on it (6×6; all in world axes about one point, so that nothing needs to be transformed):
-//     U = I S,   D = Sᵀ U,   I_parent += I − U Uᵀ/D                          from the leaves to the roots
-//     A = 1/D + (U/D)ᵀ Ω_parent (U/D),
-//     Ω = S Sᵀ/D + (1 − S Uᵀ/D) Ω_parent (1 − S Uᵀ/D)ᵀ                       from the roots to the leaves
-// with Ω = 0 for the ground and Ω = I⁻¹ for a body that flies free. Contacts aren't in it. Reference: R. Featherstone, Rigid Body
-// Dynamics Algorithms, ch. 7; K. Kreutz-Delgado, A. Jain, G. Rodriguez, Recursive formulation of operational space control, 1992.
+// With S the joint's axis as a spatial vector and I the articulated inertia of a body and all that hangs on it (6×6; all in world
+// axes about one point, so that nothing needs to be transformed), at rest and without gravity:
+//     U = I S,   D = Sᵀ U,   I_parent += I − U Uᵀ/D                                          from the leaves to the roots, once
+//     u = τ − Sᵀ p,   p_parent += p + U u/D                                                  from joint j to its root
+//     q̈ = (u − Uᵀ a_parent)/D,   a = a_parent + S q̈                                         from the roots to the leaves
+// with a = 0 for the ground and a = −I⁻¹ p for a body that flies free. Contacts aren't in it. Reference: R. Featherstone, Rigid Body
+// Dynamics Algorithms, ch. 7.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace vsa::host {
@@ -33,24 +35,31 @@ struct TreeBody {
 
 class TreeInertia {
  public:
-  /// Resizes only; update() then allocates nothing.
+  /// Resizes only; update() and column() then allocate nothing.
   explicit TreeInertia(std::size_t bodies);
 
-  /// Fills `inverse` for the bodies' joints, 1/(kg·m²) or 1/kg; 0 for fixed and free ones. NaN where the bodies give no answer
-  /// (no mass).
-  void update(const std::vector<TreeBody>& bodies, std::vector<double>& inverse) noexcept;
+  /// Where the bodies are now.
+  void update(const std::vector<TreeBody>& bodies) noexcept;
+  /// B of the joints of `of` (indices of their bodies), by rows, 1/(kg·m²) or 1/kg; symmetric. 0 for fixed and free ones; not
+  /// finite where the bodies give no answer (no mass).
+  void mobility(const std::vector<TreeBody>& bodies, std::span<const std::size_t> of, std::span<double> out) noexcept;
 
  private:
   using Vector = std::array<double, 6>;
   using Matrix = std::array<Vector, 6>;
   struct Node {
-    Matrix inertia, response;
-    Vector axis, momentum;
+    Matrix inertia, response;  ///< response: I⁻¹ of a body that flies free
+    Vector axis, momentum, bias, acceleration;
     double reciprocal = 0;  ///< 1/D
+    double drive = 0;       ///< u
+    double answer = 0;      ///< q̈
   };
 
-  void gather(const std::vector<TreeBody>& bodies) noexcept;
+  void pull(const std::vector<TreeBody>& bodies, std::size_t joint) noexcept;
   std::vector<Node> nodes_;
 };
+
+/// Joints whose torques move each other: indices into `of`, by trees that no ground separates.
+[[nodiscard]] std::vector<std::vector<std::size_t>> joined(const std::vector<TreeBody>& bodies, std::span<const std::size_t> of);
 
 }  // namespace vsa::host

@@ -1,0 +1,41 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// When a host works out B = (M⁻¹)_aa anew: as soon as a driven joint has turned by 0.02 rad since, which changes B by a few
+// hundredths where an arm folds, and every 16th step at the latest, for what else moves.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "vsa/host/robot.hpp"
+
+namespace vsa::host {
+
+class MobilityWatch {
+ public:
+  MobilityWatch() = default;
+  explicit MobilityWatch(std::size_t joints) : angles_(joints) {}
+
+  /// Once before each step. True: B is due, and is taken to be that of these angles.
+  [[nodiscard]] bool due(std::span<const JointIn> joints) noexcept {
+    bool now = steps_left_-- <= 0;
+    for (std::size_t i = 0; i < angles_.size() && !now; ++i) now = std::abs(joints[i].angle_rad - angles_[i]) > kTurned_rad;
+    if (!now) return false;
+    steps_left_ = kSteps - 1;
+    std::transform(joints.begin(), joints.end(), angles_.begin(), [](const JointIn& joint) { return joint.angle_rad; });
+    return true;
+  }
+  /// In the next step whatever happens.
+  void again() noexcept { steps_left_ = 0; }
+
+ private:
+  static constexpr int kSteps = 16;
+  static constexpr double kTurned_rad = 0.02;
+  int steps_left_ = 0;
+  std::vector<double> angles_;
+};
+
+}  // namespace vsa::host
