@@ -60,7 +60,7 @@ void Actuator::place(ActuatorState& s, double shaft) const noexcept {
   const elastic::Response r = params_.transmission->evaluate(positions(s, shaft));
   s.load = r.load;
   s.end = {r.torque, r.load, {}};
-  s.end_ahead = {};
+  s.end_rub = {};
   s.origin = params_.transmission->origin(positions(s, shaft));
   s.tendon_anchor = s.spring_w = params_.transmission->signed_energies_of(s.origin);
   s.ledger = {};
@@ -100,7 +100,7 @@ void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentIn
   for (int i = 0; i < 2; ++i) seg.stepper[i] = &stepper(h_s, in.terminal[i]);
   seg.in = in;
   seg.tried = false;
-  seg.ahead = {};
+  seg.rub = {};
   seg.damping = params_.tendon.damping_s / h_s;
   for (int i = 0; i < motors_; ++i) {
     // The limit of the gears' friction follows the load of the last segment; its bristle's stiffness doesn't, so that a limit that
@@ -147,17 +147,25 @@ void Actuator::add_tendon_friction(Segment& seg, const elastic::Positions& to) c
     const double begin = seg.w_u[i] + damper, middle = std::clamp(reached, -z, z) + damper, ahead = leading + damper;
     const double level = -tendon_.stiffness * (held * (std::clamp(begin, -z, z) + std::clamp(middle, -z, z)) +
                                                lead.tendon[i] * std::clamp(ahead, -z, z));
-    const double stick = tendon_.stiffness * end_tension * tension;
-    seg.ahead[i] = std::abs(ahead) > z ? 0.0 : lead.tendon[i] * stick;
-    const double bends = (std::abs(begin) > z ? 0.0 : per_dw) +
-                         (std::abs(middle) > z ? 0.0 : (std::abs(reached) > z ? 0.0 : 1.0) + per_dw);
-    const double slope = held * stick * bends - level * tension_slope + seg.ahead[i] * (1.0 + per_dw);
+    // Slopes of what isn't at its limit: for the pulley, and for the step's Δy, which moves the start of the segment too.
+    const double stick = tendon_.stiffness * end_tension * tension, ends = lead.before + lead.share;
+    const bool bends = std::abs(reached) <= z;
+    double dx = level * -tension_slope, dy = dx * (lead.before + ends);
+    const auto add = [&](double weight, double for_dx, double for_dy) {
+      dx += weight * stick * (for_dx + per_dw);
+      dy += weight * stick * (for_dy + per_dw * lead.share);
+    };
+    if (std::abs(begin) <= z) add(held, 0.0, lead.before);
+    if (std::abs(middle) <= z) add(held, bends ? 1.0 : 0.0, bends ? ends : 0.0);
+    if (std::abs(ahead) <= z) add(lead.tendon[i], 1.0, ends + 1.0);
+    seg.rub.dx[i] = dx;
+    seg.rub.dy[i] = dy;
     const double torque = level * tension;
     mean.torque += torque;
     mean.load[i] -= torque;
-    mean.slope.qq += slope;
-    mean.slope.qx[i] -= slope;
-    xx += slope;
+    mean.slope.qq += dx;
+    mean.slope.qx[i] -= dx;
+    xx += dx;
   }
 }
 
@@ -175,20 +183,17 @@ void Actuator::move_tendons(ActuatorState& s, const Segment& seg) const noexcept
   }
 }
 
-// With S the mean's slopes for the segment's end, of which a_i belong to a tendon's friction that looks ahead:
-//   −dτ̄/d(Δy)    = S_qq R + Σ a_i (R_a − R) + Σ S_qx,i dx_i/d(Δy)
-//   −dload_i/d(Δy) = S_qx,i R − a_i (R_a − R) + S_xx,i dx_i/d(Δy)
-// R = share + 3w: end and shift; R_a = share + 1: end and q' − y'. What came before in the step moves the start, too: R + 2·before
-// and R_a + before. seg.gain comes as the pulley's own give, ∂dx_i/∂load_i.
-void Actuator::slopes(Segment& seg, const elastic::SegmentMean& mean, const std::array<double, 2>& ahead) const noexcept {
+// With S the mean's slopes for the segment's end, f_i and F_i the tendons' part for x_i and for Δy, S' = S − f the springs':
+//   −dload_i/d(Δy) = S'_qx,i R − F_i + S_xx,i dx_i/d(Δy),   R = share + 2·before + 3w: the end, the start, the shift
+//   −dτ̄/d(Δy)     = S'_qq R + Σ F_i + Σ S_qx,i dx_i/d(Δy)
+void Actuator::slopes(Segment& seg, const elastic::SegmentMean& mean, const Rub& rub) const noexcept {
   const Lead& lead = seg.in.lead;
-  const double rate = lead.share + 3.0 * lead.spring, whole = rate + 2.0 * lead.before;
-  const double more = 1.0 + lead.share - rate, whole_more = 1.0 + lead.share + lead.before - whole;
-  seg.slope = mean.slope.qq * whole + (ahead[0] + ahead[1]) * whole_more;
+  const double own = lead.share + 3.0 * lead.spring, whole = own + 2.0 * lead.before;
+  seg.slope = (mean.slope.qq - rub.dx[0] - rub.dx[1]) * whole + rub.dy[0] + rub.dy[1];
   for (int i = 0; i < motors_; ++i) {
-    const double give = seg.gain[i], qx = mean.slope.qx[i];
-    seg.gain[i] = -give * (qx * rate - ahead[i] * more) / lead.share;
-    seg.slope -= give * qx * (qx * whole - ahead[i] * whole_more);
+    const double give = seg.gain[i], qx = mean.slope.qx[i], spring = qx + rub.dx[i];
+    seg.gain[i] = -give * (spring * own / lead.share - rub.dx[i]);
+    seg.slope -= give * qx * (spring * whole - rub.dy[i]);
   }
 }
 
@@ -208,7 +213,7 @@ SegmentResult Actuator::foresee(const ActuatorState& s, Segment& seg) const noex
     seg.gain[i] = c * yield / (1.0 + c * yield * bristle);
     r.torque -= qx * seg.dx[i];
   }
-  slopes(seg, s.end, s.end_ahead);
+  slopes(seg, s.end, s.end_rub);
   r.slope = seg.slope;
   seg.in.dq = 0;
   seg.tried = true;
@@ -229,7 +234,7 @@ bool Actuator::correction(Segment& seg, std::array<double, 2>& step) const noexc
     const double bristle = seg.friction[i].anchor_travel != 0.0 ? 0.0 : 0.5 * seg.gear[i].stiffness;
     seg.gain[i] = c * yield / (1.0 + c * yield * bristle);
   }
-  slopes(seg, seg.mean, seg.ahead);
+  slopes(seg, seg.mean, seg.rub);
   return accepted;
 }
 
@@ -288,7 +293,7 @@ void Actuator::drive_motors(ActuatorState& s, const Segment& seg) const noexcept
     s.load[i] = seg.mean.load[i];
   }
   s.end = carried(seg.mean, seg.in.dq - 2.0 * seg.shift(seg.in.dq), seg.dx);
-  s.end_ahead = seg.ahead;
+  s.end_rub = seg.rub;
 }
 
 void Actuator::finish(ActuatorState& s, const Segment& seg) const noexcept {
@@ -360,7 +365,7 @@ void Actuator::relocate(ActuatorState& s, double shaft) const noexcept {
   move_shaft(s, shaft);
   const elastic::Response r = spring(s, shaft);
   s.end = {r.torque, r.load, {}};
-  s.end_ahead = {};
+  s.end_rub = {};
   l.delivered += l.pending;  // the step under way ends as it was foreseen
   l.pending = 0;
   l.stored_at_start += l.stored() - before;

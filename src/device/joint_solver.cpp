@@ -11,8 +11,10 @@ namespace {
 
 /// A guess may lie where the spring's exponential law has no numbers left, so it goes no further than this at once.
 constexpr double kReach_rad = 0.25;
-/// A step along which the slope still has this part of what it had, with the other sign, went too far.
-constexpr double kOvershoot = 0.9;
+/// A step along which the slope still has this part of what it had, with the other sign, went too far. Where a friction begins or
+/// ends to slide Newton can go to and fro, so after some rounds less is allowed.
+constexpr double kOvershoot = 0.9, kOvershootLater = 0.3;
+constexpr int kEarly = 8;
 
 /// A = L D Lᵀ in place, lower triangle by rows: L below the diagonal, 1/D on it. False: not positive definite.
 bool factor(std::span<double> a, std::size_t n) noexcept {
@@ -58,7 +60,7 @@ JointSolver::JointSolver(std::size_t joints)
       inertia_(joints * joints),
       work_(joints * joints),
       dy_(joints),
-      base_(joints),
+      off_(joints),
       move_(joints),
       gradient_(joints),
       torque_(joints),
@@ -92,11 +94,11 @@ void JointSolver::factor_mobility() noexcept {
 }
 
 void JointSolver::gradient(std::span<const JointInStep> joints) noexcept {
-  for (std::size_t i = 0; i < n_; ++i) base_[i] = dy_[i] - joints[i].plan->free;
+  for (std::size_t i = 0; i < n_; ++i) off_[i] = dy_[i] - joints[i].plan->free;
   for (std::size_t i = 0; i < n_; ++i) {
     const double* const row = &inertia_[i * n_];
     double sum = joints[i].plan->last_torque - torque_[i];
-    for (std::size_t k = 0; k < n_; ++k) sum += row[k] * base_[k];
+    for (std::size_t k = 0; k < n_; ++k) sum += row[k] * off_[k];
     gradient_[i] = sum;
   }
 }
@@ -153,13 +155,11 @@ bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> t
   double part = 1;     // of move_ that led to dy_
   bool settled = false;
   for (int iteration = 0; iteration < kMaxIterations && !settled; ++iteration) {
-    bool ready = true;
     for (std::size_t i = 0; i < n_; ++i) {
       const JointInStep& j = joints[i];
       const ShaftTorque t = j.unit->attempt(*j.state, *j.plan, dy_[i], iteration == 0 && !prescribed);
       torque_[i] = t.torque;
       slope_[i] = t.slope;
-      ready = ready && t.settled;
     }
     if (prescribed) {
       move_[0] = 0;
@@ -168,7 +168,7 @@ bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> t
     }
     gradient(joints);
     const double now = descent < 0 ? along() : 0.0;
-    if (!(now <= -kOvershoot * descent)) {
+    if (!(now <= -(iteration < kEarly ? kOvershoot : kOvershootLater) * descent)) {
       const double shorter = part * std::clamp(descent / (descent - now), 0.1, 0.9);
       const double back = std::isfinite(shorter) ? shorter - part : -0.75 * part;
       for (std::size_t i = 0; i < n_; ++i) dy_[i] += back * move_[i];
@@ -185,7 +185,6 @@ bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> t
     for (std::size_t i = 0; i < n_; ++i) farthest = std::max(farthest, std::abs(move_[i]));
     if (farthest > kReach_rad) part = kReach_rad / farthest;
     for (std::size_t i = 0; i < n_; ++i) dy_[i] += part * move_[i];
-    static_cast<void>(ready);
   }
   for (std::size_t i = 0; i < n_; ++i) {
     const JointInStep& j = joints[i];

@@ -12,6 +12,7 @@ using firmware::kTickNs;
 
 constexpr double kRelativeTolerance = 1e-4;
 constexpr double kAbsoluteTolerance_Nm = 1e-6;
+constexpr double kLeastYield = 1e-2;
 
 double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 
@@ -112,9 +113,11 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
   const drive::FrictionTorque rub = shaft_rub(s, plan, dy);
   // Where a light shaft stands behind a stiff spring, it moves far less than the last torque would throw it.
   const elastic::SegmentMean& end = s.actuator.end;
-  const double rate = 1.0 + 3.0 * plan.lead.spring, slope = std::max(end.slope.qq, 0.0);
+  const actuator::Rub& tendons = s.actuator.end_rub;
+  const double spring = end.slope.qq - tendons.dx[0] - tendons.dx[1];
+  const double slope = std::max(spring * (1.0 + 3.0 * plan.lead.spring) + tendons.dy[0] + tendons.dy[1], 0.0);
   const double shift = -2.0 * plan.lead.spring * plan.lead.drift;
-  return {end.torque - slope * (shift + rate * dy) + rub.torque, rate * slope + rub.slope};
+  return {end.torque - spring * shift - slope * dy + rub.torque, slope + rub.slope};
 }
 
 void Unit::begin_trials(UnitState& s, StepPlan& plan) noexcept {
@@ -166,7 +169,7 @@ ShaftTorque Unit::attempt(UnitState& s, StepPlan& plan, double dy, bool rough) n
 ShaftTorque Unit::carried(const UnitState& s, const StepPlan& plan, double move) const noexcept {
   const drive::FrictionTorque before = shaft_rub(s, plan, plan.dy), after = shaft_rub(s, plan, plan.dy + move);
   const double c = 0.5 * seconds(plan.dt_ns) * seconds(plan.dt_ns) * plan.in.inverse_inertia;
-  const double change = plan.path.slope * move, yield = 1.0 / (1.0 + c * std::max(plan.path.slope, 0.0));
+  const double change = plan.path.slope * move, yield = std::max(kLeastYield, 1.0 / (1.0 + c * std::max(plan.path.slope, 0.0)));
   const double slack = kRelativeTolerance * std::abs(plan.path.torque) + kAbsoluteTolerance_Nm;
   // The linear correction leaves an error of second order; the stiffer the step (c·slope), the more of it reaches the shaft.
   const bool near = std::abs(change) <= yield * yield * slack && std::abs(after.torque - before.torque + before.slope * move) <= slack;

@@ -59,6 +59,11 @@ struct ActuatorParams {
 inline constexpr double kLeastPresliding_rad = 1e-5;
 [[nodiscard]] drive::FrictionParams shaft_friction(const ActuatorParams& params) noexcept;
 
+/// How the tendons' frictions on the shaft answer: −dτ/d(x_i) and −dτ/d(Δy) of each, N·m/rad.
+struct Rub {
+  std::array<double, 2> dx{}, dy{};
+};
+
 struct ActuatorState {
   std::array<drive::MotorState, 2> motor{};
   std::array<double, 2> motor_anchor{};
@@ -69,7 +74,7 @@ struct ActuatorState {
   std::array<double, 2> load{};           ///< mean spring load on each pulley over the last segment
   elastic::Origin origin;                 ///< where the springs are: pulleys' angles and `shaft`
   elastic::SegmentMean end;               ///< torque and loads at the last segment's end, to first order; its slopes
-  std::array<double, 2> end_ahead{};      ///< the part of those slopes that looks ahead
+  Rub end_rub;                            ///< the part of those slopes that is the tendons' friction
   Ledger ledger;
 };
 
@@ -113,7 +118,7 @@ class Segment {
   std::array<double, 2> gain{};  // ∂dx/∂dq
   std::array<drive::FrictionStep, 2> friction{};
   elastic::SegmentMean mean;
-  std::array<double, 2> ahead{};  // the part of mean.slope by which the tendons' frictions look ahead
+  Rub rub;                       // of the tendons: their part of mean.slope, and what they give for the step's Δy
   double slope = 0;
 
   /// w·(q' − middle of the path): by how much the springs look ahead.
@@ -173,7 +178,8 @@ class Actuator {
   /// One Newton correction of the pulleys from the mean at segment.dx; returns whether it was small enough to be the last.
   bool correction(Segment& segment, std::array<double, 2>& step) const noexcept;
   void drive_motors(ActuatorState& state, const Segment& segment) const noexcept;
-  void slopes(Segment& segment, const elastic::SegmentMean& mean, const std::array<double, 2>& ahead) const noexcept;
+  /// −dτ̄/d(Δy) and the pulleys' gains from a mean's slopes; seg.gain comes as each pulley's own give, ∂x_i/∂load_i.
+  void slopes(Segment& segment, const elastic::SegmentMean& mean, const Rub& rub) const noexcept;
   [[nodiscard]] elastic::Positions positions(const ActuatorState& state, double shaft) const noexcept;
   void book_motors(ActuatorState& state) const noexcept;
   /// The springs and the frictions on the shaft's side where the shaft is; anchors that it left behind follow.

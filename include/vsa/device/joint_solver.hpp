@@ -61,7 +61,7 @@ class JointSolver {
   std::vector<double> mobility_;  // as set
   std::vector<double> inertia_;   // C⁻¹
   std::vector<double> work_;      // the factor of C⁻¹ + S
-  std::vector<double> dy_, base_, move_, gradient_, torque_, slope_;
+  std::vector<double> dy_, off_, move_, gradient_, torque_, slope_;
 };
 
 }  // namespace vsa::device
