@@ -118,12 +118,8 @@ TEST_F(WorldServer, RefusesWhatItCannotHonour) {
 TEST_F(WorldServer, TheClockIsSimulatedTimeAndTheStatsSayWhetherItIsPaused) {
   Mailbox<std::int64_t> clock;
   Mailbox<bool> paused;
-  std::function<void(const msgs::Clock&)> on_clock = [&clock](const msgs::Clock& m) {
-    clock.put(m.sim().sec() * 1'000'000'000 + m.sim().nsec());
-  };
-  std::function<void(const msgs::WorldStatistics&)> on_stats = [&paused](const msgs::WorldStatistics& m) {
-    paused.put(m.paused());
-  };
+  auto on_clock = clock.handler<msgs::Clock>([](const msgs::Clock& m) { return m.sim().sec() * 1'000'000'000 + m.sim().nsec(); });
+  auto on_stats = paused.handler<msgs::WorldStatistics>([](const msgs::WorldStatistics& m) { return m.paused(); });
   ASSERT_TRUE(other.Subscribe("/clock", on_clock));
   ASSERT_TRUE(other.Subscribe("/world/bench/stats", on_stats));
   served.start();
