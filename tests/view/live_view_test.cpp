@@ -305,8 +305,12 @@ TEST(LiveView, TellsWhyARecordingCantBegin) {
   Client page(run.port());
   page.say(R"({"do":"record","on":true})");
   std::string why;
-  std::thread hearing([&] { why = text_of(page, "error")["text"]; });
-  for (int i = 0; i < 100'000 && why.empty(); ++i) run.turn();
+  std::atomic<bool> told{false};
+  std::thread hearing([&] {
+    why = text_of(page, "error")["text"];
+    told = true;
+  });
+  EXPECT_TRUE(run.until([&] { return told.load(); }));
   hearing.join();
   EXPECT_NE(why.find("records"), std::string::npos) << why;
 }
