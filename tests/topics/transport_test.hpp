@@ -15,7 +15,7 @@
 
 namespace vsa::test {
 
-inline constexpr std::chrono::seconds kPatience{20};  // for what takes well under a second on an idle machine
+inline constexpr std::chrono::seconds kPatience{60};  // for what takes well under a second on an idle machine
 
 /// Calls `work` until it returns true; false after the deadline. The work itself is what takes the time: no sleeping.
 template <class Work>
@@ -64,7 +64,7 @@ class Mailbox {
   std::shared_ptr<Box> box_ = std::make_shared<Box>();
 };
 
-/// A child process and what it printed on standard output. Killed after `limit` seconds, which gives exit code 124.
+/// A child process and what it printed on standard output. Killed after kPatience, which gives exit code 124.
 struct Output {
   int exit_code = -1;
   std::string text;

@@ -22,6 +22,7 @@ using vsa::test::kPatience;
 using vsa::test::Mailbox;
 using vsa::test::ServedWorld;
 using vsa::test::until;
+constexpr unsigned kPatience_ms = std::chrono::milliseconds(kPatience).count();
 
 class WorldServer : public testing::Test {
  protected:
@@ -29,7 +30,7 @@ class WorldServer : public testing::Test {
   std::optional<bool> ask(const msgs::WorldControl& request) {
     msgs::Boolean reply;
     bool result = false;
-    const bool done = other.Request("/world/bench/control", request, 20000U, reply, result);
+    const bool done = other.Request("/world/bench/control", request, kPatience_ms, reply, result);
     return done && result ? std::optional(reply.data()) : std::nullopt;
   }
 
@@ -74,7 +75,7 @@ TEST_F(WorldServer, BreaksAUnitOnRequestAndSaysWhatItWontDo) {
     msgs::StringMsg request, reply;
     request.set_data(words);
     bool result = false;
-    const bool done = other.Request("/model/bench_arm/vsa/faults", request, 20000U, reply, result);
+    const bool done = other.Request("/model/bench_arm/vsa/faults", request, kPatience_ms, reply, result);
     return done && result ? reply.data() : std::string("no answer");
   };
   msgs::WorldControl run;
