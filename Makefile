@@ -3,6 +3,7 @@
 # make demo    set up, build, let the snake crawl over its terrain, say where the page lies
 # make test    set up, build, run the tests
 # make test-long   the tests that take minutes
+# make flakes      every test FLAKES_N times (50), beside 0, 2 and 6 busy processes: which fail now and then; hours. FLAKES_FILTER chooses (ctest -R)
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make bench   run the benchmarks and print their table
 # make asan    the tests under the address and undefined-behaviour sanitizers
@@ -17,7 +18,7 @@ FUZZ_S ?= 300
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo test test-long validate bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan tidy format \
+.PHONY: all setup build demo test test-long flakes validate bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan tidy format \
   check-format experiments experiments-snake clean
 
 all: build
@@ -46,6 +47,12 @@ test-long:
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -L long
 	@sh scripts/test_gazebo.sh $(BUILD) long
+
+flakes:
+	@sh scripts/setup.sh test
+	@cmake --preset release > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@bash scripts/flakes.sh $(BUILD)
 
 fuzz:
 	@sh scripts/fuzz.sh $(FUZZ_S)

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -36,6 +37,9 @@ bus::ClientOptions client_options(const UnitPortOptions& options, bus::Dialect d
   with.wire.dialect = dialect;
   with.reply_timeout =
       std::chrono::duration_cast<bus::Channel::Time>(std::chrono::duration<double, std::milli>(options.timeout_ms));
+  // Who is patient is patient with a text's first byte and its pauses, too.
+  with.slow_timeout = std::max(with.slow_timeout, with.reply_timeout);
+  with.silence = std::max(with.silence, with.reply_timeout / 20);
   return with;
 }
 

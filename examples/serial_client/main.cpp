@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
   Port port(argv[1]);
   if (!port.ready()) return std::perror(argv[1]), 2;
   const auto unit = static_cast<std::uint8_t>(argc > 2 ? std::atoi(argv[2]) : 1);
-  vsa::bus::Client client(port, {});
+  vsa::bus::Client client(port, {.reply_timeout = 200ms, .attempts = 5});  // a unit needs 4 ms, a busy machine more
   const bool moved =
       client.ping(unit) && client.activate(unit, true) && hold(client, port, unit, 10) && hold(client, port, unit, 0);
   static_cast<void>(client.activate(unit, false));

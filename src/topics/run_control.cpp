@@ -11,9 +11,27 @@ void RunControl::request(const ControlRequest& request) {
   arrived_.notify_all();
 }
 
+void RunControl::Mode::reset() noexcept {
+  owed = 0;
+  run_to_ns.reset();
+}
+
+void RunControl::Mode::apply(const ControlRequest& request) noexcept {
+  paused = request.pause.value_or(paused);
+  if (!paused || request.steps == 0) owed = 0;
+  if (paused) owed += request.steps;
+  run_to_ns = request.run_to_ns;
+  if (run_to_ns) paused = false;
+}
+
 bool RunControl::paused() const {
   const std::lock_guard lock(mutex_);
-  return paused_ && owed_ == 0 && requests_.empty();
+  Mode mode = mode_;
+  for (const ControlRequest& request : requests_) {
+    if (request.reset) mode.reset();
+    mode.apply(request);
+  }
+  return mode.paused && mode.owed == 0;
 }
 
 RunControl::Next RunControl::next(std::int64_t time_ns) {
@@ -23,24 +41,19 @@ RunControl::Next RunControl::next(std::int64_t time_ns) {
     if (request.reset) {
       // The rest of this request waits for the next call, when the time is that of the reset world.
       request.reset = false;
-      owed_ = 0;
-      run_to_ns_.reset();
+      mode_.reset();
       return Next::reset;
     }
-    paused_ = request.pause;
-    if (!paused_ || request.steps == 0) owed_ = 0;
-    if (paused_) owed_ += request.steps;
-    run_to_ns_ = request.run_to_ns;
-    if (run_to_ns_) paused_ = false;
+    mode_.apply(request);
     requests_.pop_front();
   }
-  if (run_to_ns_ && time_ns >= *run_to_ns_) {
-    run_to_ns_.reset();
-    paused_ = true;
+  if (mode_.run_to_ns && time_ns >= *mode_.run_to_ns) {
+    mode_.run_to_ns.reset();
+    mode_.paused = true;
   }
-  if (!paused_) return Next::step;
-  if (owed_ == 0) return Next::wait;
-  --owed_;
+  if (!mode_.paused) return Next::step;
+  if (mode_.owed == 0) return Next::wait;
+  --mode_.owed;
   return Next::step;
 }
 

@@ -62,7 +62,7 @@ struct LiveView::Impl final : Host {
   void operator()(const Play&) { control.request({false, false, 0, std::nullopt}); }
   void operator()(const Pause&) { control.request({false, true, 0, std::nullopt}); }
   void operator()(const Step& r) { control.request({false, true, r.steps, std::nullopt}); }
-  void operator()(const Reset&) { control.request({true, control.paused(), 0, std::nullopt}); }
+  void operator()(const Reset&) { control.request({true, std::nullopt, 0, std::nullopt}); }
   void operator()(const Speed& r) { speed = r.factor, ++speed_changes; }
   void operator()(const Command& r);
   void operator()(const PullLink& r);

@@ -133,8 +133,8 @@ void Hub::join(const std::shared_ptr<Viewer>& viewer) {
 
 void Hub::leave(ViewerId id) {
   viewers.erase(id);
-  viewers_now = viewers.size();
   host.gone(id);
+  viewers_now = viewers.size();  // last: who counts viewers may take it that all is done for those that left
 }
 
 /// Asks for a frame at the rate, where somebody would get it.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -36,13 +37,15 @@ inline std::string replaced(std::string text, const std::string& from, const std
 /// A directory that is gone when the test ends.
 class Directory {
  public:
-  explicit Directory(const std::string& name) : path_(std::filesystem::path(VSA_BINARY_DIR) / "test_config" / name) {
+  explicit Directory(const std::string& name)
+      : path_(std::filesystem::path(VSA_BINARY_DIR) / ("test_config_" + std::to_string(getpid())) / name) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
   ~Directory() {
     std::error_code error;
     std::filesystem::remove_all(path_, error);
+    std::filesystem::remove(path_.parent_path(), error);  // once it is empty
   }
   Directory(const Directory&) = delete;
   Directory& operator=(const Directory&) = delete;

@@ -32,22 +32,20 @@ TEST(BadInput, AMissingFileIsNamed) {
 }
 
 TEST(BadInput, CircularIncludesAreNamedInsteadOfFollowed) {
-  const std::filesystem::path dir = ::testing::TempDir() + "vsa_circle";
-  std::filesystem::create_directories(dir);
+  const TempDir dir("circle");
   const auto write = [&](const char* name, const char* other) {
-    std::ofstream(dir / name) << "<sdf version='1.7'><model name='" << name[0] << "'><link name='l'/><include><uri>" << other
-                              << "</uri></include></model></sdf>";
+    std::ofstream(dir.path() / name) << "<sdf version='1.7'><model name='" << name[0] << "'><link name='l'/><include><uri>" << other
+                                     << "</uri></include></model></sdf>";
   };
   write("a.sdf", "b.sdf");
   write("b.sdf", "a.sdf");
   try {
-    static_cast<void>(World::load(dir / "a.sdf"));
+    static_cast<void>(World::load(dir.path() / "a.sdf"));
     FAIL();
   } catch (const InputError& error) {
     EXPECT_TRUE(has(error.what(), "b.sdf: include/uri = a.sdf")) << error.what();
     EXPECT_TRUE(has(error.what(), "circle")) << error.what();
   }
-  std::filesystem::remove_all(dir);
 }
 
 TEST(BadInput, AVersionThatIsNotOneIsRefused) {

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include "vsa/engine/world.hpp"
@@ -60,11 +62,10 @@ inline Pose pose_of(const World& w, const std::string& link) {
 /// A directory of its own, gone afterwards.
 class TempDir {
  public:
-  explicit TempDir(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() /
-              ("vsa-engine-" + name + "-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
-               std::to_string(reinterpret_cast<std::uintptr_t>(this)))) {
-    std::filesystem::create_directories(path_);
+  explicit TempDir(const std::string& name) {
+    std::string made = (std::filesystem::temp_directory_path() / ("vsa_engine_" + name + "_XXXXXX")).string();
+    if (::mkdtemp(made.data()) == nullptr) throw std::runtime_error("no temporary directory");
+    path_ = made;
   }
   ~TempDir() {
     std::error_code ignored;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -18,13 +19,15 @@ inline std::filesystem::path recordings() { return std::filesystem::path(VSA_SOU
 
 class Files {
  public:
-  explicit Files(const std::string& name) : path_(std::filesystem::path(VSA_BINARY_DIR) / "test_recording" / name) {
+  explicit Files(const std::string& name)
+      : path_(std::filesystem::path(VSA_BINARY_DIR) / ("test_recording_" + std::to_string(getpid())) / name) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
   ~Files() {
     std::error_code error;
     std::filesystem::remove_all(path_, error);
+    std::filesystem::remove(path_.parent_path(), error);  // once it is empty
   }
   Files(const Files&) = delete;
   Files& operator=(const Files&) = delete;

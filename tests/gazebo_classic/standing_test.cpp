@@ -12,6 +12,7 @@
 #include <condition_variable>
 #include <gazebo/transport/transport.hh>
 #include <ignition/transport/Node.hh>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -22,33 +23,37 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What arrives on the joint states' topic: simulated stamp and wall time.
+/// What arrives on the joint states' topic: simulated stamps. A callback may still run when its node has gone, so it shares what it
+/// writes.
 class StateListener {
  public:
   explicit StateListener(const std::string& topic) {
-    std::function<void(const ignition::msgs::Model&)> take = [this](const ignition::msgs::Model& message) {
-      const std::lock_guard lock(mutex_);
+    std::function<void(const ignition::msgs::Model&)> take = [heard = heard_](const ignition::msgs::Model& message) {
+      const std::lock_guard lock(heard->mutex);
       const auto& stamp = message.header().stamp();
-      stamps_ns_.push_back(stamp.sec() * std::int64_t{1'000'000'000} + stamp.nsec());
-      arrived_.notify_all();
+      heard->stamps_ns.push_back(stamp.sec() * std::int64_t{1'000'000'000} + stamp.nsec());
+      heard->arrived.notify_all();
     };
     if (!node_.Subscribe(topic, take)) throw std::runtime_error("can't listen to " + topic);
   }
   /// False: not within 20 s.
   bool wait_for(const std::function<bool(const std::vector<std::int64_t>&)>& condition) {
-    std::unique_lock lock(mutex_);
-    return arrived_.wait_for(lock, std::chrono::seconds(20), [&] { return condition(stamps_ns_); });
+    std::unique_lock lock(heard_->mutex);
+    return heard_->arrived.wait_for(lock, std::chrono::seconds(20), [&] { return condition(heard_->stamps_ns); });
   }
   std::size_t count() {
-    const std::lock_guard lock(mutex_);
-    return stamps_ns_.size();
+    const std::lock_guard lock(heard_->mutex);
+    return heard_->stamps_ns.size();
   }
 
  private:
-  std::mutex mutex_;
-  std::condition_variable arrived_;
-  std::vector<std::int64_t> stamps_ns_;
-  ignition::transport::Node node_;  ///< gone before the others
+  struct Heard {
+    std::mutex mutex;
+    std::condition_variable arrived;
+    std::vector<std::int64_t> stamps_ns;
+  };
+  std::shared_ptr<Heard> heard_ = std::make_shared<Heard>();
+  ignition::transport::Node node_;
 };
 
 TEST(StandingWorld, PublishesItsLastStateTenTimesAWallSecond) {

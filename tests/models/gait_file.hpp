@@ -10,15 +10,16 @@
 #include <stdexcept>
 #include <string>
 
+#include "../record/scratch.hpp"
 #include "vsa/engine/gait.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::engine {
 
-inline constexpr const char* kWrittenGait = "vsa_gait_test.toml";
+inline const record::Scratch kOwnDirectory;
 
 inline std::filesystem::path written(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / kWrittenGait;
+  const std::filesystem::path file = kOwnDirectory.path() / "vsa_gait_test.toml";
   std::ofstream(file) << text;
   return file;
 }

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "../record/scratch.hpp"
 #include "generate/generate.hpp"
 #include "generate/png.hpp"
 #include "vsa/errors.hpp"
@@ -31,7 +32,8 @@ std::string problems_of(const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
-  const fs::path file = fs::path(testing::TempDir()) / "vsa_generate_description.toml";
+  const record::Scratch scratch;
+  const fs::path file = scratch.path() / "vsa_generate_description.toml";
   std::ofstream(file) << text;
   try {
     (void)read_description(file);

@@ -19,7 +19,7 @@ const { chromium } = createRequire(join(npm, 'package.json'))('playwright-core')
 const kArguments = [
   '--headless', '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
 ];
-const kPatience = { timeout: 60_000 }; // software rendering on a busy machine
+const kPatience = { timeout: 180_000 }; // software rendering on a busy machine
 
 export const launch = (...more) => chromium.launch({ executablePath: chromiumPath, args: [...kArguments, ...more], ...kPatience });
 

@@ -50,7 +50,7 @@ function table(path) {
 const kNs = 1_000_000_000n;
 const timeNs = (seconds) => BigInt(Math.round(Number(seconds) * 1e9));
 
-test('a run of three seconds', { timeout: 300_000 }, async (t) => {
+test('a run of three seconds', { timeout: 600_000 }, async (t) => {
   run('out', '--duration-s', '3', '--fault', 'joint_6 noise_rad=0.001 seed=5');
   const readable = new Readable(join(scratch, 'out', 'run.mcap'));
   const reader = await McapIndexedReader.Initialize({ readable });
@@ -179,7 +179,7 @@ test('a run of three seconds', { timeout: 300_000 }, async (t) => {
   readable.close();
 });
 
-test('two equal runs give equal bytes', { timeout: 120_000 }, () => {
+test('two equal runs give equal bytes', { timeout: 600_000 }, () => {
   run('a', '--duration-s', '0.5');
   run('b', '--duration-s', '0.5');
   assert.ok(readFileSync(join(scratch, 'a', 'run.mcap')).equals(readFileSync(join(scratch, 'b', 'run.mcap'))));
@@ -197,7 +197,7 @@ function streamed(path) {
 /** Runs, sends the signal once two seconds are in the file, and waits for the end. */
 async function signalled(out, signal) {
   const path = join(scratch, out, 'run.mcap');
-  const more = ['--no-topics', '--duration-s', '60', '--record', join(scratch, out)];
+  const more = ['--no-topics', '--duration-s', '600', '--record', join(scratch, out)];
   const child = spawn(vsa, ['run', 'snake_flat', '--gait', 'sidewind', ...more], { stdio: 'ignore' });
   const ended = new Promise((resolve) => child.once('exit', (code, by) => resolve(by ?? code)));
   try {
@@ -211,7 +211,7 @@ async function signalled(out, signal) {
   return { path, how: await ended };
 }
 
-test('a run that Ctrl-C ends is whole', { timeout: 300_000 }, async () => {
+test('a run that Ctrl-C ends is whole', { timeout: 600_000 }, async () => {
   const { path, how } = await signalled('interrupted', 'SIGINT');
   assert.equal(how, 130);
   const readable = new Readable(path);
@@ -220,7 +220,7 @@ test('a run that Ctrl-C ends is whole', { timeout: 300_000 }, async () => {
   assert.equal(reader.statistics.messageCount, BigInt(streamed(path).Message));
 });
 
-test('of a run that was killed a reader finds every whole chunk', { timeout: 300_000 }, async () => {
+test('of a run that was killed a reader finds every whole chunk', { timeout: 600_000 }, async () => {
   const { path, how } = await signalled('killed', 'SIGKILL');
   assert.equal(how, 'SIGKILL');
   const readable = new Readable(path);

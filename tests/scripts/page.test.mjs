@@ -7,7 +7,7 @@ import { launch, open as openPage } from './browser.mjs';
 
 const kWebGl = ['--disable-gpu', '--enable-unsafe-swiftshader'];
 
-const kUntil_ms = 60_000;
+const kUntil_ms = 120_000;
 let browser;
 before(async () => {
   browser = await launch(...kWebGl);
@@ -50,7 +50,7 @@ async function reaches(tab, t) {
 }
 const differing = (a, b) => a.filter((v, i) => v !== b[i]).length;
 
-test('the page of a snake', { timeout: 300_000 }, async (t) => {
+test('the page of a snake', { timeout: 600_000 }, async (t) => {
   const { tab, wrong, close } = await open('snake');
 
   await t.test('shows a picture that is not blank', async () => {
@@ -157,7 +157,7 @@ test('the page of a snake', { timeout: 300_000 }, async (t) => {
   await close();
 });
 
-test('names that a user wrote are text, not markup', { timeout: 120_000 }, async () => {
+test('names that a user wrote are text, not markup', { timeout: 600_000 }, async () => {
   const { tab, wrong, close } = await open('hostile');
   assert.equal(await tab.evaluate(() => window.hacked), undefined);
   assert.equal(await tab.locator('img').count(), 0);
@@ -166,7 +166,7 @@ test('names that a user wrote are text, not markup', { timeout: 120_000 }, async
   await close();
 });
 
-test('a world without actuators and with one frame opens', { timeout: 120_000 }, async () => {
+test('a world without actuators and with one frame opens', { timeout: 600_000 }, async () => {
   const { tab, wrong, close } = await open('bare');
   assert.equal(await tab.locator('figure').first().locator('h3').textContent(), 'From the supply J');
   await tab.click('#play');
@@ -175,7 +175,7 @@ test('a world without actuators and with one frame opens', { timeout: 120_000 },
   await close();
 });
 
-test('a phone shows it without scrolling sideways', { timeout: 120_000 }, async () => {
+test('a phone shows it without scrolling sideways', { timeout: 600_000 }, async () => {
   const { tab, wrong, close } = await open('snake', { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
   assert.ok((await tab.evaluate(() => document.documentElement.scrollWidth)) <= 390);
   const [view, panel] = [await tab.locator('.stage').boundingBox(), await tab.locator('.panel').boundingBox()];
@@ -185,7 +185,7 @@ test('a phone shows it without scrolling sideways', { timeout: 120_000 }, async 
   await close();
 });
 
-test('without WebGL it says so and the curves still work', { timeout: 120_000 }, async () => {
+test('without WebGL it says so and the curves still work', { timeout: 600_000 }, async () => {
   const plain = await launch('--disable-3d-apis');
   try {
     const { tab, wrong } = await open('snake', { from: plain });

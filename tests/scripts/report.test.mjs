@@ -23,7 +23,7 @@ async function onPaper(tab, media) {
 const drawn = (tab, chart) =>
   tab.evaluate((i) => [...document.querySelectorAll('.plot')[i].querySelectorAll('.trace .js-line')].map((p) => p.getAttribute('d').length), chart);
 
-test('a report', { timeout: 300_000 }, async (t) => {
+test('a report', { timeout: 600_000 }, async (t) => {
   const { tab, wrong, close } = await open('report');
 
   await t.test('has one heading a section, in order', async () => {
@@ -112,7 +112,7 @@ test('a report', { timeout: 300_000 }, async (t) => {
 });
 
 for (const name of ['sheet_short', 'sheet', 'sheet_long']) {
-  test(`a data sheet prints on exactly one page: ${name}`, { timeout: 120_000 }, async () => {
+  test(`a data sheet prints on exactly one page: ${name}`, { timeout: 600_000 }, async () => {
     for (const context of [{}, { viewport: { width: 390, height: 844 }, isMobile: true }, { colorScheme: 'dark', viewport: { width: 1600, height: 900 } }]) {
       const { tab, wrong, close } = await open(name, context);
       const text = await pdf(tab);
@@ -134,7 +134,7 @@ for (const name of ['sheet_short', 'sheet', 'sheet_long']) {
   });
 }
 
-test('texts that a user wrote are text, not markup', { timeout: 120_000 }, async () => {
+test('texts that a user wrote are text, not markup', { timeout: 600_000 }, async () => {
   const { tab, wrong, close } = await open('report_hostile');
   const evil = '</script><img src=x onerror="window.hacked=1"><a href="https://example.org">b</a>';
   assert.equal(await tab.evaluate(() => window.hacked), undefined);
@@ -146,14 +146,14 @@ test('texts that a user wrote are text, not markup', { timeout: 120_000 }, async
   await close();
 });
 
-test('a report with nothing in it opens', { timeout: 120_000 }, async () => {
+test('a report with nothing in it opens', { timeout: 600_000 }, async () => {
   const { tab, wrong, close } = await open('report_empty');
   assert.equal(await tab.locator('.plot .main-svg').count() > 0, true);
   assert.deepEqual(wrong, []);
   await close();
 });
 
-test('a phone shows it without scrolling sideways', { timeout: 120_000 }, async () => {
+test('a phone shows it without scrolling sideways', { timeout: 600_000 }, async () => {
   for (const name of ['report', 'sheet', 'report_hostile']) {
     const { tab, wrong, close } = await open(name, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
     assert.ok((await tab.evaluate(() => document.documentElement.scrollWidth)) <= 390, name);
@@ -162,7 +162,7 @@ test('a phone shows it without scrolling sideways', { timeout: 120_000 }, async 
   }
 });
 
-test('light and dark have readable contrast', { timeout: 120_000 }, async () => {
+test('light and dark have readable contrast', { timeout: 600_000 }, async () => {
   for (const colorScheme of ['light', 'dark']) {
     const { tab, close } = await open('report', { colorScheme });
     const ratios = await tab.evaluate(() => {

@@ -10,7 +10,8 @@ namespace vsa::serial::test {
 namespace {
 
 TEST(ProcessorsAwake, AsksForNoLatencyAtAll) {
-  const std::string device = testing::TempDir() + "vsa_latency";
+  const Scratch scratch;
+  const std::string device = scratch / "latency";
   std::ofstream(device) << "";
   {
     const ProcessorsAwake awake(device);
@@ -18,7 +19,6 @@ TEST(ProcessorsAwake, AsksForNoLatencyAtAll) {
     const std::string wish{std::istreambuf_iterator<char>(file), {}};
     EXPECT_EQ(wish, std::string(4, '\0'));
   }
-  std::filesystem::remove(device);
 }
 
 TEST(ProcessorsAwake, SaysWhichFileItCannotHave) {

@@ -27,7 +27,7 @@ namespace vsa::serial::test {
 
 using Bytes = std::vector<std::uint8_t>;
 using Clock = std::chrono::steady_clock;
-inline constexpr std::chrono::seconds kPatience{30};
+inline constexpr std::chrono::seconds kPatience{120};
 
 /// Looks again and again. True as soon as it holds.
 inline bool eventually(const std::function<bool()>& holds) {

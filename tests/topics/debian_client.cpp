@@ -62,7 +62,7 @@ TEST_F(DebianClient, PublishesACommand) {
 TEST_F(DebianClient, PausesTheWorld) {
   const std::string pause = std::string(kServiceTool) +
                             " -s /world/bench/control --reqtype ignition.msgs.WorldControl --reptype "
-                            "ignition.msgs.Boolean --timeout 5000 -r 'pause: true'";
+                            "ignition.msgs.Boolean --timeout 30000 -r 'pause: true'";
   const auto reply = run_command(pause);
   EXPECT_NE(reply.text.find("data: true"), std::string::npos) << reply.text;
   EXPECT_TRUE(served.wait_for([this](const auto&) { return served.control.paused(); }));

@@ -146,7 +146,7 @@ TEST_F(IgnitionPort, NobodyIsPublishedToUntilSomebodyListens) {
   ASSERT_NE(publisher, nullptr);
   EXPECT_FALSE(publisher->wanted());
   Mailbox<double> heard;
-  std::function<void(const msgs::Double&)> listen = [&heard](const msgs::Double& message) { heard.put(message.data()); };
+  auto listen = heard.handler<msgs::Double>([](const msgs::Double& message) { return message.data(); });
   ASSERT_TRUE(other.Subscribe("/lonely", listen));
   ASSERT_TRUE(until([&] { return publisher->wanted(); }));
   publisher->publish(0, 7.0);

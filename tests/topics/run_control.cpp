@@ -71,6 +71,39 @@ TEST(RunControl, AResetDropsStepsOwed) {
   EXPECT_EQ(control.next(0), Next::wait);
 }
 
+TEST(RunControl, SaysPausedInTheMidstOfAResetThatPauses) {
+  RunControl control(true);
+  control.request({true, std::nullopt, 0, std::nullopt});
+  EXPECT_TRUE(control.paused());
+  EXPECT_EQ(control.next(5), Next::reset);
+  EXPECT_TRUE(control.paused()) << "what is shown of the reset world mustn't look like running";
+  EXPECT_EQ(control.next(0), Next::wait);
+}
+
+TEST(RunControl, SaysWhatTheRequestsThatWaitWillComeTo) {
+  RunControl control;
+  control.request({false, true, 0, std::nullopt});
+  EXPECT_TRUE(control.paused());
+  control.request({false, true, 3, std::nullopt});
+  EXPECT_FALSE(control.paused()) << "three steps are owed";
+  control.request({true, std::nullopt, 0, std::nullopt});
+  EXPECT_TRUE(control.paused()) << "the reset drops them";
+  control.request({});
+  EXPECT_FALSE(control.paused());
+}
+
+TEST(RunControl, AResetThatSaysNothingOfPausingLeavesTheStateThatItsTurnFinds) {
+  RunControl control;
+  control.request({false, true, 1, std::nullopt});
+  control.request({true, std::nullopt, 0, std::nullopt});  // behind a step that is owed: paused all the same
+  EXPECT_EQ(control.next(0), Next::reset);
+  EXPECT_EQ(control.next(0), Next::wait);
+  control.request({});
+  control.request({true, std::nullopt, 0, std::nullopt});
+  EXPECT_EQ(control.next(0), Next::reset);
+  EXPECT_EQ(control.next(0), Next::step) << "and a running one runs on";
+}
+
 TEST(RunControl, RunsToATimeAndPausesThere) {
   RunControl control(true);
   control.request({false, false, 0, 3'000'000});

@@ -3,8 +3,11 @@
 // What the transport's tests share: a partition of their own, and waiting for something to become true by doing something useful.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -12,7 +15,7 @@
 
 namespace vsa::test {
 
-inline constexpr std::chrono::seconds kPatience{20};  // for what takes well under a second on an idle machine
+inline constexpr std::chrono::seconds kPatience{60};  // for what takes well under a second on an idle machine
 
 /// Calls `work` until it returns true; false after the deadline. The work itself is what takes the time: no sleeping.
 template <class Work>
@@ -24,44 +27,44 @@ bool until(Work&& work, std::chrono::steady_clock::duration patience = kPatience
   return true;
 }
 
-/// Messages from another thread.
+/// Messages from another thread. A handle: its copies are the same box, and a handler of the transport must own one, since the
+/// transport calls it for a moment after its node, let alone a variable of the test, has gone.
 template <class T>
 class Mailbox {
  public:
-  void put(T message) {
+  void put(T message) const {
     {
-      const std::lock_guard lock(mutex_);
-      messages_.push_back(std::move(message));
+      const std::lock_guard lock(box_->mutex);
+      box_->messages.push_back(std::move(message));
     }
-    arrived_.notify_all();
+    box_->arrived.notify_all();
   }
   /// True once a message satisfies `wanted`, within `limit`.
   template <class Wanted>
-  bool wait(Wanted wanted, std::chrono::milliseconds limit) {
-    std::unique_lock lock(mutex_);
-    return arrived_.wait_for(lock, limit, [&] {
-      for (const T& message : messages_) {
-        if (wanted(message)) return true;
-      }
-      return false;
-    });
+  [[nodiscard]] bool wait(Wanted wanted, std::chrono::milliseconds limit) const {
+    std::unique_lock lock(box_->mutex);
+    return box_->arrived.wait_for(lock, limit, [&] { return std::any_of(box_->messages.begin(), box_->messages.end(), wanted); });
   }
   [[nodiscard]] std::vector<T> all() const {
-    const std::lock_guard lock(mutex_);
-    return messages_;
+    const std::lock_guard lock(box_->mutex);
+    return box_->messages;
   }
-  void clear() {
-    const std::lock_guard lock(mutex_);
-    messages_.clear();
+  /// A handler for Node::Subscribe that puts what `read` makes of each message.
+  template <class Message, class Read>
+  [[nodiscard]] std::function<void(const Message&)> handler(Read read) const {
+    return [box = *this, read](const Message& message) { box.put(read(message)); };
   }
 
  private:
-  mutable std::mutex mutex_;
-  std::condition_variable arrived_;
-  std::vector<T> messages_;
+  struct Box {
+    std::mutex mutex;
+    std::condition_variable arrived;
+    std::vector<T> messages;
+  };
+  std::shared_ptr<Box> box_ = std::make_shared<Box>();
 };
 
-/// A child process and what it printed on standard output. Killed after `limit` seconds, which gives exit code 124.
+/// A child process and what it printed on standard output. Killed after kPatience, which gives exit code 124.
 struct Output {
   int exit_code = -1;
   std::string text;

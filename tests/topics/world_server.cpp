@@ -22,6 +22,7 @@ using vsa::test::kPatience;
 using vsa::test::Mailbox;
 using vsa::test::ServedWorld;
 using vsa::test::until;
+constexpr unsigned kPatience_ms = std::chrono::milliseconds(kPatience).count();
 
 class WorldServer : public testing::Test {
  protected:
@@ -29,7 +30,7 @@ class WorldServer : public testing::Test {
   std::optional<bool> ask(const msgs::WorldControl& request) {
     msgs::Boolean reply;
     bool result = false;
-    const bool done = other.Request("/world/bench/control", request, 20000U, reply, result);
+    const bool done = other.Request("/world/bench/control", request, kPatience_ms, reply, result);
     return done && result ? std::optional(reply.data()) : std::nullopt;
   }
 
@@ -74,7 +75,7 @@ TEST_F(WorldServer, BreaksAUnitOnRequestAndSaysWhatItWontDo) {
     msgs::StringMsg request, reply;
     request.set_data(words);
     bool result = false;
-    const bool done = other.Request("/model/bench_arm/vsa/faults", request, 20000U, reply, result);
+    const bool done = other.Request("/model/bench_arm/vsa/faults", request, kPatience_ms, reply, result);
     return done && result ? reply.data() : std::string("no answer");
   };
   msgs::WorldControl run;
@@ -118,12 +119,8 @@ TEST_F(WorldServer, RefusesWhatItCannotHonour) {
 TEST_F(WorldServer, TheClockIsSimulatedTimeAndTheStatsSayWhetherItIsPaused) {
   Mailbox<std::int64_t> clock;
   Mailbox<bool> paused;
-  std::function<void(const msgs::Clock&)> on_clock = [&clock](const msgs::Clock& m) {
-    clock.put(m.sim().sec() * 1'000'000'000 + m.sim().nsec());
-  };
-  std::function<void(const msgs::WorldStatistics&)> on_stats = [&paused](const msgs::WorldStatistics& m) {
-    paused.put(m.paused());
-  };
+  auto on_clock = clock.handler<msgs::Clock>([](const msgs::Clock& m) { return m.sim().sec() * 1'000'000'000 + m.sim().nsec(); });
+  auto on_stats = paused.handler<msgs::WorldStatistics>([](const msgs::WorldStatistics& m) { return m.paused(); });
   ASSERT_TRUE(other.Subscribe("/clock", on_clock));
   ASSERT_TRUE(other.Subscribe("/world/bench/stats", on_stats));
   served.start();

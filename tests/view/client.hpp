@@ -30,9 +30,9 @@ using Error = boost::system::error_code;
 
 inline std::string own_host(std::uint16_t port) { return "127.0.0.1:" + std::to_string(port); }
 
-/// Until it holds; the processor goes to others meanwhile. False after a minute.
+/// Until it holds; the processor goes to others meanwhile. False after five minutes.
 inline bool eventually(const std::function<bool()>& holds) {
-  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(5);
   while (!holds()) {
     if (std::chrono::steady_clock::now() > limit) return false;
     std::this_thread::yield();

@@ -169,6 +169,22 @@ TEST(LiveView, PausesStepsAndResets) {
   EXPECT_EQ(run.view->speed(), 0.25);
 }
 
+TEST(LiveView, AResetOfAPausedWorldIsNeverShownAsRunning) {
+  Session run("bench_free.sdf");
+  for (int i = 0; i < 100; ++i) run.turn();
+  run.control.request({false, true, 0, std::nullopt});
+  ASSERT_EQ(run.turn(), Next::wait);
+  Client page(run.port());
+  page.say(R"({"do":"reset"})");
+  ASSERT_TRUE(eventually([&] { return run.view->serve(), run.control.next(run.world.time_ns()) == Next::reset; }));
+  run.world.reset();
+  run.view->idle();
+  std::string frame;
+  do frame = page.hear(true).value();
+  while (at<double>(frame, 4) > 0);
+  EXPECT_EQ(at<std::uint32_t>(frame, 16) & 1U, 1U) << "a page would ask a running world to pause, and stand";
+}
+
 TEST(LiveView, PullsALinkUntilItsViewerLeaves) {
   Session run("snake_flat.sdf");
   for (int i = 0; i < 200; ++i) run.turn();
@@ -289,8 +305,12 @@ TEST(LiveView, TellsWhyARecordingCantBegin) {
   Client page(run.port());
   page.say(R"({"do":"record","on":true})");
   std::string why;
-  std::thread hearing([&] { why = text_of(page, "error")["text"]; });
-  for (int i = 0; i < 100'000 && why.empty(); ++i) run.turn();
+  std::atomic<bool> told{false};
+  std::thread hearing([&] {
+    why = text_of(page, "error")["text"];
+    told = true;
+  });
+  EXPECT_TRUE(run.until([&] { return told.load(); }));
   hearing.join();
   EXPECT_NE(why.find("records"), std::string::npos) << why;
 }

@@ -22,8 +22,9 @@ namespace vsa::topics {
 /// One request, as gz-sim understands a WorldControl message: first the reset, then `pause` (false: run), then the steps.
 struct ControlRequest {
   bool reset = false;                     ///< back to the first sample; steps still owed are dropped
-  bool pause = false;                     ///< the state afterwards: false lets the world run, also when only a reset is asked for
-  std::uint32_t steps = 0;                ///< with pause: so many steps are owed, added to those not yet done; without: no meaning
+  std::optional<bool> pause = false;      ///< the state afterwards: false lets the world run, also when only a reset is asked for;
+                                          ///< none: as it is when the request's turn comes
+  std::uint32_t steps = 0;                ///< while paused: so many steps are owed, added to those not yet done; else: no meaning
   std::optional<std::int64_t> run_to_ns;  ///< run until this simulated time, then pause; a time that has passed pauses at once
 };
 
@@ -31,11 +32,13 @@ class RunControl {
  public:
   enum class Next { step, reset, wait };
 
-  explicit RunControl(bool paused = false) : paused_(paused) {}
+  explicit RunControl(bool paused = false) : mode_{paused, 0, std::nullopt} {}
 
   /// Any thread; in order of arrival.
   void request(const ControlRequest& request);
-  [[nodiscard]] bool paused() const;  ///< any thread: no step will follow without a further request
+  /// Any thread: whether no step will follow without a further request. Those that wait for their turn count as done, so that a
+  /// reset of a paused world shows no moment of running.
+  [[nodiscard]] bool paused() const;
 
   /// The loop's thread: what to do now at this simulated time. `step` counts as done.
   [[nodiscard]] Next next(std::int64_t time_ns);
@@ -48,10 +51,16 @@ class RunControl {
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   std::deque<ControlRequest> requests_;
-  std::optional<std::int64_t> run_to_ns_;
-  std::uint64_t owed_ = 0;
   bool woken_ = false;
-  bool paused_;
+
+  struct Mode {
+    bool paused = false;
+    std::uint64_t owed = 0;  ///< steps, while paused
+    std::optional<std::int64_t> run_to_ns;
+    void reset() noexcept;
+    void apply(const ControlRequest& request) noexcept;  ///< but for its reset
+  };
+  Mode mode_;
 };
 
 }  // namespace vsa::topics

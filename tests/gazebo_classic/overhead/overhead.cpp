@@ -17,6 +17,7 @@
 #include <functional>
 #include <ignition/transport/Node.hh>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 
@@ -44,11 +45,12 @@ enum class Listening { none, states, all };
 
 /// A process of its own that listens to the robot's topics until its input ends, and then says how much came.
 int listen(bool to_all) {
-  std::atomic<long> states{0}, numbers{0};
+  // A callback may still run when its node has gone.
+  const auto states = std::make_shared<std::atomic<long>>(0), numbers = std::make_shared<std::atomic<long>>(0);
   {
     ignition::transport::Node node;
-    std::function<void(const ignition::msgs::Model&)> on_states = [&](const auto&) { ++states; };
-    std::function<void(const ignition::msgs::Double&)> on_number = [&](const auto&) { ++numbers; };
+    std::function<void(const ignition::msgs::Model&)> on_states = [states](const auto&) { ++*states; };
+    std::function<void(const ignition::msgs::Double&)> on_number = [numbers](const auto&) { ++*numbers; };
     if (!node.Subscribe(vsa::host::model_topic(kModel, "vsa/joint_state"), on_states)) return 1;
     for (std::size_t i = 0; to_all && i < kModules; ++i) {
       for (const char* leaf : {"stiffness", "deflection", "preset", "current_1", "current_2"}) {
@@ -58,8 +60,8 @@ int listen(bool to_all) {
     while (std::getchar() != EOF) {
     }
   }
-  std::cerr << "  the listener got " << states << " joint states and " << numbers << " numbers\n";
-  return states > 0 && (!to_all || numbers > 0) ? 0 : 1;
+  std::cerr << "  the listener got " << *states << " joint states and " << *numbers << " numbers\n";
+  return *states > 0 && (!to_all || *numbers > 0) ? 0 : 1;
 }
 
 class Listener {

@@ -39,11 +39,47 @@ function connectTabs(redrawCurves) {
   }
 }
 
-/// What is clicked or typed goes to the run (`link`), the curves or the view (`stage`: a function, as there may be none).
+const kAnswer_ms = 2000; // after which a frame is believed whatever was asked
+
+/**
+ * Whether the run plays, as far as the page knows: what was asked for last, until a frame agrees; frames on their way still show the state
+ * before, and a second press must undo the first.
+ */
+class Playing {
+  constructor(link) {
+    this.link = link;
+    this.shown = false;
+    this.asked = null;
+  }
+
+  get now() {
+    return this.asked && performance.now() - this.asked.at < kAnswer_ms ? this.asked.playing : this.shown;
+  }
+
+  /** A frame came. */
+  show(frame) {
+    this.shown = !frame.paused;
+    if (this.asked?.playing === this.shown) this.asked = null;
+  }
+
+  ask(playing, what, more) {
+    if (!this.link.ready) return;
+    this.asked = { playing, at: performance.now() };
+    this.link.ask(what, more);
+  }
+
+  toggle() {
+    if (this.now) this.ask(false, 'pause');
+    else this.ask(true, 'play');
+  }
+}
+
+/// What is clicked or typed goes to the run (`link`), the curves or the view (`stage`: a function, as there may be none). Returns what
+/// knows whether the run plays.
 export function connectControls({ link, live, curves, redrawCurves, stage }) {
-  const playing = () => live.frame !== null && !live.frame.paused;
-  $('play').addEventListener('click', () => link.ask(playing() ? 'pause' : 'play'));
-  $('step').addEventListener('click', () => link.ask('step', { steps: 1 }));
+  const playing = new Playing(link);
+  $('play').addEventListener('click', () => playing.toggle());
+  $('step').addEventListener('click', () => playing.ask(false, 'step', { steps: 1 }));
   $('reset').addEventListener('click', () => link.ask('reset'));
   $('speed').addEventListener('change', (e) => link.ask('speed', { factor: e.target.value === 'max' ? null : Number(e.target.value) }));
   $('record').addEventListener('click', () => link.ask('record', { on: !live.state?.recordings.now }));
@@ -56,6 +92,7 @@ export function connectControls({ link, live, curves, redrawCurves, stage }) {
   $('reset-view').addEventListener('click', () => stage()?.resetView());
   connectTabs(redrawCurves);
   connectKeys();
+  return playing;
 }
 
 function connectKeys() {

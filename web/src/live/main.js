@@ -202,6 +202,7 @@ function takeFrame() {
   if (!frame) return;
   const before = live.frame;
   live.frame = frame;
+  playing.show(frame);
   ++live.frames;
   history.add(frame.time);
   const still = before && before.time === frame.time && !before.pulls.length && !frame.pulls.length;
@@ -212,8 +213,8 @@ function writeClock() {
   const { frame } = live;
   if (!frame) return;
   $('clock').replaceChildren(element('b', '', `${frame.time.toFixed(3)} s`));
-  $('play').classList.toggle('playing', !frame.paused);
-  $('play').setAttribute('aria-label', frame.paused ? 'Play' : 'Pause');
+  $('play').classList.toggle('playing', playing.now);
+  $('play').setAttribute('aria-label', playing.now ? 'Pause' : 'Play');
   $('factor').textContent = frame.paused ? '–' : frame.factor.toPrecision(2).replace(/\.?0+e\+?/, 'e');
   if (link.ready) setStatus(frame.paused ? 'paused' : 'running', frame.paused ? '' : 'good');
 }
@@ -260,7 +261,7 @@ function everyFrame() {
 
 writeHeader();
 makeStage();
-connectControls({ link, live, curves, redrawCurves, stage: () => stage });
+const playing = connectControls({ link, live, curves, redrawCurves, stage: () => stage });
 let pulls = null;
 if (stage) {
   pulls = connectPulls(stage, link, {
