@@ -48,7 +48,8 @@ struct Where {
     return g;
   }
 
-  [[nodiscard]] std::filesystem::path locate(const std::string& uri, const std::string& from) const {
+  [[nodiscard]] std::filesystem::path locate(const std::string& uri, const std::string& given) const {
+    const std::string from = c.files.original(given);
     const bool known = !from.empty() && from.front() != '<' && std::filesystem::exists(from);
     return c.finder.find(uri, known ? std::filesystem::path(from).parent_path() : c.base);
   }
@@ -67,7 +68,7 @@ std::optional<Geometry> read_plane(Where& w, const sdf::Plane& plane) {
 
 std::optional<Geometry> read_mesh_geometry(Where& w, const sdf::Mesh& mesh) {
   const auto path = w.locate(mesh.Uri(), mesh.FilePath());
-  if (path.empty()) return w.refuse("mesh/uri", mesh.Uri(), "file not found", "a file in: " + w.c.finder.searched());
+  if (path.empty()) return w.refuse("mesh/uri", mesh.Uri(), "file not found", w.c.finder.searched(mesh.Uri()));
   if (!mesh.Submesh().empty()) return w.refuse("mesh/submesh", mesh.Submesh(), "submeshes aren't supported", "whole meshes");
   if (!mesh_format_known(path)) return w.refuse("mesh/uri", mesh.Uri(), "this mesh format isn't read", kMeshFormats);
   Geometry g;
@@ -87,7 +88,7 @@ std::optional<Geometry> read_mesh_geometry(Where& w, const sdf::Mesh& mesh) {
 
 std::optional<Geometry> read_heightmap_geometry(Where& w, const sdf::Heightmap& map) {
   const auto path = w.locate(map.Uri(), map.FilePath());
-  if (path.empty()) return w.refuse("heightmap/uri", map.Uri(), "file not found", "a file in: " + w.c.finder.searched());
+  if (path.empty()) return w.refuse("heightmap/uri", map.Uri(), "file not found", w.c.finder.searched(map.Uri()));
   std::optional<Geometry> g = w.sized(Geometry::Kind::heightmap, map.Size(), 3, "heightmap/size");
   if (!g) return g;
   try {

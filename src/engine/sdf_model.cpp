@@ -51,6 +51,7 @@ void read_model(ReadContext& c, const sdf::Model& model, const ModelScope* outer
   for (std::uint64_t i = 0; i < model.ModelCount(); ++i) read_model(c, *model.ModelByIndex(i), &scope);
   for (std::uint64_t i = 0; i < model.JointCount(); ++i) read_joint(c, *model.JointByIndex(i), scope);
   read_plugins(c, model.Element(), scope);
+  check_urdf(c, model, scope);
 }
 
 }  // namespace vsa::engine

@@ -71,11 +71,14 @@ WorldDescription read_sdf(const SdfSource& source, const std::vector<fs::path>& 
   const fs::path base = source.path.empty() ? fs::current_path() : fs::absolute(source.path).parent_path();
   const Finder finder(model_path);
   Notes notes;
-  ReadContext context{out, problems, notes, finder, source.label(), base, true};
-  if (!check_includes(source, context)) return out;
+  InputFiles files;
+  ReadContext context{out, problems, notes, finder, files, source.label(), base, true};
+  if (!prepare_files(source, context)) return out;
   sdf::Root root;
   parse_sdf(source, context, root);
   read_root(context, root);
+  check_urdfs_found(context);
+  if (problems.empty()) finish_joints(context);
   warnings = notes.texts();
   return out;
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// SDF 1.6–1.9 (and URDF as libsdformat reads it) → WorldDescription.
+// SDF 1.6 … 1.12 and URDF → WorldDescription.
 //
 // What the engine can't honour is a problem; what doesn't touch the physics (sensors, foreign plugins) is
 // a warning, once a kind. A file with a model and no world becomes that model in a world of SDF's defaults.

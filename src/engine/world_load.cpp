@@ -57,13 +57,23 @@ struct RobotBuilder {
     for (const host::ActuatorConfig& a : config.actuators) {
       const auto it = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == a.joint; });
       if (it == known.end()) continue;
-      if (!world.joints[it->second].one_axis()) {
-        problems.add(
-            {where, "actuator[" + a.name + "]/joint", a.joint, "isn't a joint with one axis", "revolute, continuous, prismatic"});
-      }
+      check_drivable(it->second, "actuator[" + a.name + "]/joint", a.joint, where);
       out.push_back(it->second);
     }
     return problems.list().size() == before ? out : std::vector<std::size_t>{};
+  }
+
+  /// The laws' positions are angles, their outputs torques.
+  void check_drivable(std::size_t joint, const std::string& key, const std::string& name, const std::string& where) {
+    const Joint& j = world.joints[joint];
+    const bool follows =
+        std::any_of(world.couplings.begin(), world.couplings.end(), [&](const Coupling& k) { return k.follower == joint; });
+    const char* wrong = j.kind == Joint::Kind::fixed   ? "can't move: it is fixed, or its limits leave it no room"
+                        : j.kind == Joint::Kind::slide ? "is prismatic: the actuators' laws are for angles and torques"
+                        : !j.one_axis()                ? "isn't a joint with one axis"
+                        : follows                      ? "follows another joint (<mimic>)"
+                                                       : nullptr;
+    if (wrong != nullptr) problems.add({where, key, name, wrong, "a revolute or continuous joint that follows no other"});
   }
 
   std::optional<RobotSlot> build(const Plugin& plugin) {
@@ -125,6 +135,10 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
   problems.throw_if_any();
   impl->physics = make_mujoco(impl->world, static_cast<double>(impl->dt_ns) * 1e-9, source.label(), problems);
   problems.throw_if_any();
+  for (std::size_t j = 0; j < impl->world.joints.size(); ++j) {
+    const Joint& joint = impl->world.joints[j];
+    if (joint.one_axis() && joint.axes[0].start) impl->physics->set_joint(j, {*joint.axes[0].start, 0});
+  }
   impl->initial = impl->snapshot();
   return impl;
 }
