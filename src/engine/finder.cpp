@@ -100,16 +100,17 @@ fs::path Finder::find(std::string_view uri, const fs::path& base) const {
   return {};
 }
 
-std::string Finder::searched(std::string_view uri) const {
+std::string Finder::searched(std::string_view uri, const fs::path& base) const {
   if (uri.find("://") != std::string_view::npos && uri.substr(0, 7) != "file://" && uri.substr(0, 8) != "model://" &&
       uri.substr(0, 10) != "package://")
     return "a file of this machine: nothing is downloaded";
   const bool plain = uri.find("://") == std::string_view::npos || uri.substr(0, 7) == "file://";
-  std::string text = plain ? "a file beside the naming one" : "";
+  std::string text;
   const auto add = [&](const std::vector<fs::path>& paths, const char* more) {
     for (const fs::path& path : paths) text += (text.empty() ? "a file in: " : ", ") + path.string() + more;
   };
   if (plain) {
+    add({base}, "");
     add(resources_, "");
     return text;
   }

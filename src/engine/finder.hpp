@@ -22,7 +22,8 @@ class Finder {
   explicit Finder(const std::vector<std::filesystem::path>& more);
   /// Empty where nothing is found.
   [[nodiscard]] std::filesystem::path find(std::string_view uri, const std::filesystem::path& base) const;
-  [[nodiscard]] std::string searched(std::string_view uri) const;  ///< for error messages: where it looked for such a URI
+  /// For error messages: where it looked.
+  [[nodiscard]] std::string searched(std::string_view uri, const std::filesystem::path& base) const;
 
  private:
   [[nodiscard]] std::filesystem::path in_package(std::string_view name_and_rest) const;

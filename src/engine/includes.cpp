@@ -39,10 +39,12 @@ int minor_version(const char* text) {
   return number && *number >= 0 && *number <= kNewest ? static_cast<int>(*number) : -1;
 }
 
-void collect_uris(const tinyxml2::XMLElement& element, std::vector<std::string>& uris) {
+using Uris = std::vector<tinyxml2::XMLElement*>;
+
+void collect_uris(tinyxml2::XMLElement& element, Uris& uris) {
   if (std::string_view(element.Name()) == "include") {
-    const auto* uri = element.FirstChildElement("uri");
-    if (uri != nullptr && uri->GetText() != nullptr) uris.emplace_back(uri->GetText());
+    auto* uri = element.FirstChildElement("uri");
+    if (uri != nullptr && uri->GetText() != nullptr) uris.push_back(uri);
     return;
   }
   for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) collect_uris(*e, uris);
@@ -58,25 +60,37 @@ class Walk {
   void file(const fs::path& path) {
     tinyxml2::XMLDocument xml;
     if (xml.LoadFile(path.c_str()) != tinyxml2::XML_SUCCESS) return;  // what is broken, libsdformat reports
-    if (document(xml, path.string())) c_.files.replace(path, printed(xml));
+    if (document(xml, path.string(), fs::absolute(path).parent_path())) c_.files.replace(path, printed(xml));
   }
 
   /// True where the document was changed.
-  bool document(tinyxml2::XMLDocument& xml, const std::string& label) {
+  bool document(tinyxml2::XMLDocument& xml, const std::string& label, const fs::path& base) {
     tinyxml2::XMLElement* root = xml.RootElement();
     if (root == nullptr) return false;
-    const bool changed = mend(*root, label, c_);
+    bool changed = mend(*root, label, c_);
     if (std::string_view(root->Name()) != "sdf") return changed;
-    std::vector<std::string> uris;
+    Uris uris;
     collect_uris(*root, uris);
-    for (const std::string& uri : uris) {
-      const fs::path found = c_.finder.find(uri, c_.base);
-      if (!found.empty()) enter(model_file(found), uri, label);
+    for (tinyxml2::XMLElement* element : uris) {
+      const std::string uri = element->GetText();
+      const fs::path found = c_.finder.find(uri, base);
+      if (found.empty()) continue;
+      const fs::path target = model_file(found);
+      enter(target, uri, label);
+      if (libsdformat_finds(uri) == target && c_.files.stand_in(target) == target) continue;
+      element->SetText(c_.files.stand_in(target).c_str());
+      changed = true;
     }
     return changed;
   }
 
  private:
+  /// It looks for a plain path among its own files and in the working directory first.
+  [[nodiscard]] fs::path libsdformat_finds(const std::string& uri) const {
+    const bool plain = uri.find("://") == std::string::npos || uri.rfind("file://", 0) == 0;
+    return plain && !fs::path(uri).is_absolute() ? fs::path() : model_file(c_.finder.find(uri, c_.base));
+  }
+
   void enter(const fs::path& path, const std::string& uri, const std::string& from) {
     std::error_code ignored;
     const std::string key = fs::weakly_canonical(path, ignored).string();
@@ -122,7 +136,7 @@ bool prepare_files(const SdfSource& source, ReadContext& context) {
   tinyxml2::XMLDocument xml;
   const bool readable = source.path.empty() ? xml.Parse(source.text.data(), source.text.size()) == tinyxml2::XML_SUCCESS
                                             : xml.LoadFile(source.path.c_str()) == tinyxml2::XML_SUCCESS;
-  if (readable && walk.document(xml, source.label())) context.files.top = printed(xml);
+  if (readable && walk.document(xml, source.label(), context.base)) context.files.top = printed(xml);
   context.files.top_is_urdf = readable && xml.RootElement() != nullptr && std::string_view(xml.RootElement()->Name()) == "robot";
   return context.problems.list().size() == before;
 }

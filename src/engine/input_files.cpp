@@ -47,6 +47,8 @@ void InputFiles::replace(const fs::path& file, const std::string& text) {
   original_of_[copy.string()] = file.string();
 }
 
+void InputFiles::call(const fs::path& file) { original_of_[fs::absolute(file).string()] = file.string(); }
+
 fs::path InputFiles::stand_in(const fs::path& file) const {
   const auto it = copy_of_.find(key_of(file));
   return it == copy_of_.end() ? file : fs::path(it->second);
@@ -59,6 +61,7 @@ std::string InputFiles::original(const std::string& path) const {
 
 std::string InputFiles::with_originals(std::string text) const {
   for (const auto& [copy, file] : original_of_) {
+    if (file.empty() || copy.find(file) != std::string::npos) continue;
     for (std::size_t at = text.find(copy); at != std::string::npos; at = text.find(copy, at + file.size()))
       text.replace(at, copy.size(), file);
   }

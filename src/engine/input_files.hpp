@@ -23,6 +23,8 @@ class InputFiles {
 
   /// `text` stands in for an included file. Throws InputError where no copy can be written.
   void replace(const std::filesystem::path& file, const std::string& text);
+  /// libsdformat gets the world's own file by its whole path; users know it by what they wrote.
+  void call(const std::filesystem::path& file);
   /// What libsdformat gets for a file: the file, or what stands in for it.
   [[nodiscard]] std::filesystem::path stand_in(const std::filesystem::path& file) const;
   /// The file that a path told by libsdformat speaks of.

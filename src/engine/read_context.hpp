@@ -5,6 +5,7 @@
 #pragma once
 
 #include <ignition/math/Pose3.hh>
+#include <map>
 #include <sdf/Element.hh>
 #include <sdf/SemanticPose.hh>
 
@@ -20,6 +21,7 @@ class Link;
 class Model;
 class Geometry;
 class Visual;
+class World;
 }  // namespace v12
 }  // namespace sdf
 
@@ -41,6 +43,7 @@ struct ReadContext {
   std::filesystem::path base;  ///< directory for relative paths of elements that don't know their file
   bool parsed_clean = true;    ///< false: poses may not resolve for reasons already reported
   std::vector<Mimic> mimics{};
+  std::map<std::string, Pose3> model_poses{};  ///< scoped name → its frame in the world
 
   void problem(const sdf::ElementPtr& element, std::string key, std::string value, std::string message, std::string allowed = {});
   [[nodiscard]] std::string file_of(const sdf::ElementPtr& element) const;
@@ -69,6 +72,8 @@ void read_joint(ReadContext& context, const sdf::Joint& joint, const ModelScope&
 /// Compares a model that came from a URDF with it; afterwards, that each URDF was.
 void check_urdf(ReadContext& context, const sdf::Model& model, const ModelScope& scope);
 void check_urdfs_found(ReadContext& context);
+/// A world's <state>, once its models are read.
+void read_state(ReadContext& context, const sdf::World& world);
 /// Once all joints are known: welds those without room, finds where each starts, couples followers to leaders.
 void finish_joints(ReadContext& context);
 [[nodiscard]] std::optional<Geometry> read_geometry(ReadContext& context, const sdf::Geometry& geometry, const std::string& key,

@@ -48,10 +48,16 @@ struct Where {
     return g;
   }
 
-  [[nodiscard]] std::filesystem::path locate(const std::string& uri, const std::string& given) const {
+  [[nodiscard]] std::filesystem::path base_of(const std::string& given) const {
     const std::string from = c.files.original(given);
     const bool known = !from.empty() && from.front() != '<' && std::filesystem::exists(from);
-    return c.finder.find(uri, known ? std::filesystem::path(from).parent_path() : c.base);
+    return known ? std::filesystem::absolute(from).parent_path() : c.base;
+  }
+  [[nodiscard]] std::filesystem::path locate(const std::string& uri, const std::string& from) const {
+    return c.finder.find(uri, base_of(from));
+  }
+  std::nullopt_t not_found(const char* name, const std::string& uri, const std::string& from) {
+    return refuse(name, uri, "file not found", c.finder.searched(uri, base_of(from)));
   }
 };
 
@@ -68,7 +74,7 @@ std::optional<Geometry> read_plane(Where& w, const sdf::Plane& plane) {
 
 std::optional<Geometry> read_mesh_geometry(Where& w, const sdf::Mesh& mesh) {
   const auto path = w.locate(mesh.Uri(), mesh.FilePath());
-  if (path.empty()) return w.refuse("mesh/uri", mesh.Uri(), "file not found", w.c.finder.searched(mesh.Uri()));
+  if (path.empty()) return w.not_found("mesh/uri", mesh.Uri(), mesh.FilePath());
   if (!mesh.Submesh().empty()) return w.refuse("mesh/submesh", mesh.Submesh(), "submeshes aren't supported", "whole meshes");
   if (!mesh_format_known(path)) return w.refuse("mesh/uri", mesh.Uri(), "this mesh format isn't read", kMeshFormats);
   Geometry g;
@@ -88,7 +94,7 @@ std::optional<Geometry> read_mesh_geometry(Where& w, const sdf::Mesh& mesh) {
 
 std::optional<Geometry> read_heightmap_geometry(Where& w, const sdf::Heightmap& map) {
   const auto path = w.locate(map.Uri(), map.FilePath());
-  if (path.empty()) return w.refuse("heightmap/uri", map.Uri(), "file not found", w.c.finder.searched(map.Uri()));
+  if (path.empty()) return w.not_found("heightmap/uri", map.Uri(), map.FilePath());
   std::optional<Geometry> g = w.sized(Geometry::Kind::heightmap, map.Size(), 3, "heightmap/size");
   if (!g) return g;
   try {

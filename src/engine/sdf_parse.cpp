@@ -51,17 +51,28 @@ class GlobalConfig {
 };
 
 struct Message {
-  std::string file, text;
+  std::string file, key, text;
   bool error = true;
 };
 
-/// "Error Code 9: [/sdf/model:FILE:L3]: Msg: text", of an included file.
+std::string without_copying(std::string text) {
+  if (const std::size_t more = text.find(". Copying["); more != std::string::npos) text.resize(more);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+/// "Error Code 9: [/sdf/model:FILE:L3]: Msg: text", of an included file. Lines are the copy's where one stood in.
 std::optional<Message> from_included(const std::string& line, const ReadContext& c) {
   const std::size_t open = line.find('['), text = line.find("]: Msg: ");
   if (!starts(line, "Error Code ") || open == std::string::npos || text == std::string::npos) return std::nullopt;
-  std::string place = c.files.with_originals(line.substr(open + 1, text - open - 1));
-  if (const std::size_t slash = place.find(":/"); slash != std::string::npos) place = place.substr(slash + 1);
-  return Message{place, line.substr(text + 8), true};
+  const std::string place = line.substr(open + 1, text - open - 1);
+  const std::size_t number = place.rfind(":L"), colon = number == std::string::npos ? number : place.rfind(':', number - 1);
+  Message out{c.file, place, without_copying(line.substr(text + 8)), true};
+  if (number == std::string::npos || colon == std::string::npos) return out;
+  const std::string file = place.substr(colon + 1, number - colon - 1), original = c.files.original(file);
+  out.file = original == file ? fmt::format("{}:{}", file, place.substr(number + 2)) : original;
+  out.key = place.substr(0, colon);
+  return out;
 }
 
 /// What was printed of the files: "\033[1;31mError [Param.cc:771]\033[0m message" by libsdformat, "Error:   message" by urdfdom.
@@ -77,9 +88,9 @@ std::vector<Message> messages(const std::string& printed, const ReadContext& c) 
     const std::size_t at = line.find("]\033[0m ");
     const bool noise = holds(line, "parser_urdf.cc") && (!urdf || holds(line, "Unable to call parseURDF"));
     if (at != std::string::npos && !noise && !holds(line, "old deprecated model")) {
-      out.push_back({c.file, c.files.with_originals(line.substr(at + 6)), holds(line.substr(0, at), "Error")});
+      out.push_back({c.file, "", c.files.with_originals(line.substr(at + 6)), holds(line.substr(0, at), "Error")});
     } else if (at == std::string::npos && urdf && (starts(line, "Error:") || starts(line, "Warning:"))) {
-      out.push_back({c.file, line.substr(line.find_first_not_of(" ", line.find(':') + 1)), starts(line, "Error:")});
+      out.push_back({c.file, "", line.substr(line.find_first_not_of(" ", line.find(':') + 1)), starts(line, "Error:")});
     }
   }
   return out;
@@ -109,10 +120,9 @@ Problem to_problem(const sdf::Error& error, const ReadContext& c) {
   const bool own_lines = p.file != c.file || !c.files.top;
   if (error.LineNumber() && own_lines && c.files.stand_in(p.file) == p.file) p.file += fmt::format(":{}", *error.LineNumber());
   p.key = error.XmlPath().value_or("");
-  p.message = c.files.with_originals(error.Message());
-  if (const std::size_t more = p.message.find(". Copying["); more != std::string::npos) p.message.resize(more);
-  while (!p.message.empty() && p.message.back() == '\n') p.message.pop_back();
-  if (error.Code() == sdf::ErrorCode::URI_LOOKUP) p.allowed = c.finder.searched(uri_in(p.message));
+  p.message = without_copying(c.files.with_originals(error.Message()));
+  if (c.files.top && holds(p.message, "not defined in SDF")) p.allowed = "elements of SDF 1.9, as which newer files are read";
+  if (error.Code() == sdf::ErrorCode::URI_LOOKUP) p.allowed = c.finder.searched(uri_in(p.message), c.base);
   return p;
 }
 
@@ -134,7 +144,7 @@ void report(const sdf::Errors& errors, std::vector<Message> printed, ReadContext
     c.problems.add(std::move(p));
   }
   const bool unexplained = c.problems.list().size() == before && !left_to_readers;
-  for (Message& m : printed) c.problems.add({std::move(m.file), "", "", std::move(m.text), ""});
+  for (Message& m : printed) c.problems.add({std::move(m.file), std::move(m.key), "", std::move(m.text), ""});
   if (unexplained && printed.empty())
     c.problems.add({c.file, "", "", "isn't readable as SDF or URDF", "an SDF 1.6 … 1.12 or URDF file"});
 }
@@ -156,7 +166,9 @@ sdf::Errors load(const SdfSource& source, const ReadContext& c, sdf::Root& root)
   const GlobalConfig global(config);
   try {
     if (c.files.top) return root.LoadSdfString(*c.files.top, config);
-    return source.path.empty() ? root.LoadSdfString(std::string(source.text), config) : root.Load(source.path.string(), config);
+    if (source.path.empty()) return root.LoadSdfString(std::string(source.text), config);
+    // It takes "model.sdf" or "actor.sdf" for a file of its own.
+    return root.Load(std::filesystem::absolute(source.path).string(), config);
   } catch (const std::exception& error) {
     return {{sdf::ErrorCode::FILE_READ, std::string("can't be read: ") + error.what()}};
   }
@@ -184,7 +196,7 @@ void parse_sdf(const SdfSource& source, ReadContext& c, sdf::Root& root) {
   }
   for (const Message& m : said) {
     if (m.error) {
-      c.problems.add({m.file, "", "", m.text, ""});
+      c.problems.add({m.file, m.key, "", m.text, ""});
     } else {
       c.notes.add(m.text, m.file);
     }

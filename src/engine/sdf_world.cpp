@@ -31,7 +31,7 @@ void read_world_extras(ReadContext& c, const sdf::World& world) {
   const sdf::ElementPtr e = world.Element();
   if (world.ActorCount() > 0) c.notes.add("actors are left out", "world");
   if (world.WindLinearVelocity() != Vec3::Zero) c.notes.add("wind is left out", "world");
-  for (const char* name : {"population", "road", "state"}) {
+  for (const char* name : {"population", "road"}) {
     if (child(e, name)) c.problem(child(e, name), std::string("world/") + name, "", "isn't supported");
   }
   for (sdf::ElementPtr p = child(e, "plugin"); p; p = p->GetNextElement("plugin")) {
@@ -51,6 +51,7 @@ void read_root(ReadContext& c, const sdf::Root& root) {
       read_world_extras(c, world);
     }
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) read_model(c, *world.ModelByIndex(i), nullptr);
+    if (c.problems.empty()) read_state(c, world);
   } else if (root.Model() != nullptr) {
     c.out.name = "default";
     read_model(c, *root.Model(), nullptr);
@@ -72,6 +73,7 @@ WorldDescription read_sdf(const SdfSource& source, const std::vector<fs::path>& 
   const Finder finder(model_path);
   Notes notes;
   InputFiles files;
+  if (!source.path.empty()) files.call(source.path);
   ReadContext context{out, problems, notes, finder, files, source.label(), base, true};
   if (!prepare_files(source, context)) return out;
   sdf::Root root;
