@@ -44,6 +44,7 @@ struct Geometry {
   Vec3 size;  ///< box: full lengths; sphere: r; cylinder, capsule: r, length of the straight part; ellipsoid: radii; plane: lengths
   Pose3 offset;  ///< of the geometry in its collision or visual (a plane's normal is +z of this frame)
   std::shared_ptr<const Mesh> mesh;
+  std::vector<std::shared_ptr<const Mesh>> parts;  ///< convex; where the mesh itself isn't, and was decomposed
   std::shared_ptr<const Heightmap> heightmap;
 };
 

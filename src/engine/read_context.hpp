@@ -41,7 +41,8 @@ struct ReadContext {
   InputFiles& files;
   std::string file;            ///< the world's, where an element doesn't know its own
   std::filesystem::path base;  ///< directory for relative paths of elements that don't know their file
-  bool parsed_clean = true;    ///< false: poses may not resolve for reasons already reported
+  Concave concave = Concave::refuse;
+  bool parsed_clean = true;  ///< false: poses may not resolve for reasons already reported
   std::vector<Mimic> mimics{};
   std::map<std::string, Pose3> model_poses{};  ///< scoped name → its frame in the world
 

@@ -86,7 +86,15 @@ void read_collision(ReadContext& c, const sdf::Collision& collision, Link& out) 
     return;
   }
   shape.geometry = *geometry;
-  out.collisions.push_back(std::move(shape));
+  if (geometry->parts.empty()) {
+    out.collisions.push_back(std::move(shape));
+    return;
+  }
+  shape.geometry.parts.clear();
+  for (const auto& part : geometry->parts) {
+    shape.geometry.mesh = part;
+    out.collisions.push_back(shape);
+  }
 }
 
 }  // namespace

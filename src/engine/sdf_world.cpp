@@ -61,7 +61,7 @@ void read_root(ReadContext& c, const sdf::Root& root) {
 
 }  // namespace
 
-WorldDescription read_sdf(const SdfSource& source, const std::vector<fs::path>& model_path, std::vector<std::string>& warnings,
+WorldDescription read_sdf(const SdfSource& source, const WorldOptions& options, std::vector<std::string>& warnings,
                           Problems& problems) {
   WorldDescription out;
   std::error_code ignored;
@@ -70,11 +70,11 @@ WorldDescription read_sdf(const SdfSource& source, const std::vector<fs::path>& 
     return out;
   }
   const fs::path base = source.path.empty() ? fs::current_path() : fs::absolute(source.path).parent_path();
-  const Finder finder(model_path);
+  const Finder finder(options.model_path);
   Notes notes;
   InputFiles files;
   if (!source.path.empty()) files.call(source.path);
-  ReadContext context{out, problems, notes, finder, files, source.label(), base, true};
+  ReadContext context{out, problems, notes, finder, files, source.label(), base, options.concave};
   if (!prepare_files(source, context)) return out;
   sdf::Root root;
   parse_sdf(source, context, root);

@@ -22,7 +22,7 @@ struct SdfSource {
 };
 
 /// Everything wrong goes to `problems`; the description is complete only where nothing was.
-[[nodiscard]] WorldDescription read_sdf(const SdfSource& source, const std::vector<std::filesystem::path>& model_path,
-                                        std::vector<std::string>& warnings, Problems& problems);
+[[nodiscard]] WorldDescription read_sdf(const SdfSource& source, const WorldOptions& options, std::vector<std::string>& warnings,
+                                        Problems& problems);
 
 }  // namespace vsa::engine

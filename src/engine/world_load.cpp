@@ -2,10 +2,12 @@
 //
 // From a file to a World: read, build the robots, compile, and remember the first sample. All problems are thrown at once.
 #include <fmt/format.h>
+#include <tinyxml2.h>
 
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <numbers>
 
 #include "sdf_world.hpp"
 #include "vsa/config/plugin_xml.hpp"
@@ -76,12 +78,30 @@ struct RobotBuilder {
     if (wrong != nullptr) problems.add({where, key, name, wrong, "a revolute or continuous joint that follows no other"});
   }
 
+  /// An actuator whose text gives no equilibrium starts where its joint does, so that its springs aren't wound up.
+  void start_with_joints(host::RobotConfig& config, const std::vector<std::size_t>& joints, const Plugin& plugin,
+                         const std::string& where) {
+    tinyxml2::XMLDocument xml;
+    if (xml.Parse(plugin.xml.c_str()) != tinyxml2::XML_SUCCESS || xml.RootElement() == nullptr) return;
+    const tinyxml2::XMLElement* e = xml.RootElement()->FirstChildElement("actuator");
+    for (std::size_t i = 0; i < joints.size(); ++i, e = e == nullptr ? e : e->NextSiblingElement("actuator")) {
+      const double start = world.joints[joints[i]].axes[0].start.value_or(0);
+      const tinyxml2::XMLElement* initial = e == nullptr ? nullptr : e->FirstChildElement("initial");
+      if (start == 0 || (initial != nullptr && initial->Attribute("equilibrium_rad") != nullptr)) continue;
+      if (std::abs(start) > std::numbers::pi)
+        problems.add({where, "actuator[" + config.actuators[i].name + "]/initial@equilibrium_rad", "",
+                      fmt::format("is needed: its joint starts at {} rad", start), "an equilibrium near the joint's start"});
+      config.actuators[i].initial_equilibrium_rad = start;
+    }
+  }
+
   std::optional<RobotSlot> build(const Plugin& plugin) {
     const std::string where = file + ": " + plugin.model;
     try {
       host::RobotConfig config = config::parse_plugin(plugin.xml, where, presets, actuator);
       std::vector<std::size_t> joints = match(config, plugin, where);
       if (joints.size() != config.actuators.size()) return std::nullopt;
+      start_with_joints(config, joints, plugin, where);
       const std::size_t n = joints.size();
       return RobotSlot{plugin.model,           host::Robot(std::move(config)), std::move(joints), std::vector<host::JointIn>(n),
                        std::vector<double>(n), std::vector<double>(n)};
@@ -128,7 +148,7 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
   Problems problems;
   {
     const std::scoped_lock lock(reading);
-    impl->world = read_sdf(source, impl->options.model_path, impl->warnings, problems);
+    impl->world = read_sdf(source, impl->options, impl->warnings, problems);
   }
   impl->dt_ns = step_ns(impl->options, impl->world, source.label(), problems);
   impl->add_robots(source.label(), problems);

@@ -180,6 +180,27 @@ TEST(RobotFiles, AFileOfOneOfLibsdformatsOwnNamesIsTheUsers) {
   EXPECT_EQ(w.links().size(), 3u);
 }
 
+TEST(RobotFiles, AnActuatedJointThatStartsElsewhereStartsAtRest) {
+  const auto robot = [](const std::string& initial) {
+    return World::load_string(
+        world("<model name='m'><link name='base'>" + inertial(1, 1e-3) +
+                  "</link><joint name='fix' type='fixed'><parent>world</parent><child>base</child></joint><link name='a'>" +
+                  inertial(1, 1e-3) +
+                  "</link><joint name='j' type='revolute'><parent>base</parent><child>a</child><axis><xyz>0 0 1</xyz>"
+                  "<initial_position>0.5</initial_position></axis></joint><plugin name='vsa::Robot' "
+                  "filename='libvsa-robot.so'><actuator><joint>j</joint><preset>qbmove_maker_pro</preset>" +
+                  initial + "</actuator></plugin></model>",
+              "0 0 0"));
+  };
+  World rest = robot("");
+  rest.run(0.2);
+  EXPECT_NEAR(rest.joint_angle("m::j"), 0.5, 1e-3);
+  EXPECT_NEAR(rest.joint_speed("m::j"), 0, 1e-3);
+  World driven = robot("<initial equilibrium_rad='0' preset_rad='0.2'/>");
+  driven.run(1);
+  EXPECT_NEAR(driven.joint_angle("m::j"), 0, 0.1) << "a start that the text gives is kept";
+}
+
 TEST(RobotFiles, ASpringPullsToItsReference) {
   World w = load("spring.sdf");
   w.run(5);
