@@ -3,6 +3,7 @@
 // A model that came from a URDF, compared with it: nothing of the file may be missing but what fixed joints lump together.
 #include <algorithm>
 #include <sdf/Model.hh>
+#include <string>
 
 #include "read_context.hpp"
 #include "vsa/config/text.hpp"
@@ -31,6 +32,11 @@ void check_urdf(ReadContext& c, const sdf::Model& model, const ModelScope& scope
     if (link == "world" || has_link(c, scope.name + "::" + urdf.lumped_into(link))) continue;
     c.problems.add({urdf.file, "link[" + link + "]", "", "got lost in libsdformat's conversion", "<inertial> with a mass"});
   }
+  std::size_t collisions = 0;
+  for (const Link& l : c.out.links) collisions += l.name.rfind(scope.name + "::", 0) == 0 ? l.collisions.size() : 0;
+  if (c.problems.empty() && collisions < urdf.collisions)
+    c.problems.add({urdf.file, "collision", std::to_string(urdf.collisions),
+                    "got lost in libsdformat's conversion, but for " + std::to_string(collisions), ""});
   for (const UrdfJoint& joint : urdf.joints) {
     const std::string name = scope.name + "::" + joint.name;
     if (!joint.lumped && !scope.is_static && !has_joint(c, name) && c.problems.empty())

@@ -99,8 +99,12 @@ std::string Urdf::lumped_into(const std::string& link) const {
 Urdf mend_urdf(XMLElement& robot, const std::string& file, std::size_t id, Notes& notes, Problems& problems) {
   Urdf urdf;
   urdf.file = file;
-  for (const XMLElement* e = robot.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link"))
+  for (const XMLElement* e = robot.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) {
     urdf.links.push_back(attribute(e, "name"));
+    if (urdf.links.back() == "world") continue;
+    for (const XMLElement* k = e->FirstChildElement("collision"); k != nullptr; k = k->NextSiblingElement("collision"))
+      ++urdf.collisions;
+  }
   for (const XMLElement* e = robot.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint")) {
     UrdfJoint joint = read_joint(*e, urdf, problems);
     joint.lumped = joint.type == "fixed" && joint.parent != "world" && !stays(robot, joint.name);

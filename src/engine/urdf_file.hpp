@@ -37,6 +37,7 @@ struct Urdf {
   std::string file;
   std::vector<std::string> links;
   std::vector<UrdfJoint> joints;
+  std::size_t collisions = 0;
   bool found = false;  ///< a model read by libsdformat was compared with it
 
   [[nodiscard]] const UrdfJoint* joint_above(const std::string& link) const;

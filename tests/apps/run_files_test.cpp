@@ -22,7 +22,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 std::string motion_with_preset(const char* preset_deg) {
-  return std::string("[[keyframe]]\ntime_s = 0.0\npreset_deg = { j1 = ") + preset_deg +
+  return std::string("title = \"t\"\n\n[[keyframe]]\ntime_s = 0.0\npreset_deg = { j1 = ") + preset_deg +
          " }\n\n[[keyframe]]\ntime_s = 0.1\npreset_deg = { j1 = 10.0 }\n";
 }
 

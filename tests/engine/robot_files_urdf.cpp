@@ -5,6 +5,7 @@ namespace vsa::engine::testing {
 
 std::vector<RobotFile> urdf_files() {
   return {
+      {"lumped_collisions.urdf", {}, {"r::a"}, {}, {}, {}, {}},
       {"mimic.urdf", {}, {"r::base", "r::a", "r::b"}, {{"r::j1", 0}, {"r::j2", 0.1}}, {}, {}, {}},
       {"dummy_wrist.urdf",
        {},
