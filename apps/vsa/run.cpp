@@ -96,6 +96,9 @@ void setup_run(CLI::App& app, int& exit_code) {
   sub->add_option("--preset", options->preset, "Put this actuator preset on every actuator of the world");
   sub->add_option("--set", options->set, "Override a parameter of every actuator: key=value");
   sub->add_option("--fault", options->faults, "Break something from the start: \"ACTUATOR FAULT …\" or \"all FAULT …\"");
+  sub->add_option("--concave", options->concave,
+                  "Concave collision meshes: refuse (default), hull (fill), decompose (convex parts)")
+      ->check(CLI::IsMember({"refuse", "hull", "decompose"}));
   sub->add_option("--gait", options->gait, "Play this gait in simulated time");
   sub->add_option("--record", options->record, "Write CSV files, run.mcap and a replay page into this directory");
   sub->add_flag("--no-topics", options->no_topics, "Run without the transport");

@@ -19,6 +19,7 @@ struct RunOptions {
   bool low_latency = false;
   bool paused = false;
   bool no_topics = false;
+  std::string concave = "refuse";   ///< collision meshes that aren't convex: refuse, hull, decompose
   std::string preset;               ///< put on every actuator; empty: what the world says
   std::vector<std::string> set;     ///< override its parameters: "drive.friction_Nm=0.7"
   std::vector<std::string> faults;  ///< "joint_6 unplugged=1", vsa/config/faults_text.hpp

@@ -21,11 +21,17 @@ namespace {
 
 constexpr double kTravelWindow_s = 1.3;  // where no gait tells its period; close to Table II's 2π/4.71 s
 constexpr double kTravelRate_Hz = 100;
+constexpr double kNoticesRate_Hz = 10;
 constexpr std::chrono::milliseconds kIdleWait{100};
 constexpr double kSlowest = 0.01, kFastest = 100;  // of --speed
 
+engine::Concave concave_of(const std::string& text) {
+  return text == "hull" ? engine::Concave::hull : text == "decompose" ? engine::Concave::decompose : engine::Concave::refuse;
+}
+
 engine::World load_world(const RunOptions& options) {
   engine::WorldOptions with;
+  with.concave = concave_of(options.concave);
   with.actuator.overrides = parse_settings(options.set, "--set");
   if (!options.preset.empty()) {
     with.actuator.preset = options.preset;
@@ -99,8 +105,11 @@ RunSession::RunSession(const RunOptions& options, Console& console)
       travel_window_s_(travel_window_s(gait_)),
       control_(options.paused),
       travel_(travel_window_s_, 1 / kTravelRate_Hz),
-      travel_cadence_(kTravelRate_Hz) {
+      travel_cadence_(kTravelRate_Hz),
+      notices_cadence_(kNoticesRate_Hz) {
   for (const auto& warning : world_.warnings()) console_.line("warning: " + warning);
+  if (world_.robot_count() == 0)
+    console_.line("warning: the world has no actuator: no model that moves has a <plugin name=\"vsa::Robot\">");
   break_robots(world_, faults_);
   if (gait_) gait_->bind(world_);
   const auto report = [&console](const std::string& line) { console.line(line); };
@@ -167,10 +176,20 @@ void RunSession::step() {
     travel_.add(world_.center_of_mass(robot_model_));
   }
   if (server_) server_->stepped();
+  if (!server_) tell_notices();
   if (view_) view_->stepped();
   keep_time();
   constexpr std::uint64_t kLookAtClock = 16;  // steps between two looks at the wall clock for the progress line
   if (steps_ % kLookAtClock == 0) console_.progress(world_.time_s(), duration_s_, speed_factor());
+}
+
+/// Without topics nobody else takes them.
+void RunSession::tell_notices() {
+  if (!notices_cadence_.due(world_.time_ns())) return;
+  notices_cadence_.taken(world_.time_ns());
+  for (std::size_t i = 0; i < world_.robot_count(); ++i) {
+    for (const host::Notice& notice : world_.robot(i).take_notices()) console_.line(world_.robot_model(i) + ": " + notice.text);
+  }
 }
 
 void RunSession::take_speed() {
@@ -196,6 +215,7 @@ void RunSession::reset() {
   if (gait_) gait_->reset();
   travel_.restart();
   travel_cadence_.restart();
+  notices_cadence_.restart();
   if (recorder_) recorder_->sample(world_);
   if (server_) server_->idle();
   if (view_) view_->idle();
@@ -244,6 +264,10 @@ std::vector<record::Statistic> RunSession::statistics() const {
 
 std::vector<record::Statistic> RunSession::finish(const std::string& note) {
   wall_.pause();
+  if (!server_) {
+    notices_cadence_.restart();
+    tell_notices();
+  }
   std::vector<record::Statistic> out = statistics();
   for (const auto& port : ports_.all()) out.push_back({"serial port", port->path() + ": " + in_a_line(port->counters())});
   if (view_) {

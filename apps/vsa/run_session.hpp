@@ -42,6 +42,7 @@ class RunSession {
   void step();
   void reset();
   void idle();
+  void tell_notices();
   void take_speed();
   void keep_time();
   [[nodiscard]] double speed_factor() const;
@@ -60,7 +61,7 @@ class RunSession {
   std::optional<topics::WorldServer> server_;
   ports::RobotPorts ports_;
   Travel travel_;
-  record::Cadence travel_cadence_;
+  record::Cadence travel_cadence_, notices_cadence_;
   std::optional<view::LiveView> view_;
   std::uint64_t speed_changes_ = 0;
   RealTimePace pace_;

@@ -1,7 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // A world as a physics engine needs it, whatever file it came from and whatever engine will run it. All poses and axes are in the
-// world's frame at the start, where every joint is at zero; lengths in m, masses in kg, inertias in kg·m², angles in rad.
+// world's frame at the start, where every joint is at zero (Axis::start comes on top); lengths in m, masses in kg, inertias in
+// kg·m², angles in rad.
 #pragma once
 
 #include <cstddef>
@@ -43,6 +44,7 @@ struct Geometry {
   Vec3 size;  ///< box: full lengths; sphere: r; cylinder, capsule: r, length of the straight part; ellipsoid: radii; plane: lengths
   Pose3 offset;  ///< of the geometry in its collision or visual (a plane's normal is +z of this frame)
   std::shared_ptr<const Mesh> mesh;
+  std::vector<std::shared_ptr<const Mesh>> parts;  ///< convex; where the mesh itself isn't, and was decomposed
   std::shared_ptr<const Heightmap> heightmap;
 };
 
@@ -78,6 +80,7 @@ struct Axis {
   double friction = 0;   ///< Coulomb, N·m or N
   double stiffness = 0;  ///< N·m/rad or N/m about `rest`
   double rest = 0;
+  std::optional<double> start;  ///< rad or m: where the joint stands at t = 0; none: at 0
 };
 
 struct Joint {
@@ -88,6 +91,12 @@ struct Joint {
   Pose3 pose;
   std::vector<Axis> axes;  ///< hinge, slide: 1; universal: 2, the first fixed in the parent
   [[nodiscard]] bool one_axis() const { return kind == Kind::hinge || kind == Kind::slide; }
+};
+
+/// One joint that follows another: q_follower = multiplier·q_leader + offset. Both have one axis.
+struct Coupling {
+  std::size_t follower = 0, leader = 0;  ///< into joints
+  double multiplier = 1, offset = 0;
 };
 
 /// A <plugin> of ours, as text.
@@ -103,6 +112,7 @@ struct WorldDescription {
   double step_s = 1e-3;
   std::vector<Link> links;
   std::vector<Joint> joints;
+  std::vector<Coupling> couplings;
   std::vector<Plugin> plugins;
   std::vector<LinkInfo> infos;  ///< one a link, with its visuals
 };

@@ -28,6 +28,20 @@ bool take_prefix(std::string_view& text, std::string_view prefix) {
   return true;
 }
 
+/// A package of this name below `root`: a folder with a package.xml.
+fs::path package_below(const fs::path& root, const fs::path& name, int depth) {
+  std::error_code error;
+  for (fs::directory_iterator it(root, error), end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    if (!it->is_directory(ignored)) continue;
+    const fs::path& folder = it->path();
+    if (folder.filename() == name && fs::exists(folder / "package.xml", ignored)) return folder;
+    if (depth <= 1) continue;
+    if (fs::path found = package_below(folder, name, depth - 1); !found.empty()) return found;
+  }
+  return {};
+}
+
 bool there(const fs::path& path) {
   std::error_code error;
   return fs::exists(path, error);
@@ -36,28 +50,73 @@ bool there(const fs::path& path) {
 }  // namespace
 
 Finder::Finder(const std::vector<fs::path>& more) {
-  add_from_environment("SDF_PATH", directories_);
-  add_from_environment("IGN_GAZEBO_RESOURCE_PATH", directories_);
+  for (const char* name : {"SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH"})
+    add_from_environment(name, directories_);
+  add_from_environment("GAZEBO_RESOURCE_PATH", resources_);
+  directories_.insert(directories_.end(), resources_.begin(), resources_.end());
+  for (const char* name : {"AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH"}) add_from_environment(name, prefixes_);
+  add_from_environment("ROS_PACKAGE_PATH", packages_);
   const fs::path data = config::data_directory();
-  if (!data.empty()) directories_.push_back(data / "models");
+  if (!data.empty()) {
+    directories_.push_back(data / "models");
+    last_.push_back(data / "models" / "stand_ins");
+  }
   directories_.insert(directories_.end(), more.begin(), more.end());
 }
 
-fs::path Finder::find(std::string_view uri, const fs::path& base) const {
-  if (take_prefix(uri, "model://")) {
-    for (const fs::path& directory : directories_) {
-      if (const fs::path path = directory / uri; there(path)) return path;
-    }
-    return {};
+fs::path Finder::in_package(std::string_view name_and_rest) const {
+  for (const fs::path& directory : directories_) {
+    if (fs::path path = directory / name_and_rest; there(path)) return path;
   }
-  take_prefix(uri, "file://");
-  const fs::path path = fs::path(uri).is_absolute() ? fs::path(uri) : base / uri;
-  return there(path) ? path : fs::path{};
+  const std::size_t slash = name_and_rest.find('/');
+  const fs::path name = name_and_rest.substr(0, slash);
+  const fs::path rest = slash == std::string_view::npos ? fs::path() : fs::path(name_and_rest.substr(slash + 1));
+  for (const fs::path& prefix : prefixes_) {
+    for (const fs::path& share : {prefix / "share", prefix / name / "share"}) {
+      if (fs::path path = share / name_and_rest; there(path)) return path;
+    }
+  }
+  for (const fs::path& directory : packages_) {
+    constexpr int kFolders = 3;
+    const bool itself = directory.filename() == name;
+    for (const fs::path& folder : {itself ? directory : directory / name, package_below(directory, name, kFolders)}) {
+      if (!folder.empty() && there(folder) && there(folder / rest)) return rest.empty() ? folder : folder / rest;
+    }
+  }
+  for (const fs::path& directory : last_) {
+    if (fs::path path = directory / name_and_rest; there(path)) return path;
+  }
+  return {};
 }
 
-std::string Finder::searched() const {
+fs::path Finder::find(std::string_view uri, const fs::path& base) const {
+  if (take_prefix(uri, "model://") || take_prefix(uri, "package://")) return in_package(uri);
+  take_prefix(uri, "file://");
+  if (const fs::path path(uri); path.is_absolute()) return there(path) ? path : fs::path{};
+  if (fs::path path = base / uri; there(path)) return path;
+  for (const fs::path& directory : resources_) {
+    if (fs::path path = directory / uri; there(path)) return path;
+  }
+  return {};
+}
+
+std::string Finder::searched(std::string_view uri, const fs::path& base) const {
+  if (uri.find("://") != std::string_view::npos && uri.substr(0, 7) != "file://" && uri.substr(0, 8) != "model://" &&
+      uri.substr(0, 10) != "package://")
+    return "a file of this machine: nothing is downloaded";
+  const bool plain = uri.find("://") == std::string_view::npos || uri.substr(0, 7) == "file://";
   std::string text;
-  for (const fs::path& directory : directories_) text += (text.empty() ? "" : ", ") + directory.string();
+  const auto add = [&](const std::vector<fs::path>& paths, const char* more) {
+    for (const fs::path& path : paths) text += (text.empty() ? "a file in: " : ", ") + path.string() + more;
+  };
+  if (plain) {
+    add({base}, "");
+    add(resources_, "");
+    return text;
+  }
+  add(directories_, "");
+  add(prefixes_, "/share");
+  add(packages_, "");
   return text;
 }
 

@@ -1,7 +1,13 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Where files named in an SDF lie. model://NAME/… is searched in $SDF_PATH, $IGN_GAZEBO_RESOURCE_PATH, the built-in models and the
-// caller's directories, in this order; file:// and plain paths are taken from the naming file's directory.
+// Where files named in an SDF or URDF lie. model://NAME/… and package://NAME/… are searched for in this order, the first that has
+// it:
+//   $SDF_PATH, $GZ_SIM_RESOURCE_PATH, $IGN_GAZEBO_RESOURCE_PATH, $GAZEBO_MODEL_PATH, $GAZEBO_RESOURCE_PATH    DIR/NAME
+//   the built-in models, the caller's directories                                                            DIR/NAME
+//   $AMENT_PREFIX_PATH, $COLCON_PREFIX_PATH, $CMAKE_PREFIX_PATH      PREFIX/share/NAME, PREFIX/NAME/share/NAME
+//   $ROS_PACKAGE_PATH                                                DIR/NAME, DIR itself, or a package NAME up to 3 folders below
+//   model://sun and model://ground_plane of our own
+// file://… and plain paths are taken from the naming file's directory, then from $GAZEBO_RESOURCE_PATH.
 #pragma once
 
 #include <filesystem>
@@ -16,10 +22,13 @@ class Finder {
   explicit Finder(const std::vector<std::filesystem::path>& more);
   /// Empty where nothing is found.
   [[nodiscard]] std::filesystem::path find(std::string_view uri, const std::filesystem::path& base) const;
-  [[nodiscard]] std::string searched() const;  ///< for error messages
+  /// For error messages: where it looked.
+  [[nodiscard]] std::string searched(std::string_view uri, const std::filesystem::path& base) const;
 
  private:
-  std::vector<std::filesystem::path> directories_;
+  [[nodiscard]] std::filesystem::path in_package(std::string_view name_and_rest) const;
+
+  std::vector<std::filesystem::path> directories_, prefixes_, packages_, resources_, last_;
 };
 
 }  // namespace vsa::engine

@@ -6,32 +6,45 @@
 #include <algorithm>
 #include <set>
 
+#include "input_files.hpp"
+#include "newer_sdf.hpp"
+#include "vsa/config/text.hpp"
+
 namespace vsa::engine {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool known_version(const std::string& version) {
-  return version.size() == 3 && version.compare(0, 2, "1.") == 0 && version[2] >= '0' && version[2] <= '9';
+std::string printed(const tinyxml2::XMLDocument& xml) {
+  tinyxml2::XMLPrinter printer;
+  xml.Print(&printer);
+  return printer.CStr();
 }
 
-/// What an include's directory holds: the last <sdf> of its model.config, as libsdformat takes it.
-fs::path model_file(const fs::path& found) {
-  std::error_code ignored;
-  if (!fs::is_directory(found, ignored)) return found;
-  tinyxml2::XMLDocument config;
-  fs::path file = "model.sdf";
-  if (config.LoadFile((found / "model.config").c_str()) == tinyxml2::XML_SUCCESS && config.RootElement() != nullptr) {
-    for (auto* e = config.RootElement()->FirstChildElement("sdf"); e != nullptr; e = e->NextSiblingElement("sdf"))
-      if (e->GetText() != nullptr) file = e->GetText();
-  }
-  return found / file;
+/// What libsdformat would refuse or lose is changed. True where something was.
+bool mend(tinyxml2::XMLElement& root, const std::string& label, ReadContext& c) {
+  if (is_unexpanded(root, label, c.problems)) return false;
+  const std::string_view name = root.Name();
+  if (name == "sdf") return mend_sdf(root, label, c.notes, c.problems);
+  if (name != "robot") return false;
+  c.files.urdfs.push_back(mend_urdf(root, label, c.files.urdfs.size(), c.notes, c.problems));
+  return true;
 }
 
-void collect_uris(const tinyxml2::XMLElement& element, std::vector<std::string>& uris) {
+/// The 9 of "1.9"; −1 where it is none that can be read.
+int minor_version(const char* text) {
+  constexpr int kNewest = 12;
+  const auto number =
+      text != nullptr && std::string_view(text).substr(0, 2) == "1." ? config::parse_integer(text + 2) : std::nullopt;
+  return number && *number >= 0 && *number <= kNewest ? static_cast<int>(*number) : -1;
+}
+
+using Uris = std::vector<tinyxml2::XMLElement*>;
+
+void collect_uris(tinyxml2::XMLElement& element, Uris& uris) {
   if (std::string_view(element.Name()) == "include") {
-    const auto* uri = element.FirstChildElement("uri");
-    if (uri != nullptr && uri->GetText() != nullptr) uris.emplace_back(uri->GetText());
+    auto* uri = element.FirstChildElement("uri");
+    if (uri != nullptr && uri->GetText() != nullptr) uris.push_back(uri);
     return;
   }
   for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) collect_uris(*e, uris);
@@ -46,27 +59,38 @@ class Walk {
 
   void file(const fs::path& path) {
     tinyxml2::XMLDocument xml;
-    if (xml.LoadFile(path.c_str()) == tinyxml2::XML_SUCCESS) document(xml, path.string());  // what is broken, libsdformat reports
+    if (xml.LoadFile(path.c_str()) != tinyxml2::XML_SUCCESS) return;  // what is broken, libsdformat reports
+    if (document(xml, path.string(), fs::absolute(path).parent_path())) c_.files.replace(path, printed(xml));
   }
 
-  void document(const tinyxml2::XMLDocument& xml, const std::string& label) {
-    const tinyxml2::XMLElement* root = xml.RootElement();
-    if (root == nullptr || std::string_view(root->Name()) != "sdf") return;
-    const char* version = root->Attribute("version");
-    if (version != nullptr && !known_version(version)) {
-      c_.problems.add(
-          {label, "sdf@version", version, "isn't a version that can be read", "1.6 … 1.9; older ones from 1.0 are converted"});
-      return;
-    }
-    std::vector<std::string> uris;
+  /// True where the document was changed.
+  bool document(tinyxml2::XMLDocument& xml, const std::string& label, const fs::path& base) {
+    tinyxml2::XMLElement* root = xml.RootElement();
+    if (root == nullptr) return false;
+    bool changed = mend(*root, label, c_);
+    if (std::string_view(root->Name()) != "sdf") return changed;
+    Uris uris;
     collect_uris(*root, uris);
-    for (const std::string& uri : uris) {
-      const fs::path found = c_.finder.find(uri, c_.base);
-      if (!found.empty()) enter(model_file(found), uri, label);
+    for (tinyxml2::XMLElement* element : uris) {
+      const std::string uri = element->GetText();
+      const fs::path found = c_.finder.find(uri, base);
+      if (found.empty()) continue;
+      const fs::path target = model_file(found);
+      enter(target, uri, label);
+      if (libsdformat_finds(uri) == target && c_.files.stand_in(target) == target) continue;
+      element->SetText(c_.files.stand_in(target).c_str());
+      changed = true;
     }
+    return changed;
   }
 
  private:
+  /// It looks for a plain path among its own files and in the working directory first.
+  [[nodiscard]] fs::path libsdformat_finds(const std::string& uri) const {
+    const bool plain = uri.find("://") == std::string::npos || uri.rfind("file://", 0) == 0;
+    return plain && !fs::path(uri).is_absolute() ? fs::path() : model_file(c_.finder.find(uri, c_.base));
+  }
+
   void enter(const fs::path& path, const std::string& uri, const std::string& from) {
     std::error_code ignored;
     const std::string key = fs::weakly_canonical(path, ignored).string();
@@ -87,13 +111,33 @@ class Walk {
 
 }  // namespace
 
-bool check_includes(const SdfSource& source, ReadContext& context) {
+/// What an include's directory holds: as libsdformat, the file of the newest version in its model.config that can be read.
+fs::path model_file(const fs::path& found) {
+  std::error_code ignored;
+  if (!fs::is_directory(found, ignored)) return found;
+  tinyxml2::XMLDocument config;
+  fs::path file = "model.sdf";
+  int newest = -1;
+  if (config.LoadFile((found / "model.config").c_str()) == tinyxml2::XML_SUCCESS && config.RootElement() != nullptr) {
+    for (auto* e = config.RootElement()->FirstChildElement("sdf"); e != nullptr; e = e->NextSiblingElement("sdf")) {
+      const int minor = minor_version(e->Attribute("version"));
+      if (e->GetText() == nullptr || minor < newest) continue;
+      newest = minor;
+      file = e->GetText();
+    }
+  }
+  const fs::path path = found / file;
+  return fs::is_regular_file(path, ignored) ? path : found;  // libsdformat says what is missing
+}
+
+bool prepare_files(const SdfSource& source, ReadContext& context) {
   const std::size_t before = context.problems.list().size();
   Walk walk(context, source.path);
   tinyxml2::XMLDocument xml;
   const bool readable = source.path.empty() ? xml.Parse(source.text.data(), source.text.size()) == tinyxml2::XML_SUCCESS
                                             : xml.LoadFile(source.path.c_str()) == tinyxml2::XML_SUCCESS;
-  if (readable) walk.document(xml, source.label());
+  if (readable && walk.document(xml, source.label(), context.base)) context.files.top = printed(xml);
+  context.files.top_is_urdf = readable && xml.RootElement() != nullptr && std::string_view(xml.RootElement()->Name()) == "robot";
   return context.problems.list().size() == before;
 }
 

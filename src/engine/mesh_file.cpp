@@ -128,13 +128,16 @@ Mesh obj(const fs::path& file, const std::string& data) {
 
 bool mesh_format_known(const fs::path& file) {
   const std::string e = extension(file);
-  return e == ".stl" || e == ".obj";
+  return e == ".stl" || e == ".obj" || e == ".dae";
 }
 
 Mesh read_mesh(const fs::path& file, const Vec3& scale) {
   if (!mesh_format_known(file)) fail(file, "this mesh format isn't read", kMeshFormats);
-  const std::string data = read_all(file);
-  Mesh mesh = extension(file) == ".obj" ? obj(file, data) : is_binary_stl(data) ? binary_stl(data) : text_stl(file, data);
+  const std::string e = extension(file), data = read_all(file);
+  Mesh mesh = e == ".dae"           ? read_collada(file)
+              : e == ".obj"         ? obj(file, data)
+              : is_binary_stl(data) ? binary_stl(data)
+                                    : text_stl(file, data);
   if (mesh.triangles.empty()) fail(file, "holds no triangles");
   for (Vec3& v : mesh.vertices) {
     v = v * scale;

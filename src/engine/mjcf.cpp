@@ -14,8 +14,9 @@ namespace {
 
 using Back = std::back_insert_iterator<std::string>;
 
-constexpr double kSmallestMu = 1e-5;    // MuJoCo's own lower bound; below it a contact has no friction at all
-constexpr double kHeightmapBase = 0.1;  // m of ground below the lowest point
+constexpr double kSmallestMu = 1e-5;     // MuJoCo's own lower bound; below it a contact has no friction at all
+constexpr std::size_t kBodiesDeep = 64;  // in each other, in one file; Debian's tinyxml2 takes some 100 elements
+constexpr double kHeightmapBase = 0.1;   // m of ground below the lowest point
 
 std::string text(const Vec3& v) { return fmt::format("{} {} {}", v.X(), v.Y(), v.Z()); }
 std::string place(const Pose3& p) {
@@ -43,7 +44,7 @@ class Writer {
 
   Mjcf write(double step_s, Capacity capacity) {
     std::string bodies;
-    for (const std::size_t i : roots_) body(tree_[i], bodies);
+    for (const std::size_t i : roots_) body(tree_[i], 1, bodies);
     fmt::format_to(out(), "<mujoco model=\"vsa\">\n<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n");
     fmt::format_to(out(), "<size njmax=\"{}\" nconmax=\"{}\"/>\n", capacity.rows, capacity.contacts);
     fmt::format_to(out(), "<option timestep=\"{}\" gravity=\"{}\" integrator=\"Euler\" cone=\"elliptic\" solver=\"Newton\">",
@@ -52,14 +53,30 @@ class Writer {
     result_.xml += "<joint armature=\"0\" solreflimit=\"0.004 1\" solreffriction=\"0.004 1\"/></default>\n";
     result_.xml += "<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + ground_ + bodies + "</worldbody>\n<contact>\n";
     excludes();
-    result_.xml += "</contact>\n</mujoco>\n";
+    result_.xml += "</contact>\n<equality>\n";
+    for (const Coupling& k : world_.couplings) {
+      fmt::format_to(out(), "<joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} 0 0 0\" solref=\"0.004 1\"/>\n",
+                     joint_name(k.follower), joint_name(k.leader), k.offset, k.multiplier);
+    }
+    result_.xml += "</equality>\n</mujoco>\n";
     return std::move(result_);
   }
 
  private:
   Back out() { return std::back_inserter(result_.xml); }
 
-  void body(const TreeNode& node, std::string& to) {
+  /// Far out on a chain bodies go into a file of their own.
+  void child(const TreeNode& node, std::size_t depth, std::string& to) {
+    if (depth % kBodiesDeep != 0) return body(node, depth + 1, to);
+    const std::size_t index = result_.parts.size();
+    result_.parts.push_back({fmt::format("part{}.xml", index), ""});
+    std::string text = "<mujoco>\n";
+    body(node, depth + 1, text);
+    result_.parts[index].bytes = text + "</mujoco>\n";
+    to += fmt::format("<include file=\"part{}.xml\"/>\n", index);
+  }
+
+  void body(const TreeNode& node, std::size_t depth, std::string& to) {
     const Link& link = world_.links[node.link];
     const Pose3 pose = node.parent ? world_.links[*node.parent].pose.Inverse() * link.pose : link.pose;
     to += fmt::format("<body name=\"{}\" {}>\n", body_name(node.link), place(pose));
@@ -77,7 +94,7 @@ class Writer {
       geom(c, geom_name(node.link, k), Pose3(), to);
       if (apart) to += "</body>\n";
     }
-    for (const std::size_t i : children_[node.link]) body(tree_[i], to);
+    for (const std::size_t i : children_[node.link]) child(tree_[i], depth, to);
     to += "</body>\n";
   }
 

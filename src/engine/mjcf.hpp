@@ -10,11 +10,13 @@
 //                  but where priorities differ the higher one's: a lower coefficient gets a higher priority. Spin friction is that
 //                  of the same shape.
 //   collisions     links joined by a joint never collide; links of one model only where one of them has self_collide
-//   joints         no armature; limits and dry friction as constraints with solref 0.004 s
+//   joints         no armature; limits and dry friction as constraints with solref 0.004 s, joints that follow others likewise
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "mujoco_model.hpp"
 #include "tree.hpp"
 
 namespace vsa::engine {
@@ -25,6 +27,7 @@ struct Capacity {
 
 struct Mjcf {
   std::string xml;
+  std::vector<VirtualFile> parts;  ///< included by xml and each other: the XML reader takes only so many elements in each other
   std::vector<std::shared_ptr<const Heightmap>> heightmaps;  ///< h0, h1 …: their data are filled in after compiling
 };
 

@@ -32,13 +32,15 @@ bool add(mjVFS& vfs, const VirtualFile& file) {
 
 }  // namespace
 
-ModelPtr compile(const std::string& xml, const VirtualFile* extra, std::string& reason) {
+ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, std::string& reason) {
   const std::lock_guard lock(compiling);
   mju_user_warning = on_warning;
   mju_user_error = on_error;
   const std::unique_ptr<mjVFS, VfsDeleter> vfs(new mjVFS);
   mj_defaultVFS(vfs.get());
-  if (!add(*vfs, {"world.xml", xml}) || (extra != nullptr && !add(*vfs, *extra))) {
+  bool all = add(*vfs, {"world.xml", xml});
+  for (const VirtualFile& file : named) all = all && add(*vfs, file);
+  if (!all) {
     reason = "the world is too large for MuJoCo's virtual files";
     return nullptr;
   }
@@ -55,9 +57,8 @@ GreyImage decode_png(const std::string& bytes, const std::filesystem::path& file
     throw InputError(Problem{file.string(), "", "", "PNG with more than 8 bits a channel isn't read", kImageFormats});
   }
   std::string reason;
-  const VirtualFile png{"image.png", bytes};
-  const ModelPtr model =
-      compile("<mujoco><asset><texture name=\"t\" type=\"2d\" file=\"image.png\"/></asset></mujoco>", &png, reason);
+  const ModelPtr model = compile("<mujoco><asset><texture name=\"t\" type=\"2d\" file=\"image.png\"/></asset></mujoco>",
+                                 {{"image.png", bytes}}, reason);
   if (!model) throw InputError(Problem{file.string(), "", "", "broken PNG: " + reason, kImageFormats});
   GreyImage image;
   image.width = static_cast<std::size_t>(model->tex_width[0]);

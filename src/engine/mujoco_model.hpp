@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace vsa::engine {
 
@@ -24,7 +25,7 @@ struct VirtualFile {
   std::string name, bytes;
 };
 
-/// Compiles XML from memory. Null and a reason where MuJoCo refuses it.
-[[nodiscard]] ModelPtr compile(const std::string& xml, const VirtualFile* extra, std::string& reason);
+/// Compiles XML from memory, with the files that it names. Null and a reason where MuJoCo refuses it.
+[[nodiscard]] ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, std::string& reason);
 
 }  // namespace vsa::engine

@@ -124,7 +124,7 @@ std::unique_ptr<Physics> make_mujoco(const WorldDescription& world, double step_
   const int contacts = 100 + 8 * std::min(moving, 100);
   const Mjcf mjcf = write_mjcf(world, tree, step_s, {contacts, 3 * contacts + 100});
   std::string reason;
-  ModelPtr model = compile(mjcf.xml, nullptr, reason);
+  ModelPtr model = compile(mjcf.xml, mjcf.parts, reason);
   if (!model) {
     problems.add({std::string(file), "", "", "MuJoCo refuses the world: " + reason, ""});
     return nullptr;

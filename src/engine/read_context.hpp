@@ -5,11 +5,13 @@
 #pragma once
 
 #include <ignition/math/Pose3.hh>
+#include <map>
 #include <sdf/Element.hh>
 #include <sdf/SemanticPose.hh>
 
 #include "description.hpp"
 #include "finder.hpp"
+#include "input_files.hpp"
 #include "notes.hpp"
 
 namespace sdf {
@@ -19,19 +21,30 @@ class Link;
 class Model;
 class Geometry;
 class Visual;
+class World;
 }  // namespace v12
 }  // namespace sdf
 
 namespace vsa::engine {
+
+/// What a file says of a joint that follows another, before the joints are all known.
+struct Mimic {
+  std::string file, follower, leader;  ///< scoped
+  double multiplier = 1, offset = 0;
+};
 
 struct ReadContext {
   WorldDescription& out;
   Problems& problems;
   Notes& notes;
   const Finder& finder;
+  InputFiles& files;
   std::string file;            ///< the world's, where an element doesn't know its own
   std::filesystem::path base;  ///< directory for relative paths of elements that don't know their file
-  bool parsed_clean = true;    ///< false: poses may not resolve for reasons already reported
+  Concave concave = Concave::refuse;
+  bool parsed_clean = true;  ///< false: poses may not resolve for reasons already reported
+  std::vector<Mimic> mimics{};
+  std::map<std::string, Pose3> model_poses{};  ///< scoped name → its frame in the world
 
   void problem(const sdf::ElementPtr& element, std::string key, std::string value, std::string message, std::string allowed = {});
   [[nodiscard]] std::string file_of(const sdf::ElementPtr& element) const;
@@ -57,6 +70,13 @@ struct ModelScope {
 void read_model(ReadContext& context, const sdf::Model& model, const ModelScope* outer);
 void read_link(ReadContext& context, const sdf::Link& link, const ModelScope& scope);
 void read_joint(ReadContext& context, const sdf::Joint& joint, const ModelScope& scope);
+/// Compares a model that came from a URDF with it; afterwards, that each URDF was.
+void check_urdf(ReadContext& context, const sdf::Model& model, const ModelScope& scope);
+void check_urdfs_found(ReadContext& context);
+/// A world's <state>, once its models are read.
+void read_state(ReadContext& context, const sdf::World& world);
+/// Once all joints are known: welds those without room, finds where each starts, couples followers to leaders.
+void finish_joints(ReadContext& context);
 [[nodiscard]] std::optional<Geometry> read_geometry(ReadContext& context, const sdf::Geometry& geometry, const std::string& key,
                                                     bool collides);
 [[nodiscard]] Surface read_surface(ReadContext& context, const sdf::ElementPtr& collision, const std::string& key);

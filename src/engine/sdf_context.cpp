@@ -14,7 +14,7 @@ sdf::ElementPtr child(const sdf::ElementPtr& element, const std::string& name) {
 }
 
 std::string ReadContext::file_of(const sdf::ElementPtr& element) const {
-  const std::string path = element ? element->FilePath() : std::string{};
+  const std::string path = element ? files.original(element->FilePath()) : std::string{};
   return path.empty() || path.front() == '<' || path == "data-string" || path == "urdf file" ? file : path;
 }
 

@@ -48,9 +48,16 @@ struct Where {
     return g;
   }
 
-  [[nodiscard]] std::filesystem::path locate(const std::string& uri, const std::string& from) const {
+  [[nodiscard]] std::filesystem::path base_of(const std::string& given) const {
+    const std::string from = c.files.original(given);
     const bool known = !from.empty() && from.front() != '<' && std::filesystem::exists(from);
-    return c.finder.find(uri, known ? std::filesystem::path(from).parent_path() : c.base);
+    return known ? std::filesystem::absolute(from).parent_path() : c.base;
+  }
+  [[nodiscard]] std::filesystem::path locate(const std::string& uri, const std::string& from) const {
+    return c.finder.find(uri, base_of(from));
+  }
+  std::nullopt_t not_found(const char* name, const std::string& uri, const std::string& from) {
+    return refuse(name, uri, "file not found", c.finder.searched(uri, base_of(from)));
   }
 };
 
@@ -65,9 +72,41 @@ std::optional<Geometry> read_plane(Where& w, const sdf::Plane& plane) {
   return g;
 }
 
+Concave wish_of(const Where& w, const sdf::Mesh& mesh) {
+  const sdf::ElementPtr e = mesh.Element();
+  const std::string text = e && e->HasAttribute("vsa:optimization") ? e->GetAttribute("vsa:optimization")->GetAsString() : "";
+  return text == "convex_hull" ? Concave::hull : text == "convex_decomposition" ? Concave::decompose : w.c.concave;
+}
+
+/// Of a collision mesh that isn't convex, `why`: what was asked for.
+std::optional<Geometry> make_convex(Where& w, const sdf::Mesh& mesh, Geometry g, const std::string& why) {
+  constexpr const char* kAllowed =
+      "convex closed meshes, primitives, a heightmap; or ask for the hull or for convex parts: vsa run --concave, "
+      "WorldOptions::concave";
+  const Concave wish = wish_of(w, mesh);
+  const double size = volume(*g.mesh);
+  if (wish == Concave::refuse) return w.refuse("mesh/uri", mesh.Uri(), why, kAllowed);
+  if (wish == Concave::hull) {
+    w.c.notes.add("concave collision meshes are filled to their convex hulls", w.key);
+    return g;
+  }
+  try {
+    double sum = 0;
+    for (Mesh& part : decompose(*g.mesh)) {
+      sum += std::abs(volume(part));
+      g.parts.push_back(std::make_shared<const Mesh>(std::move(part)));
+    }
+    w.c.notes.add("concave collision meshes are cut into convex parts",
+                  fmt::format("{} into {} of {:.3g} times its volume", w.key, g.parts.size(), sum / std::abs(size)));
+  } catch (const InputError& error) {
+    return w.refuse("mesh/uri", mesh.Uri(), error.problems().front().message, kAllowed);
+  }
+  return g;
+}
+
 std::optional<Geometry> read_mesh_geometry(Where& w, const sdf::Mesh& mesh) {
   const auto path = w.locate(mesh.Uri(), mesh.FilePath());
-  if (path.empty()) return w.refuse("mesh/uri", mesh.Uri(), "file not found", "a file in: " + w.c.finder.searched());
+  if (path.empty()) return w.not_found("mesh/uri", mesh.Uri(), mesh.FilePath());
   if (!mesh.Submesh().empty()) return w.refuse("mesh/submesh", mesh.Submesh(), "submeshes aren't supported", "whole meshes");
   if (!mesh_format_known(path)) return w.refuse("mesh/uri", mesh.Uri(), "this mesh format isn't read", kMeshFormats);
   Geometry g;
@@ -79,15 +118,13 @@ std::optional<Geometry> read_mesh_geometry(Where& w, const sdf::Mesh& mesh) {
     return w.refuse("mesh/uri", mesh.Uri(), error.what(), kMeshFormats);
   }
   if (!w.collides) return g;
-  if (const std::string why = not_convex(*g.mesh); !why.empty()) {
-    return w.refuse("mesh/uri", mesh.Uri(), why, "convex closed meshes; split the body, or use primitives or a heightmap");
-  }
-  return g;
+  const std::string why = not_convex(*g.mesh);
+  return why.empty() ? std::optional(g) : make_convex(w, mesh, std::move(g), why);
 }
 
 std::optional<Geometry> read_heightmap_geometry(Where& w, const sdf::Heightmap& map) {
   const auto path = w.locate(map.Uri(), map.FilePath());
-  if (path.empty()) return w.refuse("heightmap/uri", map.Uri(), "file not found", "a file in: " + w.c.finder.searched());
+  if (path.empty()) return w.not_found("heightmap/uri", map.Uri(), map.FilePath());
   std::optional<Geometry> g = w.sized(Geometry::Kind::heightmap, map.Size(), 3, "heightmap/size");
   if (!g) return g;
   try {

@@ -8,6 +8,7 @@
 #include <sdf/JointAxis.hh>
 
 #include "read_context.hpp"
+#include "vsa/config/text.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -50,12 +51,40 @@ void read_range(ReadContext& c, const sdf::ElementPtr& element, const sdf::Joint
   for (const char* name : {"effort", "velocity"}) {
     const sdf::ElementPtr e = child(limit, name);
     if (e && e->Get<double>() >= 0 && e->Get<double>() < kNoLimit) {
-      c.notes.add(fmt::format("{} limits of joints aren't enforced (the actuator's physics sets its own)", name), key);
+      c.notes.add(fmt::format("{} limits of joints aren't enforced (an actuator's physics sets its own)", name), key);
     }
   }
   for (const char* name : {"stiffness", "dissipation"}) {
     if (child(limit, name)) c.notes.add("the stiffness of joint limits isn't used (the engine has its own)", key);
   }
+}
+
+/// Elements that libsdformat doesn't know come as text.
+std::optional<double> own_number(ReadContext& c, const sdf::ElementPtr& parent, const std::string& name, const std::string& key) {
+  const sdf::ElementPtr e = child(parent, "vsa:" + name) ? child(parent, "vsa:" + name) : child(parent, name);
+  if (!e) return std::nullopt;
+  const std::string text(config::trim(e->GetValue() ? e->GetValue()->GetAsString() : ""));
+  const std::optional<double> value = config::parse_number(text);
+  if (!value || std::abs(*value) > kOpenSide) {
+    c.problem(e, key + "/" + name, text, "isn't a number in range", fmt::format("{} … {}", -kOpenSide, kOpenSide));
+    return std::nullopt;
+  }
+  return value;
+}
+
+/// SDF 1.11's q = multiplier·(q_leader − reference) + offset.
+void read_mimic(ReadContext& c, const sdf::ElementPtr& axis, const std::string& key, const Joint& joint) {
+  const sdf::ElementPtr mimic = child(axis, "vsa:mimic");
+  if (!mimic) return;
+  const auto number = [&](const char* name, double fallback) {
+    return own_number(c, mimic, name, key + "/mimic").value_or(fallback);
+  };
+  const double multiplier = number("multiplier", 1), offset = number("offset", 0), reference = number("reference", 0);
+  const std::string leader = mimic->HasAttribute("joint") ? mimic->GetAttribute("joint")->GetAsString() : std::string{};
+  if (mimic->HasAttribute("axis") && mimic->GetAttribute("axis")->GetAsString() != "axis")
+    c.problem(mimic, key + "/mimic@axis", mimic->GetAttribute("axis")->GetAsString(), "a second axis can't lead", "axis");
+  const std::string scope = joint.name.substr(0, joint.name.rfind("::") + 2);
+  c.mimics.push_back({c.file_of(mimic), joint.name, scope + leader, multiplier, offset - multiplier * reference});
 }
 
 void read_axis(ReadContext& c, const sdf::Joint& joint, unsigned int index, const std::string& key, Joint& out) {
@@ -81,6 +110,8 @@ void read_axis(ReadContext& c, const sdf::Joint& joint, unsigned int index, cons
   a.friction = c.number(dynamics, "friction", 0.0, 0.0, kInfinite, dynamics_key);
   a.stiffness = c.number(dynamics, "spring_stiffness", 0.0, 0.0, kInfinite, dynamics_key);
   a.rest = c.number(dynamics, "spring_reference", 0.0, -kOpenSide, kOpenSide, dynamics_key);
+  a.start = own_number(c, element, "initial_position", key + "/" + name);
+  read_mimic(c, element, key, out);
   if (joint.Type() != sdf::JointType::CONTINUOUS) read_range(c, element, *axis, key + "/" + name, a);
   out.axes.push_back(a);
 }

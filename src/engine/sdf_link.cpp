@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kTriangleTolerance = 1e-6;  // relative; engines get the nearest inertia that satisfies it
 
+constexpr double kLight_kg = 1e-5, kLight_kgm2 = 1e-9;  // told, for a gram weighed in tonnes
+
 void check_inertia(ReadContext& c, const sdf::ElementPtr& element, const ignition::math::MassMatrix3d& mass,
                    const std::string& key) {
   if (!std::isfinite(mass.Mass()) || mass.Mass() <= 0) {
@@ -41,6 +43,10 @@ void read_inertia(ReadContext& c, const sdf::Link& link, const std::string& key,
   if (!child(link.Element(), "inertial")) c.notes.add("links without <inertial> have SDF's defaults, 1 kg and 1 kg·m²", key);
   if (!inertial.Pose().IsFinite()) c.problem(link.Element(), key + "/inertial/pose", "", "isn't finite", "finite numbers");
   check_inertia(c, link.Element(), inertial.MassMatrix(), key);
+  const double least = inertial.MassMatrix().PrincipalMoments().Min();
+  if (out.mass > 0 && (out.mass < kLight_kg || (least > 0 && least < kLight_kgm2)))
+    c.notes.add(
+        fmt::format("links lighter than {} kg or {} kg·m² answer the smallest torque with blow-ups", kLight_kg, kLight_kgm2), key);
 }
 
 void read_flags(ReadContext& c, const sdf::Link& link, const std::string& key, Link& out) {
@@ -80,7 +86,15 @@ void read_collision(ReadContext& c, const sdf::Collision& collision, Link& out) 
     return;
   }
   shape.geometry = *geometry;
-  out.collisions.push_back(std::move(shape));
+  if (geometry->parts.empty()) {
+    out.collisions.push_back(std::move(shape));
+    return;
+  }
+  shape.geometry.parts.clear();
+  for (const auto& part : geometry->parts) {
+    shape.geometry.mesh = part;
+    out.collisions.push_back(shape);
+  }
 }
 
 }  // namespace

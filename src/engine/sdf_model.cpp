@@ -1,4 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <sdf/Joint.hh>
 #include <sdf/Link.hh>
 #include <sdf/Model.hh>
@@ -16,6 +18,12 @@ void read_plugins(ReadContext& c, const sdf::ElementPtr& element, const ModelSco
     const std::string name = p->GetAttribute("name") ? p->GetAttribute("name")->GetAsString() : std::string{};
     if (name != config::kPluginName) {
       const bool older = config::is_older_plugin(p->ToString(""));
+      const std::string file = p->GetAttribute("filename") ? p->GetAttribute("filename")->GetAsString() : std::string{};
+      if (!older && file.find("vsa-robot") != std::string::npos) {
+        c.notes.add(fmt::format("a plugin of our library has another name and is left out: did you mean {}?", config::kPluginName),
+                    scope.name + "/plugin[" + name + "]");
+        continue;
+      }
       c.notes.add(older ? "plugins of older actuator toolboxes are left out (vsa doctor WORLD writes them anew)"
                         : "foreign plugins are left out",
                   scope.name + "/plugin[" + name + "]");
@@ -42,6 +50,7 @@ void read_model(ReadContext& c, const sdf::Model& model, const ModelScope* outer
   scope.name = outer == nullptr ? model.Name() : outer->name + "::" + model.Name();
   scope.top = outer == nullptr ? model.Name() : outer->top;
   scope.pose = model_pose(c, model, outer, scope.name);
+  c.model_poses[scope.name] = scope.pose;
   scope.is_static = model.Static() || (outer != nullptr && outer->is_static);
   scope.self_collide = child(model.Element(), "self_collide") || outer == nullptr ? model.SelfCollide() : outer->self_collide;
   if (model.EnableWind()) c.notes.add("wind is left out", scope.name);
@@ -51,6 +60,7 @@ void read_model(ReadContext& c, const sdf::Model& model, const ModelScope* outer
   for (std::uint64_t i = 0; i < model.ModelCount(); ++i) read_model(c, *model.ModelByIndex(i), &scope);
   for (std::uint64_t i = 0; i < model.JointCount(); ++i) read_joint(c, *model.JointByIndex(i), scope);
   read_plugins(c, model.Element(), scope);
+  check_urdf(c, model, scope);
 }
 
 }  // namespace vsa::engine

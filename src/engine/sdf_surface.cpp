@@ -1,12 +1,13 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // <surface>: libsdformat 12's Surface has no friction, so the element tree is read.
-//   friction/ode/mu, mu2              isotropic only: mu2 absent or equal to mu
+//   friction/ode/mu, mu2              isotropic only: mu2 absent or equal to mu, or both ≥ 10
 //   friction/bullet/friction, friction2   where there is no ode
 //   friction/torsional/coefficient    spin torque = (3π/16)·patch_radius·coefficient·N, ODE's formula
 //   contact/collide_bitmask
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,12 +18,17 @@ namespace vsa::engine {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kMuMax = 1e6;  // SDF files write 1e5 and more for "never slips"
+constexpr double kNeverSlips = 10;  // in a pair the smaller coefficient counts: of two beyond this neither does
+constexpr double kMuMax = 1e6;      // SDF files write 1e5 and more for "never slips"
 
 /// One isotropic coefficient from two; reports an anisotropic pair.
 double isotropic(ReadContext& c, const sdf::ElementPtr& e, const char* first, const char* second, const std::string& key) {
   const double mu = c.number(e, first, 1.0, 0.0, kInfinite, key);
   const double mu2 = c.number(e, second, mu, 0.0, kInfinite, key);
+  if (mu2 != mu && std::min(mu, mu2) >= kNeverSlips) {
+    c.notes.add("of two coefficients of friction that both never slip the smaller is taken", key);
+    return std::min({mu, mu2, kMuMax});
+  }
   if (mu2 != mu) {
     c.problem(e, key + "/" + second, fmt::format("{}", mu2), "friction that depends on the direction isn't supported",
               fmt::format("the value of {}, {}", first, mu));

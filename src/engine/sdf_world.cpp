@@ -31,7 +31,7 @@ void read_world_extras(ReadContext& c, const sdf::World& world) {
   const sdf::ElementPtr e = world.Element();
   if (world.ActorCount() > 0) c.notes.add("actors are left out", "world");
   if (world.WindLinearVelocity() != Vec3::Zero) c.notes.add("wind is left out", "world");
-  for (const char* name : {"population", "road", "state"}) {
+  for (const char* name : {"population", "road"}) {
     if (child(e, name)) c.problem(child(e, name), std::string("world/") + name, "", "isn't supported");
   }
   for (sdf::ElementPtr p = child(e, "plugin"); p; p = p->GetNextElement("plugin")) {
@@ -51,6 +51,7 @@ void read_root(ReadContext& c, const sdf::Root& root) {
       read_world_extras(c, world);
     }
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) read_model(c, *world.ModelByIndex(i), nullptr);
+    if (c.problems.empty()) read_state(c, world);
   } else if (root.Model() != nullptr) {
     c.out.name = "default";
     read_model(c, *root.Model(), nullptr);
@@ -60,7 +61,7 @@ void read_root(ReadContext& c, const sdf::Root& root) {
 
 }  // namespace
 
-WorldDescription read_sdf(const SdfSource& source, const std::vector<fs::path>& model_path, std::vector<std::string>& warnings,
+WorldDescription read_sdf(const SdfSource& source, const WorldOptions& options, std::vector<std::string>& warnings,
                           Problems& problems) {
   WorldDescription out;
   std::error_code ignored;
@@ -69,13 +70,17 @@ WorldDescription read_sdf(const SdfSource& source, const std::vector<fs::path>& 
     return out;
   }
   const fs::path base = source.path.empty() ? fs::current_path() : fs::absolute(source.path).parent_path();
-  const Finder finder(model_path);
+  const Finder finder(options.model_path);
   Notes notes;
-  ReadContext context{out, problems, notes, finder, source.label(), base, true};
-  if (!check_includes(source, context)) return out;
+  InputFiles files;
+  if (!source.path.empty()) files.call(source.path);
+  ReadContext context{out, problems, notes, finder, files, source.label(), base, options.concave};
+  if (!prepare_files(source, context)) return out;
   sdf::Root root;
   parse_sdf(source, context, root);
   read_root(context, root);
+  check_urdfs_found(context);
+  if (problems.empty()) finish_joints(context);
   warnings = notes.texts();
   return out;
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// SDF 1.6–1.9 (and URDF as libsdformat reads it) → WorldDescription.
+// SDF 1.6 … 1.12 and URDF → WorldDescription.
 //
 // What the engine can't honour is a problem; what doesn't touch the physics (sensors, foreign plugins) is
 // a warning, once a kind. A file with a model and no world becomes that model in a world of SDF's defaults.
@@ -22,7 +22,7 @@ struct SdfSource {
 };
 
 /// Everything wrong goes to `problems`; the description is complete only where nothing was.
-[[nodiscard]] WorldDescription read_sdf(const SdfSource& source, const std::vector<std::filesystem::path>& model_path,
-                                        std::vector<std::string>& warnings, Problems& problems);
+[[nodiscard]] WorldDescription read_sdf(const SdfSource& source, const WorldOptions& options, std::vector<std::string>& warnings,
+                                        Problems& problems);
 
 }  // namespace vsa::engine

@@ -2,10 +2,12 @@
 //
 // From a file to a World: read, build the robots, compile, and remember the first sample. All problems are thrown at once.
 #include <fmt/format.h>
+#include <tinyxml2.h>
 
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <numbers>
 
 #include "sdf_world.hpp"
 #include "vsa/config/plugin_xml.hpp"
@@ -57,13 +59,40 @@ struct RobotBuilder {
     for (const host::ActuatorConfig& a : config.actuators) {
       const auto it = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first == a.joint; });
       if (it == known.end()) continue;
-      if (!world.joints[it->second].one_axis()) {
-        problems.add(
-            {where, "actuator[" + a.name + "]/joint", a.joint, "isn't a joint with one axis", "revolute, continuous, prismatic"});
-      }
+      check_drivable(it->second, "actuator[" + a.name + "]/joint", a.joint, where);
       out.push_back(it->second);
     }
     return problems.list().size() == before ? out : std::vector<std::size_t>{};
+  }
+
+  /// The laws' positions are angles, their outputs torques.
+  void check_drivable(std::size_t joint, const std::string& key, const std::string& name, const std::string& where) {
+    const Joint& j = world.joints[joint];
+    const bool follows =
+        std::any_of(world.couplings.begin(), world.couplings.end(), [&](const Coupling& k) { return k.follower == joint; });
+    const char* wrong = j.kind == Joint::Kind::fixed   ? "can't move: it is fixed, or its limits leave it no room"
+                        : j.kind == Joint::Kind::slide ? "is prismatic: the actuators' laws are for angles and torques"
+                        : !j.one_axis()                ? "isn't a joint with one axis"
+                        : follows                      ? "follows another joint (<mimic>)"
+                                                       : nullptr;
+    if (wrong != nullptr) problems.add({where, key, name, wrong, "a revolute or continuous joint that follows no other"});
+  }
+
+  /// An actuator whose text gives no equilibrium starts where its joint does, so that its springs aren't wound up.
+  void start_with_joints(host::RobotConfig& config, const std::vector<std::size_t>& joints, const Plugin& plugin,
+                         const std::string& where) {
+    tinyxml2::XMLDocument xml;
+    if (xml.Parse(plugin.xml.c_str()) != tinyxml2::XML_SUCCESS || xml.RootElement() == nullptr) return;
+    const tinyxml2::XMLElement* e = xml.RootElement()->FirstChildElement("actuator");
+    for (std::size_t i = 0; i < joints.size(); ++i, e = e == nullptr ? e : e->NextSiblingElement("actuator")) {
+      const double start = world.joints[joints[i]].axes[0].start.value_or(0);
+      const tinyxml2::XMLElement* initial = e == nullptr ? nullptr : e->FirstChildElement("initial");
+      if (start == 0 || (initial != nullptr && initial->Attribute("equilibrium_rad") != nullptr)) continue;
+      if (std::abs(start) > std::numbers::pi)
+        problems.add({where, "actuator[" + config.actuators[i].name + "]/initial@equilibrium_rad", "",
+                      fmt::format("is needed: its joint starts at {} rad", start), "an equilibrium near the joint's start"});
+      config.actuators[i].initial_equilibrium_rad = start;
+    }
   }
 
   std::optional<RobotSlot> build(const Plugin& plugin) {
@@ -72,6 +101,7 @@ struct RobotBuilder {
       host::RobotConfig config = config::parse_plugin(plugin.xml, where, presets, actuator);
       std::vector<std::size_t> joints = match(config, plugin, where);
       if (joints.size() != config.actuators.size()) return std::nullopt;
+      start_with_joints(config, joints, plugin, where);
       const std::size_t n = joints.size();
       return RobotSlot{plugin.model,
                        host::Robot(std::move(config)),
@@ -123,7 +153,7 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
   Problems problems;
   {
     const std::scoped_lock lock(reading);
-    impl->world = read_sdf(source, impl->options.model_path, impl->warnings, problems);
+    impl->world = read_sdf(source, impl->options, impl->warnings, problems);
   }
   impl->dt_ns = step_ns(impl->options, impl->world, source.label(), problems);
   impl->add_robots(source.label(), problems);
@@ -131,6 +161,10 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
   impl->physics = make_mujoco(impl->world, static_cast<double>(impl->dt_ns) * 1e-9, source.label(), problems);
   problems.throw_if_any();
   impl->join_trees();
+  for (std::size_t j = 0; j < impl->world.joints.size(); ++j) {
+    const Joint& joint = impl->world.joints[j];
+    if (joint.one_axis() && joint.axes[0].start) impl->physics->set_joint(j, {*joint.axes[0].start, 0});
+  }
   impl->initial = impl->snapshot();
   return impl;
 }

@@ -26,12 +26,21 @@
 
 namespace vsa::engine {
 
+/// Collision meshes that aren't convex, which the engine would fill to their hulls without a word. A <mesh> that says
+/// optimization="convex_hull" or "convex_decomposition" has its own way.
+enum class Concave {
+  refuse,
+  hull,      ///< filled to the convex hull, and warned of
+  decompose  ///< cut into convex parts (at most 3000 triangles), and warned of
+};
+
 struct WorldOptions {
   std::optional<double> step_s;  ///< none: the SDF's <physics><max_step_size>
   config::PresetLibrary presets{};
   config::Replacement actuator{};                 ///< puts another actuator on the world's robots
-  std::vector<std::filesystem::path> model_path;  ///< searched for model:// URIs after $SDF_PATH and the built-in models
-  bool actuators = true;                          ///< false: no torques, for measuring the engine alone
+  std::vector<std::filesystem::path> model_path;  ///< searched for model:// URIs after Gazebo's variables and the built-in models
+  Concave concave = Concave::refuse;
+  bool actuators = true;  ///< false: no torques, for measuring the engine alone
 };
 
 /// A blow-up: the state is no longer finite or an engine warning was raised. what() names time, joint and value.
