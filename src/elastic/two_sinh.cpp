@@ -196,6 +196,11 @@ std::array<double, 2> TwoSinh::signed_energies_of(const Origin& here) const noex
   return {std::copysign(energy_of(0, here), here.at.q - here.at.x[0]), std::copysign(energy_of(1, here), here.at.q - here.at.x[1])};
 }
 
+bool TwoSinh::equals(const Transmission& other) const noexcept {
+  const auto* same = dynamic_cast<const TwoSinh*>(&other);
+  return same != nullptr && same->params_ == params_;
+}
+
 std::array<double, 2> TwoSinh::references(const EquilibriumPreset& command) const noexcept {
   return {command.equilibrium + command.preset, command.equilibrium - command.preset};
 }

@@ -103,6 +103,8 @@ class Transmission {
   /// w_i = sign(δ_i)·H_i: the energy of spring i with the sign of its deflection, J. ∂w_i/∂q = |T_i|, its tension's magnitude, N·m.
   /// A law that names springs keeps all its energy in them: Σ|w_i| = H.
   [[nodiscard]] virtual std::array<double, 2> signed_energies(const Positions&) const noexcept { return {}; }
+  /// Whether the other law gives the same everywhere. A law that doesn't say so is equal to itself only.
+  [[nodiscard]] virtual bool equals(const Transmission& other) const noexcept { return this == &other; }
   /// "rad" for the qbmove's half difference; "" where the law has no preset.
   [[nodiscard]] virtual std::string_view preset_unit() const noexcept { return "rad"; }
 
