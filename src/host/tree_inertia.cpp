@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "vsa/owner.hpp"
+
 namespace vsa::host {
 namespace {
 
@@ -102,6 +104,11 @@ void TreeInertia::gather(const std::vector<TreeBody>& bodies) noexcept {
 }
 
 void TreeInertia::update(const std::vector<TreeBody>& bodies, std::vector<double>& inverse) noexcept {
+  constexpr const char* kHere = "vsa::host::TreeInertia::update";
+  require(bodies.size() == nodes_.size() && inverse.size() == nodes_.size(), kHere,
+          "bodies and inverse need as many entries as it has");
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    require(bodies[i].parent < i || bodies[i].parent == TreeBody::kGround, kHere, "a parent comes before its children");
   if (bodies.empty()) return;
   gather(bodies);
   for (std::size_t i = 0; i < bodies.size(); ++i) {

@@ -37,7 +37,7 @@ class TreeInertia {
   explicit TreeInertia(std::size_t bodies);
 
   /// Fills `inverse` for the bodies' joints, 1/(kg·m²) or 1/kg; 0 for fixed and free ones. NaN where the bodies give no answer
-  /// (no mass).
+  /// (no mass). Other sizes than it was made for, or a parent behind its child: one line on stderr, and abort.
   void update(const std::vector<TreeBody>& bodies, std::vector<double>& inverse) noexcept;
 
  private:
