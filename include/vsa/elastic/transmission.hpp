@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 namespace vsa::elastic {
@@ -95,6 +96,13 @@ class Transmission {
   [[nodiscard]] virtual std::array<double, 2> references(const EquilibriumPreset& command) const noexcept = 0;
   /// The inverse: where the unloaded shaft rests and which preset the inputs amount to.
   [[nodiscard]] virtual EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept = 0;
+
+  /// The smallest preset ≥ 0 and its equilibrium that give this torque and stiffness at q, where the law has a closed form for it;
+  /// none: it hasn't, or there is no such command. See inverse.hpp.
+  [[nodiscard]] virtual std::optional<EquilibriumPreset> command_exactly(double /*q*/, double /*torque_Nm*/,
+                                                                         double /*stiffness_Nm_per_rad*/) const noexcept {
+    return std::nullopt;
+  }
 
   [[nodiscard]] virtual int motor_count() const noexcept { return 2; }
   /// Springs whose tension a loss can be proportional to (actuator/actuator.hpp): spring i lies between input i and the shaft, with

@@ -50,6 +50,9 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& command) const noexcept override;
   [[nodiscard]] EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override;
 
+  [[nodiscard]] std::optional<EquilibriumPreset> command_exactly(double q, double torque_Nm,
+                                                                 double stiffness_Nm_per_rad) const noexcept override;
+
   [[nodiscard]] int spring_count() const noexcept override { return 2; }
   [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override;
 
