@@ -116,7 +116,7 @@ class World {
   // Actuators, by name ("joint_1", or "model/joint_1" where several models have it) or reference.
   [[nodiscard]] const std::vector<ActuatorRef>& actuators() const;
   [[nodiscard]] const ActuatorRef& actuator(std::string_view name) const;  ///< throws InputError with the names there are
-  /// From any thread, as host::Robot::command; by reference it looks at no name and allocates nothing. A reference of another
+  /// From any thread, as host::Robot::command; by reference nothing is searched and nothing allocated. A reference of another
   /// world: InputError, here and below.
   bool command(std::string_view actuator, double equilibrium_rad, double preset);
   bool command(const ActuatorRef& actuator, double equilibrium_rad, double preset);
