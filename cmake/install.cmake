@@ -6,9 +6,9 @@ install(DIRECTORY include/vsa DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY presets models data DESTINATION ${CMAKE_INSTALL_DATADIR}/vsa)
 install(EXPORT vsasimTargets NAMESPACE vsa:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vsasim)
 configure_package_config_file(cmake/vsasimConfig.cmake.in ${PROJECT_BINARY_DIR}/vsasimConfig.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vsasim)
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vsasim PATH_VARS CMAKE_INSTALL_DATADIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/vsasimConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/vsasimConfig.cmake ${PROJECT_BINARY_DIR}/vsasimConfigVersion.cmake
+install(FILES ${PROJECT_BINARY_DIR}/vsasimConfig.cmake ${PROJECT_BINARY_DIR}/vsasimConfigVersion.cmake cmake/installed_data.cpp
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vsasim)
 
 # What makes a shell, a Gazebo and a colcon workspace (colcon.pkg) find all that. The script has the prefix in it, so it is made when

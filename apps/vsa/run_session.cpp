@@ -275,7 +275,7 @@ std::vector<record::Statistic> RunSession::finish(const std::string& note) {
   }
   if (recorder_) {
     const auto page = recorder_->finish(out, note);
-    out.push_back({"replay page", page.string()});
+    out.push_back({"replay page", page.empty() ? recorder_->without_page() : page.string()});
     std::string files;
     for (const auto& file : recorder_->files()) files += (files.empty() ? "" : ", ") + file.string();
     out.push_back({"recorded data", files});

@@ -14,4 +14,9 @@ int main() {
               now.current_A[0]);
   world.restore(*before);
   std::printf("back at %.3f s\n", world.time_s());
+
+  world.place(joint, {0.5, 0.3});  // shaft, motors and firmware there, without a kick
+  auto another = world.clone();
+  another.run(0.5);
+  std::printf("placed at 0.500 rad, half a second later at %.3f rad\n", another.read(joint).shaft_rad);
 }

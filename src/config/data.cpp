@@ -1,12 +1,21 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 
+#include "vsa/config/installed.hpp"
 #include "vsa/config/preset.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::config {
 namespace fs = std::filesystem;
+namespace {
+
+constinit std::atomic<const char*> installation{nullptr};
+
+}  // namespace
+
+void installed_in(const char* directory) noexcept { installation.store(directory); }
 
 std::vector<fs::path> data_directories() {
   const char* set = std::getenv("VSA_DATA_DIR");
@@ -15,7 +24,8 @@ std::vector<fs::path> data_directories() {
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   if (!error) directories.push_back((executable.parent_path() / ".." / "share" / "vsa").lexically_normal());
-  directories.emplace_back(VSA_SOURCE_DIR);
+  const char* installed = installation.load();
+  directories.emplace_back(installed != nullptr ? installed : VSA_SOURCE_DIR);
   return directories;
 }
 

@@ -33,6 +33,11 @@ std::array<double, 2> SeriesSpring::signed_energies(const Positions& at) const n
   return {0.5 * stiffness_ * deflection * std::abs(deflection), 0.0};
 }
 
+bool SeriesSpring::equals(const Transmission& other) const noexcept {
+  const auto* same = dynamic_cast<const SeriesSpring*>(&other);
+  return same != nullptr && same->stiffness_ == stiffness_;
+}
+
 std::array<double, 2> SeriesSpring::references(const EquilibriumPreset& command) const noexcept {
   return {command.equilibrium, 0.0};
 }

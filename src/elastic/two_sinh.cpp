@@ -215,6 +215,30 @@ std::array<double, 2> TwoSinh::signed_energies_of(const Origin& here) const noex
   return {std::copysign(energy_of(0, here), here.at.q - here.at.x[0]), std::copysign(energy_of(1, here), here.at.q - here.at.x[1])};
 }
 
+bool TwoSinh::equals(const Transmission& other) const noexcept {
+  const auto* same = dynamic_cast<const TwoSinh*>(&other);
+  return same != nullptr && same->params_ == params_;
+}
+
+std::optional<EquilibriumPreset> TwoSinh::command_exactly(double q, double torque, double stiffness) const noexcept {
+  const double a = params_.a_per_rad[0], k1 = params_.k_Nm[0], k2 = params_.k_Nm[1], d = params_.linear_beyond_rad;
+  if (a != params_.a_per_rad[1] || params_.c_Nm_per_rad[0] != 0 || params_.c_Nm_per_rad[1] != 0) return std::nullopt;
+  // k₁u + k₂v = A, k₁/u + k₂/v = B for u, v = exp(a δ):  B k₁ u² − (A B + k₁² − k₂²) u + A k₁ = 0
+  const double A = stiffness / a - torque, B = stiffness / a + torque;
+  const double middle = 0.5 * (A * B + k1 * k1 - k2 * k2), square = middle * middle - A * B * k1 * k1;
+  if (!(A > 0) || !(B > 0) || !(middle > 0) || !(square >= 0)) return std::nullopt;
+  const double larger = middle + std::sqrt(square);
+  std::optional<EquilibriumPreset> best;
+  for (const double u : {A * k1 / larger, larger / (B * k1)}) {
+    const double v = (A - k1 * u) / k2;
+    if (!(v > 0)) continue;
+    const double d1 = std::log(u) / a, d2 = std::log(v) / a, preset = 0.5 * (d2 - d1);
+    if (preset < 0 || std::abs(d1) > d || std::abs(d2) > d || (best && best->preset <= preset)) continue;
+    best = EquilibriumPreset{q - 0.5 * (d1 + d2), preset};
+  }
+  return best;
+}
+
 std::array<double, 2> TwoSinh::references(const EquilibriumPreset& command) const noexcept {
   return {command.equilibrium + command.preset, command.equilibrium - command.preset};
 }

@@ -1,6 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/engine/gait.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +14,25 @@ namespace {
 double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
 
 }  // namespace
+
+Gait::Gait(GaitParams params) : params_(std::move(params)) {
+  Problems problems;
+  const auto ask = [&](bool right, const std::string& key, double value, const char* allowed) {
+    if (!right) problems.add({params_.file, key, fmt::format("{}", value), "can't be played", allowed});
+  };
+  ask(params_.period_ns >= 1, "period_ns", static_cast<double>(params_.period_ns), "1 or more");
+  ask(std::isfinite(params_.frequency_rad_per_s), "frequency_rad_per_s", params_.frequency_rad_per_s, "a finite number");
+  ask(params_.ramp_s >= 0 && std::isfinite(params_.ramp_s), "ramp_s", params_.ramp_s, "finite, ≥ 0");
+  ask(!params_.steering || params_.frequency_rad_per_s > 0, "frequency_rad_per_s", params_.frequency_rad_per_s, "above 0 to steer");
+  for (const GaitGroup& g : params_.groups) {
+    const std::string where = "group." + g.name + ".";
+    ask(g.n.size() == g.actuators.size(), where + "n", static_cast<double>(g.n.size()), "one an actuator");
+    ask(std::isfinite(g.lambda) && g.lambda != 0, where + "lambda", g.lambda, "finite, not 0");
+    for (const double v : {g.amplitude_rad, g.offset_rad, g.delta_rad, g.preset_rad})
+      ask(std::isfinite(v), where + "angles", v, "finite numbers");
+  }
+  problems.throw_if_any();
+}
 
 void steer(const SteeringParams& params, SteeringState& state, std::array<double, 2> center, std::size_t window, double dt_s,
            bool engaged) {
@@ -30,6 +51,9 @@ void steer(const SteeringParams& params, SteeringState& state, std::array<double
 }
 
 double Gait::equilibrium(const GaitGroup& group, std::size_t k, double t_s) const {
+  if (k >= group.n.size())
+    throw InputError(Problem{params_.file, "group." + group.name, fmt::format("{}", k), "has no such actuator",
+                             fmt::format("below {}", group.n.size())});
   const WaveParams w = wave(group, t_s);
   const double ramp = t_s < params_.ramp_s ? t_s / params_.ramp_s : 1.0;
   double angle = phase(t_s) + group.n[k] * kPi / w.lambda + w.delta_rad;

@@ -69,6 +69,7 @@ WaveParams Gait::wave(const GaitGroup& group, double t_s) const {
   if (!state_.blend || t_s >= state_.blend->t_s + kBlend_s) return to;
   const auto same = [&](const GaitGroup& g) { return g.name == group.name; };
   const auto index = std::find_if(params_.groups.begin(), params_.groups.end(), same) - params_.groups.begin();
+  if (index >= static_cast<std::ptrdiff_t>(state_.blend->from.groups.size())) return to;  // none of ours
   const WaveParams& from = state_.blend->from.groups[static_cast<std::size_t>(index)];
   const double part = std::max(0.0, (t_s - state_.blend->t_s) / kBlend_s);
   return {std::lerp(from.amplitude_rad, to.amplitude_rad, part), std::lerp(from.offset_rad, to.offset_rad, part),

@@ -86,9 +86,13 @@ void MujocoPhysics::make_data() {
 
 void MujocoPhysics::grow() {
   const PhysicsState state = save();
+  model_ = ModelPtr(mj_copyModel(nullptr, model_.get()));
+  if (!model_) throw SimulationError("MuJoCo: no memory for a larger world");
   model_->njmax *= 2;
   model_->nconmax *= 2;
   model_->nstack *= 4;
+  data_.reset();  // before the new ones: they are large
+  view_.reset();
   make_data();
   restore(state);
 }
@@ -105,6 +109,7 @@ void MujocoPhysics::prepare() {
     const bool full = data_->warning[mjWARN_CONTACTFULL].number > 0 || data_->warning[mjWARN_CNSTRFULL].number > 0;
     if (!full || m->njmax * 2 > kMaxRows) break;
     grow();
+    m = model_.get();  // another
   }
   mj_fwdVelocity(m, data_.get());
   mju_zero(data_->qfrc_applied, m->nv);

@@ -40,8 +40,20 @@ class MujocoPhysics final : public Physics {
   void contacts(std::vector<Contact>& out) const override;
   PhysicsState save() const override;
   void restore(const PhysicsState& state) override;
+  std::unique_ptr<Physics> clone() const override;
+  void push(std::size_t joint, double torque) override;
+  void push(std::size_t link, const Wrench& wrench) override;
+  std::size_t dofs() const override;
+  std::optional<std::size_t> joint_dof(std::size_t joint) const override;
+  std::optional<std::size_t> free_dof(std::size_t link) const override;
+  Pose pose(std::size_t link) const override;
+  Twist velocity(std::size_t link) const override;
+  void mass_matrix(std::span<double> out) const override;
+  void bias(std::span<double> out, bool moving) const override;
+  void jacobian(std::size_t link, const std::array<double, 3>& point, std::span<double> out) const override;
 
  private:
+  MujocoPhysics(const MujocoPhysics& other);
   struct Address {
     int q = -1, v = -1;
   };
@@ -52,7 +64,7 @@ class MujocoPhysics final : public Physics {
   std::optional<Fault> find_fault() const;
   std::optional<Fault> check(const mjtNum* values, int n, bool positions, const char* quantity) const;
 
-  ModelPtr model_;
+  std::shared_ptr<mjModel> model_;  // of all clones: never changed, but replaced by grow()
   DataPtr data_;
   DataPtr view_;  // kinematics of the present state, brought up to date when somebody looks
   mutable bool view_stale_ = true;

@@ -121,7 +121,8 @@ std::unique_ptr<Physics> make_mujoco(const WorldDescription& world, double step_
   if (!problems.empty()) return nullptr;
   int moving = 0;
   for (const Link& l : world.links) moving += l.is_static ? 0 : static_cast<int>(l.collisions.size());
-  const int contacts = 100 + 8 * std::min(moving, 100);
+  // Room to begin with: it grows where it must, and a world that needs little is made and cloned in little time.
+  const int contacts = 16 + 2 * std::min(moving, 100);
   const Mjcf mjcf = write_mjcf(world, tree, step_s, {contacts, 3 * contacts + 100});
   std::string reason;
   ModelPtr model = compile(mjcf.xml, mjcf.parts, reason);

@@ -65,6 +65,22 @@ class Physics {
 
   [[nodiscard]] virtual PhysicsState save() const = 0;
   virtual void restore(const PhysicsState& state) = 0;
+
+  /// The same world in the same state, with data of its own.
+  [[nodiscard]] virtual std::unique_ptr<Physics> clone() const = 0;
+  /// Add to what is applied; after all apply() of the step, before the pulls.
+  virtual void push(std::size_t joint, double torque) = 0;
+  virtual void push(std::size_t link, const Wrench& wrench) = 0;
+
+  // Of the present state; degrees of freedom as in World.
+  [[nodiscard]] virtual std::size_t dofs() const = 0;
+  [[nodiscard]] virtual std::optional<std::size_t> joint_dof(std::size_t joint) const = 0;
+  [[nodiscard]] virtual std::optional<std::size_t> free_dof(std::size_t link) const = 0;
+  [[nodiscard]] virtual Pose pose(std::size_t link) const = 0;
+  [[nodiscard]] virtual Twist velocity(std::size_t link) const = 0;
+  virtual void mass_matrix(std::span<double> out) const = 0;
+  virtual void bias(std::span<double> out, bool moving) const = 0;  ///< moving: at the present speeds, else at rest
+  virtual void jacobian(std::size_t link, const std::array<double, 3>& point, std::span<double> out) const = 0;
 };
 
 /// Builds the world in MuJoCo. Adds to `problems` and returns null where it can't.

@@ -3,6 +3,8 @@
 // A World's insides. States: physics, time and step count, the robots, and the mobilities last asked for; Snapshot holds them all.
 #pragma once
 
+#include <map>
+
 #include "description.hpp"
 #include "physics.hpp"
 #include "vsa/host/mobility_watch.hpp"
@@ -18,6 +20,7 @@ struct Mobility {
 };
 
 struct World::Snapshot {
+  std::shared_ptr<const WorldDescription> world;
   PhysicsState physics;
   std::int64_t time_ns = 0, steps = 0;
   std::vector<std::shared_ptr<const host::Robot::Snapshot>> robots;
@@ -35,14 +38,32 @@ struct RobotSlot {
   Mobility mobility;
 };
 
+/// Who is called what, made once and shared with clones.
+struct WorldNames {
+  static constexpr std::size_t kSeveral = static_cast<std::size_t>(-1);
+  std::vector<JointInfo> joints;
+  std::map<std::string, std::size_t, std::less<>> joint, link;     ///< by scoped name; joint: those with one axis
+  std::map<std::string, std::size_t, std::less<>> full, actuator;  ///< into actuators; full: model/name; actuator: name or kSeveral
+  std::vector<std::size_t> first_actuator;                         ///< of each robot, into actuators
+  std::uint32_t tag = 0;                                           ///< of links and joints; never 0
+};
+
+/// Throws InputError where the two differ in what a snapshot's numbers stand for.
+void check_same_world(const WorldDescription& theirs, const WorldDescription& ours);
+[[nodiscard]] std::uint32_t tag_of(const WorldDescription& world);
+[[nodiscard]] std::string list(std::vector<std::string> names);  ///< "a, b, c" without doubles
+
 struct World::Impl {
   WorldOptions options;
-  WorldDescription world;
+  std::shared_ptr<const WorldDescription> world;
+  std::shared_ptr<const WorldNames> names;
   std::vector<std::string> warnings;
   std::unique_ptr<Physics> physics;
   std::vector<RobotSlot> robots;
   std::vector<ActuatorRef> actuators;
   std::vector<Pull> pulls;
+  std::vector<std::pair<std::size_t, Wrench>> wrenches;  ///< by link
+  std::vector<std::pair<std::size_t, double>> torques;   ///< by joint
   std::int64_t dt_ns = 0, time_ns = 0, steps = 0;
   std::shared_ptr<const Snapshot> initial;
 
@@ -54,9 +75,13 @@ struct World::Impl {
   void drive();
   void observe();
   void forget_mobility();  ///< something was moved
-  [[nodiscard]] std::size_t one_axis_joint(std::string_view scoped) const;
+  void placed(std::size_t joint);  ///< somebody put it there
+  void apply_hands();
+  void let_go();
+  void index_names();
   [[nodiscard]] std::vector<std::size_t> links_of(std::string_view model) const;
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
+  void check(const Snapshot& s) const;  ///< throws InputError where restore() would be wrong
   void restore(const Snapshot& s);
 };
 

@@ -42,7 +42,7 @@ std::vector<std::pair<std::string, std::size_t>> joints_under(const WorldDescrip
 }
 
 struct RobotBuilder {
-  WorldDescription& world;
+  const WorldDescription& world;
   const config::PresetLibrary& presets;
   const config::Replacement& actuator;
   std::string file;
@@ -135,8 +135,8 @@ void check_shared_joints(const std::vector<RobotSlot>& robots, const WorldDescri
 
 void World::Impl::add_robots(const std::string& file, Problems& problems) {
   if (!options.actuators) return;
-  RobotBuilder builder{world, options.presets, options.actuator, file, problems};
-  for (const Plugin& plugin : world.plugins) {
+  RobotBuilder builder{*world, options.presets, options.actuator, file, problems};
+  for (const Plugin& plugin : world->plugins) {
     std::optional<RobotSlot> slot = builder.build(plugin);
     if (!slot) continue;
     for (std::size_t i = 0; i < slot->joints.size(); ++i) {
@@ -144,7 +144,7 @@ void World::Impl::add_robots(const std::string& file, Problems& problems) {
     }
     robots.push_back(std::move(*slot));
   }
-  check_shared_joints(robots, world, file, problems);
+  check_shared_joints(robots, *world, file, problems);
 }
 
 std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOptions options) {
@@ -153,18 +153,19 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
   Problems problems;
   {
     const std::scoped_lock lock(reading);
-    impl->world = read_sdf(source, impl->options, impl->warnings, problems);
+    impl->world = std::make_shared<const WorldDescription>(read_sdf(source, impl->options, impl->warnings, problems));
   }
-  impl->dt_ns = step_ns(impl->options, impl->world, source.label(), problems);
+  impl->dt_ns = step_ns(impl->options, *impl->world, source.label(), problems);
   impl->add_robots(source.label(), problems);
   problems.throw_if_any();
-  impl->physics = make_mujoco(impl->world, static_cast<double>(impl->dt_ns) * 1e-9, source.label(), problems);
+  impl->physics = make_mujoco(*impl->world, static_cast<double>(impl->dt_ns) * 1e-9, source.label(), problems);
   problems.throw_if_any();
   impl->join_trees();
-  for (std::size_t j = 0; j < impl->world.joints.size(); ++j) {
-    const Joint& joint = impl->world.joints[j];
+  for (std::size_t j = 0; j < impl->world->joints.size(); ++j) {
+    const Joint& joint = impl->world->joints[j];
     if (joint.one_axis() && joint.axes[0].start) impl->physics->set_joint(j, {*joint.axes[0].start, 0});
   }
+  impl->index_names();
   impl->initial = impl->snapshot();
   return impl;
 }

@@ -17,6 +17,7 @@ namespace vsa::engine {
 namespace {
 
 constexpr double kNanosecond = 1e-9;
+constexpr double kLongestRun_s = 1e9;
 
 }  // namespace
 
@@ -45,6 +46,14 @@ void World::Impl::ask_mobility(RobotSlot& slot) {
 
 void World::Impl::forget_mobility() {
   for (RobotSlot& slot : robots) slot.mobility.watch.again();
+}
+
+void World::Impl::placed(std::size_t joint) {
+  forget_mobility();
+  for (RobotSlot& slot : robots) {
+    for (std::size_t i = 0; i < slot.joints.size(); ++i)
+      if (slot.joints[i] == joint) slot.in[i].placed = true;
+  }
 }
 
 void World::Impl::drive() {
@@ -76,7 +85,7 @@ void World::Impl::step() {
   for (const RobotSlot& slot : robots) before.push_back(slot.robot.snapshot());
   physics->prepare();
   drive();
-  for (const Pull& pull : pulls) physics->pull(pull);
+  apply_hands();
   if (const std::optional<Fault> fault = physics->advance()) {
     for (std::size_t i = 0; i < robots.size(); ++i) robots[i].robot.restore(*before[i]);
     forget_mobility();
@@ -90,6 +99,7 @@ void World::Impl::step() {
 
 std::shared_ptr<const World::Snapshot> World::Impl::snapshot() const {
   auto out = std::make_shared<Snapshot>();
+  out->world = world;
   out->physics = physics->save();
   out->time_ns = time_ns;
   out->steps = steps;
@@ -113,15 +123,22 @@ void World::Impl::restore(const Snapshot& s) {
 void World::step() { impl_->step(); }
 
 void World::run(double duration_s) {
+  if (!(duration_s >= 0 && duration_s <= kLongestRun_s)) {
+    throw InputError(
+        Problem{"", "duration_s", fmt::format("{}", duration_s), "out of range", fmt::format("0 … {} s", kLongestRun_s)});
+  }
   const std::int64_t end = impl_->time_ns + std::llround(duration_s / kNanosecond);
   while (impl_->time_ns < end) impl_->step();
 }
 
 std::shared_ptr<const World::Snapshot> World::snapshot() const { return impl_->snapshot(); }
-void World::restore(const Snapshot& s) { impl_->restore(s); }
+void World::restore(const Snapshot& s) {
+  impl_->check(s);
+  impl_->restore(s);
+}
 void World::reset() {
   impl_->restore(*impl_->initial);
-  impl_->pulls.clear();
+  impl_->let_go();
 }
 void World::make_initial() { impl_->initial = impl_->snapshot(); }
 

@@ -86,6 +86,12 @@ void BusLine::set_wiring(const ActuatorSlot& slot, const device::Faults& faults)
   unlock();
 }
 
+void BusLine::set_unit(const ActuatorSlot& slot, device::Unit& unit) noexcept {
+  const auto member = std::find_if(members_.begin(), members_.end(), [&](const BusMember& m) { return m.slot == &slot; });
+  member->unit = &unit;
+  chain_.set_program(static_cast<std::size_t>(member - members_.begin()), unit.program());
+}
+
 std::array<Ticks, 3> BusLine::measured(const ActuatorSlot& slot, const device::Unit& unit) const {
   if (!port_) return slot.measured;
   return port_->locked([&] {

@@ -47,6 +47,9 @@ class BusLine final : private bus::MasterClient {
   void shift_time(std::int64_t by_ns) noexcept;
   void set_wiring(const ActuatorSlot& slot, const device::Faults& faults) noexcept;
 
+  /// That member goes on as another unit; between lock() and unlock().
+  void set_unit(const ActuatorSlot& slot, device::Unit& unit) noexcept;
+
   [[nodiscard]] device::PortLine* port() noexcept { return port_.get(); }
   [[nodiscard]] std::array<Ticks, 3> measured(const ActuatorSlot& slot, const device::Unit& unit) const;
 

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <memory>
@@ -12,16 +13,13 @@
 
 namespace vsa::host {
 
-/// What one channel of an actuator is to do from the next step on.
+/// What one channel of an actuator is to do from the next step on: knots, or else a constant, which needs no memory.
 struct Order {
   std::size_t actuator;
   Robot::Channel channel;
-  std::shared_ptr<const std::vector<Robot::Knot>> knots;
+  double value = 0;
+  std::shared_ptr<const std::vector<Robot::Knot>> knots = nullptr;
 };
-
-inline Order make_order(std::size_t actuator, Robot::Channel channel, std::vector<Robot::Knot> knots) {
-  return {actuator, channel, std::make_shared<const std::vector<Robot::Knot>>(std::move(knots))};
-}
 
 struct FaultOrder {
   std::size_t actuator;
@@ -33,11 +31,21 @@ struct FaultOrder {
 template <class T>
 class Queue {
  public:
-  /// All of them, so that no step falls between.
-  void push(std::vector<T> orders) {
+  /// Room for so many a step: until then nothing is allocated.
+  void reserve(std::size_t orders) {
+    waiting_.reserve(orders);
+    taken_.reserve(orders);
+  }
+
+  /// All that `fill` hands to its argument, so that no step falls between.
+  template <class F>
+  void push_all(F&& fill) {
     const std::lock_guard lock(mutex_);
-    for (T& order : orders) waiting_.push_back(std::move(order));
+    fill([this](T order) { waiting_.push_back(std::move(order)); });
     any_.store(true, std::memory_order_release);
+  }
+  void push(T order) {
+    push_all([&](auto&& add) { add(std::move(order)); });
   }
 
   template <class F>
@@ -50,6 +58,13 @@ class Queue {
     }
     for (T& order : taken_) take(order);
     taken_.clear();
+  }
+
+  /// Takes back what waits and answers to `which`.
+  template <class F>
+  void drop(F&& which) {
+    const std::lock_guard lock(mutex_);
+    waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), which), waiting_.end());
   }
 
   void clear() {

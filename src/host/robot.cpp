@@ -1,7 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/host/robot.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -15,6 +17,10 @@ void check_whole(const RobotConfig& config) {
   Problems problems;
   for (std::size_t i = 0; i < config.actuators.size(); ++i) {
     const ActuatorConfig& a = config.actuators[i];
+    device::check(a.unit, a.name + ": ", problems);
+    if (a.id < 1 || a.id > 254) problems.add({"", a.name, std::to_string(a.id), "id is out of range", "1 … 254"});
+    if (!std::isfinite(a.initial_equilibrium_rad) || !std::isfinite(a.initial_preset))
+      problems.add({"", a.name, "", "initial command isn't finite", "finite numbers"});
     if (a.bus >= config.buses.size()) problems.add({"", a.name, std::to_string(a.bus), "no such bus", "an index into buses"});
     for (std::size_t j = 0; j < i; ++j) {
       const ActuatorConfig& b = config.actuators[j];
@@ -25,23 +31,45 @@ void check_whole(const RobotConfig& config) {
         problems.add({"", a.name, std::to_string(a.id), "id is used by " + b.name + " on the same bus", "unique ids on a bus"});
     }
   }
+  for (const BusConfig& b : config.buses) {
+    if (!(b.baud_Hz >= 1 && b.baud_Hz <= 1e9))
+      problems.add({"", b.name, std::to_string(b.baud_Hz), "no such baud rate", "1 … 1e9"});
+    const bool cycles = !b.cycle_s || (*b.cycle_s >= 1e-6 && *b.cycle_s <= 1e6);
+    if (!cycles) problems.add({"", b.name, std::to_string(*b.cycle_s), "cycle is out of range", "1e-6 … 1e6 s"});
+  }
+  if (!(config.state_rate_Hz > 0 && config.state_rate_Hz <= 1e9))
+    problems.add({"", "state_rate_Hz", std::to_string(config.state_rate_Hz), "is out of range", "above 0, up to 1e9"});
   problems.throw_if_any();
+}
+
+constexpr std::int64_t kLongestStepNs = 16'000'000, kLatestNs = 4'000'000'000'000'000'000;
+
+/// Whether a joint can be worked with.
+bool told(const JointIn& joint) noexcept {
+  const double a = joint.inverse_inertia.value_or(0.0);
+  return std::isfinite(joint.angle_rad) && std::isfinite(joint.speed_rad_per_s) && a >= 0 && std::isfinite(a);
 }
 
 }  // namespace
 
-Robot::Robot(RobotConfig config) {
+Robot::Robot(RobotConfig config) : impl_("vsa::host::Robot") {
   check_whole(config);
-  impl_ = std::make_unique<Impl>(std::move(config));
+  impl_.take(std::make_unique<Impl>(std::move(config)));
 }
 Robot::~Robot() = default;
 Robot::Robot(Robot&&) noexcept = default;
 Robot& Robot::operator=(Robot&&) noexcept = default;
 
-const RobotConfig& Robot::config() const noexcept { return impl_->config; }
-std::size_t Robot::size() const noexcept { return impl_->units.size(); }
+const RobotConfig& Robot::config() const { return impl_->config; }
+std::size_t Robot::size() const { return impl_->units.size(); }
 
-std::optional<std::size_t> Robot::find(std::string_view actuator_name) const noexcept {
+std::size_t Robot::known(std::size_t actuator) const {
+  if (actuator >= size())
+    throw InputError(Problem{"", "actuator", std::to_string(actuator), "no such actuator", "below " + std::to_string(size())});
+  return actuator;
+}
+
+std::optional<std::size_t> Robot::find(std::string_view actuator_name) const {
   for (std::size_t i = 0; i < size(); ++i)
     if (impl_->config.actuators[i].name == actuator_name) return i;
   return std::nullopt;
@@ -62,11 +90,22 @@ void Robot::join(std::vector<std::vector<std::size_t>> trees) {
   impl_->make_clusters(std::move(trees));
 }
 
-std::size_t Robot::mobility_size() const noexcept { return impl_->mobility_size; }
+std::size_t Robot::mobility_size() const { return impl_->mobility_size; }
 
 void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
                     std::span<const double> mobility) noexcept {
+  constexpr const char* kHere = "vsa::host::Robot::advance";
+  require(impl_.there(), kHere, "the robot was moved from");
   Impl& d = *impl_;
+  require(in.size() == d.units.size() && torques_out.size() == d.units.size(), kHere,
+          "in and torques_out need one entry an actuator");
+  require(mobility.empty() || mobility.size() == d.mobility_size, kHere, "mobility needs mobility_size() numbers, or none");
+  require(dt_ns >= 1 && dt_ns <= kLongestStepNs, kHere, "a step has 1 ns … 16 ms");
+  require(t_ns >= 0 && t_ns <= kLatestNs, kHere, "t is outside 0 … 4e18 ns");
+  if (!std::all_of(in.begin(), in.end(), told)) {
+    std::fill(torques_out.begin(), torques_out.end(), std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   d.expect(t_ns);
   d.take_commands();
   d.take_faults();
@@ -76,6 +115,9 @@ void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const Joint
 }
 
 void Robot::observe(std::span<const JointIn> joints) noexcept {
+  constexpr const char* kHere = "vsa::host::Robot::observe";
+  require(impl_.there(), kHere, "the robot was moved from");
+  require(joints.size() == impl_->units.size(), kHere, "joints needs one entry an actuator");
   for (std::size_t i = 0; i < size(); ++i)
     impl_->state.actuators[i].unit.reached = {joints[i].angle_rad, joints[i].speed_rad_per_s};
 }
@@ -90,12 +132,12 @@ bool Robot::command(std::span<const Command> commands) {
     if (c.actuator >= size()) return false;
     if (!std::isfinite(c.equilibrium_rad.value_or(0.0)) || !std::isfinite(c.preset.value_or(0.0))) return false;
   }
-  std::vector<Order> orders;
-  for (const Command& c : commands) {
-    if (c.equilibrium_rad) orders.push_back(make_order(c.actuator, Channel::equilibrium, {{0.0, *c.equilibrium_rad}}));
-    if (c.preset) orders.push_back(make_order(c.actuator, Channel::preset, {{0.0, *c.preset}}));
-  }
-  impl_->queue.push(std::move(orders));
+  impl_->queue.push_all([&](auto&& add) {
+    for (const Command& c : commands) {
+      if (c.equilibrium_rad) add({c.actuator, Channel::equilibrium, *c.equilibrium_rad});
+      if (c.preset) add({c.actuator, Channel::preset, *c.preset});
+    }
+  });
   return true;
 }
 
@@ -106,39 +148,40 @@ bool Robot::follow(std::size_t actuator, Channel channel, std::vector<Knot> knot
     if (!std::isfinite(k.time_s) || !std::isfinite(k.value) || k.time_s < 0 || k.time_s <= last || k.time_s > 1e9) return false;
     last = k.time_s;
   }
-  impl_->queue.push({make_order(actuator, channel, std::move(knots))});
+  impl_->queue.push({actuator, channel, 0.0, std::make_shared<const std::vector<Knot>>(std::move(knots))});
   return true;
 }
 
-void Robot::set_supply(bool on) noexcept {
+void Robot::set_supply(bool on) {
   for (ActuatorSlot& slot : impl_->state.actuators) slot.unit.supply_on = on;
 }
 
 void Robot::set_faults(std::size_t actuator, const device::Faults& faults) {
+  static_cast<void>(known(actuator));
   Problems problems;
-  if (actuator >= size())
-    problems.add({"", "actuator", std::to_string(actuator), "no such actuator", "below " + std::to_string(size())});
   device::check(faults, "", problems);
   problems.throw_if_any();
-  impl_->faults.push({{actuator, faults}});
+  impl_->faults.push({actuator, faults});
 }
 
-const device::Faults& Robot::faults(std::size_t actuator) const { return impl_->state.actuators.at(actuator).unit.faults; }
+const device::Faults& Robot::faults(std::size_t actuator) const { return impl_->state.actuators[known(actuator)].unit.faults; }
 
-device::PortLine* Robot::serial_line(std::size_t bus) noexcept {
-  return bus < impl_->buses.size() ? impl_->buses[bus]->port() : nullptr;
-}
+device::PortLine* Robot::serial_line(std::size_t bus) { return bus < impl_->buses.size() ? impl_->buses[bus]->port() : nullptr; }
 
 std::shared_ptr<const Robot::Snapshot> Robot::snapshot() const {
   auto s = std::make_shared<Snapshot>();
   for (const auto& bus : impl_->buses) bus->lock();
+  s->made_of = impl_->made_of;
   s->state = impl_->state;
   for (const auto& bus : impl_->buses) s->buses.push_back(bus->state());
   for (const auto& bus : impl_->buses) bus->unlock();
   return s;
 }
 
-void Robot::restore(const Snapshot& snapshot) { impl_->restore(snapshot); }
+void Robot::restore(const Snapshot& snapshot) {
+  check(snapshot);
+  impl_->restore(snapshot);
+}
 
 void Robot::reset() {
   impl_->notices.clear();

@@ -32,16 +32,24 @@ struct Robot::Impl {
       ActuatorSlot& slot = state.actuators[i];
       slot.equilibrium.value = a.initial_equilibrium_rad;
       slot.preset.value = a.initial_preset;
-      // Where the shaft is will be known at the first step.
-      slot.unit = units[i]->initial(a.initial_equilibrium_rad, a.initial_preset, a.initial_equilibrium_rad,
-                                    static_cast<std::uint8_t>(a.id));
+      slot.unit = first_state(i);
     }
     plans.resize(units.size());  // as many as the largest cluster could have: they share them
     notices.reserve(units.size());
+    queue.reserve(4 * units.size());  // two commands of both channels each
     make_buses();
     make_clusters({});
+    made_of = std::make_shared<const RobotConfig>(config);
+    initial.made_of = made_of;
     initial.state = state;
     for (const auto& bus : buses) initial.buses.push_back(bus->state());
+  }
+
+  /// Where the shaft is will be known at the first step.
+  [[nodiscard]] device::UnitState first_state(std::size_t i) const noexcept {
+    const ActuatorConfig& a = config.actuators[i];
+    return units[i]->initial(a.initial_equilibrium_rad, a.initial_preset, a.initial_equilibrium_rad,
+                             static_cast<std::uint8_t>(a.id));
   }
 
   void make_buses() {
@@ -58,16 +66,16 @@ struct Robot::Impl {
     }
   }
 
-  void make_clusters(std::vector<std::vector<std::size_t>> trees) {
+  void make_clusters(std::vector<std::vector<std::size_t>> joined) {
     ClusterParts parts;
     mobility_size = 0;
-    for (const auto& tree : trees) mobility_size += tree.size() * tree.size();
+    for (const auto& tree : joined) mobility_size += tree.size() * tree.size();
     for (const auto& bus : buses) parts.buses.push_back(bus.get());
     for (std::size_t i = 0; i < units.size(); ++i) {
       parts.bus_of.push_back(config.actuators[i].bus);
       parts.joints.push_back({units[i].get(), &state.actuators[i].unit, nullptr});
     }
-    parts.trees = std::move(trees);
+    parts.trees = trees = std::move(joined);
     clusters = host::make_clusters(parts);
     for (Cluster& cluster : clusters) cluster.use(plans);
   }
@@ -83,7 +91,12 @@ struct Robot::Impl {
   void take_commands() noexcept {
     queue.drain([this](Order& c) {
       ActuatorSlot& slot = state.actuators[c.actuator];
-      (c.channel == Channel::equilibrium ? slot.equilibrium : slot.preset).begin(std::move(c.knots), state.time_ns);
+      Track& track = c.channel == Channel::equilibrium ? slot.equilibrium : slot.preset;
+      if (c.knots) {
+        track.begin(std::move(c.knots), state.time_ns);
+      } else {
+        track.hold(c.value);
+      }
       note_range(c.actuator);
     });
   }
@@ -142,16 +155,22 @@ struct Robot::Impl {
     faults.clear();
     state = from.state;
     for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->restore(from.buses[b]);
+    if (from.made_of != made_of) adopt(*from.made_of);
     for (const auto& bus : buses) bus->unlock();
   }
 
+  void adopt(const RobotConfig& from) noexcept;  ///< the state came from a robot with these parameters
+  void set_parameters(std::size_t actuator, const UnitConfig& unit);
+
   RobotConfig config;
+  std::shared_ptr<const RobotConfig> made_of;  ///< the same, for snapshots
   std::vector<std::shared_ptr<device::Unit>> units;
   std::vector<std::shared_ptr<device::Unit>> distinct;
   RobotState state;
   std::vector<device::StepPlan> plans;
   std::vector<std::unique_ptr<BusLine>> buses;
   std::vector<Cluster> clusters;
+  std::vector<std::vector<std::size_t>> trees;  ///< as the host joined them
   std::size_t mobility_size = 0;
   Snapshot initial;
   CommandQueue queue;

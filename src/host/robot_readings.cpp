@@ -24,7 +24,7 @@ std::string rounded(double value) {
 }  // namespace
 
 ActuatorReading Robot::read(std::size_t actuator) const {
-  const ActuatorSlot& slot = impl_->state.actuators.at(actuator);
+  const ActuatorSlot& slot = impl_->state.actuators[known(actuator)];
   const device::Unit& unit = *impl_->units[actuator];
   const device::UnitState& u = slot.unit;
   ActuatorReading r;
@@ -50,7 +50,7 @@ ActuatorReading Robot::read(std::size_t actuator) const {
   return r;
 }
 
-actuator::Ledger Robot::ledger(std::size_t actuator) const { return impl_->state.actuators.at(actuator).unit.actuator.ledger; }
+actuator::Ledger Robot::ledger(std::size_t actuator) const { return impl_->state.actuators[known(actuator)].unit.actuator.ledger; }
 
 actuator::Ledger Robot::ledger() const {
   actuator::Ledger sum;
@@ -102,7 +102,7 @@ std::vector<Notice> Robot::take_notices() {
 }
 
 std::array<Ticks, 2> Robot::received_inputs(std::size_t actuator) const {
-  const UnitConfig& config = impl_->config.actuators.at(actuator).unit;
+  const UnitConfig& config = impl_->config.actuators[known(actuator)].unit;
   const BusLine& bus = *impl_->buses[impl_->config.actuators[actuator].bus];
   const firmware::ProgramState& s = impl_->state.actuators[actuator].unit.program;
   const std::int32_t sign = config.program.model == firmware::Model::advanced ? -1 : 1;

@@ -28,6 +28,11 @@ struct Track {
     }
   }
 
+  void hold(double constant) noexcept {
+    value = constant;
+    knots = nullptr;
+  }
+
   [[nodiscard]] double last() const noexcept { return knots ? knots->back().value : value; }
 
   [[nodiscard]] double at(std::int64_t now_ns) const noexcept {
@@ -60,6 +65,7 @@ struct RobotState {
 };
 
 struct Robot::Snapshot {
+  std::shared_ptr<const RobotConfig> made_of;  ///< the robot's, with the parameters of that time
   RobotState state;
   std::vector<BusState> buses;
 };

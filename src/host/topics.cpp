@@ -190,7 +190,7 @@ void RobotTopics::Impl::report_notices() {
 }
 
 RobotTopics::RobotTopics(Robot& robot, std::string model, TopicPort& port, Report report)
-    : impl_(std::make_unique<Impl>(robot, std::move(model), std::move(report))) {
+    : impl_("vsa::host::RobotTopics", std::make_unique<Impl>(robot, std::move(model), std::move(report))) {
   impl_->connect(port);
 }
 RobotTopics::~RobotTopics() = default;
@@ -206,6 +206,6 @@ void RobotTopics::update(std::int64_t time_ns) {
 
 void RobotTopics::publish(std::int64_t time_ns) { impl_->publish(time_ns); }
 
-std::uint64_t RobotTopics::refused() const noexcept { return impl_->commands.refused(); }
+std::uint64_t RobotTopics::refused() const { return impl_->commands.refused(); }
 
 }  // namespace vsa::host

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vsa/owner.hpp"
+
 namespace vsa::host {
 namespace {
 
@@ -83,6 +85,10 @@ Matrix inverse_of(Matrix m) {
 TreeInertia::TreeInertia(std::size_t bodies) : nodes_(bodies) {}
 
 void TreeInertia::update(const std::vector<TreeBody>& bodies) noexcept {
+  constexpr const char* kHere = "vsa::host::TreeInertia::update";
+  require(bodies.size() == nodes_.size(), kHere, "bodies need as many entries as it has");
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    require(bodies[i].parent < i || bodies[i].parent == TreeBody::kGround, kHere, "a parent comes before its children");
   if (bodies.empty()) return;
   const Vector3 origin = bodies.front().center_of_mass;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -134,7 +140,10 @@ void TreeInertia::pull(const std::vector<TreeBody>& bodies, std::size_t joint) n
 }
 
 void TreeInertia::mobility(const std::vector<TreeBody>& bodies, std::span<const std::size_t> of, std::span<double> out) noexcept {
+  constexpr const char* kHere = "vsa::host::TreeInertia::mobility";
   const std::size_t n = of.size();
+  require(bodies.size() == nodes_.size() && out.size() == n * n, kHere, "bodies and out need their sizes");
+  for (const std::size_t body : of) require(body < nodes_.size(), kHere, "no such body");
   for (std::size_t j = 0; j < n; ++j) {
     pull(bodies, of[j]);
     for (std::size_t i = j; i < n; ++i) out[i * n + j] = out[j * n + i] = nodes_[of[i]].answer;

@@ -26,8 +26,17 @@ RecorderOptions checked(RecorderOptions options) {
     problems.add({"", "page_frames_max", std::to_string(options.page_frames_max), "too few frames", "2 or more"});
   }
   problems.throw_if_any();
-  if (options.page_template.empty()) options.page_template = config::data_directory() / "web" / "replay.html";
   return options;
+}
+
+/// Empty, with the reason in `why_none`, where nobody named a template and none is installed or built.
+std::string template_for(const RecorderOptions& options, std::string& why_none) {
+  if (!options.page_template.empty()) return read_template(options.page_template);
+  if (const auto found = config::find_data("web/replay.html")) return read_template(*found);
+  std::string places;
+  for (const fs::path& d : config::data_directories()) places += (places.empty() ? "" : ", ") + d.string();
+  why_none = "no replay page: its template web/replay.html is in none of " + places + " (it comes with an installation or a build)";
+  return {};
 }
 
 std::string seconds(std::int64_t time_ns) {
@@ -41,6 +50,7 @@ struct RunRecord::Impl {
   RunInfo info;
   fs::path directory;
   RecorderOptions options;
+  std::string without_page;  // before the template, which may set it
   std::string page_template;
   CsvFiles files;
   RunLog log;  // behind the files: they hold the directory
@@ -54,7 +64,7 @@ struct RunRecord::Impl {
       : info(std::move(i)),
         directory(std::move(d)),
         options(checked(std::move(o))),
-        page_template(read_template(options.page_template)),
+        page_template(template_for(options, without_page)),
         files(info, directory),
         log(info, directory, options.rate_Hz),
         cadence(options.rate_Hz),
@@ -112,11 +122,16 @@ fs::path RunRecord::finish(const std::vector<Statistic>& summary, std::string_vi
   } catch (const RecordError&) {
     failed = std::current_exception();
   }
-  const fs::path file = r.directory / "replay.html";
-  write_page(file, r.page_template, r.page.json(r.info, text));
+  fs::path file;
+  if (r.without_page.empty()) {
+    file = r.directory / "replay.html";
+    write_page(file, r.page_template, r.page.json(r.info, text));
+  }
   if (failed) std::rethrow_exception(failed);
   return file;
 }
+
+const std::string& RunRecord::without_page() const { return impl_->without_page; }
 
 std::vector<fs::path> RunRecord::files() const {
   std::vector<fs::path> all = impl_->files.files();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 
 #include "record/scratch.hpp"
 
@@ -89,6 +90,22 @@ TEST_F(RecorderTest, AResetStartsTheRecordOver) {
   const std::string energy = slurp(dir_.path() / "out" / "energy.csv");
   EXPECT_EQ(std::count(energy.begin(), energy.end(), '\n'), 2);
   EXPECT_NE(slurp(recorder.finish()).find("The world went back"), std::string::npos);
+}
+
+TEST_F(RecorderTest, WithoutAnyTemplateTheFilesAreWrittenAndItSaysSo) {
+  engine::World world = bench();
+  const char* before = std::getenv("VSA_DATA_DIR");
+  const std::string kept = before != nullptr ? before : "";
+  ::setenv("VSA_DATA_DIR", dir_.path().c_str(), 1);
+  Recorder recorder(world, dir_.path() / "out");
+  kept.empty() ? ::unsetenv("VSA_DATA_DIR") : ::setenv("VSA_DATA_DIR", kept.c_str(), 1);
+  world.step();
+  recorder.sample(world);
+  EXPECT_TRUE(recorder.finish().empty());
+  EXPECT_FALSE(fs::exists(dir_.path() / "out" / "replay.html"));
+  EXPECT_NE(slurp(dir_.path() / "out" / "energy.csv").find("\n0,"), std::string::npos);
+  EXPECT_NE(recorder.without_page().find(dir_.path().string()), std::string::npos) << recorder.without_page();
+  EXPECT_TRUE(Recorder(world, dir_.path() / "paged", options_).without_page().empty());
 }
 
 TEST_F(RecorderTest, AnActuatorKnowsTheBodyToHighlight) {

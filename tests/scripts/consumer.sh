@@ -14,7 +14,12 @@ cmake --build "$work/topics"
 cmake -Wno-dev -S "$source/examples/serial_client" -B "$work/serial" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null
 cmake --build "$work/serial"
 "$work/build/one_actuator"
-VSA_DATA_DIR="$work/prefix/share/vsa" "$work/build/move_a_joint" | tee "$work/output"
+# It finds the data of the installation by itself, and no others: without them it says where it looked.
+unset VSA_DATA_DIR
+"$work/build/move_a_joint" | tee "$work/output"
+mv "$work/prefix/share/vsa/models" "$work/models"
+if "$work/build/move_a_joint" 2> "$work/error"; then echo "consumer.sh: a world from elsewhere was taken" >&2; exit 1; fi
+mv "$work/models" "$work/prefix/share/vsa/models"
 grep -qE '^shaft (0.9|1.0)' "$work/output"
 grep -q '^back at 0.000 s' "$work/output"
 

@@ -100,7 +100,7 @@ class PresetLibrary {
 /// Where data (presets/, models/, web/) are looked for, in this order:
 ///   1. $VSA_DATA_DIR, if set: then nowhere else
 ///   2. ../share/vsa beside the executable's directory: an installation, or build/<preset>/bin with build/<preset>/share/vsa
-///   3. the source tree that the library was built from, for executables elsewhere
+///   3. of a program linked to an installation (find_package(vsasim)): that; else the source tree that the library was built from
 [[nodiscard]] std::vector<std::filesystem::path> data_directories();
 
 /// The first of them that exists and has presets/. Throws InputError where none has.

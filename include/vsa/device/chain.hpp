@@ -93,6 +93,8 @@ class Chain {
 
   /// Switching on is a power-up of the program.
   void set_wiring(std::size_t station, const Wiring& wiring, std::uint64_t seed);
+  /// The station goes on with another program, whose state is the same object.
+  void set_program(std::size_t station, const firmware::Program& program) noexcept { stations_[station].program = &program; }
   /// What the host's own serial port is set to.
   void set_host_rate(bus::LineRate rate) noexcept;
   /// The owner's time jumped: all that is under way moves along, programs included.

@@ -21,6 +21,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "vsa/actuator/actuator.hpp"
 #include "vsa/device/dice.hpp"
@@ -49,6 +50,12 @@ struct UnitConfig {
   [[nodiscard]] std::array<std::int32_t, 2> reference_range_raw(int i) const noexcept;
   bool operator==(const UnitConfig&) const = default;
 };
+
+/// Adds what no unit could have: numbers that aren't finite or outside what the models need, no transmission. config:: checks a
+/// preset's own bounds; this is for parameters made by hand. `where` leads each key.
+void check(const UnitConfig& config, std::string_view where, Problems& problems);
+/// Whether two units are alike, laws compared by value (elastic::Transmission::equals).
+[[nodiscard]] bool alike(const UnitConfig& a, const UnitConfig& b) noexcept;
 
 /// What the bridges hold from one tick to the next.
 struct Held {
@@ -114,6 +121,15 @@ struct ShaftTorque {
   bool settled = true;
 };
 
+/// Where a unit is put; see Unit::place.
+struct UnitPlace {
+  double shaft_rad = 0;    ///< q
+  double speed = 0;        ///< q̇, rad/s
+  double equilibrium = 0;  ///< commanded, rad
+  double preset = 0;       ///< commanded
+  double lag_s = 0;        ///< half a host step: shaft and pulleys stand where the coupling sees them, y = q − lag·q̇
+};
+
 class Unit {
  public:
   explicit Unit(UnitConfig config);
@@ -124,6 +140,17 @@ class Unit {
   [[nodiscard]] UnitState initial(double equilibrium_rad, double preset, double shaft_rad, std::uint8_t id = 1) const noexcept;
   /// Just switched on: motors off, pulleys at 0.
   [[nodiscard]] UnitState switched_on(double shaft_rad, std::uint8_t id, std::int64_t now_ns) const noexcept;
+
+  /// Puts a unit somewhere as if it had been there for long: pulleys on the law's references for (equilibrium, preset), carried
+  /// with the shaft by its speed; frictions relaxed; the program's references, encoder readings and turns as they are there; the
+  /// ledger begins. What stays: supply, faults, parameter memory, and whether the motors are on.
+  void place(UnitState& state, const UnitPlace& at) const noexcept;
+  /// Adds why the program couldn't hold that place: references beyond its limits or its 16 bits, a preset beyond preset_max.
+  void check_place(const UnitState& state, const UnitPlace& at, std::string_view where, Problems& problems) const;
+  /// Makes the state of a unit with other parameters one of this. Angles, speeds, currents, the gears' bristles and the program's
+  /// loop go on; springs and the other frictions begin relaxed where they are, the ledger begins anew. Where the parameter memory
+  /// differs, the program has the new one at once, with its ID.
+  void adopt(UnitState& state, const UnitConfig& from) const noexcept;
 
   /// One host step of a unit without a line; returns the mean torque on the shaft (spring and shaft friction).
   double step(UnitState& state, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept;

@@ -22,6 +22,7 @@ class SeriesSpring final : public Transmission {
   [[nodiscard]] int motor_count() const noexcept override { return 1; }
   [[nodiscard]] int spring_count() const noexcept override { return 1; }
   [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override;
+  [[nodiscard]] bool equals(const Transmission& other) const noexcept override;
   [[nodiscard]] std::string_view preset_unit() const noexcept override { return ""; }
 
  private:

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 namespace vsa::elastic {
@@ -104,6 +105,13 @@ class Transmission {
   /// The inverse: where the unloaded shaft rests and which preset the inputs amount to.
   [[nodiscard]] virtual EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept = 0;
 
+  /// The smallest preset ≥ 0 and its equilibrium that give this torque and stiffness at q, where the law has a closed form for it;
+  /// none: it hasn't, or there is no such command. See inverse.hpp.
+  [[nodiscard]] virtual std::optional<EquilibriumPreset> command_exactly(double /*q*/, double /*torque_Nm*/,
+                                                                         double /*stiffness_Nm_per_rad*/) const noexcept {
+    return std::nullopt;
+  }
+
   [[nodiscard]] virtual int motor_count() const noexcept { return 2; }
   /// Springs whose tension a loss can be proportional to (actuator/actuator.hpp): spring i lies between input i and the shaft, with
   /// deflection δ_i = q − x_i. 0: the law names none, and such a loss is refused.
@@ -111,6 +119,8 @@ class Transmission {
   /// w_i = sign(δ_i)·H_i: the energy of spring i with the sign of its deflection, J. ∂w_i/∂q = |T_i|, its tension's magnitude, N·m.
   /// A law that names springs keeps all its energy in them: Σ|w_i| = H.
   [[nodiscard]] virtual std::array<double, 2> signed_energies(const Positions&) const noexcept { return {}; }
+  /// Whether the other law gives the same everywhere. A law that doesn't say so is equal to itself only.
+  [[nodiscard]] virtual bool equals(const Transmission& other) const noexcept { return this == &other; }
   /// "rad" for the qbmove's half difference; "" where the law has no preset.
   [[nodiscard]] virtual std::string_view preset_unit() const noexcept { return "rad"; }
 

@@ -29,6 +29,7 @@ struct TwoSinhParams {
   std::array<double, 2> a_per_rad{};                                   ///< hardening rate of each spring, > 0
   std::array<double, 2> c_Nm_per_rad{};                                ///< linear part of each spring, ≥ 0
   double linear_beyond_rad = std::numeric_limits<double>::infinity();  ///< d: beyond |δ_i| = d the torque follows its tangent, > 0
+  bool operator==(const TwoSinhParams&) const = default;
 };
 
 class TwoSinh final : public Transmission {
@@ -50,9 +51,13 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& command) const noexcept override;
   [[nodiscard]] EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override;
 
+  [[nodiscard]] std::optional<EquilibriumPreset> command_exactly(double q, double torque_Nm,
+                                                                 double stiffness_Nm_per_rad) const noexcept override;
+
   [[nodiscard]] int spring_count() const noexcept override { return 2; }
   [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override;
 
+  [[nodiscard]] bool equals(const Transmission& other) const noexcept override;
   [[nodiscard]] const TwoSinhParams& params() const noexcept { return params_; }
 
  private:

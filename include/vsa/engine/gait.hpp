@@ -156,7 +156,9 @@ class Gait {
   /// Throws InputError with every problem: missing file, syntax, unknown or missing keys, NaN, numbers out of range, doubled
   /// actuators.
   [[nodiscard]] static Gait load(const std::filesystem::path& file);
-  explicit Gait(GaitParams params) : params_(std::move(params)) {}
+  /// Throws InputError where it can't be played: a period below 1 ns, not one n an actuator, numbers that aren't finite, a λ of 0,
+  /// steering without a frequency.
+  explicit Gait(GaitParams params);
 
   [[nodiscard]] const GaitParams& params() const noexcept { return params_; }
   [[nodiscard]] const GaitState& state() const noexcept { return state_; }
@@ -183,7 +185,7 @@ class Gait {
   bool leave(std::string_view actuator, ByHand by_hand);
   [[nodiscard]] ByHand by_hand(std::string_view actuator) const;
 
-  /// eq. (10) for the k-th actuator of a group at simulated time t.
+  /// eq. (10) for the k-th actuator of a group at simulated time t. Throws InputError where the group has no such actuator.
   [[nodiscard]] double equilibrium(const GaitGroup& group, std::size_t k, double t_s) const;
 
  private:

@@ -37,6 +37,7 @@
 #include "vsa/device/faults.hpp"
 #include "vsa/device/port_line.hpp"
 #include "vsa/device/unit.hpp"
+#include "vsa/owner.hpp"
 
 namespace vsa::host {
 
@@ -99,38 +100,53 @@ struct ActuatorReading {
   std::array<Ticks, 3> measured{};  ///< motor 1, motor 2, shaft as the bus master last read them; with a client, as they'd be read
 };
 
+/// Where an actuator is to stand, and what it has been told. See Robot::place.
+struct Placement {
+  double angle_rad = 0;                                  ///< of the shaft, q
+  double preset = 0;                                     ///< in the law's preset unit
+  double speed_rad_per_s = 0;                            ///< of the shaft, q̇; the pulleys go with it
+  std::optional<double> equilibrium_rad = std::nullopt;  ///< none: the angle, so that the springs give no torque
+};
+
 /// A command that was out of range is clamped as the device does and reported once per actuator.
 struct Notice {
   std::size_t actuator = 0;
   std::string text;
 };
 
+/// A robot that was moved from throws std::logic_error from everything but its destructor and assignment; advance() aborts.
 class Robot {
  public:
-  /// The config must be valid (config:: makes valid ones); throws InputError for what only the whole shows (ids, buses).
+  /// Throws InputError for values that no unit could have (device::check; config:: makes valid ones) and for what only the whole
+  /// shows (ids, buses).
   explicit Robot(RobotConfig config);
   ~Robot();
   Robot(Robot&&) noexcept;
   Robot& operator=(Robot&&) noexcept;
+  /// Another robot with the same parameters in the same state. Commands and faults that no step has taken yet aren't taken along; a
+  /// bus with a serial port has one of its own.
+  [[nodiscard]] Robot clone() const;
 
-  [[nodiscard]] const RobotConfig& config() const noexcept;
-  [[nodiscard]] std::size_t size() const noexcept;  ///< number of actuators
-  [[nodiscard]] std::optional<std::size_t> find(std::string_view actuator_name) const noexcept;
+  [[nodiscard]] const RobotConfig& config() const;
+  [[nodiscard]] std::size_t size() const;  ///< number of actuators
+  [[nodiscard]] std::optional<std::size_t> find(std::string_view actuator_name) const;
 
   /// Which actuators' joints move each other: those of one kinematic tree. An actuator that is in none moves its own joint only.
   /// Before the first step; throws InputError for an index twice or out of range.
   void join(std::vector<std::vector<std::size_t>> trees);
   /// How many numbers `mobility` has: Σ n² over the trees.
-  [[nodiscard]] std::size_t mobility_size() const noexcept;
+  [[nodiscard]] std::size_t mobility_size() const;
 
   /// One host step [t, t + dt) in integer nanoseconds. in/out have one entry an actuator, in config order. dt in 1 ns … 16 ms.
   /// `mobility`: B of each tree, by rows, one after the other in the order of `join`, 1/(kg·m²); empty: each joint by itself.
-  /// Allocates nothing, throws nothing, logs nothing.
+  /// Allocates nothing, throws nothing, logs nothing. Spans of another size, a dt outside that range and a t outside 0 … 4e18 ns
+  /// are programming errors: one line on stderr, and abort. A joint that isn't finite: every torque is NaN, and the robot stays
+  /// where it was.
   void advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
                std::span<const double> mobility = {}) noexcept;
 
-  /// Where the joints are after the host's step, for readings; without it those tell what the units foresaw, which only differs
-  /// where contacts or others push.
+  /// Where the joints are after the host's step, one entry an actuator, for readings; without it those tell what the units foresaw,
+  /// which only differs where contacts or others push. Another size: one line on stderr, and abort.
   void observe(std::span<const JointIn> joints) noexcept;
 
   /// From any thread; taken at the next step's start in order of arrival. NaN or infinity: refused (false). None: keep.
@@ -152,6 +168,7 @@ class Robot {
   enum class Channel { equilibrium, preset };
   bool follow(std::size_t actuator, Channel channel, std::vector<Knot> knots);
 
+  // An actuator that isn't there: InputError.
   [[nodiscard]] ActuatorReading read(std::size_t actuator) const;
   /// The references that the unit received last, as they came over its bus.
   [[nodiscard]] std::array<Ticks, 2> received_inputs(std::size_t actuator) const;
@@ -160,23 +177,42 @@ class Robot {
   [[nodiscard]] std::vector<Notice> take_notices();                   ///< since the last call
 
   /// Cuts or restores the supply of every unit (0 V: the motors short through the bridge).
-  void set_supply(bool on) noexcept;
+  void set_supply(bool on);
+
+  /// Puts an actuator somewhere as if it had been there for long, so that there is no kick: shaft at q with q̇, pulleys on the law's
+  /// references for (equilibrium, preset), carried along by q̇, frictions relaxed; the commanded equilibrium and preset, the
+  /// program's references, encoder readings and turns as they are there; waiting commands for it dropped; its ledger begins anew.
+  /// The host sets the joint. With `step_s`, the step that comes, the pulleys stand where the coupling sees the shaft, at y = q −
+  /// step/2·q̇; it matters only where q̇ isn't 0. Supply, faults and parameters stay, and motors that are off stay off. InputError:
+  /// numbers out of range, or a place that the program can't hold (its limits, its 16 bits). The stepping thread's.
+  void place(std::size_t actuator, const Placement& at, double step_s = 0);
+
+  /// Other parameters from the next step on, for a randomised domain, say: checked as device::check does. Motion, currents, the
+  /// gears' bristles and the program's loop go on; springs and the other frictions begin relaxed where they are, the actuator's
+  /// ledger begins anew; where firmware parameters differ, the program has them at once. Parameters aren't state: restore() and
+  /// reset() keep them. InputError: values out of range, another firmware model or dialect, another number of motors. The
+  /// stepping thread's.
+  void set_parameters(std::size_t actuator, const UnitConfig& unit);
 
   /// From any thread; from the next step on, until a reset. Throws InputError for values out of bounds or no such actuator.
   void set_faults(std::size_t actuator, const device::Faults& faults);
   [[nodiscard]] const device::Faults& faults(std::size_t actuator) const;  ///< in force
 
   /// The units' end of a bus's serial port; none if the bus has no serial port. Lives as long as the robot.
-  [[nodiscard]] device::PortLine* serial_line(std::size_t bus) noexcept;
+  [[nodiscard]] device::PortLine* serial_line(std::size_t bus);
 
   struct Snapshot;  ///< opaque, copyable value
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
+  /// Of this robot or of another with the same actuators on the same buses; another's: InputError, and nothing changed. Commands
+  /// that no step has taken yet are dropped. Parameters aren't part of it: see set_parameters().
   void restore(const Snapshot& snapshot);
-  void reset();  ///< back to the first sample
+  void check(const Snapshot& snapshot) const;  ///< throws what restore() would
+  void reset();                                ///< back to the first sample
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  [[nodiscard]] std::size_t known(std::size_t actuator) const;
+  Owner<Impl> impl_;
 };
 
 }  // namespace vsa::host

@@ -124,11 +124,11 @@ class RobotTopics {
   /// Publishes whatever the time: for a paused host, so that who comes late sees the state too.
   void publish(std::int64_t time_ns);
 
-  [[nodiscard]] std::uint64_t refused() const noexcept;  ///< commands refused so far, reported or not
+  [[nodiscard]] std::uint64_t refused() const;  ///< commands refused so far, reported or not
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  Owner<Impl> impl_;
 };
 
 }  // namespace vsa::host

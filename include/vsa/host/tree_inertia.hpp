@@ -38,10 +38,10 @@ class TreeInertia {
   /// Resizes only; update() and column() then allocate nothing.
   explicit TreeInertia(std::size_t bodies);
 
-  /// Where the bodies are now.
+  /// Where the bodies are now. Other sizes than it was made for, or a parent behind its child: one line on stderr, and abort.
   void update(const std::vector<TreeBody>& bodies) noexcept;
   /// B of the joints of `of` (indices of their bodies), by rows, 1/(kg·m²) or 1/kg; symmetric. 0 for fixed and free ones; not
-  /// finite where the bodies give no answer (no mass).
+  /// finite where the bodies give no answer (no mass). After update() with the same bodies; sizes as there.
   void mobility(const std::vector<TreeBody>& bodies, std::span<const std::size_t> of, std::span<double> out) noexcept;
 
  private:

@@ -28,14 +28,14 @@ struct RecorderOptions {
   /// What was ordered to break from the start, as `vsa run --fault` takes it (orders are taken at the first step, so the world
   /// can't tell before). Empty: what is broken in the world now.
   std::string faults{};
-  /// Empty: data_directory()/web/replay.html.
+  /// Empty: web/replay.html of the data directories; where none has it, the files are written and there is no page.
   std::filesystem::path page_template;
 };
 
 /// The recorder's core, fed with samples: for tests and for hosts without engine::World.
 class RunRecord {
  public:
-  /// Throws InputError: options out of range, directory or files that can't be written, a missing template.
+  /// Throws InputError: options out of range, directory or files that can't be written, a named template that is missing.
   RunRecord(RunInfo info, std::filesystem::path directory, RecorderOptions options);
   ~RunRecord();
   RunRecord(RunRecord&&) noexcept;
@@ -45,8 +45,10 @@ class RunRecord {
   [[nodiscard]] bool due(std::int64_t time_ns) const noexcept;
   /// Throws RecordError; then nothing more is written to the files, but the page can still be made.
   void add(const Sample& sample);
-  /// Closes the files and writes DIR/replay.html; returns its path. Once. Throws RecordError.
+  /// Closes the files and writes DIR/replay.html; returns its path, empty without a page. Once. Throws RecordError.
   std::filesystem::path finish(const std::vector<Statistic>& summary, std::string_view note);
+  /// Why there will be no page, in a sentence; empty: there will be one.
+  [[nodiscard]] const std::string& without_page() const;
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
 
  private:
@@ -61,10 +63,11 @@ class Recorder {
   /// Call after each step: takes a sample if one is due.
   void sample(const engine::World& world);
 
-  /// Writes the page. `note` says on it why the run ended early; empty where it didn't.
+  /// Writes the page, if there is a template. `note` says on it why the run ended early; empty where it didn't.
   std::filesystem::path finish(const std::vector<Statistic>& summary = {}, std::string_view note = {});
 
   [[nodiscard]] std::vector<std::filesystem::path> files() const { return record_.files(); }
+  [[nodiscard]] const std::string& without_page() const { return record_.without_page(); }
 
  private:
   Sample sample_;  // reused, so that sampling doesn't allocate

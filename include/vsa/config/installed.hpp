@@ -1,0 +1,10 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace vsa::config {
+
+/// The program was linked to an installation whose data lie there: data_directories() ends with it instead of the source tree.
+/// Called before main() by a file that the CMake package adds to whoever links it. `directory` is kept as it is: a literal.
+void installed_in(const char* directory) noexcept;
+
+}  // namespace vsa::config

@@ -1,0 +1,57 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What a World's joints and links are called in a loop that has no time for names, and what can be asked of them and done to them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace vsa::engine {
+
+class World;
+
+/// A joint or a link of a world, found by its name once (World::joint, World::link). Good for every world with the same links and
+/// joints: those of the same file, and clones. Given to another world, or made by nobody: InputError.
+template <class Kind>
+class Handle {
+ public:
+  Handle() = default;
+  [[nodiscard]] std::size_t index() const noexcept { return index_; }  ///< into joints() or links()
+  bool operator==(const Handle&) const = default;
+
+ private:
+  friend class World;
+  Handle(std::size_t index, std::uint32_t tag) noexcept : index_(static_cast<std::uint32_t>(index)), tag_(tag) {}
+  std::uint32_t index_ = 0, tag_ = 0;  // of the world's names; 0: of no world
+};
+using JointHandle = Handle<struct JointKind>;  ///< of a joint with one axis
+using LinkHandle = Handle<struct LinkKind>;
+
+struct JointInfo {
+  enum class Type { fixed, revolute, prismatic, ball, universal };
+  std::string name;  ///< scoped: "model::joint"
+  Type type = Type::fixed;
+  std::optional<std::array<double, 2>> range;  ///< of its one axis, rad or m; none: without limits
+  std::optional<std::size_t> actuator;         ///< that drives it: an index into World::actuators()
+  /// Its first degree of freedom: where it stands in vectors and matrices of World::dof_count(). Revolute, prismatic: 1; universal:
+  /// 2; ball: 3 (angular velocity in the child's axes). None where it has no motion.
+  std::optional<std::size_t> dof;
+};
+
+/// Linear velocity of a link's origin and angular velocity, both in world axes.
+struct Twist {
+  std::array<double, 3> linear_m_per_s{};
+  std::array<double, 3> angular_rad_per_s{};
+};
+
+/// A force at a point of a link and a torque on it, both in world axes; the point goes with the link.
+struct Wrench {
+  std::array<double, 3> force_N{};    ///< ±1e9
+  std::array<double, 3> torque_Nm{};  ///< ±1e9
+  std::array<double, 3> point_m{};    ///< in the link's frame, ±1e4
+};
+
+}  // namespace vsa::engine

@@ -1,0 +1,117 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Putting a unit somewhere without a kick, and giving it other parameters on its way.
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "vsa/device/unit.hpp"
+#include "vsa/firmware/arithmetic.hpp"
+#include "vsa/firmware/exchange.hpp"
+
+namespace vsa::device {
+namespace {
+
+constexpr double kTurn = kRawPerTurn;
+constexpr double kMaxTurns = 120;  // the program counts turns in 8 bits
+
+double raw_of(double rad) noexcept { return rad / (2.0 * kPi) * kTurn; }
+
+/// ẋ of the pulleys where the equilibrium moves with the shaft: the law's own slope, which is 1 for most.
+std::array<double, 2> pulley_speeds(const elastic::Transmission& law, const UnitPlace& at) noexcept {
+  constexpr double kSmall_rad = 1e-4;
+  const auto ahead = law.references({at.equilibrium + kSmall_rad, at.preset});
+  const auto behind = law.references({at.equilibrium - kSmall_rad, at.preset});
+  return {(ahead[0] - behind[0]) / (2 * kSmall_rad) * at.speed, (ahead[1] - behind[1]) / (2 * kSmall_rad) * at.speed};
+}
+
+/// The turns that the program would have counted on the way to where the encoder's word is now.
+std::int8_t turns_at(double true_raw, std::int32_t word, std::int32_t sample) noexcept {
+  const double offset = firmware::cut_16(firmware::wrap_sub(sample, word));
+  return static_cast<std::int8_t>(std::lround((true_raw + offset - sample) / kTurn));
+}
+
+}  // namespace
+
+void Unit::check_place(const UnitState& state, const UnitPlace& at, std::string_view where, Problems& problems) const {
+  const auto say = [&](const char* key, double value, std::string message, std::string allowed) {
+    problems.add({"", std::string(where) + key, std::to_string(value), std::move(message), std::move(allowed)});
+  };
+  const double furthest = kMaxTurns * 2.0 * kPi;
+  if (!(std::abs(at.shaft_rad) <= furthest)) say("angle_rad", at.shaft_rad, "is out of range", "±" + std::to_string(furthest));
+  if (!(std::abs(at.speed) <= 1e4)) say("speed_rad_per_s", at.speed, "is out of range", "±10000");
+  if (!(std::abs(at.preset) <= config_.preset_max)) {
+    say("preset", at.preset, "is out of range", "±" + std::to_string(config_.preset_max));
+  } else if (!std::isfinite(at.equilibrium)) {
+    say("equilibrium_rad", at.equilibrium, "isn't finite", "a finite number");
+  } else {
+    const auto x = config_.actuator.transmission->references({at.equilibrium, at.preset});
+    UnitState trial = state;
+    set_inputs(trial, inputs_for(at.equilibrium, at.preset));
+    const double sign = config_.program.model == firmware::Model::advanced ? -1.0 : 1.0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(actuator_.motors()); ++i) {
+      const double step = std::ldexp(1.0, config_.memory.resolution[i]) + 1;
+      if (std::abs(sign * trial.program.loop.ref_new[i] - raw_of(x[i])) <= step) continue;
+      const auto [low, high] = config_.reference_range_raw(static_cast<int>(i));
+      say("equilibrium_rad", at.equilibrium,
+          "with this preset asks motor " + std::to_string(i + 1) + " for what its program can't hold",
+          "references of " + std::to_string(radians(Raw{low})) + " … " + std::to_string(radians(Raw{high})) + " rad");
+      break;
+    }
+  }
+}
+
+void Unit::place(UnitState& s, const UnitPlace& at) const noexcept {
+  UnitState placed;
+  placed.program = s.program;
+  placed.supply_on = s.supply_on;
+  placed.faults = s.faults;
+  placed.last_encoder = s.last_encoder;
+  placed.dice = s.dice;
+  placed.held.terminal = s.held.terminal;
+  auto x = config_.actuator.transmission->references({at.equilibrium, at.preset});
+  const auto speed = pulley_speeds(*config_.actuator.transmission, at);
+  for (std::size_t i = 0; i < 2; ++i) x[i] -= at.lag_s * speed[i];
+  placed.actuator = actuator_.initial(x, at.shaft_rad - at.lag_s * at.speed);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(actuator_.motors()); ++i) placed.actuator.motor[i].speed = speed[i];
+
+  firmware::ControllerState& loop = placed.program.loop;
+  const firmware::ControllerState before = s.program.loop;
+  loop = {};
+  loop.orders = before.orders, loop.orders_old = before.orders_old, loop.orders_new = before.orders_new;
+  placed.program.calibration = {};
+  set_inputs(placed, inputs_for(at.equilibrium, at.preset));
+  const firmware::TickInputs sensors = read_sensors(placed, at.shaft_rad);
+  firmware::settle(program_, placed.program, sensors);
+  const double shaft_sign = config_.program.model == firmware::Model::advanced ? -1.0 : 1.0;
+  const double shaft_raw =
+      raw_of(shaft_sign * (at.shaft_rad + config_.actuator.shaft_zero_rad) + config_.actuator.encoder.zero_rad);
+  loop.turns[2] = turns_at(shaft_raw, sensors.encoder[2], loop.last_sample[2]);
+  loop.meas[2] = firmware::wrap_add(loop.meas[2], loop.turns[2] * static_cast<std::int32_t>(kTurn));
+  loop.meas_old = loop.meas;
+  loop.first_tick = false;
+  loop.orders.onoff = before.orders.onoff, loop.orders_old.onoff = before.orders_old.onoff;
+  loop.orders_new.onoff = before.orders_new.onoff;
+  placed.program.enable = s.program.enable;
+  placed.limit_pct = loop.limit_pct;
+  placed.last_speed = at.speed;
+  placed.reached = {at.shaft_rad, at.speed};
+  s = placed;
+}
+
+void Unit::adopt(UnitState& s, const UnitConfig& from) const noexcept {
+  if (!(from.memory == config_.memory)) {
+    firmware::MemoryState& m = s.program.memory;
+    for (firmware::Memory* copy : {&m.stored, &m.current, &m.user, &m.factory}) {
+      const std::uint8_t id = copy->id;
+      const bool valid = copy->valid;
+      *copy = config_.memory;
+      copy->id = id;
+      copy->valid = valid;
+    }
+  }
+  actuator_.place(s.actuator, s.actuator.shaft);
+  s.started = false;
+}
+
+}  // namespace vsa::device

@@ -1,0 +1,187 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/elastic/inverse.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vsa::elastic {
+namespace {
+
+constexpr int kMaxIterations = 200;
+constexpr double kEqual = 1e-9;  // stiffnesses this close are the same
+
+Response at(const Transmission& law, double q, const EquilibriumPreset& command) noexcept {
+  return law.evaluate({q, law.references(command)});
+}
+
+/// The zero of f between a and b, where it changes its sign: regula falsi, weighted as Illinois does, halved where that is slow.
+template <class F>
+double root(const F& f, double a, double fa, double b, double fb) noexcept {
+  for (int i = 0; i < kMaxIterations && fa != 0 && fb != 0; ++i) {
+    const double falsi = (a * fb - b * fa) / (fb - fa);
+    const bool inside = falsi > std::min(a, b) && falsi < std::max(a, b);
+    const double c = i % 4 == 3 || !inside ? 0.5 * (a + b) : falsi;
+    if (c == a || c == b) break;
+    const double fc = f(c);
+    if (!((fc < 0) == (fb < 0))) {
+      a = b;
+      fa = fb;
+    } else {
+      fa *= 0.5;
+    }
+    b = c;
+    fb = fc;
+    if (std::abs(b - a) <= 1e-15 * std::max(std::abs(a), std::abs(b))) break;
+  }
+  return std::abs(fa) < std::abs(fb) ? a : b;
+}
+
+struct Sample {
+  double preset = 0;
+  EquilibriumPreset command;
+  double stiffness = 0;
+};
+
+std::optional<Sample> sample(const Transmission& law, const Wanted& w, double preset) noexcept {
+  const auto equilibrium = equilibrium_for(law, w.q, w.torque_Nm, preset);
+  if (!equilibrium) return std::nullopt;
+  const EquilibriumPreset command{*equilibrium, preset};
+  return Sample{preset, command, at(law, w.q, command).curvature.qq};
+}
+
+struct Search {
+  std::optional<Sample> nearest;  ///< to the wanted stiffness
+  double least = 0, most = 0;
+
+  void see(const Sample& now, double goal) noexcept {
+    least = nearest ? std::min(least, now.stiffness) : now.stiffness;
+    most = nearest ? std::max(most, now.stiffness) : now.stiffness;
+    constexpr double kRounding = 1e-12;
+    if (!nearest || std::abs(now.stiffness - goal) + kRounding * goal < std::abs(nearest->stiffness - goal)) nearest = now;
+  }
+};
+
+/// Where the stiffness along the curve is extreme between two presets, it may pass the goal unseen by samples: golden sections,
+/// until it has.
+std::optional<Sample> extreme(const Transmission& law, const Wanted& w, double from, double to, bool least, Search& out) noexcept {
+  constexpr double kGolden = 0.6180339887498949;
+  const double sign = least ? 1 : -1, goal = w.stiffness_Nm_per_rad;
+  for (int i = 0; i < kMaxIterations && to - from > 1e-9 * (1 + to); ++i) {
+    const auto a = sample(law, w, to - kGolden * (to - from)), b = sample(law, w, from + kGolden * (to - from));
+    if (!a || !b) return std::nullopt;
+    const Sample& better = sign * a->stiffness <= sign * b->stiffness ? *a : *b;
+    out.see(better, goal);
+    if (sign * (better.stiffness - goal) <= 0) return better;
+    (sign * a->stiffness <= sign * b->stiffness ? to : from) = sign * a->stiffness <= sign * b->stiffness ? b->preset : a->preset;
+  }
+  return std::nullopt;
+}
+
+Search search(const Transmission& law, const Wanted& w, double preset_max) noexcept {
+  constexpr int kSteps = 16;
+  const int steps = preset_max > 0 ? kSteps : 0;
+  const double goal = w.stiffness_Nm_per_rad, width = steps > 0 ? preset_max / steps : 0.0;
+  Search out;
+  std::array<std::optional<Sample>, kSteps + 1> samples;
+  const auto close_in = [&](const Sample& a, const Sample& b) {
+    const auto missing = [&](double p) {
+      const auto there = sample(law, w, p);
+      return there ? there->stiffness - goal : 0.0;
+    };
+    if (const auto there = sample(law, w, root(missing, a.preset, a.stiffness - goal, b.preset, b.stiffness - goal)))
+      out.see(*there, goal);
+  };
+  int least = -1, most = -1;
+  for (int i = 0; i <= steps; ++i) {
+    auto& now = samples[static_cast<std::size_t>(i)] = sample(law, w, width * i);
+    if (!now) continue;
+    out.see(*now, goal);
+    if (least < 0 || now->stiffness < samples[static_cast<std::size_t>(least)]->stiffness) least = i;
+    if (most < 0 || now->stiffness > samples[static_cast<std::size_t>(most)]->stiffness) most = i;
+    const auto& last = samples[static_cast<std::size_t>(std::max(i - 1, 0))];
+    if (!last || (last->stiffness - goal) * (now->stiffness - goal) > 0) continue;
+    close_in(*last, *now);
+    return out;
+  }
+  const int at = !out.nearest ? -1 : goal < out.least ? least : most;
+  if (at < 0 || steps == 0) return out;
+  const double from = width * std::max(at - 1, 0);
+  const auto beyond = extreme(law, w, from, width * std::min(at + 1, steps), goal < out.least, out);
+  if (const auto first = sample(law, w, from); beyond && first) close_in(*first, *beyond);
+  return out;
+}
+
+}  // namespace
+
+std::optional<double> equilibrium_for(const Transmission& law, double q, double torque_Nm, double preset,
+                                      double reach_rad) noexcept {
+  for (const double x : {q, torque_Nm, preset})
+    if (!std::isfinite(x)) return std::nullopt;
+  const auto missing = [&](double e) { return at(law, q, {e, preset}).torque - torque_Nm; };
+  const double here = missing(q);
+  if (here == 0) return q;
+  constexpr double kFirst_rad = 0.01;
+  double near = q, f_near = here;
+  for (double step = std::min(kFirst_rad, reach_rad);; step = std::min(2 * step, reach_rad)) {
+    const double far = here < 0 ? q + step : q - step;  // the torque grows with the equilibrium
+    const double f_far = missing(far);
+    if (std::isnan(f_far)) return std::nullopt;
+    if ((f_far < 0) != (here < 0)) {
+      if (std::isfinite(f_far)) return root(missing, near, f_near, far, f_far);
+      // An exponential law has no numbers there: bisect back to where it has.
+      double low = near, high = far;
+      for (int i = 0; i < kMaxIterations && !std::isfinite(missing(high)); ++i) {
+        const double middle = 0.5 * (low + high), f = missing(middle);
+        ((f < 0) == (here < 0) ? low : high) = middle;
+      }
+      return root(missing, low, missing(low), high, missing(high));
+    }
+    if (step >= reach_rad) return std::nullopt;
+    near = far;
+    f_near = f_far;
+  }
+}
+
+Command command_for(const Transmission& law, const Wanted& wanted, double preset_max) noexcept {
+  using Outcome = Command::Outcome;
+  Command result;
+  const double goal = wanted.stiffness_Nm_per_rad;
+  if (!std::isfinite(wanted.q) || !std::isfinite(wanted.torque_Nm) || !std::isfinite(goal) || goal < 0) return result;
+  if (!std::isfinite(preset_max) || preset_max < 0) return result;
+  if (const auto exact = law.command_exactly(wanted.q, wanted.torque_Nm, goal); exact && exact->preset <= preset_max) {
+    return {Outcome::found, *exact, goal, goal};
+  }
+  const Search found = search(law, wanted, preset_max);
+  if (!found.nearest) {
+    result.outcome = Outcome::torque_unreachable;
+    return result;
+  }
+  result.stiffness_min = found.least;
+  result.stiffness_max = found.most;
+  result.command = found.nearest->command;
+  const double reached = found.nearest->stiffness;
+  const bool equal = std::abs(reached - goal) <= kEqual * std::max(goal, 1e-12);
+  result.outcome = equal ? Outcome::found : goal < reached ? Outcome::too_soft : Outcome::too_stiff;
+  return result;
+}
+
+std::string Command::text() const {
+  const std::string range =
+      " (" + std::to_string(stiffness_min) + " … " + std::to_string(stiffness_max) + " N·m/rad at this torque)";
+  switch (outcome) {
+    case Outcome::found:
+      return "found";
+    case Outcome::too_soft:
+      return "softer than the actuator can be" + range;
+    case Outcome::too_stiff:
+      return "stiffer than the actuator can be" + range;
+    case Outcome::torque_unreachable:
+      return "no preset reaches the torque within a turn";
+    case Outcome::not_a_number:
+      break;
+  }
+  return "an argument isn't a finite number, or negative where it can't be";
+}
+
+}  // namespace vsa::elastic

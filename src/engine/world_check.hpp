@@ -1,0 +1,25 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What a World's public functions ask of their arguments.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "vsa/errors.hpp"
+
+namespace vsa::engine {
+
+inline void check_size(const char* what, std::size_t given, std::size_t wanted) {
+  if (given != wanted)
+    throw InputError(Problem{"", what, fmt::format("{} numbers", given), "wrong size", fmt::format("{}", wanted)});
+}
+
+/// |value| ≤ most, and a number.
+inline void check_within(const char* what, double value, double most) {
+  if (!(std::abs(value) <= most))
+    throw InputError(Problem{"", what, fmt::format("{}", value), "out of range", fmt::format("±{}", most)});
+}
+
+}  // namespace vsa::engine

@@ -1,0 +1,196 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Names, handles and references of a World, and whose they are.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "world_check.hpp"
+#include "world_impl.hpp"
+
+namespace vsa::engine {
+namespace {
+
+std::string joined_scope(std::string_view scoped) {
+  std::string out;
+  for (std::size_t i = 0; i < scoped.size(); ++i) {
+    const bool colons = scoped.substr(i, 2) == "::";
+    out += colons ? '/' : scoped[i];
+    i += colons ? 1 : 0;
+  }
+  return out;
+}
+
+JointInfo info_of(const Joint& joint) {
+  using Type = JointInfo::Type;
+  JointInfo info{joint.name, Type::fixed, std::nullopt, std::nullopt, std::nullopt};
+  switch (joint.kind) {
+    case Joint::Kind::fixed:
+      break;
+    case Joint::Kind::hinge:
+      info.type = Type::revolute;
+      break;
+    case Joint::Kind::slide:
+      info.type = Type::prismatic;
+      break;
+    case Joint::Kind::ball:
+      info.type = Type::ball;
+      break;
+    case Joint::Kind::universal:
+      info.type = Type::universal;
+      break;
+  }
+  if (joint.one_axis()) info.range = joint.axes.front().range;
+  return info;
+}
+
+/// The nearest of those there are, for the message: all.
+[[noreturn]] void unknown(const char* key, std::string_view name, const char* message,
+                          const std::map<std::string, std::size_t, std::less<>>& there) {
+  std::vector<std::string> names;
+  for (const auto& [known, index] : there) names.push_back(known);
+  throw InputError(Problem{"", key, std::string(name), message, list(std::move(names))});
+}
+
+void hash(std::uint32_t& sum, std::string_view text) {
+  constexpr std::uint32_t kPrime = 16777619;  // FNV-1a
+  for (const char c : text) sum = (sum ^ static_cast<unsigned char>(c)) * kPrime;
+  sum *= kPrime;
+}
+
+[[noreturn]] void foreign(const std::string& theirs, const std::string& ours) {
+  throw InputError(Problem{"", "snapshot", theirs, "is of another world", ours});
+}
+
+std::string text(const Link& l) {
+  return fmt::format("link {}: {} kg, centre {} {} {}{}", l.name, l.mass, l.com.X(), l.com.Y(), l.com.Z(),
+                     l.is_static ? ", static" : "");
+}
+std::string text(const Joint& j) {
+  return fmt::format("joint {}: kind {}, links {} and {}", j.name, static_cast<int>(j.kind), j.parent.value_or(0),
+                     j.child.value_or(0));
+}
+
+bool same(const Link& a, const Link& b) {
+  return a.name == b.name && a.is_static == b.is_static && a.mass == b.mass && a.com == b.com && a.inertia == b.inertia &&
+         a.pose == b.pose && a.collisions.size() == b.collisions.size();
+}
+bool same(const Joint& a, const Joint& b) {
+  const auto alike = [](const Axis& x, const Axis& y) { return x.xyz == y.xyz && x.range == y.range && x.rest == y.rest; };
+  return a.name == b.name && a.kind == b.kind && a.parent == b.parent && a.child == b.child && a.pose == b.pose &&
+         std::equal(a.axes.begin(), a.axes.end(), b.axes.begin(), b.axes.end(), alike);
+}
+
+template <class Part>
+void check_parts(const char* what, const std::vector<Part>& theirs, const std::vector<Part>& ours) {
+  if (theirs.size() != ours.size()) foreign(fmt::format("{} {}", theirs.size(), what), fmt::format("{}", ours.size()));
+  for (std::size_t i = 0; i < ours.size(); ++i)
+    if (!same(theirs[i], ours[i])) foreign(text(theirs[i]), text(ours[i]));
+}
+
+}  // namespace
+
+std::string list(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::uint32_t tag_of(const WorldDescription& world) {
+  std::uint32_t sum = 2166136261;
+  for (const Link& l : world.links) hash(sum, l.name);
+  for (const Joint& j : world.joints) {
+    hash(sum, j.name);
+    sum += static_cast<std::uint32_t>(j.kind);
+  }
+  return std::max<std::uint32_t>(sum, 1);
+}
+
+void check_same_world(const WorldDescription& theirs, const WorldDescription& ours) {
+  if (&theirs == &ours) return;
+  check_parts("links", theirs.links, ours.links);
+  check_parts("joints", theirs.joints, ours.joints);
+}
+
+void World::Impl::check(const Snapshot& s) const {
+  check_same_world(*s.world, *world);
+  if (s.robots.size() != robots.size()) foreign(fmt::format("{} robots", s.robots.size()), fmt::format("{}", robots.size()));
+  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].robot.check(*s.robots[i]);
+}
+
+void World::Impl::index_names() {
+  auto made = std::make_shared<WorldNames>();
+  made->tag = tag_of(*world);
+  for (std::size_t j = 0; j < world->joints.size(); ++j) {
+    made->joints.push_back(info_of(world->joints[j]));
+    made->joints.back().dof = physics->joint_dof(j);
+    if (world->joints[j].one_axis()) made->joint.emplace(world->joints[j].name, j);
+  }
+  for (std::size_t l = 0; l < world->links.size(); ++l) made->link.emplace(world->links[l].name, l);
+  made->first_actuator.resize(robots.size());
+  for (std::size_t a = 0; a < actuators.size(); ++a) {
+    const ActuatorRef& ref = actuators[a];
+    if (ref.index == 0) made->first_actuator[ref.robot] = a;
+    made->joints[robots[ref.robot].joints[ref.index]].actuator = a;
+    made->full.emplace(ref.model + "/" + ref.name, a);
+    made->full.emplace(joined_scope(robots[ref.robot].model) + "/" + ref.name, a);
+    if (!made->actuator.emplace(ref.name, a).second) made->actuator[ref.name] = WorldNames::kSeveral;
+  }
+  names = std::move(made);
+}
+
+const ActuatorRef& World::actuator(std::string_view name) const {
+  const WorldNames& known = *impl_->names;
+  if (const auto it = known.full.find(name); it != known.full.end()) return impl_->actuators[it->second];
+  const auto it = known.actuator.find(name);
+  if (it == known.actuator.end()) unknown("actuator", name, "no such actuator", known.full);
+  if (it->second != WorldNames::kSeveral) return impl_->actuators[it->second];
+  std::vector<std::string> full;
+  for (const ActuatorRef& a : impl_->actuators)
+    if (a.name == name) full.push_back(a.model + "/" + a.name);
+  throw InputError(Problem{"", "actuator", std::string(name), "several models have it", list(std::move(full))});
+}
+
+const std::vector<JointInfo>& World::joints() const { return impl_->names->joints; }
+
+JointHandle World::joint(std::string_view scoped) const {
+  const auto& known = impl_->names->joint;
+  const auto it = known.find(scoped);
+  if (it == known.end()) unknown("joint", scoped, "no such joint with one axis", known);
+  return {it->second, impl_->names->tag};
+}
+
+JointHandle World::joint(const ActuatorRef& ref) const {
+  static_cast<void>(at(ref));
+  return {impl_->robots[ref.robot].joints[ref.index], impl_->names->tag};
+}
+
+LinkHandle World::link(std::string_view scoped) const {
+  const auto& known = impl_->names->link;
+  const auto it = known.find(scoped);
+  if (it == known.end()) unknown("link", scoped, "no such link", known);
+  return {it->second, impl_->names->tag};
+}
+
+std::size_t World::at(JointHandle joint) const {
+  if (joint.tag_ != impl_->names->tag)
+    throw InputError(Problem{"", "joint", fmt::format("{}", joint.index()), "the handle is of another world", "World::joint()"});
+  return joint.index();
+}
+
+std::size_t World::at(LinkHandle link) const {
+  if (link.tag_ != impl_->names->tag)
+    throw InputError(Problem{"", "link", fmt::format("{}", link.index()), "the handle is of another world", "World::link()"});
+  return link.index();
+}
+
+std::size_t World::at(const ActuatorRef& ref) const {
+  const auto& robots = impl_->robots;
+  if (ref.robot < robots.size() && ref.index < robots[ref.robot].joints.size()) {
+    const std::size_t at = impl_->names->first_actuator[ref.robot] + ref.index;
+    if (impl_->actuators[at].name == ref.name && impl_->actuators[at].model == ref.model) return at;
+  }
+  throw InputError(Problem{"", "actuator", ref.model + "/" + ref.name, "the reference is of another world", "one of actuators()"});
+}
+
+}  // namespace vsa::engine

@@ -1,0 +1,132 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// How a user touches a World: commands, joints, hands; and its clones.
+#include <algorithm>
+
+#include "world_check.hpp"
+#include "world_impl.hpp"
+
+namespace vsa::engine {
+namespace {
+
+constexpr double kMostForce = 1e9, kFurthestPoint_m = 1e4;
+constexpr double kMostState = 1e12;  // beyond 1e10 the next step is a blow-up
+
+/// Sets what belongs to `key`; nothing where it is none.
+template <class Value>
+void put(std::vector<std::pair<std::size_t, Value>>& list, std::size_t key, const Value& value, bool none) {
+  const auto it = std::find_if(list.begin(), list.end(), [&](const auto& entry) { return entry.first == key; });
+  if (it != list.end()) list.erase(it);
+  if (!none) list.emplace_back(key, value);
+}
+
+}  // namespace
+
+bool World::command(std::string_view name, double equilibrium_rad, double preset) {
+  return command(actuator(name), equilibrium_rad, preset);
+}
+
+bool World::command(const ActuatorRef& ref, double equilibrium_rad, double preset) {
+  static_cast<void>(at(ref));
+  return impl_->robots[ref.robot].robot.command(ref.index, equilibrium_rad, preset);
+}
+
+void World::place(std::string_view name, double angle_rad, double preset, double speed_rad_per_s) {
+  place(actuator(name), {angle_rad, preset, speed_rad_per_s});
+}
+
+void World::place(const ActuatorRef& ref, const host::Placement& to) {
+  const std::size_t joint = this->joint(ref).index();
+  if (const auto& range = joints()[joint].range; range && !(to.angle_rad >= (*range)[0] && to.angle_rad <= (*range)[1])) {
+    throw InputError(Problem{"", ref.name + ": angle_rad", fmt::format("{}", to.angle_rad),
+                             "beyond the limits of " + joints()[joint].name, fmt::format("{} … {}", (*range)[0], (*range)[1])});
+  }
+  impl_->robots[ref.robot].robot.place(ref.index, to, step_s());
+  impl_->physics->set_joint(joint, {to.angle_rad, to.speed_rad_per_s});
+  impl_->forget_mobility();
+}
+
+host::ActuatorReading World::read(std::string_view name) const { return read(actuator(name)); }
+host::ActuatorReading World::read(const ActuatorRef& ref) const {
+  static_cast<void>(at(ref));
+  return impl_->robots[ref.robot].robot.read(ref.index);
+}
+
+std::size_t World::robot_count() const { return impl_->robots.size(); }
+host::Robot& World::robot(std::size_t index) {
+  static_cast<void>(robot_model(index));
+  return impl_->robots[index].robot;
+}
+const host::Robot& World::robot(std::size_t index) const {
+  static_cast<void>(robot_model(index));
+  return impl_->robots[index].robot;
+}
+const std::string& World::robot_model(std::size_t index) const {
+  if (index >= robot_count())
+    throw InputError(Problem{"", "robot", fmt::format("{}", index), "no such robot", fmt::format("below {}", robot_count())});
+  return impl_->robots[index].model;
+}
+
+double World::joint_angle(JointHandle joint) const { return impl_->physics->joint(at(joint)).position; }
+double World::joint_angle(std::string_view joint) const { return joint_angle(this->joint(joint)); }
+double World::joint_speed(JointHandle joint) const { return impl_->physics->joint(at(joint)).speed; }
+double World::joint_speed(std::string_view joint) const { return joint_speed(this->joint(joint)); }
+
+void World::set_joint(std::string_view joint, double angle, double speed) { set_joint(this->joint(joint), angle, speed); }
+void World::set_joint(JointHandle joint, double angle, double speed) {
+  const std::size_t index = at(joint);
+  check_within("angle", angle, kMostState);
+  check_within("speed", speed, kMostState);
+  impl_->physics->set_joint(index, {angle, speed});
+  impl_->placed(index);
+}
+
+void World::apply_wrench(LinkHandle link, const Wrench& wrench) {
+  const std::size_t index = at(link);
+  if (links()[index].is_static) throw InputError(Problem{"", "link", links()[index].name, "is static", "a link that moves"});
+  for (const double x : wrench.force_N) check_within("force_N", x, kMostForce);
+  for (const double x : wrench.torque_Nm) check_within("torque_Nm", x, kMostForce);
+  for (const double x : wrench.point_m) check_within("point_m", x, kFurthestPoint_m);
+  constexpr std::array<double, 3> kNone{};
+  put(impl_->wrenches, index, wrench, wrench.force_N == kNone && wrench.torque_Nm == kNone);
+}
+
+void World::apply_torque(JointHandle joint, double torque_Nm) {
+  const std::size_t index = at(joint);
+  check_within("torque_Nm", torque_Nm, kMostForce);
+  put(impl_->torques, index, torque_Nm, torque_Nm == 0);
+}
+
+void World::Impl::apply_hands() {
+  for (const auto& [joint, torque] : torques) physics->push(joint, torque);
+  for (const auto& [link, wrench] : wrenches) physics->push(link, wrench);
+  for (const Pull& pull : pulls) physics->pull(pull);
+}
+
+void World::Impl::let_go() {
+  pulls.clear();
+  wrenches.clear();
+  torques.clear();
+}
+
+World World::clone() const {
+  auto to = std::make_unique<Impl>();
+  to->options = impl_->options;
+  to->world = impl_->world;
+  to->names = impl_->names;
+  to->warnings = impl_->warnings;
+  to->physics = impl_->physics->clone();
+  for (const RobotSlot& slot : impl_->robots)
+    to->robots.push_back({slot.model, slot.robot.clone(), slot.joints, slot.in, slot.torques, slot.trees, slot.mobility});
+  to->actuators = impl_->actuators;
+  to->pulls = impl_->pulls;
+  to->wrenches = impl_->wrenches;
+  to->torques = impl_->torques;
+  to->dt_ns = impl_->dt_ns;
+  to->time_ns = impl_->time_ns;
+  to->steps = impl_->steps;
+  to->initial = impl_->initial;
+  return World(std::move(to));
+}
+
+}  // namespace vsa::engine

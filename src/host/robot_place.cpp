@@ -1,0 +1,115 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Putting an actuator somewhere, giving it other parameters, copying a robot, and whose snapshots it takes.
+#include <algorithm>
+#include <string>
+
+#include "host/robot_impl.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::host {
+namespace {
+
+void check_same(const std::string& key, const std::string& theirs, const std::string& ours, Problems& problems) {
+  if (theirs != ours) problems.add({"", key, theirs, "the snapshot is of another robot", ours});
+}
+
+/// What a unit's state can't cross.
+void check_kind(const std::string& name, const UnitConfig& from, const UnitConfig& to, Problems& problems) {
+  const auto number = [](auto value) { return std::to_string(static_cast<int>(value)); };
+  const auto same = [&](const char* key, const std::string& theirs, const std::string& ours) {
+    if (theirs != ours) problems.add({"", name + ": " + key, theirs, "a unit's state can't go over to this", ours});
+  };
+  same("firmware.model", number(from.program.model), number(to.program.model));
+  same("firmware.dialect", number(from.program.dialect), number(to.program.dialect));
+  same("number of motors", number(from.actuator.transmission->motor_count()), number(to.actuator.transmission->motor_count()));
+}
+
+}  // namespace
+
+Robot Robot::clone() const {
+  Robot copy(config());
+  copy.join(impl_->trees);
+  copy.restore(*snapshot());
+  return copy;
+}
+
+void Robot::place(std::size_t actuator, const Placement& at, double step_s) {
+  static_cast<void>(known(actuator));
+  Impl& d = *impl_;
+  ActuatorSlot& slot = d.state.actuators[actuator];
+  const std::string name = d.config.actuators[actuator].name;
+  Problems problems;
+  const double equilibrium = at.equilibrium_rad.value_or(at.angle_rad);
+  if (!(step_s >= 0 && step_s <= 16e-3)) problems.add({"", "step_s", std::to_string(step_s), "is out of range", "0 … 0.016"});
+  const device::UnitPlace there{at.angle_rad, at.speed_rad_per_s, equilibrium, at.preset, step_s / 2};
+  const device::Unit& unit = *d.units[actuator];
+  unit.check_place(slot.unit, there, name + ": ", problems);
+  problems.throw_if_any();
+  d.queue.drop([&](const Order& o) { return o.actuator == actuator; });
+  slot.equilibrium.hold(equilibrium);
+  slot.preset.hold(at.preset);
+  const BusLine& bus = *d.buses[d.config.actuators[actuator].bus];
+  bus.lock();
+  unit.place(slot.unit, there);
+  bus.unlock();
+}
+
+void Robot::set_parameters(std::size_t actuator, const UnitConfig& unit) {
+  const ActuatorConfig& now = impl_->config.actuators[known(actuator)];
+  Problems problems;
+  device::check(unit, now.name + ": ", problems);
+  problems.throw_if_any();
+  check_kind(now.name, unit, now.unit, problems);
+  problems.throw_if_any();
+  impl_->set_parameters(actuator, unit);
+}
+
+void Robot::Impl::set_parameters(std::size_t i, const UnitConfig& unit) {
+  const UnitConfig before = config.actuators[i].unit;
+  BusLine& bus = *buses[config.actuators[i].bus];
+  const std::shared_ptr<device::Unit> next = unit_for(unit);
+  config.actuators[i].unit = unit;
+  made_of = std::make_shared<const RobotConfig>(config);
+  bus.lock();
+  bus.set_unit(state.actuators[i], *next);
+  units[i] = next;
+  next->adopt(state.actuators[i].unit, before);
+  bus.unlock();
+  make_clusters(std::vector(trees));
+  initial.state.actuators[i].unit = first_state(i);
+  initial.made_of = made_of;
+  distinct.erase(std::remove_if(distinct.begin(), distinct.end(), [](const auto& u) { return u.use_count() == 1; }),
+                 distinct.end());
+}
+
+void Robot::Impl::adopt(const RobotConfig& from) noexcept {
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!device::alike(from.actuators[i].unit, config.actuators[i].unit))
+      units[i]->adopt(state.actuators[i].unit, from.actuators[i].unit);
+  }
+}
+
+void Robot::check(const Snapshot& snapshot) const {
+  const RobotConfig& ours = impl_->config;
+  if (snapshot.made_of == impl_->made_of) return;
+  const RobotConfig& theirs = *snapshot.made_of;
+  Problems problems;
+  check_same("actuators", std::to_string(theirs.actuators.size()), std::to_string(ours.actuators.size()), problems);
+  check_same("buses", std::to_string(theirs.buses.size()), std::to_string(ours.buses.size()), problems);
+  problems.throw_if_any();
+  const auto text = [](const ActuatorConfig& a) {
+    return a.name + " on " + a.joint + ", bus " + std::to_string(a.bus) + ", id " + std::to_string(a.id);
+  };
+  for (std::size_t i = 0; i < ours.actuators.size(); ++i) {
+    const ActuatorConfig &a = theirs.actuators[i], &b = ours.actuators[i];
+    check_same("actuator " + std::to_string(i), text(a), text(b), problems);
+    check_kind(b.name, a.unit, b.unit, problems);
+  }
+  const auto bus = [](const BusConfig& b) { return std::to_string(b.baud_Hz) + " Hz" + (b.serial_port ? ", serial port" : ""); };
+  for (std::size_t i = 0; i < ours.buses.size(); ++i)
+    check_same("bus " + std::to_string(i), bus(theirs.buses[i]), bus(ours.buses[i]), problems);
+  problems.throw_if_any();
+}
+
+}  // namespace vsa::host

@@ -1,0 +1,145 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/elastic/inverse.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "vsa/elastic/series_spring.hpp"
+#include "vsa/elastic/two_sinh.hpp"
+
+namespace {
+
+using vsa::elastic::Command;
+using vsa::elastic::command_for;
+using vsa::elastic::equilibrium_for;
+using vsa::elastic::Response;
+using vsa::elastic::SeriesSpring;
+using vsa::elastic::Transmission;
+using vsa::elastic::TwoSinh;
+using vsa::elastic::TwoSinhParams;
+using Outcome = Command::Outcome;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPresetMax = 0.785;
+
+Response at(const Transmission& law, double q, double equilibrium, double preset) {
+  return law.evaluate({q, law.references({equilibrium, preset})});
+}
+
+/// A law that says nothing of how it could be solved: the generic solver's.
+class Plain final : public Transmission {
+ public:
+  explicit Plain(const TwoSinhParams& params) : law_(params) {}
+  [[nodiscard]] Response evaluate(const vsa::elastic::Positions& p) const noexcept override { return law_.evaluate(p); }
+  [[nodiscard]] std::array<double, 2> references(const vsa::elastic::EquilibriumPreset& c) const noexcept override {
+    return law_.references(c);
+  }
+  [[nodiscard]] vsa::elastic::EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override {
+    return law_.attained(x);
+  }
+
+ private:
+  TwoSinh law_;
+};
+
+/// What the shipped types have (their numbers are presets/*.toml's kinds: Table I, data sheet, identified, unequal springs).
+const TwoSinhParams kLaws[] = {{{0.022, 0.022}, {6.85, 6.85}},
+                               {{0.022, 0.0197}, {6.85, 6.85}},
+                               {{0.0216, 0.0227}, {6.7, 7.1}},
+                               {{0.0216, 0.0227}, {6.7, 7.1}, {0.24, 0.31}, 0.72}};
+
+TEST(Inverse, ACommandsTorqueAndStiffnessGiveTheCommandBack) {
+  std::mt19937 chance(7);
+  std::uniform_real_distribution<double> angle(-2, 2), deflection(-0.35, 0.35), preset(0.0, kPresetMax);
+  for (const TwoSinhParams& params : kLaws) {
+    const TwoSinh law(params);
+    for (int n = 0; n < 400; ++n) {
+      const double q = angle(chance), e = q - deflection(chance), p = preset(chance);
+      const Response there = at(law, q, e, p);
+      const auto found = equilibrium_for(law, q, there.torque, p);
+      ASSERT_TRUE(found);
+      ASSERT_NEAR(*found, e, 1e-9);
+      const Command c = command_for(law, {q, there.torque, there.curvature.qq}, kPresetMax);
+      ASSERT_TRUE(c.found()) << c.text();
+      const Response again = at(law, q, c.command.equilibrium, c.command.preset);
+      ASSERT_NEAR(again.torque, there.torque, 1e-8 * (1 + std::abs(there.torque)));
+      ASSERT_NEAR(again.curvature.qq, there.curvature.qq, 1e-8 * there.curvature.qq);
+      ASSERT_GE(c.command.preset, 0);
+      ASSERT_LE(c.command.preset, p + kPresetMax / 16);
+    }
+  }
+}
+
+TEST(Inverse, TheClosedFormAndTheSolverAgree) {
+  std::mt19937 chance(9);
+  std::uniform_real_distribution<double> torque(-2, 2), stiffness(2, 40);
+  for (const TwoSinhParams& params : {kLaws[0], kLaws[1]}) {
+    const TwoSinh law(params);
+    const Plain plain(params);
+    for (int n = 0; n < 300; ++n) {
+      const double t = torque(chance), s = stiffness(chance);
+      const Command exact = command_for(law, {0.3, t, s}, kPresetMax), solved = command_for(plain, {0.3, t, s}, kPresetMax);
+      ASSERT_EQ(exact.outcome, solved.outcome) << t << " " << s << ": " << exact.text() << "; " << solved.text();
+      if (!exact.found()) continue;
+      ASSERT_TRUE(law.command_exactly(0.3, t, s));
+      ASSERT_NEAR(exact.command.preset, solved.command.preset, 1e-6);
+      ASSERT_NEAR(exact.command.equilibrium, solved.command.equilibrium, 1e-6);
+    }
+  }
+}
+
+TEST(Inverse, OfASymmetricPairIsThePapersFormula) {
+  const TwoSinh law(kLaws[0]);
+  const double k = 0.022, a = 6.85, p = 0.5;
+  const Command c = command_for(law, {0.0, 0.0, 2 * a * k * std::cosh(a * p)}, kPresetMax);
+  ASSERT_TRUE(c.found());
+  EXPECT_NEAR(c.command.preset, p, 1e-12);
+  EXPECT_NEAR(c.command.equilibrium, 0, 1e-12);
+  EXPECT_NEAR(*equilibrium_for(law, 0.2, 1.0, p), 0.2 + std::asinh(1.0 / (2 * k * std::cosh(a * p))) / a, 1e-12);
+}
+
+TEST(Inverse, WhatCannotBeReachedIsSaidWithTheRange) {
+  const TwoSinh law(kLaws[3]);
+  const Command soft = command_for(law, {0, 0.5, 0.1}, kPresetMax), stiff = command_for(law, {0, 0.5, 500}, kPresetMax);
+  EXPECT_EQ(soft.outcome, Outcome::too_soft);
+  EXPECT_EQ(stiff.outcome, Outcome::too_stiff);
+  EXPECT_NEAR(stiff.command.preset, kPresetMax, 0.1) << "the nearest";
+  EXPECT_LT(stiff.stiffness_min, stiff.stiffness_max);
+  EXPECT_NEAR(at(law, 0, soft.command.equilibrium, soft.command.preset).curvature.qq, soft.stiffness_min, 1e-9);
+  EXPECT_NE(stiff.text().find("stiffer"), std::string::npos);
+  const SeriesSpring spring(5);
+  EXPECT_EQ(command_for(spring, {0, 100, 5}, 0).outcome, Outcome::torque_unreachable);
+  EXPECT_FALSE(equilibrium_for(spring, 0, 100, 0));
+}
+
+TEST(Inverse, ALawWithoutPresetsHasItsOneStiffness) {
+  const SeriesSpring spring(80);
+  const Command c = command_for(spring, {0.4, 8, 80}, 0);
+  ASSERT_TRUE(c.found());
+  EXPECT_NEAR(c.command.equilibrium, 0.5, 1e-12);
+  EXPECT_EQ(command_for(spring, {0.4, 8, 81}, 0).outcome, Outcome::too_stiff);
+  EXPECT_EQ(command_for(spring, {0.4, 8, 79}, 0).outcome, Outcome::too_soft);
+}
+
+TEST(Inverse, NumbersThatAreNoneAreNoCommand) {
+  const TwoSinh law(kLaws[0]);
+  for (const double bad : {kNan, std::numeric_limits<double>::infinity()}) {
+    EXPECT_FALSE(equilibrium_for(law, bad, 0, 0));
+    EXPECT_FALSE(equilibrium_for(law, 0, bad, 0));
+    EXPECT_FALSE(equilibrium_for(law, 0, 0, bad));
+    EXPECT_EQ(command_for(law, {bad, 0, 1}, 1).outcome, Outcome::not_a_number);
+    EXPECT_EQ(command_for(law, {0, bad, 1}, 1).outcome, Outcome::not_a_number);
+    EXPECT_EQ(command_for(law, {0, 0, bad}, 1).outcome, Outcome::not_a_number);
+    EXPECT_EQ(command_for(law, {0, 0, 1}, bad).outcome, Outcome::not_a_number);
+  }
+  EXPECT_EQ(command_for(law, {0, 0, -1}, 1).outcome, Outcome::not_a_number);
+  EXPECT_EQ(command_for(law, {0, 0, 1}, -1).outcome, Outcome::not_a_number);
+  EXPECT_FALSE(equilibrium_for(law, 0, 1e300, 0, 10));
+  static_cast<void>(equilibrium_for(law, 1e300, 1, 0));
+  static_cast<void>(equilibrium_for(law, 0, 1e200, 0, 1e3));
+}
+
+}  // namespace

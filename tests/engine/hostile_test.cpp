@@ -1,0 +1,307 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Every public function of vsa::engine with wrong sizes, numbers that are none, other worlds' objects and worlds that were moved
+// from: an error in words, and nothing else. Worth most under the sanitizers (preset asan).
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "arm.hpp"
+#include "vsa/engine/gait.hpp"
+
+namespace vsa::engine::testing {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kBad[] = {kNan, kInfinity, -kInfinity, 1e300};
+
+TEST(Hostile, LoadRefusesStepsAndFilesThatAreNone) {
+  for (const double step_s : {kNan, kInfinity, -1.0, 0.0, 1e-9, 0.02, 1e300}) {
+    WorldOptions options;
+    options.step_s = step_s;
+    EXPECT_THROW((void)World::load_string(arm(), options), InputError) << step_s;
+  }
+  EXPECT_THROW((void)World::load_string(""), InputError);
+  EXPECT_THROW((void)World::load_string("<sdf"), InputError);
+  EXPECT_THROW((void)World::load_string(std::string("\0\xff", 2)), InputError);
+  EXPECT_THROW((void)World::load(""), InputError);
+  EXPECT_THROW((void)World::load("/"), InputError);
+  EXPECT_THROW((void)World::load("no such file.sdf"), InputError);
+}
+
+TEST(Hostile, RunWantsATime) {
+  World w = World::load_string(arm());
+  for (const double bad : {kNan, kInfinity, -1.0, 1e300, 2e9}) EXPECT_THROW(w.run(bad), InputError) << bad;
+  EXPECT_EQ(w.time_ns(), 0);
+  w.run(0);
+  EXPECT_EQ(w.time_ns(), 0);
+  w.run(1e-12);
+  EXPECT_EQ(w.time_ns(), 0) << "less than a nanosecond is none";
+  w.run(0.0014);
+  EXPECT_EQ(w.time_ns(), 2'000'000) << "a part of a step counts as one";
+}
+
+TEST(Hostile, SpansOfTheWrongSizeAreRefused) {
+  World w = World::load_string(arm());
+  const std::size_t n = w.dof_count(), links = w.links().size();
+  std::vector<double> numbers(36 * n + 1);
+  std::vector<Pose> poses(links + 1);
+  const LinkHandle tip = w.link("arm::fore");
+  for (const std::size_t wrong : {std::size_t{0}, n - 1, n + 1}) {
+    EXPECT_THROW(w.bias_torques(std::span(numbers).first(wrong)), InputError);
+    EXPECT_THROW(w.gravity_torques(std::span(numbers).first(wrong)), InputError);
+    EXPECT_THROW(w.mass_matrix(std::span(numbers).first(wrong)), InputError);
+    EXPECT_THROW(w.jacobian(tip, {}, std::span(numbers).first(wrong)), InputError);
+  }
+  EXPECT_THROW(w.poses({}), InputError);
+  EXPECT_THROW(w.poses(std::span(poses).first(links - 1)), InputError);
+  EXPECT_THROW(w.poses(poses), InputError);
+}
+
+TEST(Hostile, NumbersThatAreNoneAreRefusedAndTheWorldGoesOn) {
+  World w = World::load_string(arm());
+  World untouched = w.clone();
+  const ActuatorRef& shoulder = w.actuator("shoulder");
+  const LinkHandle tip = w.link("arm::fore");
+  const JointHandle wrist = w.joint("arm::elbow");
+  for (const double bad : kBad) {
+    EXPECT_THROW(w.set_joint(wrist, bad, 0), InputError);
+    EXPECT_THROW(w.set_joint("arm::elbow", 0, bad), InputError);
+    EXPECT_THROW(w.place("shoulder", bad, 0.2), InputError);
+    EXPECT_THROW(w.place("shoulder", 0, bad), InputError);
+    EXPECT_THROW(w.place("shoulder", 0, 0.2, bad), InputError);
+    EXPECT_THROW(w.place(shoulder, {0, 0.2, 0, bad}), InputError);
+    EXPECT_THROW(w.apply_wrench(tip, {{bad, 0, 0}, {}, {}}), InputError);
+    EXPECT_THROW(w.apply_wrench(tip, {{}, {0, bad, 0}, {}}), InputError);
+    EXPECT_THROW(w.apply_wrench(tip, {{1, 0, 0}, {}, {0, 0, bad}}), InputError);
+    EXPECT_THROW(w.apply_torque(wrist, bad), InputError);
+    EXPECT_THROW(w.displace_model("ball", bad, {}), InputError);
+    EXPECT_THROW(w.displace_model("ball", 0, {0, bad, 0}), InputError);
+    std::vector<double> j(6 * w.dof_count());
+    EXPECT_THROW(w.jacobian(tip, {bad, 0, 0}, j), InputError);
+    Pull pull{tip.index()};
+    pull.target_m[0] = bad;
+    EXPECT_THROW(w.pull({pull}), InputError);
+    if (!std::isfinite(bad)) {
+      EXPECT_FALSE(w.command("shoulder", bad, 0.2));
+      EXPECT_FALSE(w.command(shoulder, 0.2, bad));
+    }
+  }
+  for (World* x : {&w, &untouched}) x->run(0.05);
+  EXPECT_EQ(w.joint_angle(wrist), untouched.joint_angle(wrist));
+}
+
+TEST(Hostile, HugeNumbersEndInABlowUpThatIsTold) {
+  World w = World::load_string(arm());
+  const auto before = w.snapshot();
+  w.apply_torque(w.joint("arm::elbow"), 1e9);
+  EXPECT_THROW(w.run(1), SimulationError);
+  w.apply_torque(w.joint("arm::elbow"), 0);
+  w.restore(*before);
+  w.apply_wrench(w.link("ball::l"), {{1e9, 0, 0}, {1e9, 0, 0}, {1e4, 0, 0}});
+  EXPECT_THROW(w.run(1), SimulationError);
+  w.reset();
+  w.set_joint("arm::shoulder", 1e12, -1e12);
+  EXPECT_THROW(w.run(1), SimulationError);
+  w.reset();
+  EXPECT_NO_THROW(w.run(0.1));
+}
+
+TEST(Hostile, NamesThatNobodyHasAreRefused) {
+  World w = World::load_string(arm());
+  for (const std::string& name :
+       {std::string{}, std::string("nobody"), std::string("arm::"), std::string("\0", 1), std::string(100'000, 'x')}) {
+    EXPECT_THROW((void)w.actuator(name), InputError);
+    EXPECT_THROW((void)w.command(name, 0, 0), InputError);
+    EXPECT_THROW((void)w.read(name), InputError);
+    EXPECT_THROW(w.place(name, 0, 0), InputError);
+    EXPECT_THROW((void)w.joint(name), InputError);
+    EXPECT_THROW((void)w.joint_angle(name), InputError);
+    EXPECT_THROW((void)w.joint_speed(name), InputError);
+    EXPECT_THROW(w.set_joint(name, 0, 0), InputError);
+    EXPECT_THROW((void)w.link(name), InputError);
+    EXPECT_THROW((void)w.center_of_mass(name), InputError);
+    EXPECT_THROW(w.displace_model(name, 0, {}), InputError);
+  }
+  EXPECT_THROW((void)w.joint("arm::mount"), InputError) << "a fixed joint has no axis";
+  EXPECT_THROW(w.displace_model("arm", 0, {}), InputError) << "is tied to the world";
+}
+
+TEST(Hostile, ObjectsOfAnotherWorldAreRefused) {
+  World w = World::load_string(arm());
+  World other = World::load_string(other_arm());
+  for (const std::size_t i : {std::size_t{1}, std::size_t{9}, static_cast<std::size_t>(-1)}) {
+    EXPECT_THROW((void)w.robot(i), InputError);
+    EXPECT_THROW((void)std::as_const(w).robot(i), InputError);
+    EXPECT_THROW((void)w.robot_model(i), InputError);
+  }
+  std::vector<ActuatorRef> refs{other.actuators().back(), {}, w.actuators().front(), w.actuators().front(), w.actuators().front()};
+  refs[2].index = 99;
+  refs[3].robot = 99;
+  refs[4].name = "else";
+  for (const ActuatorRef& ref : refs) {
+    EXPECT_THROW((void)w.read(ref), InputError);
+    EXPECT_THROW((void)w.command(ref, 0, 0), InputError);
+    EXPECT_THROW(w.place(ref, {}), InputError);
+    EXPECT_THROW((void)w.joint(ref), InputError);
+  }
+  for (const JointHandle& joint : {JointHandle{}, other.joint("arm::wrist")}) {
+    EXPECT_THROW((void)w.joint_angle(joint), InputError);
+    EXPECT_THROW((void)w.joint_speed(joint), InputError);
+    EXPECT_THROW(w.set_joint(joint, 0, 0), InputError);
+    EXPECT_THROW(w.apply_torque(joint, 0), InputError);
+  }
+  std::vector<double> j(6 * w.dof_count());
+  for (const LinkHandle& link : {LinkHandle{}, other.link("arm::hand")}) {
+    EXPECT_THROW((void)w.pose(link), InputError);
+    EXPECT_THROW((void)w.velocity(link), InputError);
+    EXPECT_THROW((void)w.free_dof(link), InputError);
+    EXPECT_THROW(w.apply_wrench(link, {}), InputError);
+    EXPECT_THROW(w.jacobian(link, {}, j), InputError);
+  }
+  EXPECT_THROW(w.apply_wrench(w.link("floor::l"), {{1, 0, 0}, {}, {}}), InputError) << "a static link";
+  Pull pull;
+  pull.link = 1'000'000;
+  EXPECT_THROW(w.pull({pull}), InputError);
+}
+
+TEST(Hostile, SnapshotsOfAnotherWorldAreRefusedAndNothingChanged) {
+  World w = World::load_string(arm());
+  w.run(0.03);
+  const double angle = w.joint_angle("arm::elbow");
+  WorldOptions bare;
+  bare.actuators = false;
+  std::string renamed = arm(), heavier = arm();
+  renamed.replace(renamed.find("name='fore'"), 11, "name='four'");
+  renamed.replace(renamed.find("<child>fore"), 11, "<child>four");
+  heavier.replace(heavier.find("<mass>0.2"), 9, "<mass>0.3");
+  for (const World& other : {World::load_string(other_arm()), World::load_string(arm(), bare), World::load_string(renamed),
+                             World::load_string(heavier), World::load_string(world(ground()))}) {
+    EXPECT_THROW(w.restore(*other.snapshot()), InputError);
+  }
+  EXPECT_EQ(w.joint_angle("arm::elbow"), angle);
+  EXPECT_EQ(w.time_ns(), 30'000'000);
+}
+
+TEST(Hostile, AWorldThatWasMovedFromSaysSo) {
+  World full = World::load_string(arm());
+  const auto snapshot = full.snapshot();
+  const ActuatorRef ref = full.actuators().front();
+  const JointHandle joint = full.joint("arm::elbow");
+  const LinkHandle link = full.link("arm::fore");
+  World taken = std::move(full);
+  World& w = full;
+  std::vector<Contact> contacts;
+  std::vector<double> numbers(36);
+  const auto says_so = [](auto&& call) { EXPECT_THROW(static_cast<void>(call()), std::logic_error); };
+  says_so([&] { return World(w.clone()).name(); });
+  says_so([&] { return w.name(); });
+  says_so([&] { return w.step_s(); });
+  says_so([&] { return w.time_ns(); });
+  says_so([&] { return w.time_s(); });
+  says_so([&] { return w.step(), 0; });
+  says_so([&] { return w.run(0), 0; });
+  says_so([&] { return w.actuators().size(); });
+  says_so([&] { return w.actuator("shoulder").index; });
+  says_so([&] { return w.command("shoulder", 0, 0); });
+  says_so([&] { return w.command(ref, 0, 0); });
+  says_so([&] { return w.place("shoulder", 0, 0), 0; });
+  says_so([&] { return w.place(ref, {}), 0; });
+  says_so([&] { return w.read("shoulder").preset; });
+  says_so([&] { return w.read(ref).preset; });
+  says_so([&] { return w.robot_count(); });
+  says_so([&] { return w.robot(0).size(); });
+  says_so([&] { return std::as_const(w).robot(0).size(); });
+  says_so([&] { return w.robot_model(0); });
+  says_so([&] { return w.links().size(); });
+  says_so([&] { return w.poses({}), 0; });
+  says_so([&] { return w.center_of_mass("arm"); });
+  says_so([&] { return w.joints().size(); });
+  says_so([&] { return w.joint("arm::elbow"); });
+  says_so([&] { return w.joint(ref); });
+  says_so([&] { return w.link("arm::fore"); });
+  says_so([&] { return w.joint_angle("arm::elbow"); });
+  says_so([&] { return w.joint_angle(joint); });
+  says_so([&] { return w.joint_speed("arm::elbow"); });
+  says_so([&] { return w.joint_speed(joint); });
+  says_so([&] { return w.set_joint("arm::elbow", 0, 0), 0; });
+  says_so([&] { return w.set_joint(joint, 0, 0), 0; });
+  says_so([&] { return w.pose(link); });
+  says_so([&] { return w.velocity(link); });
+  says_so([&] { return w.displace_model("ball", 0, {}), 0; });
+  says_so([&] { return w.make_initial(), 0; });
+  says_so([&] { return w.energy(); });
+  says_so([&] { return w.ledger(); });
+  says_so([&] { return w.contact_count(); });
+  says_so([&] { return w.contacts(contacts), 0; });
+  says_so([&] { return w.pull({}), 0; });
+  says_so([&] { return w.pulls().size(); });
+  says_so([&] { return w.apply_wrench(link, {}), 0; });
+  says_so([&] { return w.apply_torque(joint, 0), 0; });
+  says_so([&] { return w.dof_count(); });
+  says_so([&] { return w.free_dof(link); });
+  says_so([&] { return w.mass_matrix(numbers), 0; });
+  says_so([&] { return w.bias_torques(numbers), 0; });
+  says_so([&] { return w.gravity_torques(numbers), 0; });
+  says_so([&] { return w.jacobian(link, {}, numbers), 0; });
+  says_so([&] { return w.snapshot(); });
+  says_so([&] { return w.restore(*snapshot), 0; });
+  says_so([&] { return w.reset(), 0; });
+  says_so([&] { return w.warnings().size(); });
+  w = std::move(taken);
+  EXPECT_EQ(w.time_ns(), 0) << "and works again once it is given a world";
+}
+
+GaitParams wave() {
+  GaitParams params;
+  params.frequency_rad_per_s = 3;
+  params.groups.push_back({"g", {"shoulder"}, {1}, 0.2, 0.0, 1.0, 0.0, 0.2});
+  return params;
+}
+
+TEST(Hostile, GaitsThatCannotBePlayedAreRefused) {
+  const auto refused = [](auto&& spoil) {
+    GaitParams params = wave();
+    spoil(params);
+    EXPECT_THROW(Gait{params}, InputError);
+  };
+  refused([](GaitParams& p) { p.period_ns = 0; });
+  refused([](GaitParams& p) { p.period_ns = -5; });
+  refused([](GaitParams& p) { p.frequency_rad_per_s = kNan; });
+  refused([](GaitParams& p) { p.ramp_s = kInfinity; });
+  refused([](GaitParams& p) { p.groups[0].n.clear(); });
+  refused([](GaitParams& p) { p.groups[0].lambda = 0; });
+  refused([](GaitParams& p) { p.groups[0].amplitude_rad = kNan; });
+  refused([](GaitParams& p) { p.frequency_rad_per_s = 0, p.steering.emplace(); });
+  EXPECT_THROW((void)Gait::load(""), InputError);
+  Gait gait(wave());
+  EXPECT_THROW((void)gait.equilibrium(gait.params().groups[0], 1, 0), InputError);
+  EXPECT_THROW(gait.change({}, 0), InputError);
+  EXPECT_THROW(gait.change({3, {{kNan, 0, 1, 0, 0}}}, 0), InputError);
+  gait.change(gait.values(), kNan);
+  GaitGroup stranger = wave().groups[0];
+  stranger.name = "stranger";
+  static_cast<void>(gait.equilibrium(stranger, 0, 0.1));
+  EXPECT_FALSE(gait.leave("nobody", {true, true}));
+  World other = World::load_string(world(ground()));
+  EXPECT_THROW(gait.bind(other), InputError);
+  EXPECT_THROW(gait.apply(other), InputError);
+  World taken = std::move(other);
+  EXPECT_THROW(gait.apply(other), std::logic_error);
+}
+
+TEST(Hostile, MotionsWithoutKeysOrTimeGiveNoNumberOrTheLast) {
+  EXPECT_FALSE(motion_value({}, true, 0));
+  EXPECT_FALSE(motion_value({}, false, kNan));
+  EXPECT_EQ(motion_value({{0, 1}, {1, 2}}, true, kInfinity), 2);
+  EXPECT_EQ(motion_value({{0, 1}, {0, 2}}, true, 0), 2);
+  MotionParams motion;
+  motion.loop_from_s = 0;
+  static_cast<void>(motion_time(motion, 5));
+  SteeringState state;
+  for (int i = 0; i < 3; ++i) steer({}, state, {kNan, kNan}, 0, kNan, true);
+}
+
+}  // namespace
+}  // namespace vsa::engine::testing

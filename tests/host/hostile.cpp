@@ -1,0 +1,225 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Every public function of vsa::host with wrong sizes, numbers that are none, other robots' objects and robots that were moved
+// from: an error in words or a line and an abort, and nothing else. Worth most under the sanitizers (preset asan).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "host/free_flanges.hpp"
+#include "host/topics_fixture.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/host/topics.hpp"
+#include "vsa/host/tree_inertia.hpp"
+
+namespace {
+
+using vsa::InputError;
+using vsa::host::JointIn;
+using vsa::host::Robot;
+using vsa::test::chain;
+using Bench = vsa::test::Flanges;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
+
+TEST(HostileRobot, AWrongStepEndsTheProgramInWords) {
+  Bench bench(chain(2));
+  std::vector<JointIn> in(2), short_in(1), long_in(3);
+  std::vector<double> out(2), short_out(1);
+  EXPECT_DEATH(bench.robot.advance(0, 1'000'000, short_in, out), "Robot::advance: in and torques_out need one entry an actuator");
+  EXPECT_DEATH(bench.robot.advance(0, 1'000'000, long_in, out), "one entry an actuator");
+  EXPECT_DEATH(bench.robot.advance(0, 1'000'000, in, short_out), "one entry an actuator");
+  EXPECT_DEATH(bench.robot.advance(0, 1'000'000, {}, {}), "one entry an actuator");
+  for (const std::int64_t dt : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{16'000'001}, std::int64_t{40'000'000}})
+    EXPECT_DEATH(bench.robot.advance(0, dt, in, out), "a step has 1 ns … 16 ms");
+  EXPECT_DEATH(bench.robot.advance(-1, 1'000'000, in, out), "t is outside");
+  EXPECT_DEATH(bench.robot.advance(std::numeric_limits<std::int64_t>::max(), 1'000'000, in, out), "t is outside");
+  const Robot taken = std::move(bench.robot);
+  EXPECT_DEATH(bench.robot.advance(0, 1'000'000, in, out), "moved from");
+}
+
+TEST(HostileRobot, TheLongestAndTheShortestStepWork) {
+  for (const std::int64_t dt : {std::int64_t{1}, std::int64_t{16'000'000}}) {
+    Bench bench(chain(2), dt);
+    bench.t_ns = 999'999;
+    bench.run(3);
+    EXPECT_TRUE(std::isfinite(bench.out[0]));
+  }
+}
+
+TEST(HostileRobot, AJointThatIsNoNumberGivesNoneAndChangesNothing) {
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    for (int field = 0; field < 3; ++field) {
+      Bench bench(chain(2));
+      bench.run(5);
+      const auto before = bench.robot.read(0);
+      std::vector<JointIn> in = bench.in;
+      (field == 0 ? in[1].angle_rad : field == 1 ? in[1].speed_rad_per_s : in[1].inverse_inertia.emplace()) = bad;
+      bench.robot.advance(bench.t_ns, bench.dt_ns, in, bench.out);
+      EXPECT_TRUE(std::isnan(bench.out[0]) && std::isnan(bench.out[1]));
+      EXPECT_EQ(bench.robot.read(0).motor_rad, before.motor_rad);
+      Bench untouched(chain(2));
+      untouched.run(5);
+      bench.run(10);
+      untouched.run(10);
+      EXPECT_EQ(bench.in[1].angle_rad, untouched.in[1].angle_rad);
+    }
+  }
+}
+
+TEST(HostileRobot, HugeNumbersEndInNumbersOrNone) {
+  for (const double huge : {1e6, 1e20, 1e300}) {
+    Bench bench(chain(1));
+    std::vector<JointIn> in{{huge, -huge, 1e3}};
+    std::vector<double> out(1);
+    for (int n = 0; n < 3; ++n) bench.robot.advance(n * 1'000'000, 1'000'000, in, out);
+    static_cast<void>(bench.robot.read(0));
+    EXPECT_TRUE(bench.robot.command(0, huge, huge));
+    EXPECT_TRUE(bench.robot.follow(0, Robot::Channel::equilibrium, {{0.5, huge}}));
+    bench.robot.advance(3'000'000, 1'000'000, in, out);
+    static_cast<void>(bench.robot.take_notices());
+  }
+}
+
+TEST(HostileRobot, AnActuatorThatIsNotThereIsAnError) {
+  Bench bench(chain(2));
+  Robot& r = bench.robot;
+  for (const std::size_t i : {std::size_t{2}, std::size_t{9}, kNowhere}) {
+    EXPECT_THROW((void)r.read(i), InputError);
+    EXPECT_THROW((void)r.received_inputs(i), InputError);
+    EXPECT_THROW((void)r.ledger(i), InputError);
+    EXPECT_THROW((void)r.faults(i), InputError);
+    EXPECT_THROW(r.set_faults(i, {}), InputError);
+    EXPECT_THROW(r.place(i, {}), InputError);
+    EXPECT_THROW(r.set_parameters(i, vsa::test::maker_pro()), InputError);
+    EXPECT_FALSE(r.command(i, 0.1, 0.1));
+    EXPECT_FALSE(r.follow(i, Robot::Channel::preset, {{0.0, 0.1}}));
+    EXPECT_EQ(r.serial_line(i), nullptr);
+  }
+  EXPECT_FALSE(r.find("nobody"));
+  EXPECT_FALSE(r.find({}));
+}
+
+TEST(HostileRobot, NumbersThatAreNoneAreRefused) {
+  Bench bench(chain(1));
+  Robot& r = bench.robot;
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    EXPECT_FALSE(r.command(0, bad, std::nullopt));
+    EXPECT_FALSE(r.command(0, std::nullopt, bad));
+    EXPECT_FALSE(r.follow(0, Robot::Channel::preset, {{0.0, bad}}));
+    EXPECT_FALSE(r.follow(0, Robot::Channel::preset, {{bad, 0.0}}));
+    vsa::device::Faults faults;
+    faults.lost_byte = bad;
+    EXPECT_THROW(r.set_faults(0, faults), InputError);
+    faults = {};
+    faults.encoder[2].noise_rad = bad;
+    EXPECT_THROW(r.set_faults(0, faults), InputError);
+    faults = {};
+    faults.supply_V = bad;
+    EXPECT_THROW(r.set_faults(0, faults), InputError);
+  }
+  EXPECT_FALSE(r.follow(0, Robot::Channel::preset, {}));
+  EXPECT_FALSE(r.follow(0, Robot::Channel::preset, {{-1.0, 0.0}}));
+  EXPECT_FALSE(r.follow(0, Robot::Channel::preset, {{1e10, 0.0}}));
+  EXPECT_TRUE(r.command(std::span<const Robot::Command>{}));
+  bench.step();
+  EXPECT_EQ(r.read(0).equilibrium_command_rad, 0.0);
+}
+
+TEST(HostileRobot, AConfigThatNoRobotCouldHaveIsRefused) {
+  const auto refused = [](auto&& spoil) {
+    auto config = chain(2);
+    spoil(config);
+    EXPECT_THROW(Robot{config}, InputError);
+  };
+  refused([](auto& c) { c.actuators[0].bus = 7; });
+  refused([](auto& c) { c.actuators[0].id = 0; });
+  refused([](auto& c) { c.actuators[0].id = 255; });
+  refused([](auto& c) { c.actuators[1].initial_equilibrium_rad = kNan; });
+  refused([](auto& c) { c.actuators[1].initial_preset = kInfinity; });
+  refused([](auto& c) { c.buses[0].baud_Hz = kNan; });
+  refused([](auto& c) { c.buses[0].baud_Hz = 0; });
+  refused([](auto& c) { c.buses[0].cycle_s = -1; });
+  refused([](auto& c) { c.buses[0].cycle_s = kNan; });
+  refused([](auto& c) { c.state_rate_Hz = kNan; });
+  refused([](auto& c) { c.state_rate_Hz = 0; });
+  refused([](auto& c) { c.buses.clear(); });
+  Robot none{{}};
+  none.advance(0, 1'000'000, {}, {});
+  none.reset();
+}
+
+TEST(HostileRobot, OneThatWasMovedFromSaysSo) {
+  Bench bench(chain(1));
+  const auto snapshot = bench.robot.snapshot();
+  Robot taken = std::move(bench.robot);
+  Robot& r = bench.robot;
+  EXPECT_THROW((void)r.config(), std::logic_error);
+  EXPECT_THROW((void)r.size(), std::logic_error);
+  EXPECT_THROW((void)r.find("a1"), std::logic_error);
+  EXPECT_THROW((void)r.command(0, 0.1, 0.1), std::logic_error);
+  EXPECT_THROW((void)r.command(std::span<const Robot::Command>{}), std::logic_error);
+  EXPECT_THROW((void)r.follow(0, Robot::Channel::preset, {{0.0, 0.1}}), std::logic_error);
+  EXPECT_THROW((void)r.read(0), std::logic_error);
+  EXPECT_THROW((void)r.received_inputs(0), std::logic_error);
+  EXPECT_THROW((void)r.ledger(0), std::logic_error);
+  EXPECT_THROW((void)r.ledger(), std::logic_error);
+  EXPECT_THROW((void)r.take_notices(), std::logic_error);
+  EXPECT_THROW(r.set_supply(true), std::logic_error);
+  EXPECT_THROW(r.set_faults(0, {}), std::logic_error);
+  EXPECT_THROW((void)r.faults(0), std::logic_error);
+  EXPECT_THROW((void)r.serial_line(0), std::logic_error);
+  EXPECT_THROW(r.place(0, {}), std::logic_error);
+  EXPECT_THROW(r.set_parameters(0, vsa::test::maker_pro()), std::logic_error);
+  EXPECT_THROW((void)r.clone(), std::logic_error);
+  EXPECT_THROW((void)r.snapshot(), std::logic_error);
+  EXPECT_THROW(r.restore(*snapshot), std::logic_error);
+  EXPECT_THROW(r.check(*snapshot), std::logic_error);
+  EXPECT_THROW(r.reset(), std::logic_error);
+  r = std::move(taken);
+  EXPECT_EQ(r.size(), 1U) << "and works again once it is given a robot";
+}
+
+TEST(HostileTopics, NamesAndObjectsThatWereMovedFrom) {
+  EXPECT_THROW((void)vsa::host::topic_scope("", "model"), InputError);
+  EXPECT_THROW((void)vsa::host::topic_scope("a::", "model"), InputError);
+  EXPECT_THROW((void)vsa::host::topic_scope("a b", "model"), InputError);
+  EXPECT_THROW((void)vsa::host::model_topic("", ""), InputError);
+  EXPECT_THROW((void)vsa::host::joint_topic("m", "::", ""), InputError);
+  Robot robot(chain(1));
+  vsa::test::FakePort port;
+  EXPECT_THROW(vsa::host::RobotTopics(robot, "bad name", port, nullptr), InputError);
+  vsa::host::RobotTopics topics(robot, "m", port, nullptr);
+  topics.update(std::numeric_limits<std::int64_t>::min());
+  topics.publish(std::numeric_limits<std::int64_t>::max());
+  vsa::host::RobotTopics taken = std::move(topics);
+  EXPECT_THROW(topics.update(0), std::logic_error);
+  EXPECT_THROW(topics.publish(0), std::logic_error);
+  EXPECT_THROW((void)topics.refused(), std::logic_error);
+}
+
+TEST(HostileTree, WrongSizesAndParentsEndTheProgramInWords) {
+  using vsa::host::TreeBody;
+  vsa::host::TreeInertia tree(2);
+  std::vector<TreeBody> bodies(2);
+  std::vector<double> inverse(2), short_inverse(1);
+  EXPECT_DEATH(tree.update({bodies[0]}, inverse), "as many entries");
+  EXPECT_DEATH(tree.update(bodies, short_inverse), "as many entries");
+  bodies[0].parent = 1;
+  EXPECT_DEATH(tree.update(bodies, inverse), "before its children");
+  bodies[0].parent = TreeBody::kGround;
+  bodies[1].parent = 0;
+  bodies[1].joint = TreeBody::Joint::revolute;
+  bodies[1].axis = {kNan, 0, 0};
+  tree.update(bodies, inverse);
+  EXPECT_TRUE(std::isnan(inverse[1])) << "without mass";
+  vsa::host::TreeInertia none(0);
+  std::vector<double> nothing;
+  none.update({}, nothing);
+}
+
+}  // namespace
