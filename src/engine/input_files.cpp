@@ -23,9 +23,10 @@ std::string key_of(const fs::path& file) {
 fs::path make_directory() {
   std::error_code error;
   const fs::path base = fs::temp_directory_path(error);
-  std::string name = ((error ? fs::path("/tmp") : base) / "vsasim-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw InputError(Problem{name, "", "", std::string("can't be made: ") + std::strerror(errno), "a writable TMPDIR"});
+  std::string name = (base / "vsasim-XXXXXX").string();
+  if (error || mkdtemp(name.data()) == nullptr)
+    throw InputError(Problem{name, "", "", std::string("can't be made: ") + (error ? error.message() : std::strerror(errno)),
+                             "a writable TMPDIR"});
   return name;
 }
 

@@ -115,11 +115,6 @@ Urdf mend_urdf(XMLElement& robot, const std::string& file, std::size_t id, Notes
   join_robot_elements(robot, id);
   mend_gazebo_elements(robot, urdf, notes, problems);
   mend_massless_links(robot, urdf, notes, problems);
-  if (robot.FirstChildElement("origin") == nullptr) {
-    XMLElement* origin = robot.InsertNewChildElement("origin");
-    origin->SetAttribute("xyz", "0 0 0");
-    origin->SetAttribute("rpy", "0 0 0");
-  }
   return urdf;
 }
 

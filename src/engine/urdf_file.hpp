@@ -3,7 +3,7 @@
 // URDF before and after libsdformat 12 turns it into SDF, which by itself, and without a word to the user,
 //   leaves out a link of no mass (none given, or up to 1e-6 kg) and everything that hangs on it, by whatever joints;
 //   drops <mimic>;
-//   keeps the <origin> of one <robot> for the next one read in the same process.
+//   lets a second <gazebo> for the whole robot undo the <static> of the first.
 // So the text is mended first, and the result compared with what the file says: a link may be missing only where a chain of fixed
 // joints lumps it into one that is there.
 #pragma once

@@ -2,9 +2,11 @@
 //
 // Putting an actuator somewhere, giving it other parameters, copying a robot, and whose snapshots it takes.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "host/robot_impl.hpp"
+#include "vsa/elastic/inverse.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::host {
@@ -25,6 +27,13 @@ void check_kind(const std::string& name, const UnitConfig& from, const UnitConfi
   same("number of motors", number(from.actuator.transmission->motor_count()), number(to.actuator.transmission->motor_count()));
 }
 
+/// With which the springs leave a shaft at q alone: q itself, but where the two are unequal.
+double balance(const elastic::Transmission& law, double q, double preset) noexcept {
+  constexpr double kNothing_Nm = 1e-6;
+  if (!(std::abs(law.evaluate({q, law.references({q, preset})}).torque) > kNothing_Nm)) return q;
+  return elastic::equilibrium_for(law, q, 0.0, preset).value_or(q);
+}
+
 }  // namespace
 
 Robot Robot::clone() const {
@@ -40,10 +49,11 @@ void Robot::place(std::size_t actuator, const Placement& at, double step_s) {
   ActuatorSlot& slot = d.state.actuators[actuator];
   const std::string name = d.config.actuators[actuator].name;
   Problems problems;
-  const double equilibrium = at.equilibrium_rad.value_or(at.angle_rad);
+  const device::Unit& unit = *d.units[actuator];
+  const double equilibrium =
+      at.equilibrium_rad ? *at.equilibrium_rad : balance(*unit.config().actuator.transmission, at.angle_rad, at.preset);
   if (!(step_s >= 0 && step_s <= 16e-3)) problems.add({"", "step_s", std::to_string(step_s), "is out of range", "0 … 0.016"});
   const device::UnitPlace there{at.angle_rad, at.speed_rad_per_s, equilibrium, at.preset, step_s / 2};
-  const device::Unit& unit = *d.units[actuator];
   unit.check_place(slot.unit, there, name + ": ", problems);
   problems.throw_if_any();
   d.queue.drop([&](const Order& o) { return o.actuator == actuator; });

@@ -105,7 +105,7 @@ struct Placement {
   double angle_rad = 0;                                  ///< of the shaft, q
   double preset = 0;                                     ///< in the law's preset unit
   double speed_rad_per_s = 0;                            ///< of the shaft, q̇; the pulleys go with it
-  std::optional<double> equilibrium_rad = std::nullopt;  ///< none: the angle, so that the springs give no torque
+  std::optional<double> equilibrium_rad = std::nullopt;  ///< none: where the springs give no torque (the angle, if they are equal)
 };
 
 /// A command that was out of range is clamped as the device does and reported once per actuator.
