@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Several stiff joints in series: each unit predicts its own joint and takes the others' torques from the last step.
+// Several stiff joints in series, kicked hard: the largest preset, links lighter than a qbmove.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,14 +34,14 @@ std::string chain(const std::string& preset, int links, double inertia_kgm2, dou
   return s.str();
 }
 
-/// The largest energy after the first step over the energy after it.
+/// The largest energy there ever was over what the kick put into the springs.
 double growth(const std::string& preset, int links, double inertia_kgm2, double step_s, double kick_rad) {
   World w = World::load_string(chain(preset, links, inertia_kgm2, step_s));
   w.robot(0).set_supply(false);
   for (int i = 1; i <= links; ++i) w.set_joint("m::j" + std::to_string(i), i % 2 ? kick_rad : -kick_rad, 0);
   const auto energy = [&] { return w.energy().kinetic + w.ledger().stored(); };
   w.step();
-  const double first = energy();
+  const double first = w.ledger().stored_at_start;
   double largest = 0;
   while (w.time_s() < 1.0) {
     w.step();
@@ -60,9 +60,13 @@ TEST(SerialChain, OfModulesKickedHardAtTheLargestPresetNeverGainsEnergy) {
   }
 }
 
-TEST(SerialChain, OfBareFlangesIsStableWithinItsStatedLimit) {
+TEST(SerialChain, OfBareFlangesGainsNoMoreThanTheStepsInWhichItFolds) {
+  // 0.02 kg: speeds of 100 rad/s fold the chain within few steps, and with it B.
   for (const char* preset : {"qbmove_maker_pro", "qbmove_maker_pro_paper"}) {
-    for (const int links : {2, 4, 8}) EXPECT_LE(growth(preset, links, 1e-4, 1e-3, 0.2), 1.0) << preset << ' ' << links;
+    for (const int links : {2, 4, 8}) {
+      for (const double step_s : {0.5e-3, 1e-3, 4e-3})
+        EXPECT_LE(growth(preset, links, 1e-4, step_s, 0.2), 1.01) << preset << ' ' << links;
+    }
   }
 }
 

@@ -32,10 +32,9 @@ inline std::string serial_world(const SerialWorld& w) {
     const double mass = last && w.last_mass_kg > 0 ? w.last_mass_kg : w.mass_kg;
     const double inertia = last && w.last_inertia_kgm2 > 0 ? w.last_inertia_kgm2 : w.inertia_kgm2;
     s << "<link name='l" << i << "'><pose>0 0 " << -w.length_m * (i - 1) << " 0 0 0</pose><inertial><pose>0 0 " << -w.length_m / 2
-      << " 0 0 0</pose><mass>" << mass << "</mass><inertia><ixx>" << inertia << "</ixx><iyy>" << inertia << "</iyy><izz>"
-      << inertia << "</izz></inertia></inertial></link><joint name='j" << i << "' type='revolute'><parent>l" << i - 1
-      << "</parent><child>l" << i << "</child><axis><xyz>" << (w.alternating && i % 2 == 0 ? "1 0 0" : "0 1 0")
-      << "</xyz></axis></joint>";
+      << " 0 0 0</pose><mass>" << mass << "</mass><inertia><ixx>" << inertia << "</ixx><iyy>" << inertia << "</iyy><izz>" << inertia
+      << "</izz></inertia></inertial></link><joint name='j" << i << "' type='revolute'><parent>l" << i - 1 << "</parent><child>l"
+      << i << "</child><axis><xyz>" << (w.alternating && i % 2 == 0 ? "1 0 0" : "0 1 0") << "</xyz></axis></joint>";
   }
   s << "<plugin name='vsa::Robot' filename='libvsa-robot.so'>";
   for (int i = 1; i <= w.joints; ++i) {

@@ -206,20 +206,42 @@ TEST(HostileTree, WrongSizesAndParentsEndTheProgramInWords) {
   using vsa::host::TreeBody;
   vsa::host::TreeInertia tree(2);
   std::vector<TreeBody> bodies(2);
-  std::vector<double> inverse(2), short_inverse(1);
-  EXPECT_DEATH(tree.update({bodies[0]}, inverse), "as many entries");
-  EXPECT_DEATH(tree.update(bodies, short_inverse), "as many entries");
+  const std::vector<std::size_t> both{0, 1}, beyond{2};
+  std::vector<double> matrix(4), short_matrix(3);
+  EXPECT_DEATH(tree.update({bodies[0]}), "as many entries");
   bodies[0].parent = 1;
-  EXPECT_DEATH(tree.update(bodies, inverse), "before its children");
+  EXPECT_DEATH(tree.update(bodies), "before its children");
   bodies[0].parent = TreeBody::kGround;
   bodies[1].parent = 0;
   bodies[1].joint = TreeBody::Joint::revolute;
   bodies[1].axis = {kNan, 0, 0};
-  tree.update(bodies, inverse);
-  EXPECT_TRUE(std::isnan(inverse[1])) << "without mass";
+  tree.update(bodies);
+  EXPECT_DEATH(tree.mobility(bodies, both, short_matrix), "their sizes");
+  EXPECT_DEATH(tree.mobility(bodies, beyond, std::span(matrix).first(1)), "no such body");
+  tree.mobility(bodies, both, matrix);
+  EXPECT_TRUE(std::isnan(matrix[3])) << "without mass";
   vsa::host::TreeInertia none(0);
-  std::vector<double> nothing;
-  none.update({}, nothing);
+  none.update({});
+  none.mobility({}, {}, {});
+}
+
+TEST(HostileTree, MatricesThatAreNoneLeaveEachJointByItself) {
+  vsa::host::Robot robot(vsa::test::chain(2));
+  EXPECT_THROW(robot.join({{0, 2}}), InputError);
+  EXPECT_THROW(robot.join({{0}, {1, 0}}), InputError);
+  robot.join({{1, 0}});
+  ASSERT_EQ(robot.mobility_size(), 4u);
+  const std::vector<vsa::host::JointIn> in(2, vsa::host::JointIn{0.1, 0.0, 1e3});
+  std::vector<double> torques(2);
+  EXPECT_DEATH(robot.advance(0, 1'000'000, in, torques, std::vector<double>(3)), "mobility_size");
+  EXPECT_DEATH(robot.observe(std::span(in).first(1)), "one entry an actuator");
+  std::int64_t t = 0;
+  for (const double bad : {kNan, 0.0, -1.0, std::numeric_limits<double>::infinity()}) {
+    robot.advance(t, 1'000'000, in, torques, std::vector<double>{bad, 1, 1, 1e3});
+    robot.advance(t + 1'000'000, 1'000'000, in, torques, std::vector<double>{1e3, 1e6, 1e6, 1e3});  // not positive definite
+    t += 2'000'000;
+    for (const double torque : torques) EXPECT_TRUE(std::isfinite(torque)) << bad;
+  }
 }
 
 }  // namespace
