@@ -23,8 +23,8 @@
 
 namespace vsa::plugins {
 
-/// A model's links as a tree of bodies, for the mobility of its joints, which the components don't have. No tree where the model isn't
-/// one of hinges, sliders and fixed joints.
+/// A model's links as a tree of bodies, for the mobility of its joints, which the components don't have. No tree where the model
+/// isn't one of hinges, sliders and fixed joints.
 class EntityTree {
  public:
   EntityTree(sim::Entity model, const std::vector<sim::Entity>& driven, const sim::EntityComponentManager& ecm);

@@ -15,24 +15,21 @@ constexpr double kReach_rad = 0.25;
 /// ends to slide Newton can go to and fro, so after some rounds less is allowed.
 constexpr double kOvershoot = 0.9, kOvershootLater = 0.3;
 constexpr int kEarly = 8;
+/// The torque that may be left over where no round settles.
+constexpr double kLeft = 1e-3, kLeft_Nm = 1e-4;
 
-/// A = L D Lᵀ in place, lower triangle by rows: L below the diagonal, 1/D on it. False: not positive definite.
-bool factor(std::span<double> a, std::size_t n) noexcept {
+/// A = L D Lᵀ in place, lower triangle by rows: L below the diagonal, 1/D on it. `column` holds n. False: not positive definite.
+bool factor(std::span<double> a, std::size_t n, double* column) noexcept {
   for (std::size_t j = 0; j < n; ++j) {
-    double* const row_j = &a[j * n];
-    double pivot = row_j[j];
-    for (std::size_t k = 0; k < j; ++k) {
-      const double l = row_j[k] * a[k * n + k];  // row_j holds L·D so far
-      pivot -= l * row_j[k];
-      row_j[k] = l;
-    }
+    const double pivot = a[j * n + j], reciprocal = 1.0 / pivot;
     if (!(pivot > 0) || !std::isfinite(pivot)) return false;
-    row_j[j] = 1.0 / pivot;
+    a[j * n + j] = reciprocal;
+    for (std::size_t k = j + 1; k < n; ++k) column[k] = a[k * n + j];
     for (std::size_t i = j + 1; i < n; ++i) {
-      double* const row_i = &a[i * n];
-      double sum = row_i[j];
-      for (std::size_t k = 0; k < j; ++k) sum -= row_i[k] * row_j[k];
-      row_i[j] = sum;
+      double* const row = &a[i * n];
+      const double l = row[j] * reciprocal;
+      row[j] = l;
+      for (std::size_t k = j + 1; k <= i; ++k) row[k] -= l * column[k];
     }
   }
   return true;
@@ -64,7 +61,8 @@ JointSolver::JointSolver(std::size_t joints)
       move_(joints),
       gradient_(joints),
       torque_(joints),
-      slope_(joints) {}
+      slope_(joints),
+      column_(joints) {}
 
 void JointSolver::set(std::span<const double> mobility, std::int64_t dt_ns) noexcept {
   if (dt_ns == dt_ns_ && std::equal(mobility.begin(), mobility.end(), mobility_.begin())) return;
@@ -79,7 +77,7 @@ void JointSolver::factor_mobility() noexcept {
   coupled_ = false;
   if (n_ > 1) {
     std::copy(mobility_.begin(), mobility_.end(), work_.begin());
-    coupled_ = factor(work_, n_);
+    coupled_ = factor(work_, n_, column_.data());
   }
   for (std::size_t j = 0; j < n_; ++j) {
     if (!coupled_) {
@@ -103,16 +101,28 @@ void JointSolver::gradient(std::span<const JointInStep> joints) noexcept {
   }
 }
 
-/// move_ := −(C⁻¹ + S)⁻¹ g
-bool JointSolver::newton() noexcept {
+/// The factor of C⁻¹ + S.
+bool JointSolver::factor_slopes() noexcept {
   std::copy(inertia_.begin(), inertia_.end(), work_.begin());
-  for (std::size_t i = 0; i < n_; ++i) {
-    work_[i * n_ + i] += slope_[i];
-    move_[i] = -gradient_[i];
-  }
-  if (!factor(work_, n_)) return false;
+  for (std::size_t i = 0; i < n_; ++i) work_[i * n_ + i] += slope_[i];
+  return factor(work_, n_, column_.data());
+}
+
+/// move_ := −(C⁻¹ + S)⁻¹ g
+void JointSolver::newton() noexcept {
+  for (std::size_t i = 0; i < n_; ++i) move_[i] = -gradient_[i];
   substitute(work_, n_, move_);
-  return true;
+}
+
+/// Whether every unit takes move_ for the last one; the torques that it leads to.
+bool JointSolver::near(std::span<const JointInStep> joints, std::span<double> torques) const noexcept {
+  bool all = true;
+  for (std::size_t i = 0; i < n_; ++i) {
+    const ShaftTorque t = joints[i].unit->carried(*joints[i].state, *joints[i].plan, move_[i]);
+    torques[i] = t.torque;
+    all = all && t.settled;
+  }
+  return all;
 }
 
 double JointSolver::along() const noexcept {
@@ -124,7 +134,8 @@ double JointSolver::along() const noexcept {
 /// dy_ := a linear step from where the joints would go without new torques, with what torque_ and slope_ tell of there.
 void JointSolver::guess(std::span<const JointInStep> joints) noexcept {
   gradient(joints);
-  if (!newton()) return;
+  if (!factor_slopes()) return;
+  newton();
   for (std::size_t i = 0; i < n_; ++i) dy_[i] = std::clamp(dy_[i] + move_[i], -kReach_rad, kReach_rad);
 }
 
@@ -140,34 +151,42 @@ void JointSolver::predict(std::span<const JointInStep> joints) noexcept {
   for (std::size_t i = 0; i < n_; ++i) joints[i].plan->dy = dy_[i];
 }
 
-bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
-  const bool prescribed = n_ == 1 && inertia_[0] == 0;
+/// The only joint of its tree, and moved by somebody else.
+void JointSolver::follow(const JointInStep& j, double& torque) noexcept {
+  j.unit->begin_trials(*j.state, *j.plan);
+  torque = j.unit->attempt(*j.state, *j.plan, j.plan->free, false).torque;
+  j.unit->finish(*j.state, *j.plan, 0.0, torque);
+}
+
+void JointSolver::attempt(std::span<const JointInStep> joints, bool rough) noexcept {
   for (std::size_t i = 0; i < n_; ++i) {
-    const JointInStep& j = joints[i];
-    dy_[i] = prescribed ? j.plan->free : std::clamp(j.plan->free, -kReach_rad, kReach_rad);
-    j.unit->begin_trials(*j.state, *j.plan);
-    const ShaftTorque t = j.unit->foresee(*j.state, *j.plan, dy_[i]);
+    const ShaftTorque t = joints[i].unit->attempt(*joints[i].state, *joints[i].plan, dy_[i], rough);
     torque_[i] = t.torque;
     slope_[i] = t.slope;
   }
-  if (!prescribed) guess(joints);
-  double descent = 0;  // along move_, where it began; 0: nowhere yet
-  double part = 1;     // of move_ that led to dy_
-  bool settled = false;
-  for (int iteration = 0; iteration < kMaxIterations && !settled; ++iteration) {
-    for (std::size_t i = 0; i < n_; ++i) {
-      const JointInStep& j = joints[i];
-      const ShaftTorque t = j.unit->attempt(*j.state, *j.plan, dy_[i], iteration == 0 && !prescribed);
-      torque_[i] = t.torque;
-      slope_[i] = t.slope;
-    }
-    if (prescribed) {
-      move_[0] = 0;
-      settled = true;
-      break;
-    }
-    gradient(joints);
-    const double now = descent < 0 ? along() : 0.0;
+  gradient(joints);
+}
+
+/// Newton's way from the last attempt; how long it may be. Returns where the slope along it begins.
+double JointSolver::set_out(double& part) noexcept {
+  double farthest = 0;
+  for (std::size_t i = 0; i < n_; ++i) farthest = std::max(farthest, std::abs(move_[i]));
+  part = farthest > kReach_rad ? kReach_rad / farthest : 1.0;
+  for (std::size_t i = 0; i < n_; ++i) dy_[i] += part * move_[i];
+  return along();
+}
+
+bool JointSolver::search(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
+  // The guess is mostly good: what is left is linear, and the slopes foreseen serve once more.
+  attempt(joints, true);
+  newton();
+  if (near(joints, torques)) return true;
+  if (!factor_slopes()) return false;
+  newton();
+  double part = 1, descent = set_out(part);  // of move_; the slope along it where it began
+  for (int iteration = 1; iteration < kMaxIterations; ++iteration) {
+    attempt(joints, false);
+    const double now = along();
     if (!(now <= -(iteration < kEarly ? kOvershoot : kOvershootLater) * descent)) {
       const double shorter = part * std::clamp(descent / (descent - now), 0.1, 0.9);
       const double back = std::isfinite(shorter) ? shorter - part : -0.75 * part;
@@ -175,23 +194,38 @@ bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> t
       part += back;
       continue;
     }
-    if (!newton()) break;
-    settled = true;
-    for (std::size_t i = 0; i < n_; ++i) settled = settled && joints[i].unit->carried(*joints[i].state, *joints[i].plan, move_[i]).settled;
-    if (settled) break;
-    descent = along();
-    part = 1;
-    double farthest = 0;
-    for (std::size_t i = 0; i < n_; ++i) farthest = std::max(farthest, std::abs(move_[i]));
-    if (farthest > kReach_rad) part = kReach_rad / farthest;
-    for (std::size_t i = 0; i < n_; ++i) dy_[i] += part * move_[i];
+    if (!factor_slopes()) return false;
+    newton();
+    if (near(joints, torques)) return true;
+    descent = set_out(part);
+  }
+  return false;
+}
+
+bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
+  if (n_ == 1 && inertia_[0] == 0) {
+    follow(joints[0], torques[0]);
+    return true;
   }
   for (std::size_t i = 0; i < n_; ++i) {
     const JointInStep& j = joints[i];
-    const double move = settled ? move_[i] : 0.0;
-    torques[i] = j.unit->carried(*j.state, *j.plan, move).torque;
-    j.unit->finish(*j.state, *j.plan, move, torques[i]);
+    dy_[i] = std::clamp(j.plan->free, -kReach_rad, kReach_rad);
+    j.unit->begin_trials(*j.state, *j.plan);
+    const ShaftTorque t = j.unit->foresee(*j.state, *j.plan, dy_[i]);
+    torque_[i] = t.torque;
+    slope_[i] = t.slope;
   }
+  guess(joints);
+  bool settled = search(joints, torques);
+  if (!settled) {
+    // Where a friction's edge keeps Newton going to and fro, what is left may be little all the same.
+    std::fill(move_.begin(), move_.end(), 0.0);
+    attempt(joints, false);
+    near(joints, torques);
+    settled = true;
+    for (std::size_t i = 0; i < n_; ++i) settled = settled && std::abs(gradient_[i]) <= kLeft * std::abs(torque_[i]) + kLeft_Nm;
+  }
+  for (std::size_t i = 0; i < n_; ++i) joints[i].unit->finish(*joints[i].state, *joints[i].plan, move_[i], torques[i]);
   return settled;
 }
 

@@ -87,7 +87,7 @@ double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const Sha
   begin_step(s, plan, t_ns, dt_ns, in);
   const JointInStep joint{this, &s, &plan};
   alone_.set({&in.inverse_inertia, 1}, dt_ns);
-  alone_.predict({&joint, 1});
+  if (first_tick_ns(t_ns + 1) < t_ns + dt_ns) alone_.predict({&joint, 1});
   for (std::int64_t at = first_tick_ns(t_ns); at < t_ns + dt_ns; at += kTickNs) {
     const firmware::TickInputs sensors = sample(s, plan, at);
     out_.clear();
@@ -139,7 +139,7 @@ ShaftTorque Unit::foresee(const UnitState& s, StepPlan& plan, double dy) const n
 }
 
 ShaftTorque Unit::attempt(UnitState& s, StepPlan& plan, double dy, bool rough) noexcept {
-  const drive::FrictionTorque rub = shaft_rub(s, plan, dy);
+  const drive::FrictionTorque rub = plan.rub = shaft_rub(s, plan, dy);
   plan.dy = dy;
   std::int64_t now = 0, h = segment_ns(plan, 0);
   if (h == plan.dt_ns) {
@@ -167,12 +167,13 @@ ShaftTorque Unit::attempt(UnitState& s, StepPlan& plan, double dy, bool rough) n
 }
 
 ShaftTorque Unit::carried(const UnitState& s, const StepPlan& plan, double move) const noexcept {
-  const drive::FrictionTorque before = shaft_rub(s, plan, plan.dy), after = shaft_rub(s, plan, plan.dy + move);
+  const drive::FrictionTorque &before = plan.rub, after = shaft_rub(s, plan, plan.dy + move);
   const double c = 0.5 * seconds(plan.dt_ns) * seconds(plan.dt_ns) * plan.in.inverse_inertia;
   const double change = plan.path.slope * move, yield = std::max(kLeastYield, 1.0 / (1.0 + c * std::max(plan.path.slope, 0.0)));
   const double slack = kRelativeTolerance * std::abs(plan.path.torque) + kAbsoluteTolerance_Nm;
   // The linear correction leaves an error of second order; the stiffer the step (c·slope), the more of it reaches the shaft.
-  const bool near = std::abs(change) <= yield * yield * slack && std::abs(after.torque - before.torque + before.slope * move) <= slack;
+  const bool near =
+      std::abs(change) <= yield * yield * slack && std::abs(after.torque - before.torque + before.slope * move) <= slack;
   return {plan.path.torque - change + after.torque, std::max(plan.path.slope, 0.0) + after.slope, near && plan.path.settled};
 }
 

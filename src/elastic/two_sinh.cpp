@@ -180,7 +180,8 @@ SegmentMean TwoSinh::mean_from(const Origin& from, const Positions& to, double a
   SegmentMean mean;
   for (std::size_t i = 0; i < 2; ++i) {
     const double begin = from.at.q - from.at.x[i], end = to.q - to.x[i];
-    const bool close = near(i, begin, end - begin) && (ahead == 0.0 || (near(i, begin, ahead) && near(i, begin, end - begin + ahead)));
+    const bool close =
+        near(i, begin, end - begin) && (ahead == 0.0 || (near(i, begin, ahead) && near(i, begin, end - begin + ahead)));
     add(i, close ? mean_near(i, from, begin, end - begin, ahead) : this->mean(i, begin + ahead, end + ahead), mean);
   }
   return mean;

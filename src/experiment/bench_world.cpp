@@ -115,6 +115,7 @@ BenchSample Bench::sample(double time_s) const {
   s.shaft_rad = r.shaft_rad;
   s.shaft_speed_rad_per_s = r.shaft_speed_rad_per_s;
   s.torque_Nm = r.torque_Nm;
+  s.mean_torque_Nm = r.mean_torque_Nm;
   s.stiffness_Nm_per_rad = r.stiffness_Nm_per_rad;
   s.measured_shaft_rad = angle_of(r.measured[2], resolution[2]);
   const std::array<double, 2> pulleys{angle_of(r.measured[0], resolution[0]), angle_of(r.measured[1], resolution[1])};

@@ -104,8 +104,7 @@ void Cluster::begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span
   for (std::size_t i = 0; i < n; ++i) {
     const JointIn& joint = in[tree.actuators[i]];
     const device::JointInStep& j = tree.joints[i];
-    j.unit->begin_step(*j.state, *j.plan, t_ns, dt_ns,
-                       {joint.angle_rad, joint.speed_rad_per_s, matrix[i * n + i], joint.placed});
+    j.unit->begin_step(*j.state, *j.plan, t_ns, dt_ns, {joint.angle_rad, joint.speed_rad_per_s, matrix[i * n + i], joint.placed});
   }
 }
 

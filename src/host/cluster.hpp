@@ -51,7 +51,7 @@ class Cluster {
 /// What they are made of. Every actuator gets a tree, if not by `trees` one of its own; every bus is in one cluster.
 struct ClusterParts {
   std::vector<BusLine*> buses;
-  std::vector<std::size_t> bus_of;  ///< of an actuator
+  std::vector<std::size_t> bus_of;          ///< of an actuator
   std::vector<device::JointInStep> joints;  ///< by actuator; their plans come with Cluster::use
   std::vector<std::vector<std::size_t>> trees;
 };

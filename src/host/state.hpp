@@ -57,7 +57,7 @@ struct ActuatorSlot {
 };
 
 struct RobotState {
-  std::int64_t time_ns = 0;   ///< where the next step is expected
+  std::int64_t time_ns = 0;  ///< where the next step is expected
   std::int64_t steps = 0;
   std::size_t unsettled = 0;  ///< steps of joints whose solution didn't settle
   bool noted_unsettled = false, noted_energy = false;

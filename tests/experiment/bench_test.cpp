@@ -41,11 +41,12 @@ TEST(Bench, TheShaftObeysNewtonUnderTheActuatorAndTheWeight) {
   double largest_impulse = 0;
   for (std::size_t i = 0; i + kWindow < run.samples.size(); i += kWindow) {
     double impulse = 0;
-    // A reading has the angle and speed of its step's start, and the torque over the step.
+    // A reading is of its step's end, its mean torque of the way there; the engine takes the weight at the step's start.
     for (std::size_t k = i; k < i + kWindow; ++k) {
       const BenchSample& s = run.samples[k];
-      impulse += 1e-3 * (s.torque_Nm - kLoad_Nm * std::sin(s.shaft_rad));
-      largest_impulse = std::max(largest_impulse, 1e-3 * std::abs(s.torque_Nm) * kWindow);
+      const double torque = run.samples[k + 1].mean_torque_Nm;
+      impulse += 1e-3 * (torque - kLoad_Nm * std::sin(s.shaft_rad));
+      largest_impulse = std::max(largest_impulse, 1e-3 * std::abs(torque) * kWindow);
       EXPECT_NEAR(s.measured_load_Nm, -kLoad_Nm * std::sin(s.measured_shaft_rad), 1e-6);
     }
     const double change = run.samples[i + kWindow].shaft_speed_rad_per_s - run.samples[i].shaft_speed_rad_per_s;

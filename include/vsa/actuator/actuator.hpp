@@ -118,7 +118,7 @@ class Segment {
   std::array<double, 2> gain{};  // ∂dx/∂dq
   std::array<drive::FrictionStep, 2> friction{};
   elastic::SegmentMean mean;
-  Rub rub;                       // of the tendons: their part of mean.slope, and what they give for the step's Δy
+  Rub rub;  // of the tendons: their part of mean.slope, and what they give for the step's Δy
   double slope = 0;
 
   /// w·(q' − middle of the path): by how much the springs look ahead.

@@ -1,11 +1,13 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Where the energy of one actuator went. Every entry has a formula of its own, none is a remainder, so that the balance
+// Where the energy of one actuator went:
 //
 //   supply = copper + conversion + viscous + motor_friction + shaft_friction + tendon_friction
 //            + (stored − stored at the start) + delivered + pending + integrator + coupling
 //
-// is a test. Units: J, summed since the start or the last reset.
+// `integrator` and `coupling` close the balance of a part (springs over a segment; shaft between unit and host), so the whole
+// closes by construction and tests the motors and frictions, which have formulas of their own. What tests springs and coupling is
+// that those two stay small: a negative sum of `coupling` is energy out of nothing. Units: J, since the start or the last reset.
 #pragma once
 
 namespace vsa::actuator {
@@ -19,7 +21,7 @@ struct Ledger {
   double shaft_friction = 0;   ///< heat of the output shaft's friction
   double tendon_friction = 0;  ///< heat of the springs' tension-proportional friction
   double delivered = 0;        ///< ∫τ dq given to the robot, in the host's own (midpoint) terms
-  double integrator = 0;       ///< −(ΔH + Σ load̄ Δx + τ̄ Δq): what the segment means miss
+  double integrator = 0;       ///< −(ΔH + Σ load̄ Δx + τ̄ Δq): what the means miss, and what looking ahead takes away
   double pending = 0;   ///< work of the step under way along the predicted path; the next step turns it into delivered + coupling
   double coupling = 0;  ///< what the shaft's mispredicted path costs: see Actuator::settle
   double kinetic = 0;   ///< now: Σ ½Jω² of the motors

@@ -42,8 +42,8 @@ class JointSolver {
 
   /// A first Δy for every plan, from what the last steps left: for ticks inside a step.
   void predict(std::span<const JointInStep> joints) noexcept;
-  /// Solves, ends every unit's step, writes the torques. False: not settled after kMaxIterations; the torques are those of the last
-  /// attempt.
+  /// Solves, ends every unit's step, writes the torques. False: after kMaxIterations more than a thousandth of a torque (and more
+  /// than 1e-4 N·m) is left over; the torques are those of the last attempt.
   bool solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
 
   static constexpr int kMaxIterations = 80;
@@ -51,7 +51,13 @@ class JointSolver {
  private:
   void factor_mobility() noexcept;
   void gradient(std::span<const JointInStep> joints) noexcept;
-  bool newton() noexcept;
+  bool factor_slopes() noexcept;
+  void newton() noexcept;
+  bool near(std::span<const JointInStep> joints, std::span<double> torques) const noexcept;
+  void attempt(std::span<const JointInStep> joints, bool rough) noexcept;
+  double set_out(double& part) noexcept;
+  bool search(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
+  static void follow(const JointInStep& joint, double& torque) noexcept;
   void guess(std::span<const JointInStep> joints) noexcept;
   [[nodiscard]] double along() const noexcept;
 
@@ -61,7 +67,7 @@ class JointSolver {
   std::vector<double> mobility_;  // as set
   std::vector<double> inertia_;   // C⁻¹
   std::vector<double> work_;      // the factor of C⁻¹ + S
-  std::vector<double> dy_, off_, move_, gradient_, torque_, slope_;
+  std::vector<double> dy_, off_, move_, gradient_, torque_, slope_, column_;
 };
 
 }  // namespace vsa::device

@@ -112,6 +112,7 @@ struct StepPlan {
   actuator::ActuatorState start;  ///< where it stood, if it went
   actuator::Segment last;         ///< of the path's trials
   actuator::SegmentResult path;   ///< what the last trial found for the transmission
+  drive::FrictionTorque rub;      ///< and for the shaft's friction
 };
 
 /// The whole torque on a shaft for a displacement Δy of its step.

@@ -48,7 +48,8 @@ struct BenchSample {
   double equilibrium_command_rad = 0, preset_command = 0;
   double equilibrium_rad = 0, preset = 0;  ///< attained, from the pulleys
   double shaft_rad = 0, shaft_speed_rad_per_s = 0;
-  double torque_Nm = 0;  ///< of the actuator on the shaft
+  double torque_Nm = 0;       ///< of the actuator on the shaft
+  double mean_torque_Nm = 0;  ///< the same over the step that led here
   double stiffness_Nm_per_rad = 0;
   double measured_shaft_rad = 0;       ///< by the unit's encoders
   double measured_deflection_rad = 0;  ///< shaft − equilibrium by the unit's encoders; qbmove: shaft − mean of the pulleys

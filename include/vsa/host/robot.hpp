@@ -3,17 +3,17 @@
 // All that a simulator sees of a robot made of VSAs: shaft angles and speeds in, shaft torques out.
 //
 // THE SHAFT COUPLING, one decision for every host
-// A host integrates v' = v + dt·(a_other + B τ), q' = q + dt·v' (semi-implicit Euler: MuJoCo, DART, ODE and Bullet do), B = (M⁻¹)_aa
-// over the actuated joints of a kinematic tree. Seen from
+// A host integrates v' = v + dt·(a_other + B τ), q' = q + dt·v' (semi-implicit Euler: MuJoCo, DART, ODE and Bullet do), B =
+// (M⁻¹)_aa over the actuated joints of a kinematic tree. Seen from
 //     y = q − (dt/2) v,
-// the same step reads y' = y + dt·(v + v')/2: the midpoint rule. So a unit works with y as its shaft angle, and the joints of a tree
-// are solved together (device/joint_solver.hpp) for
+// the same step reads y' = y + dt·(v + v')/2: the midpoint rule. So a unit works with y as its shaft angle, and the joints of a
+// tree are solved together (device/joint_solver.hpp) for
 //     Δy = dt·v + (dt²/2)·(a_other + B τ)                                                                    (1)
 // With τ the MEAN torque of the spring over y → y + Δy (elastic::SegmentMean) τ·Δy = −ΔH exactly: an engine with that B gains
 // exactly what the springs lose, at any step and any stiffness, in chains as in one joint.
 //
-// What a step can't resolve would then ring near Nyquist for ever. So the springs look ahead, towards where the engine will have the
-// shaft, q' = q + dt·v' = y + 2Δy − (dt/2) v:
+// What a step can't resolve would then ring near Nyquist for ever. So the springs look ahead, towards where the engine will have
+// the shaft, q' = q + dt·v' = y + 2Δy − (dt/2) v:
 //     path y → y + Δy, shifted by w (q' − (y + Δy/2)),   w = x⁴/(16 + x⁴),   x = ω·dt,  ω² = B_jj σ            (2)
 // w is nothing for what is resolved (x = 0.3: 5e-4) and 1 for what isn't: then (2) is backward Euler in q, which brings it to rest.
 // Frictions look ahead with a w of their own, from their bristle's stiffness: −k [(1 − w)(u + u')/2 + w u(q')]. In the middle of
@@ -74,14 +74,15 @@ struct RobotConfig {
 struct JointIn {
   double angle_rad = 0;
   double speed_rad_per_s = 0;
-  /// B_jj = (M⁻¹)_jj, 1/(kg·m²); none: the unit's configured shaft_inertia_kgm2 is used. Joints of a tree with a matrix have it there.
+  /// B_jj = (M⁻¹)_jj, 1/(kg·m²); none: the unit's configured shaft_inertia_kgm2 is used. Joints of a tree with a matrix have it
+  /// there.
   std::optional<double> inverse_inertia;
   /// Somebody put the joint there since the last step; what that did to angle and speed is neither work nor acceleration.
   bool placed = false;
 };
 
-/// What an actuator is doing, for topics and recordings: all at one instant, the end of the last step. Physical truth; the unit's own
-/// readings are `measured`.
+/// What an actuator is doing, for topics and recordings: all at one instant, the end of the last step. Physical truth; the unit's
+/// own readings are `measured`.
 struct ActuatorReading {
   double equilibrium_command_rad = 0;
   double preset_command = 0;
