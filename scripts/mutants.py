@@ -113,7 +113,7 @@ def run_test(test, without, limit_s):
         text = output.read().decode(errors="replace")
     if code == 0:
         return [] if re.search(r"^\[  PASSED  \] [1-9]", text, re.M) else ["no test ran"]
-    failed = dict.fromkeys(re.findall(r"^\[  FAILED  \] ([^\s,]+)", text, re.M))
+    failed = dict.fromkeys(re.findall(r"^\[  FAILED  \] (\w+[.\/][^\s,]+)", text, re.M))
     if failed:
         return list(failed)
     running = re.findall(r"^\[ RUN      \] (\S+)", text, re.M)
