@@ -94,12 +94,14 @@ def build(target):
     return next((line for line in text.splitlines() if "error:" in line), text[-300:]).strip()
 
 
-def run_test(test, without, limit_s):
+def run_test(test, without, limit_s, more=()):
     """Failed tests by name, or how else it ended; empty if all passed."""
     target, _, wanted = test.partition(":")
-    chosen = (wanted or "*") + ("-" + ":".join(without) if without else "")
+    chosen = wanted or "*"
+    if without:
+        chosen += (":" if "-" in chosen else "-") + ":".join(without)
     with open(TREE.parent / "output.txt", "w+b") as output:
-        command = [str(BUILD / "bin" / target), "--gtest_filter=" + chosen, "--gtest_color=no"]
+        command = [str(BUILD / "bin" / target), "--gtest_filter=" + chosen, "--gtest_color=no", *more]
         process = subprocess.Popen(command, cwd=TREE, stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
         try:
             code = process.wait(limit_s)
@@ -157,10 +159,9 @@ def judge(mutant, unchanged):
             if error:
                 return "BROKEN", error
             without, limit_s = unchanged.ask(test)
-            failed = run_test(test, without, limit_s)
+            failed = run_test(test, without, limit_s, ["--gtest_fail_fast"])
             if failed:
-                more = f" and {len(failed) - 1} more" if len(failed) > 1 else ""
-                return "WRONG" if "equivalent" in mutant else "caught", f"{test.partition(':')[0]}: {failed[0]}{more}"
+                return "WRONG" if "equivalent" in mutant else "caught", f"{test.partition(':')[0]}: {failed[0]}"
         return ("equivalent", mutant["equivalent"]) if "equivalent" in mutant else ("SURVIVED", ", ".join(mutant["tests"]))
     finally:
         path.write_text(text, encoding="utf-8")
