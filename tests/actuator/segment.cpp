@@ -33,6 +33,17 @@ ActuatorParams lossy() {
   return p;
 }
 
+TEST(Segment, WhatTheTransmissionDoesToTheShaftItDoesToThePulleysTheOtherWay) {
+  ActuatorParams p = lossy();
+  p.shaft_friction = {0, 0};
+  Actuator a(p);
+  auto s = a.initial({0.3, -0.3}, 0.0);
+  for (int n = 0; n < 40; ++n) a.segment(s, 1e-3, {n < 30 ? 0.004 : -0.002, {0, 0}, {Terminal::driven, Terminal::driven}});
+  const auto springs = a.spring(s, s.shaft), all = a.response(s, s.shaft);
+  EXPECT_GT(std::abs(all.torque - springs.torque), 0.01) << "the tendons rub";
+  EXPECT_NEAR(all.torque + all.load[0] + all.load[1], 0.0, 1e-12);
+}
+
 TEST(Segment, AShaftThatWasPutElsewhereHasItsTendonsBentNoFurtherThanTheyGo) {
   const ActuatorParams p = lossy();
   Actuator a(p);

@@ -32,6 +32,26 @@ TEST(Sensing, TheProgramReadsEachMotorsOwnCurrent) {
   }
 }
 
+TEST(Sensing, ADutyIsLimitedByTheSupplyThatTheTickBeforeRead) {
+  OneJoint joint(maker_pro(), 0.0, 0.0, 0.0, 1'000'000);
+  const auto supply = [&](double volts) {
+    vsa::device::Faults faults;
+    faults.supply_V = volts;
+    vsa::device::Unit::set_faults(joint.state, faults);
+  };
+  const auto full_V = [](double volts, int read_mV) { return vsa::firmware::supply_limit_pct({read_mV}) / 101.0 * volts; };
+  supply(9.0);
+  joint.unit.set_inputs(joint.state, {Ticks{16000}, Ticks{-16000}});
+  for (int n = 0; n < 50; ++n) joint.step();
+  EXPECT_NEAR(joint.state.held.voltage[0], full_V(9, 9000), 1e-12);
+  supply(20.0);
+  joint.step();
+  EXPECT_NEAR(joint.state.held.voltage[0], full_V(20, 9000), 1e-12) << "for one tick more than the program means to give";
+  joint.step();
+  EXPECT_NEAR(joint.state.held.voltage[0], full_V(20, 20000), 1e-12);
+  EXPECT_NEAR(joint.state.held.voltage[1], -full_V(20, 20000), 1e-12);
+}
+
 /// The shaft's encoder at every tick while a host turns it evenly.
 std::vector<std::int32_t> shaft_samples(std::int64_t dt_ns, double speed) {
   vsa::device::Unit unit(maker_pro());

@@ -22,6 +22,7 @@ TEST(Readings, DeflectionIsTheShaftAheadOfTheMotorsMeanAndTorqueIsAgainstIt) {
     EXPECT_NEAR(r.deflection_rad, shaft - 0.5 * (r.motor_rad[0] + r.motor_rad[1]), 1e-12);
     EXPECT_GT(r.deflection_rad * shaft, 0.9 * shaft * shaft) << "the motors hold back";
     EXPECT_LT(r.torque_Nm * r.deflection_rad, 0);
+    EXPECT_NEAR(r.torque_Nm, -(r.motor_torque_Nm[0] + r.motor_torque_Nm[1]), 0.0101) << "but for the shaft's friction";
   }
 }
 
