@@ -4,6 +4,7 @@
 # make test    set up, build, run the tests
 # make test-long   the tests that take minutes
 # make flakes      every test FLAKES_N times (50), beside 0, 2 and 6 busy processes: which fail now and then; hours. FLAKES_FILTER chooses (ctest -R)
+# make mutants     79 one-line mistakes, one at a time, in a copy: which test notices (scripts/mutants.toml); half an hour. MUTANTS_FILTER chooses, MUTANTS_JOBS builds
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make bench   run the benchmarks and print their table
 # make asan    the tests under the address and undefined-behaviour sanitizers
@@ -18,7 +19,7 @@ FUZZ_S ?= 300
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo test test-long flakes validate bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan tidy format \
+.PHONY: all setup build demo test test-long flakes mutants validate bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan tidy format \
   check-format experiments experiments-snake clean
 
 all: build
@@ -53,6 +54,10 @@ flakes:
 	@cmake --preset release > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@bash scripts/flakes.sh $(BUILD)
+
+mutants:
+	@sh scripts/setup.sh test
+	@MUTANTS_JOBS=$${MUTANTS_JOBS:-$(JOBS)} python3 scripts/mutants.py
 
 fuzz:
 	@sh scripts/fuzz.sh $(FUZZ_S)

@@ -33,6 +33,34 @@ ActuatorParams lossy() {
   return p;
 }
 
+TEST(Segment, WhatTheTransmissionDoesToTheShaftItDoesToThePulleysTheOtherWay) {
+  ActuatorParams p = lossy();
+  p.shaft_friction = {0, 0};
+  Actuator a(p);
+  auto s = a.initial({0.3, -0.3}, 0.0);
+  for (int n = 0; n < 40; ++n) a.segment(s, 1e-3, {n < 30 ? 0.004 : -0.002, {0, 0}, {Terminal::driven, Terminal::driven}});
+  const auto springs = a.spring(s, s.shaft), all = a.response(s, s.shaft);
+  EXPECT_GT(std::abs(all.torque - springs.torque), 0.01) << "the tendons rub";
+  EXPECT_NEAR(all.torque + all.load[0] + all.load[1], 0.0, 1e-12);
+}
+
+TEST(Segment, AShaftThatWasPutElsewhereHasItsTendonsBentNoFurtherThanTheyGo) {
+  const ActuatorParams p = lossy();
+  Actuator a(p);
+  const double most = 2 * 0.5 * p.tendon.friction * p.tendon.presliding_J;  // two springs' bristles at their limit
+  auto s = a.initial({0.2, -0.2}, 0.0);
+  for (const double shaft : {0.3, -0.3, 0.31}) {
+    a.relocate(s, shaft);
+    EXPECT_NEAR(s.ledger.tendon_bristle, most, 1e-9 * most) << shaft;
+    EXPECT_LT(std::abs(s.ledger.imbalance()), 1e-12);
+    // And so in the next step: the tendons rub at their limit, they don't pull as far as the shaft went.
+    auto next = s;
+    a.segment(next, 1e-4, {0.0, {0, 0}, {Terminal::open, Terminal::open}});
+    EXPECT_LE(next.ledger.tendon_bristle, most * (1 + 1e-9));
+    EXPECT_NEAR(next.ledger.tendon_friction, 0.0, 1e-3 * p.tendon.friction * next.ledger.elastic) << shaft;
+  }
+}
+
 TEST(Segment, EveryLossIsPositiveAndTheBalanceClosesWhateverHappens) {
   std::mt19937 rng(5);
   std::uniform_real_distribution<double> unit(-1, 1);

@@ -68,6 +68,7 @@ TEST(Override, ThatIsBadIsRefusedByNameOfTheOverride) {
       {{"drive.friction_Nm", "0,7"}, "must be a number"},
       {{"drive.friction_Nm", "-0.1"}, "is outside of what the model accepts"},
       {{"drive.friction_Nm", "11"}, "is outside of the preset's own bounds"},
+      {{"drive.inductance_H", "1e9"}, "is outside of what the model accepts"},  // the preset has none, so no bounds of its own
       {{"drive.frction_Nm", "0.7"}, "did you mean drive.friction_Nm?"},
       {{"elastic.k3_Nm", "0.7"}, "did you mean elastic.k1_Nm?"},
       {{"elastic.law", "series_spring"}, "can't be overridden"},

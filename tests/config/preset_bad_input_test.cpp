@@ -49,7 +49,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadPreset{"beyond_model", kInertia, inertia("-1.0"), {"= -1: is outside of what the model accepts", "1e-09 … 100 kg·m²"}},
         BadPreset{"wrong_unit", kInertia, inertia("0.001", "g·cm²"), {"inertia_kgm2.unit = \"g·cm²\": is the wrong unit", "kg·m²"}},
         BadPreset{"empty_unit", kInertia, inertia("0.001", ""), {"inertia_kgm2.unit", "must be a text that is not empty"}},
-        BadPreset{"bounds_too_wide", kInertia, inertia("0.001", "kg·m²", "[0.0, 0.1]"), {".bounds = 0 … 0.1: is wider"}},
+        BadPreset{"bounds_too_wide_below", kInertia, inertia("0.001", "kg·m²", "[0.0, 0.1]"), {".bounds = 0 … 0.1: is wider"}},
+        BadPreset{
+            "bounds_too_wide_above", kInertia, inertia("0.001", "kg·m²", "[1e-6, 101.0]"), {".bounds = 1e-06 … 101: is wider"}},
         BadPreset{
             "bounds_reversed", kInertia, inertia("0.001", "kg·m²", "[1.0, 0.1]"), {".bounds", "two finite numbers in order"}, 2},
         BadPreset{"bounds_of_three", kInertia, inertia("0.001", "kg·m²", "[0.1, 0.2, 0.3]"), {".bounds = an array"}, 2},

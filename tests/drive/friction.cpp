@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -63,6 +64,21 @@ TEST(Friction, TheAnchorStaysWhileTheBristleBends) {
   EXPECT_EQ(follow_friction(p, 0.0, 0.029).anchor_travel, 0.0);
   EXPECT_NEAR(follow_friction(p, 0.0, 0.05).anchor_travel, 0.02, 1e-15);
   EXPECT_EQ(follow_friction(p, 0.03, -0.06).anchor_travel, 0.0) << "reversal takes up twice the bristle first";
+}
+
+TEST(Friction, ThatLeadsIsTheMeanBlendedWithWhereThePartIsAtTheEndOfTheStep) {
+  const vsa::drive::Friction p(FrictionParams{0.8, 0.04});
+  std::mt19937 rng(11);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int n = 0; n < 200; ++n) {
+    const double u = 0.04 * unit(rng), dx = 0.03 * unit(rng), drift = 0.02 * unit(rng), w = 0.5 * (1 + unit(rng));
+    const auto torque = [&](double moved) { return vsa::drive::leading_friction(p, u, moved, drift, w).torque; };
+    const double ahead = -p.stiffness * std::clamp(u + 2 * dx - drift, -0.04, 0.04);
+    EXPECT_NEAR(torque(dx), (1 - w) * follow_friction(p, u, dx).torque + w * ahead, 1e-14);
+    if (std::abs(std::abs(u + dx) - 0.04) < 1e-5 || std::abs(std::abs(u + 2 * dx - drift) - 0.04) < 1e-5) continue;  // a kink
+    const double slope = (torque(dx - 1e-6) - torque(dx + 1e-6)) / 2e-6;
+    EXPECT_NEAR(vsa::drive::leading_friction(p, u, dx, drift, w).slope, slope, 1e-6);
+  }
 }
 
 TEST(Friction, HasNoStepLimit) {

@@ -95,6 +95,18 @@ TEST(Actuated, SnapshotsHoldTheRobotsToo) {
   EXPECT_EQ(bits(w), later);
 }
 
+TEST(Actuated, SomebodysHandThatPutsAShaftElsewhereIsNoWorkOfTheStep) {
+  World w = World::load_string(bench(plugin(actuator("module_1::shaft", 1, "<initial preset_rad='0.4'/>"))), options());
+  w.run(0.1);
+  const auto before = w.ledger();
+  w.set_joint("bench::module_1::shaft", 0.5, 3.0);
+  w.run(0.005);
+  const auto after = w.ledger();
+  EXPECT_GT(after.stored() - before.stored(), 0.1) << "the springs are wound";
+  EXPECT_LT(std::abs(after.coupling - before.coupling), 1e-3);
+  EXPECT_LT(std::abs(after.imbalance()), 1e-9);
+}
+
 TEST(Actuated, AFaultLeavesTheRobotsWhereTheyWere) {
   World w = World::load_string(bench(plugin(actuator("module_1::shaft", 1))), options());
   w.run(0.05);

@@ -1,8 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // Worlds with closed-form answers.
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "worlds.hpp"
 
@@ -163,6 +165,20 @@ TEST(Physics, DryFrictionHoldsAPendulumBelowItsTorqueAndLimitsStopIt) {
   limited.set_joint("p::hinge", 1.0, 0);
   limited.run(5.0);
   EXPECT_NEAR(limited.joint_angle("p::hinge"), 0.2, 0.01);
+}
+
+TEST(Physics, EachAxisOfABodyHasItsOwnMoment) {
+  const std::array<std::pair<const char*, double>, 3> axes{{{"1 0 0", 1e-3}, {"0 1 0", 4e-3}, {"0 0 1", 4.6e-3}}};
+  for (const auto& [axis, moment] : axes) {
+    World w = World::load_string(world(
+        "<model name='m'><link name='base'/><link name='body'><inertial><mass>0.1</mass><inertia><ixx>0.001</ixx><iyy>0.004</iyy>"
+        "<izz>0.0046</izz></inertia></inertial></link><joint name='fix' "
+        "type='fixed'><parent>world</parent><child>base</child></joint>"
+        "<joint name='hinge' type='revolute'><parent>base</parent><child>body</child><axis><xyz>" +
+        std::string(axis) + "</xyz><dynamics><spring_stiffness>1</spring_stiffness></dynamics></axis></joint></model>"));
+    w.set_joint("m::hinge", 0.1, 0);
+    EXPECT_NEAR(period(w, "m::hinge"), 2 * pi * std::sqrt(moment), 2e-3 * std::sqrt(moment)) << axis;
+  }
 }
 
 TEST(Physics, AJointSpringPullsToItsReference) {

@@ -38,4 +38,9 @@ TEST(AnalogSense, ReadsBackWithinOneCount) {
   EXPECT_EQ(supply_adc(std::numeric_limits<double>::quiet_NaN()), kAdcMax);
 }
 
+TEST(Current, IsSensedWithoutItsDirection) {
+  for (const double amperes : {0.01, 1.5, 20.0}) EXPECT_EQ(vsa::sensor::current_adc(-amperes), vsa::sensor::current_adc(amperes));
+  EXPECT_GT(vsa::sensor::current_adc(-1.5), vsa::sensor::kAdcOffset);
+}
+
 }  // namespace
