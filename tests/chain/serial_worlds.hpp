@@ -39,7 +39,9 @@ inline std::string serial_world(const SerialWorld& w) {
   s << "<plugin name='vsa::Robot' filename='libvsa-robot.so'>";
   for (int i = 1; i <= w.joints; ++i) {
     s << "<actuator><joint>j" << i << "</joint><preset>" << w.type << "</preset><bus id='" << i
-      << "'>b</bus><initial equilibrium_rad='0' preset_rad='" << w.preset << "'/>" << w.overrides << "</actuator>";
+      << "'>b</bus><initial equilibrium_rad='0'";
+    if (w.type.rfind("sea_", 0) != 0) s << " preset_rad='" << w.preset << "'";  // a series elastic type has none
+    s << "/>" << w.overrides << "</actuator>";
   }
   s << "<bus name='b'/></plugin></model></world></sdf>";
   return s.str();
