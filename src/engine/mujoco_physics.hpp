@@ -76,7 +76,7 @@ class MujocoPhysics final : public Physics {
   std::vector<int> root_;       // of a link: the joint id of its free root, −1: tied to the world
   std::vector<std::string> q_owner_, v_owner_;
   std::vector<mjtNum> before_, unit_, column_, jacobian_, mobility_, mass_matrix_;
-  bool damped_ = false;  // some joint has damping, which MuJoCo's Euler takes implicitly
+  bool damped_ = false;   // some joint has damping, which MuJoCo's Euler takes implicitly
   bool stepped_ = false;  // data_ holds the contacts of the last step
 };
 

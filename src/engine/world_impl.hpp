@@ -74,7 +74,7 @@ struct World::Impl {
   void ask_mobility(RobotSlot& slot);
   void drive();
   void observe();
-  void forget_mobility();  ///< something was moved
+  void forget_mobility();          ///< something was moved
   void placed(std::size_t joint);  ///< somebody put it there
   void apply_hands();
   void let_go();
