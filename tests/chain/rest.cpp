@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,21 @@ TEST(Rest, EveryShippedTypeIsAsQuietAsItIsInStepsATenthAsLong) {
       EXPECT_GT(rest.coupling_part, kCreated) << named(w, true);
     }
   }
+}
+
+TEST(Rest, EveryShippedRobotIsQuietInItsWorld) {
+  int robots = 0;
+  for (const auto& file : std::filesystem::directory_iterator(std::string(VSA_SOURCE_DIR) + "/models/worlds")) {
+    if (file.path().extension() != ".sdf") continue;
+    World world = World::load(file.path());
+    if (world.actuators().empty()) continue;
+    ++robots;
+    const Rest rest = rest_of(world, 5);
+    // Frank and the 3R arm rest on edges of encoder counts: 0.02 rad/s.
+    EXPECT_LT(rest.rms_speed, 1.5 * kQuiet_rad_per_s) << file.path().filename();
+    EXPECT_GT(rest.coupling_part, kCreated) << file.path().filename();
+  }
+  EXPECT_GE(robots, 10);
 }
 
 TEST(Rest, LightLinksAndABareFingerAtTheEndAreQuiet) {
