@@ -25,6 +25,7 @@ struct World::Snapshot {
   std::int64_t time_ns = 0, steps = 0;
   std::vector<std::shared_ptr<const host::Robot::Snapshot>> robots;
   std::vector<Mobility> mobility;
+  std::vector<std::vector<host::JointIn>> in;  ///< tells which joints somebody has put elsewhere since the last step
 };
 
 /// One <plugin>: a robot and what passes between it and the engine.

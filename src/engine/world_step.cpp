@@ -106,6 +106,7 @@ std::shared_ptr<const World::Snapshot> World::Impl::snapshot() const {
   for (const RobotSlot& slot : robots) {
     out->robots.push_back(slot.robot.snapshot());
     out->mobility.push_back(slot.mobility);
+    out->in.push_back(slot.in);
   }
   return out;
 }
@@ -117,6 +118,7 @@ void World::Impl::restore(const Snapshot& s) {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     robots[i].robot.restore(*s.robots[i]);
     robots[i].mobility = s.mobility[i];
+    robots[i].in = s.in[i];
   }
 }
 

@@ -77,11 +77,8 @@ std::vector<Notice> Robot::take_notices() {
         const double x = std::sqrt(n.value);
         const Resolution r = resolution(x);
         text += ": its spring on the inertia behind the joint swings with ω·dt = " + rounded(x) +
-                ": at this step length such a swing " +
-                (r.frequency > 0 ? "has " + rounded(r.frequency) + " times its frequency and " + rounded(r.radius) +
-                                       " times its amplitude after each step"
-                                 : std::string("is damped away")) +
-                "; steps shorter by a factor of " + rounded(x / 0.3) + " resolve it";
+                ": at this step length such a swing has " + rounded(r.frequency) + " times its frequency and " + rounded(r.radius) +
+                " times its amplitude after each step" + "; steps shorter by a factor of " + rounded(x / 0.3) + " resolve it";
         break;
       }
       case NoticeKind::unsettled:

@@ -191,6 +191,28 @@ TEST(Accuracy, IsOfSecondOrderWhereNoFrictionSticks) {
   }
 }
 
+TEST(Snapshots, TellOfJointsThatWerePutElsewhereAndForgetThoseOfLater) {
+  SerialWorld w;
+  World world = World::load_string(serial_world(w));
+  world.run(0.1);
+  const auto later = [&] {
+    world.run(0.05);
+    return world.joint_angle("m::j2") + world.ledger().coupling + world.ledger().stored_at_start;
+  };
+  const auto before = world.snapshot();
+  const double untouched = later();
+  world.restore(*before);
+  world.set_joint("m::j1", 0.3, 0);
+  const auto put = world.snapshot();
+  const double moved = later();
+  world.restore(*put);
+  EXPECT_EQ(later(), moved);
+  EXPECT_NE(moved, untouched);
+  world.set_joint("m::j1", 0.1, 0);
+  world.restore(*before);
+  EXPECT_EQ(later(), untouched);
+}
+
 TEST(Accuracy, OfAnArmThatFoldsWhileItsMobilityChangesTenfold) {
   // Straight, B of the elbow is 3.1e3 1/(kg·m²), folded by 2.1 rad a tenth of it. The motors push all the
   // time, so the balance is of what they and the bodies exchange. A B that stays what it was hardly shows here, as torques change

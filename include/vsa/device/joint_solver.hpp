@@ -35,10 +35,9 @@ class JointSolver {
 
   [[nodiscard]] std::size_t size() const noexcept { return n_; }
 
-  /// B by rows, n × n, 1/(kg·m²). One that isn't finite and positive definite leaves each joint by itself with its diagonal, and
-  /// `coupled` says so. A diagonal entry of 0 (n = 1 only): the motion is prescribed.
+  /// B by rows, n × n, 1/(kg·m²). One that isn't finite and positive definite leaves each joint by itself with its diagonal. A
+  /// diagonal entry of 0 (n = 1 only): the motion is prescribed.
   void set(std::span<const double> mobility, std::int64_t dt_ns) noexcept;
-  [[nodiscard]] bool coupled() const noexcept { return coupled_; }
 
   /// A first Δy for every plan, from what the last steps left: for ticks inside a step.
   void predict(std::span<const JointInStep> joints) noexcept;

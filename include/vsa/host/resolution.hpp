@@ -4,7 +4,8 @@
 // inertia 1/B, x = ω·dt, ω² = B σ, in units of dt and 1/B:
 //     τ = −K (y + (½ + w) v),   K = x²/(1 + x² (¼ + ¾ w)),   w = x⁴/(16 + x⁴)
 //     y' = y + v + τ/2,   v' = v + τ
-// The two eigenvalues have the product 1 − K w and the sum 2 − K (1 + w).
+// The two eigenvalues have the product 1 − K w and the sum 2 − K (1 + w). They are a complex pair at every x: the square of half
+// their sum stays below their product.
 #pragma once
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace vsa::host {
 
 struct Resolution {
   double radius = 1;     ///< of the swing's amplitude from one step to the next
-  double frequency = 1;  ///< over the true one; 0 where it no longer swings
+  double frequency = 1;  ///< over the true one
 };
 
 /// x = ω·dt ≥ 0.
@@ -21,9 +22,8 @@ struct Resolution {
   if (!(x > 0)) return {};
   const double k = x * x, w = k * k / (16.0 + k * k), gain = k / (1.0 + k * (0.25 + 0.75 * w));
   const double product = 1.0 - gain * w, half_sum = 1.0 - 0.5 * gain * (1.0 + w);
-  const double rest = product - half_sum * half_sum;  // > 0: a pair of complex eigenvalues
-  if (rest > 0) return {std::sqrt(product), std::atan2(std::sqrt(rest), half_sum) / x};
-  return {std::abs(half_sum) + std::sqrt(-rest), 0.0};
+  const double rest = std::fmax(product - half_sum * half_sum, 0.0);
+  return {std::sqrt(product), std::atan2(std::sqrt(rest), half_sum) / x};
 }
 
 }  // namespace vsa::host
