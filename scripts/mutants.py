@@ -168,6 +168,9 @@ def judge(mutant, unchanged):
 
 
 def main():
+    if len(sys.argv) > 1:
+        print(__doc__.strip())
+        sys.exit(0 if sys.argv[1] in ("-h", "--help") else 2)
     try:
         choose = re.compile(os.environ.get("MUTANTS_FILTER") or ".")
     except re.error as error:

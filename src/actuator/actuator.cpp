@@ -102,6 +102,8 @@ void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentIn
   seg.tried = false;
   seg.rub = {};
   seg.damping = params_.tendon.damping_s / h_s;
+  seg.own = in.lead.share + 3.0 * in.lead.spring;
+  seg.whole = seg.own + 2.0 * in.lead.before;
   for (int i = 0; i < motors_; ++i) {
     // The limit of the gears' friction follows the load of the last segment; its bristle's stiffness doesn't, so that a limit that
     // grows adds no energy and one that shrinks burns what it lets go.
@@ -127,13 +129,12 @@ void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentIn
 //   −dload_i/d(Δy) = S'_qx,i R − F_i + S_xx,i dx_i/d(Δy),   R = share + 2·before + 3w: the end, the start, the shift
 //   −dτ̄/d(Δy)     = S'_qq R + Σ F_i + Σ S_qx,i dx_i/d(Δy)
 void Actuator::slopes(Segment& seg, const elastic::SegmentMean& mean, const Rub& rub) const noexcept {
-  const Lead& lead = seg.in.lead;
-  const double own = lead.share + 3.0 * lead.spring, whole = own + 2.0 * lead.before;
-  seg.slope = (mean.slope.qq - rub.dx[0] - rub.dx[1]) * whole + rub.dy[0] + rub.dy[1];
+  const double per_own = seg.own / seg.in.lead.share;
+  seg.slope = (mean.slope.qq - rub.dx[0] - rub.dx[1]) * seg.whole + rub.dy[0] + rub.dy[1];
   for (int i = 0; i < motors_; ++i) {
     const double give = seg.gain[i], qx = mean.slope.qx[i], spring = qx + rub.dx[i];
-    seg.gain[i] = -give * (spring * own / lead.share - rub.dx[i]);
-    seg.slope -= give * qx * (spring * whole - rub.dy[i]);
+    seg.gain[i] = -give * (spring * per_own - rub.dx[i]);
+    seg.slope -= give * qx * (spring * seg.whole - rub.dy[i]);
   }
 }
 
@@ -234,6 +235,11 @@ void Actuator::drive_motors(ActuatorState& s, const Segment& seg) const noexcept
   }
   s.end = carried(seg.mean, seg.in.dq - 2.0 * seg.shift(seg.in.dq), seg.dx);
   s.end_rub = seg.rub;
+  for (int i = 0; i < springs_; ++i) {
+    const double damped = 2.0 * seg.rub.damping[i] * (seg.in.dq - seg.dx[i]);  // by the mean, and again by `carried`
+    s.end.torque += damped;
+    s.end.load[i] -= damped;
+  }
 }
 
 void Actuator::finish(ActuatorState& s, const Segment& seg) const noexcept {

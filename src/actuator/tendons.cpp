@@ -8,6 +8,34 @@
 
 namespace vsa::actuator {
 
+namespace {
+
+/// How far one tendon's bristle is bent over a segment, J, with the weights of its start, its end and the look ahead; and how much
+/// of that answers: to the pulley (`per_dx`), to the step's Δy (`per_dy`), to the damper (`free`).
+struct Bend {
+  double bend = 0, per_dx = 0, per_dy = 0, free = 0;
+};
+
+/// From u, w changes by dw; `damper` is what ẇ adds to the bend, `ahead` what w changes from the end to where the engine goes.
+Bend bend_over(double u, double dw, double damper, double ahead, double z, double weight, const Lead& lead) noexcept {
+  const double held = 0.5 * (1.0 - weight), ends = lead.before + lead.share, reached = u + dw;
+  const double begin = u + damper, middle = std::clamp(reached, -z, z) + damper;
+  Bend b{held * (std::clamp(begin, -z, z) + std::clamp(middle, -z, z))};
+  if (std::abs(begin) <= z) b.free = held, b.per_dy = held * lead.before;
+  if (std::abs(middle) <= z) {
+    b.free += held;
+    if (std::abs(reached) <= z) b.per_dx = held, b.per_dy += held * ends;
+  }
+  if (weight > 0) {
+    const double leading = reached + ahead + damper;
+    b.bend += weight * std::clamp(leading, -z, z);
+    if (std::abs(leading) <= z) b.free += weight, b.per_dx += weight, b.per_dy += weight * (ends + 1.0);
+  }
+  return b;
+}
+
+}  // namespace
+
 void Actuator::add_tendon_friction(Segment& seg, const elastic::Positions& to) const noexcept {
   elastic::SegmentMean& mean = seg.mean;
   const Lead& lead = seg.in.lead;
@@ -15,36 +43,20 @@ void Actuator::add_tendon_friction(Segment& seg, const elastic::Positions& to) c
   for (int i = 0; i < springs_; ++i) {
     double& xx = i == 0 ? mean.slope.x0x0 : mean.slope.x1x1;
     const double deflection = seg.in.dq - seg.dx[i];
-    const double end = to.q - to.x[i];
     // The mean tension times the deflection's change is the energy's change: w at the end costs no call of the law.
     const double signed_tension = mean.load[i] - 2.0 * xx * shift;
     const double energy = std::max(std::abs(seg.w[i]) + signed_tension * deflection, 0.0);
-    const double w = std::copysign(energy, end);
+    const double w = std::copysign(energy, to.q - to.x[i]), dw = w - seg.w[i];
     // Mean |tension| over the segment, Δw/Δδ; by the elastic mean where the spring doesn't pass through zero.
     const bool same_side = (w < 0) == (seg.w[i] < 0);
-    const double tension = same_side ? std::abs(signed_tension) : std::abs((w - seg.w[i]) / deflection);
-    const double tension_slope = w < 0 ? -xx : xx;
-    const double end_tension = tension + deflection * tension_slope;
-    const double z = tendon_.presliding_rad, reached = seg.w_u[i] + (w - seg.w[i]), leading = reached + end_tension * ahead_rad;
-    // The damper adds T_d ẇ to the bend, ẇ the mean over the segment.
-    const double per_dw = seg.damping, damper = per_dw * (w - seg.w[i]);
-    const double held = 0.5 * (1.0 - lead.tendon[i]);
-    const double begin = seg.w_u[i] + damper, middle = std::clamp(reached, -z, z) + damper, ahead = leading + damper;
-    const double level = -tendon_.stiffness * (held * (std::clamp(begin, -z, z) + std::clamp(middle, -z, z)) +
-                                               lead.tendon[i] * std::clamp(ahead, -z, z));
-    // Slopes of what isn't at its limit: for the pulley, and for the step's Δy, which moves the start of the segment too.
-    const double stick = tendon_.stiffness * end_tension * tension, ends = lead.before + lead.share;
-    const bool bends = std::abs(reached) <= z;
-    double dx = level * -tension_slope, dy = dx * (lead.before + ends);
-    const auto add = [&](double weight, double for_dx, double for_dy) {
-      dx += weight * stick * (for_dx + per_dw);
-      dy += weight * stick * (for_dy + per_dw * lead.share);
-    };
-    if (std::abs(begin) <= z) add(held, 0.0, lead.before);
-    if (std::abs(middle) <= z) add(held, bends ? 1.0 : 0.0, bends ? ends : 0.0);
-    if (std::abs(ahead) <= z) add(lead.tendon[i], 1.0, ends + 1.0);
-    seg.rub.dx[i] = dx;
-    seg.rub.dy[i] = dy;
+    const double tension = same_side ? std::abs(signed_tension) : std::abs(dw / deflection);
+    const double tension_slope = w < 0 ? -xx : xx, end_tension = tension + deflection * tension_slope;
+    const Bend b =
+        bend_over(seg.w_u[i], dw, seg.damping * dw, end_tension * ahead_rad, tendon_.presliding_rad, lead.tendon[i], lead);
+    const double level = -tendon_.stiffness * b.bend, stick = tendon_.stiffness * end_tension * tension;
+    const double turn = level * -tension_slope, damping = seg.rub.damping[i] = stick * seg.damping * b.free;
+    const double dx = seg.rub.dx[i] = turn + stick * b.per_dx + damping;
+    seg.rub.dy[i] = turn * (2.0 * lead.before + lead.share) + stick * b.per_dy + damping * lead.share;
     const double torque = level * tension;
     mean.torque += torque;
     mean.load[i] -= torque;

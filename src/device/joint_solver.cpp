@@ -18,8 +18,16 @@ constexpr int kEarly = 8;
 /// The torque that may be left over where no round settles.
 constexpr double kLeft = 1e-3, kLeft_Nm = 1e-4;
 
+/// N = 1: a joint alone, the usual case of many units, where all loops fall away. N = 0: as many as there are.
+template <std::size_t N>
+constexpr std::size_t count(std::size_t n) noexcept {
+  return N > 0 ? N : n;
+}
+
 /// A = L D Lᵀ in place, lower triangle by rows: L below the diagonal, 1/D on it. `column` holds n. False: not positive definite.
-bool factor(std::span<double> a, std::size_t n, double* column) noexcept {
+template <std::size_t N>
+bool factor(std::span<double> a, std::size_t size, double* column) noexcept {
+  const std::size_t n = count<N>(size);
   for (std::size_t j = 0; j < n; ++j) {
     const double pivot = a[j * n + j], reciprocal = 1.0 / pivot;
     if (!(pivot > 0) || !std::isfinite(pivot)) return false;
@@ -36,7 +44,9 @@ bool factor(std::span<double> a, std::size_t n, double* column) noexcept {
 }
 
 /// Solves with that factor, in place.
-void substitute(std::span<const double> a, std::size_t n, std::span<double> x) noexcept {
+template <std::size_t N>
+void substitute(std::span<const double> a, std::size_t size, std::span<double> x) noexcept {
+  const std::size_t n = count<N>(size);
   for (std::size_t i = 0; i < n; ++i) {
     double sum = x[i];
     for (std::size_t k = 0; k < i; ++k) sum -= a[i * n + k] * x[k];
@@ -77,7 +87,7 @@ void JointSolver::factor_mobility() noexcept {
   coupled_ = false;
   if (n_ > 1) {
     std::copy(mobility_.begin(), mobility_.end(), work_.begin());
-    coupled_ = factor(work_, n_, column_.data());
+    coupled_ = factor<0>(work_, n_, column_.data());
   }
   for (std::size_t j = 0; j < n_; ++j) {
     if (!coupled_) {
@@ -87,37 +97,41 @@ void JointSolver::factor_mobility() noexcept {
     }
     std::span<double> row(&inertia_[j * n_], n_);
     row[j] = scale;
-    substitute(work_, n_, row);
+    substitute<0>(work_, n_, row);
   }
 }
 
+template <std::size_t N>
 void JointSolver::gradient(std::span<const JointInStep> joints) noexcept {
-  for (std::size_t i = 0; i < n_; ++i) off_[i] = dy_[i] - joints[i].plan->free;
-  for (std::size_t i = 0; i < n_; ++i) {
+  for (std::size_t i = 0; i < count<N>(n_); ++i) off_[i] = dy_[i] - joints[i].plan->free;
+  for (std::size_t i = 0; i < count<N>(n_); ++i) {
     const double* const row = &inertia_[i * n_];
     double sum = joints[i].plan->last_torque - torque_[i];
-    for (std::size_t k = 0; k < n_; ++k) sum += row[k] * off_[k];
+    for (std::size_t k = 0; k < count<N>(n_); ++k) sum += row[k] * off_[k];
     gradient_[i] = sum;
   }
 }
 
 /// The factor of C⁻¹ + S.
+template <std::size_t N>
 bool JointSolver::factor_slopes() noexcept {
   std::copy(inertia_.begin(), inertia_.end(), work_.begin());
-  for (std::size_t i = 0; i < n_; ++i) work_[i * n_ + i] += slope_[i];
-  return factor(work_, n_, column_.data());
+  for (std::size_t i = 0; i < count<N>(n_); ++i) work_[i * n_ + i] += slope_[i];
+  return factor<N>(work_, n_, column_.data());
 }
 
 /// move_ := −(C⁻¹ + S)⁻¹ g
+template <std::size_t N>
 void JointSolver::newton() noexcept {
-  for (std::size_t i = 0; i < n_; ++i) move_[i] = -gradient_[i];
-  substitute(work_, n_, move_);
+  for (std::size_t i = 0; i < count<N>(n_); ++i) move_[i] = -gradient_[i];
+  substitute<N>(work_, n_, move_);
 }
 
 /// Whether every unit takes move_ for the last one; the torques that it leads to.
+template <std::size_t N>
 bool JointSolver::near(std::span<const JointInStep> joints, std::span<double> torques) const noexcept {
   bool all = true;
-  for (std::size_t i = 0; i < n_; ++i) {
+  for (std::size_t i = 0; i < count<N>(n_); ++i) {
     const ShaftTorque t = joints[i].unit->carried(*joints[i].state, *joints[i].plan, move_[i]);
     torques[i] = t.torque;
     all = all && t.settled;
@@ -125,30 +139,37 @@ bool JointSolver::near(std::span<const JointInStep> joints, std::span<double> to
   return all;
 }
 
+template <std::size_t N>
 double JointSolver::along() const noexcept {
   double sum = 0;
-  for (std::size_t i = 0; i < n_; ++i) sum += move_[i] * gradient_[i];
+  for (std::size_t i = 0; i < count<N>(n_); ++i) sum += move_[i] * gradient_[i];
   return sum;
 }
 
 /// dy_ := a linear step from where the joints would go without new torques, with what torque_ and slope_ tell of there.
+template <std::size_t N>
 void JointSolver::guess(std::span<const JointInStep> joints) noexcept {
-  gradient(joints);
-  if (!factor_slopes()) return;
-  newton();
-  for (std::size_t i = 0; i < n_; ++i) dy_[i] = std::clamp(dy_[i] + move_[i], -kReach_rad, kReach_rad);
+  gradient<N>(joints);
+  if (!factor_slopes<N>()) return;
+  newton<N>();
+  for (std::size_t i = 0; i < count<N>(n_); ++i) dy_[i] = std::clamp(dy_[i] + move_[i], -kReach_rad, kReach_rad);
 }
 
 void JointSolver::predict(std::span<const JointInStep> joints) noexcept {
-  for (std::size_t i = 0; i < n_; ++i) {
+  n_ == 1 ? predict_all<1>(joints) : predict_all<0>(joints);
+}
+
+template <std::size_t N>
+void JointSolver::predict_all(std::span<const JointInStep> joints) noexcept {
+  for (std::size_t i = 0; i < count<N>(n_); ++i) {
     const JointInStep& j = joints[i];
     dy_[i] = std::clamp(j.plan->free, -kReach_rad, kReach_rad);
     const ShaftTorque t = j.state->started ? j.unit->expect(*j.state, *j.plan, dy_[i]) : ShaftTorque{};
     torque_[i] = t.torque;
     slope_[i] = t.slope;
   }
-  guess(joints);
-  for (std::size_t i = 0; i < n_; ++i) joints[i].plan->dy = dy_[i];
+  guess<N>(joints);
+  for (std::size_t i = 0; i < count<N>(n_); ++i) joints[i].plan->dy = dy_[i];
 }
 
 /// The only joint of its tree, and moved by somebody else.
@@ -158,56 +179,64 @@ void JointSolver::follow(const JointInStep& j, double& torque) noexcept {
   j.unit->finish(*j.state, *j.plan, 0.0, torque);
 }
 
+template <std::size_t N>
 void JointSolver::attempt(std::span<const JointInStep> joints, bool rough) noexcept {
-  for (std::size_t i = 0; i < n_; ++i) {
+  for (std::size_t i = 0; i < count<N>(n_); ++i) {
     const ShaftTorque t = joints[i].unit->attempt(*joints[i].state, *joints[i].plan, dy_[i], rough);
     torque_[i] = t.torque;
     slope_[i] = t.slope;
   }
-  gradient(joints);
+  gradient<N>(joints);
 }
 
 /// Newton's way from the last attempt; how long it may be. Returns where the slope along it begins.
+template <std::size_t N>
 double JointSolver::set_out(double& part) noexcept {
   double farthest = 0;
-  for (std::size_t i = 0; i < n_; ++i) farthest = std::max(farthest, std::abs(move_[i]));
+  for (std::size_t i = 0; i < count<N>(n_); ++i) farthest = std::max(farthest, std::abs(move_[i]));
   part = farthest > kReach_rad ? kReach_rad / farthest : 1.0;
-  for (std::size_t i = 0; i < n_; ++i) dy_[i] += part * move_[i];
-  return along();
+  for (std::size_t i = 0; i < count<N>(n_); ++i) dy_[i] += part * move_[i];
+  return along<N>();
 }
 
+template <std::size_t N>
 bool JointSolver::search(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
   // The guess is mostly good: what is left is linear, and the slopes foreseen serve once more.
-  attempt(joints, true);
-  newton();
-  if (near(joints, torques)) return true;
-  if (!factor_slopes()) return false;
-  newton();
-  double part = 1, descent = set_out(part);  // of move_; the slope along it where it began
+  attempt<N>(joints, true);
+  newton<N>();
+  if (near<N>(joints, torques)) return true;
+  if (!factor_slopes<N>()) return false;
+  newton<N>();
+  double part = 1, descent = set_out<N>(part);  // of move_; the slope along it where it began
   for (int iteration = 1; iteration < kMaxIterations; ++iteration) {
-    attempt(joints, false);
-    const double now = along();
+    attempt<N>(joints, false);
+    const double now = along<N>();
     if (!(now <= -(iteration < kEarly ? kOvershoot : kOvershootLater) * descent)) {
       const double shorter = part * std::clamp(descent / (descent - now), 0.1, 0.9);
       const double back = std::isfinite(shorter) ? shorter - part : -0.75 * part;
-      for (std::size_t i = 0; i < n_; ++i) dy_[i] += back * move_[i];
+      for (std::size_t i = 0; i < count<N>(n_); ++i) dy_[i] += back * move_[i];
       part += back;
       continue;
     }
-    if (!factor_slopes()) return false;
-    newton();
-    if (near(joints, torques)) return true;
-    descent = set_out(part);
+    if (!factor_slopes<N>()) return false;
+    newton<N>();
+    if (near<N>(joints, torques)) return true;
+    descent = set_out<N>(part);
   }
   return false;
 }
 
 bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
-  if (n_ == 1 && inertia_[0] == 0) {
+  return n_ == 1 ? solve_all<1>(joints, torques) : solve_all<0>(joints, torques);
+}
+
+template <std::size_t N>
+bool JointSolver::solve_all(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
+  if (N == 1 && inertia_[0] == 0) {
     follow(joints[0], torques[0]);
     return true;
   }
-  for (std::size_t i = 0; i < n_; ++i) {
+  for (std::size_t i = 0; i < count<N>(n_); ++i) {
     const JointInStep& j = joints[i];
     dy_[i] = std::clamp(j.plan->free, -kReach_rad, kReach_rad);
     j.unit->begin_trials(*j.state, *j.plan);
@@ -215,17 +244,18 @@ bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> t
     torque_[i] = t.torque;
     slope_[i] = t.slope;
   }
-  guess(joints);
-  bool settled = search(joints, torques);
+  guess<N>(joints);
+  bool settled = search<N>(joints, torques);
   if (!settled) {
     // Where a friction's edge keeps Newton going to and fro, what is left may be little all the same.
     std::fill(move_.begin(), move_.end(), 0.0);
-    attempt(joints, false);
-    near(joints, torques);
+    attempt<N>(joints, false);
+    near<N>(joints, torques);
     settled = true;
-    for (std::size_t i = 0; i < n_; ++i) settled = settled && std::abs(gradient_[i]) <= kLeft * std::abs(torque_[i]) + kLeft_Nm;
+    for (std::size_t i = 0; i < count<N>(n_); ++i)
+      settled = settled && std::abs(gradient_[i]) <= kLeft * std::abs(torque_[i]) + kLeft_Nm;
   }
-  for (std::size_t i = 0; i < n_; ++i) joints[i].unit->finish(*joints[i].state, *joints[i].plan, move_[i], torques[i]);
+  for (std::size_t i = 0; i < count<N>(n_); ++i) joints[i].unit->finish(*joints[i].state, *joints[i].plan, move_[i], torques[i]);
   return settled;
 }
 

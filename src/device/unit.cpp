@@ -16,18 +16,13 @@ constexpr double kLeastYield = 1e-2;
 
 double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 
-/// w for a spring of this stiffness on this inverse inertia: x⁴/(16 + x⁴), x = ω·dt.
-double weight(double x_squared) noexcept {
-  const double x4 = x_squared * x_squared;
-  return x4 / (16.0 + x4);
-}
-
 }  // namespace
 
 void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept {
   const double dt = seconds(dt_ns);
   plan.t_ns = t_ns;
   plan.dt_ns = dt_ns;
+  plan.whole = segment_ns(plan, 0) == dt_ns;
   plan.in = in;
   plan.y = in.angle - 0.5 * dt * in.speed;
   plan.free = plan.dy = dt * in.speed;
@@ -54,10 +49,10 @@ void Unit::look_ahead(UnitState& s, StepPlan& plan, double dt) const noexcept {
   plan.lead.drift = 0.5 * dt * plan.in.speed;
   const double x_squared = scale * tangent.stiffness;
   if (x_squared > 1.0 && s.unresolved == 0.0) s.unresolved = x_squared;
-  plan.lead.spring = weight(x_squared);
+  plan.lead.spring = actuator::lead_weight(x_squared);
   for (std::size_t i = 0; i < 2; ++i)
-    plan.lead.tendon[i] = weight(scale * tendon_.stiffness * tangent.tension[i] * tangent.tension[i]);
-  plan.shaft_weight = weight(scale * shaft_friction_.stiffness);
+    plan.lead.tendon[i] = actuator::lead_weight(scale * tendon_.stiffness * tangent.tension[i] * tangent.tension[i]);
+  plan.shaft_weight = actuator::lead_weight(scale * shaft_friction_.stiffness);
 }
 
 std::int64_t Unit::segment_ns(const StepPlan& plan, std::int64_t walked) const noexcept {
@@ -123,15 +118,15 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
 void Unit::begin_trials(UnitState& s, StepPlan& plan) noexcept {
   if (plan.walked_ns > 0) {
     s.actuator = plan.start;
-  } else if (segment_ns(plan, 0) < plan.dt_ns) {
+  } else if (!plan.whole) {
     plan.start = s.actuator;
   }
-  if (segment_ns(plan, 0) == plan.dt_ns)
+  if (plan.whole)
     actuator_.begin(s.actuator, plan.last, seconds(plan.dt_ns), {0.0, plan.held[0].voltage, plan.held[0].terminal, plan.lead});
 }
 
 ShaftTorque Unit::foresee(const UnitState& s, StepPlan& plan, double dy) const noexcept {
-  if (segment_ns(plan, 0) < plan.dt_ns) return expect(s, plan, dy);
+  if (!plan.whole) return expect(s, plan, dy);
   const drive::FrictionTorque rub = shaft_rub(s, plan, dy);
   const actuator::SegmentResult r = actuator_.foresee(s.actuator, plan.last);
   const double slope = std::max(r.slope, 0.0);
@@ -141,14 +136,14 @@ ShaftTorque Unit::foresee(const UnitState& s, StepPlan& plan, double dy) const n
 ShaftTorque Unit::attempt(UnitState& s, StepPlan& plan, double dy, bool rough) noexcept {
   const drive::FrictionTorque rub = plan.rub = shaft_rub(s, plan, dy);
   plan.dy = dy;
-  std::int64_t now = 0, h = segment_ns(plan, 0);
-  if (h == plan.dt_ns) {
+  if (plan.whole) {
     plan.path = actuator_.attempt(s.actuator, plan.last, dy, rough);
   } else {
     s.actuator = plan.start;
     plan.path = {};
     std::size_t interval = 0;
-    for (;; h = segment_ns(plan, now)) {
+    for (std::int64_t now = 0;;) {
+      const std::int64_t h = segment_ns(plan, now);
       const double share = seconds(h) / seconds(plan.dt_ns);
       actuator::SegmentInput in{dy * share, plan.held[interval].voltage, plan.held[interval].terminal, plan.lead};
       in.lead.before = seconds(now) / seconds(plan.dt_ns);

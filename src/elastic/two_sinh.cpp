@@ -141,6 +141,10 @@ inline bool TwoSinh::near(std::size_t i, double begin, double move) const noexce
   return std::abs(params_.a_per_rad[i] * move) < kShort && std::abs(begin) <= d && std::abs(begin + move) <= d;
 }
 
+bool TwoSinh::near_ahead(std::size_t i, double begin, double move, double ahead) const noexcept {
+  return near(i, begin, ahead) && near(i, begin, move + ahead);
+}
+
 Origin TwoSinh::origin(const Positions& at) const noexcept {
   Origin here{at};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -168,20 +172,23 @@ Origin TwoSinh::moved(const Origin& from, const Positions& to) const noexcept {
 
 inline TwoSinh::Mean TwoSinh::mean_near(std::size_t i, const Origin& from, double begin, double move, double ahead) const noexcept {
   const double k = params_.k_Nm[i], a = params_.a_per_rad[i], half_c = 0.5 * params_.c_Nm_per_rad[i];
-  const double half = 0.5 * a * move, middle = half + a * ahead;
+  const double half = 0.5 * a * move;
   const Sinhc s = short_sinhc(half);
-  const double sinh_middle = ahead == 0.0 ? half * s.value : middle * short_sinhc(middle).value;
+  double middle = half, sinh_middle = half * s.value;
+  if (ahead != 0.0) {
+    middle += a * ahead;
+    sinh_middle = middle * short_sinhc(middle).value;
+    begin += ahead;
+  }
   const Hyperbolic h = elastic::moved(from.kept[2 * i], from.kept[2 * i + 1], sinh_middle, middle);
-  const double ends = begin + ahead + (begin + ahead + move);
-  return {k * h.sinh * s.value + half_c * ends, 0.5 * a * k * (h.cosh * s.value + h.sinh * s.slope) + half_c};
+  return {k * h.sinh * s.value + half_c * (begin + begin + move), 0.5 * a * k * (h.cosh * s.value + h.sinh * s.slope) + half_c};
 }
 
 SegmentMean TwoSinh::mean_from(const Origin& from, const Positions& to, double ahead) const noexcept {
   SegmentMean mean;
   for (std::size_t i = 0; i < 2; ++i) {
     const double begin = from.at.q - from.at.x[i], end = to.q - to.x[i];
-    const bool close =
-        near(i, begin, end - begin) && (ahead == 0.0 || (near(i, begin, ahead) && near(i, begin, end - begin + ahead)));
+    const bool close = near(i, begin, end - begin) && (ahead == 0.0 || near_ahead(i, begin, end - begin, ahead));
     add(i, close ? mean_near(i, from, begin, end - begin, ahead) : this->mean(i, begin + ahead, end + ahead), mean);
   }
   return mean;

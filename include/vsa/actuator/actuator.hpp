@@ -59,9 +59,9 @@ struct ActuatorParams {
 inline constexpr double kLeastPresliding_rad = 1e-5;
 [[nodiscard]] drive::FrictionParams shaft_friction(const ActuatorParams& params) noexcept;
 
-/// How the tendons' frictions on the shaft answer: −dτ/d(x_i) and −dτ/d(Δy) of each, N·m/rad.
+/// How the tendons' frictions on the shaft answer: −dτ/d(x_i) and −dτ/d(Δy) of each, N·m/rad, and the dampers' part of the first.
 struct Rub {
-  std::array<double, 2> dx{}, dy{};
+  std::array<double, 2> dx{}, dy{}, damping{};
 };
 
 struct ActuatorState {
@@ -73,8 +73,8 @@ struct ActuatorState {
   std::array<double, 2> spring_w{};       ///< the springs' signed energies now, J; where there is tendon friction
   std::array<double, 2> load{};           ///< mean spring load on each pulley over the last segment
   elastic::Origin origin;                 ///< where the springs are: pulleys' angles and `shaft`
-  elastic::SegmentMean end;               ///< torque and loads at the last segment's end, to first order; its slopes
-  Rub end_rub;                            ///< the part of those slopes that is the tendons' friction
+  elastic::SegmentMean end;  ///< torque and loads at the last segment's end if all stood still there, to first order; its slopes
+  Rub end_rub;               ///< the part of those slopes that is the tendons' friction
   Ledger ledger;
 };
 
@@ -86,6 +86,14 @@ struct Lead {
   double spring = 0;               ///< w of the springs, 0 … 1
   std::array<double, 2> tendon{};  ///< w of each tendon's friction, 0 … 1
 };
+
+/// w of a spring or friction that swings with x = ω·dt: 0 up to a quarter, where a step resolves it, then towards 1:
+///   w = (x⁴ − 4⁻⁴)/(16 + x⁴)
+[[nodiscard]] inline double lead_weight(double x_squared) noexcept {
+  constexpr double kResolved = 1.0 / 256;
+  const double x4 = x_squared * x_squared;
+  return x4 > kResolved ? (x4 - kResolved) / (16.0 + x4) : 0.0;
+}
 
 struct SegmentInput {
   double dq = 0;  ///< shaft displacement along the path
@@ -113,6 +121,7 @@ class Segment {
   std::array<double, 2> w{}, w_u{};  // the springs' signed energies, and their distance from the anchors
   std::array<double, 2> free{};      // the motors' displacements without load
   double damping = 0;                // T_d/h of the tendons' bristles
+  double own = 1, whole = 1;         // how far the springs' end moves with the step's Δy: by the segment, and in all
   // what the last trial found
   std::array<double, 2> dx{};    // the pulleys' displacements
   std::array<double, 2> gain{};  // ∂dx/∂dq
@@ -122,7 +131,9 @@ class Segment {
   double slope = 0;
 
   /// w·(q' − middle of the path): by how much the springs look ahead.
-  [[nodiscard]] double shift(double dq) const noexcept { return in.lead.spring * (1.5 * dq / in.lead.share - in.lead.drift); }
+  [[nodiscard]] double shift(double dq) const noexcept {
+    return in.lead.spring > 0 ? in.lead.spring * (1.5 * dq / in.lead.share - in.lead.drift) : 0.0;
+  }
 };
 
 /// Parameters at the pulley and the prepared motor steps. Immutable but for prepare(); a state belongs to whoever owns time.

@@ -49,15 +49,30 @@ class JointSolver {
 
  private:
   void factor_mobility() noexcept;
-  void gradient(std::span<const JointInStep> joints) noexcept;
-  bool factor_slopes() noexcept;
-  void newton() noexcept;
-  bool near(std::span<const JointInStep> joints, std::span<double> torques) const noexcept;
-  void attempt(std::span<const JointInStep> joints, bool rough) noexcept;
-  double set_out(double& part) noexcept;
-  bool search(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
   static void follow(const JointInStep& joint, double& torque) noexcept;
+
+  // N = 1 of a joint alone, 0 of any number.
+  template <std::size_t N>
+  void predict_all(std::span<const JointInStep> joints) noexcept;
+  template <std::size_t N>
+  bool solve_all(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
+  template <std::size_t N>
+  void gradient(std::span<const JointInStep> joints) noexcept;
+  template <std::size_t N>
+  bool factor_slopes() noexcept;
+  template <std::size_t N>
+  void newton() noexcept;
+  template <std::size_t N>
+  bool near(std::span<const JointInStep> joints, std::span<double> torques) const noexcept;
+  template <std::size_t N>
+  void attempt(std::span<const JointInStep> joints, bool rough) noexcept;
+  template <std::size_t N>
+  double set_out(double& part) noexcept;
+  template <std::size_t N>
+  bool search(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
+  template <std::size_t N>
   void guess(std::span<const JointInStep> joints) noexcept;
+  template <std::size_t N>
   [[nodiscard]] double along() const noexcept;
 
   std::size_t n_;

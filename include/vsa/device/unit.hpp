@@ -99,6 +99,7 @@ struct ShaftIn {
 /// A host step under way: the owner's scratch, of no meaning between steps.
 struct StepPlan {
   std::int64_t t_ns = 0, dt_ns = 0;
+  bool whole = false;  ///< one segment: no tick inside
   ShaftIn in;
   double y = 0;                ///< where the path begins
   double free = 0;             ///< Δy if the torques of this tree stay what they were

@@ -79,7 +79,11 @@ class MotorStepper {
  private:
   using Row = std::array<double, 4>;
   using Form = std::array<double, 10>;  // symmetric 4×4, upper triangle by rows
+  [[nodiscard]] MotorStep without_inductance(const MotorState& s, double voltage, double torque) const noexcept;
+
   double h_ = 0;
+  bool inductance_ = false;
+  double conductance_ = 0, back_emf_ = 0;  // 1/R and K_b where there is no inductance; 0 if open
   Row displacement_{}, speed_{}, current_{}, charge_{};
   Form ii_{}, ww_{}, iw_{};
 };

@@ -74,6 +74,7 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] Mean mean_near(std::size_t i, const Origin& from, double begin, double move, double ahead) const noexcept;
   static void add(std::size_t i, const Mean& mean, SegmentMean& to) noexcept;
   [[nodiscard]] bool near(std::size_t i, double begin, double move) const noexcept;
+  [[nodiscard]] bool near_ahead(std::size_t i, double begin, double move, double ahead) const noexcept;
   [[nodiscard]] double energy_of(std::size_t i, const Origin& here) const noexcept;
 
   TwoSinhParams params_;

@@ -14,8 +14,8 @@
 //
 // What a step can't resolve would then ring near Nyquist for ever. So the springs look ahead, towards where the engine will have
 // the shaft, q' = q + dt·v' = y + 2Δy − (dt/2) v:
-//     path y → y + Δy, shifted by w (q' − (y + Δy/2)),   w = x⁴/(16 + x⁴),   x = ω·dt,  ω² = B_jj σ            (2)
-// w is nothing for what is resolved (x = 0.3: 5e-4) and 1 for what isn't: then (2) is backward Euler in q, which brings it to rest.
+//     path y → y + Δy, shifted by w (q' − (y + Δy/2)),   w = (x⁴ − 4⁻⁴)/(16 + x⁴) ≥ 0,   x = ω·dt,  ω² = B_jj σ   (2)
+// w is nothing for what is resolved (x = 0.3: 3e-4) and 1 for what isn't: then (2) is backward Euler in q, which brings it to rest.
 // Frictions look ahead with a w of their own, from their bristle's stiffness: −k [(1 − w)(u + u')/2 + w u(q')]. In the middle of
 // a step they do no work on v' = −v, and a held joint would buzz. What (2) takes from the energy is the ledger's `integrator`.
 //   B        1/(kg·m²); per tree with `join` and the last argument of `advance`, else the diagonal per joint, else the configured
