@@ -6,18 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 
-#include "sdf_world.hpp"
 #include "vsa/config/plugin_xml.hpp"
+#include "world_cache.hpp"
 #include "world_impl.hpp"
 
 namespace vsa::engine {
 namespace {
-
-// libsdformat keeps global state while it reads: two threads in sdf::Root::Load crash.
-std::mutex reading;
 
 constexpr double kStepMin_s = 1e-6, kStepMax_s = 16e-3;
 
@@ -151,15 +147,15 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
   auto impl = std::make_unique<World::Impl>();
   impl->options = std::move(options);
   Problems problems;
-  {
-    const std::scoped_lock lock(reading);
-    impl->world = std::make_shared<const WorldDescription>(read_sdf(source, impl->options, impl->warnings, problems));
-  }
+  const std::shared_ptr<ReadWorld> file = read_world(source, impl->options, problems);
+  impl->world = file->world;
+  impl->warnings = file->warnings;
   impl->dt_ns = step_ns(impl->options, *impl->world, source.label(), problems);
   impl->add_robots(source.label(), problems);
   problems.throw_if_any();
-  impl->physics = make_mujoco(*impl->world, static_cast<double>(impl->dt_ns) * 1e-9, source.label(), problems);
+  const auto compiled = file->compiled(static_cast<double>(impl->dt_ns) * 1e-9, source.label(), problems);
   problems.throw_if_any();
+  impl->physics = compiled->start();
   impl->join_trees();
   for (std::size_t j = 0; j < impl->world->joints.size(); ++j) {
     const Joint& joint = impl->world->joints[j];

@@ -101,15 +101,16 @@ struct ActuatorRef {
 class World {
  public:
   /// A file, or the name of a built-in world ("snake_flat.sdf"). Throws InputError with all problems. Safe from several
-  /// threads at once (reading takes turns); a World itself belongs to one thread, but for commands.
+  /// threads at once (reading takes turns); a World itself belongs to one thread, but for commands. The second World of a file
+  /// that hasn't changed takes milliseconds: what was read is kept (docs/8-engine.md). Presets are read each time.
   [[nodiscard]] static World load(const std::filesystem::path& sdf, WorldOptions options = {});
   [[nodiscard]] static World load_string(std::string_view sdf, WorldOptions options = {});
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
-  /// Another world that goes on just as this one would: state, parameters, hands and what reset() returns to. Some 100 times faster
-  /// than load(): what was read of the file and the engine's model are shared. Commands that no step has taken yet aren't taken
-  /// along. Each clone may have a thread of its own.
+  /// Another world that goes on just as this one would: state, parameters, hands and what reset() returns to. What was read of the
+  /// file and the engine's model are shared. Commands that no step has taken yet aren't taken along. Each clone may have a thread
+  /// of its own.
   [[nodiscard]] World clone() const;
 
   [[nodiscard]] const std::string& name() const;  ///< the SDF world's
