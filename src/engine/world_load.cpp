@@ -143,6 +143,27 @@ void World::Impl::add_robots(const std::string& file, Problems& problems) {
   check_shared_joints(robots, *world, file, problems);
 }
 
+/// One number for all: engine and robots step together.
+void World::Impl::find_substeps(const std::string& file, Problems& problems) {
+  const RobotSlot* first = nullptr;
+  for (const RobotSlot& slot : robots) {
+    const std::optional<int> n = slot.robot.config().substeps;
+    if (!n) continue;
+    if (first != nullptr && *n != substeps) {
+      problems.add({file, "substeps", fmt::format("{} of {}, {} of {}", substeps, first->model, *n, slot.model),
+                    "robots of one world can't have different ones", "one number, or given once"});
+      return;
+    }
+    first = &slot;
+    substeps = *n;
+  }
+  const std::int64_t least_ns = std::llround(kStepMin_s * 1e9);
+  if (first == nullptr || (dt_ns % substeps == 0 && substep_ns() >= least_ns)) return;
+  problems.add({file + ": " + first->model, "substeps", fmt::format("{}", substeps),
+                fmt::format("can't divide the world's step of {} ns", dt_ns),
+                fmt::format("what leaves whole nanoseconds, at least {}", least_ns)});
+}
+
 std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOptions options) {
   auto impl = std::make_unique<World::Impl>();
   impl->options = std::move(options);
@@ -152,8 +173,9 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
   impl->warnings = file->warnings;
   impl->dt_ns = step_ns(impl->options, *impl->world, source.label(), problems);
   impl->add_robots(source.label(), problems);
+  impl->find_substeps(source.label(), problems);
   problems.throw_if_any();
-  const auto compiled = file->compiled(static_cast<double>(impl->dt_ns) * 1e-9, source.label(), problems);
+  const auto compiled = file->compiled(impl->substep_s(), source.label(), problems);
   problems.throw_if_any();
   impl->physics = compiled->start();
   impl->join_trees();
