@@ -95,6 +95,7 @@ TEST(Substeps, GiveTheSamplesOfTheShortStepBitForBit) {
     if (k == 60) p.both([](World& w) { w.pull({{2, {0.1, 0, 0}, {0.2, 0, 1.1}, 50, 2, 5}}); });
     if (k == 80) p.both([](World& w) { w.apply_wrench(w.link("x::l"), {{3, 0, 0}, {}, {}}); });
     if (k == 100) p.both([](World& w) { w.set_joint("arm::elbow", 0.3, 2); });
+    if (k == 120) p.both([](World& w) { w.set_joint("arm::shoulder", 0.2, -2); });
     p.step();
     ASSERT_EQ(all_of(p.coarse), all_of(p.fine)) << k;
   }
