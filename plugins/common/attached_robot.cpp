@@ -21,6 +21,7 @@ host::Robot make_robot(const Attachment& attachment) {
   host::RobotConfig config = config::parse_plugin(attachment.xml, attachment.where, config::PresetLibrary());
   Problems problems;
   config::check_joints(config, attachment.joints, attachment.where, problems);
+  config::check_one_step(config, attachment.where, problems);
   problems.throw_if_any();
   return host::Robot(std::move(config));
 }

@@ -22,6 +22,7 @@ class Finisher {
 
   host::RobotConfig finish() {
     config_.state_rate_Hz = draft_.state_rate_Hz;
+    config_.substeps = draft_.substeps;
     if (draft_.actuators.empty() && !draft_.answered) add("plugin", "", "has no actuator", "at least one <actuator>");
     make_buses();
     for (const ActuatorDraft& a : draft_.actuators) config_.actuators.push_back(make(a));

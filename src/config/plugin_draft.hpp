@@ -44,6 +44,7 @@ struct RobotDraft {
   std::vector<ActuatorDraft> actuators;
   std::vector<BusDraft> buses;
   double state_rate_Hz = 100;
+  std::optional<int> substeps;
   bool answered = false;  ///< the element is an older plug-in's, and the problem says so
 };
 

@@ -36,7 +36,7 @@ class Parser {
     xml_.check_attributes(root, "plugin", {"name", "filename"});
     const std::string name = xml_.attribute(root, "name").value_or("");
     if (name != kPluginName) xml_.add("plugin@name", '"' + name + '"', "is not this plug-in", std::string(kPluginName));
-    xml_.check_children(root, "plugin", {"actuator", "bus", "state_rate_Hz"});
+    xml_.check_children(root, "plugin", {"actuator", "bus", "state_rate_Hz", "substeps"});
     for (const XMLElement* e = root.FirstChildElement("bus"); e; e = e->NextSiblingElement("bus")) robot.buses.push_back(bus(*e));
     int index = 0;
     for (const XMLElement* e = root.FirstChildElement("actuator"); e; e = e->NextSiblingElement("actuator")) {
@@ -46,6 +46,10 @@ class Parser {
       xml_.check_attributes(*e, "state_rate_Hz", {});
       const auto rate = xml_.number("state_rate_Hz", xml_.text(*e, "state_rate_Hz"), kMinRate_Hz, kMaxRate_Hz, "Hz");
       robot.state_rate_Hz = rate.value_or(robot.state_rate_Hz);
+    }
+    if (const XMLElement* e = xml_.only(root, "plugin", "substeps")) {
+      xml_.check_attributes(*e, "substeps", {});
+      robot.substeps = xml_.integer("substeps", xml_.text(*e, "substeps"), 1, host::kMostSubsteps);
     }
     return robot;
   }
@@ -221,6 +225,13 @@ host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, con
   host::RobotConfig config = finish(draft, where, presets, problems);
   problems.throw_if_any();
   return config;
+}
+
+void check_one_step(const host::RobotConfig& config, std::string_view where, Problems& problems) {
+  if (const int n = config.substeps.value_or(1); n > 1)
+    problems.add({std::string(where), "substeps", std::to_string(n),
+                  "this simulator makes its steps itself: set <physics><max_step_size> to the step divided by " + std::to_string(n),
+                  "1, or no <substeps>"});
 }
 
 void check_joints(const host::RobotConfig& config, const std::vector<std::string>& joints, std::string_view where,

@@ -28,63 +28,59 @@ bool take_prefix(std::string_view& text, std::string_view prefix) {
   return true;
 }
 
+}  // namespace
+
+SearchPath::SearchPath(const std::vector<fs::path>& more) {
+  for (const char* name : {"SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH"})
+    add_from_environment(name, directories);
+  add_from_environment("GAZEBO_RESOURCE_PATH", resources);
+  directories.insert(directories.end(), resources.begin(), resources.end());
+  for (const char* name : {"AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH"}) add_from_environment(name, prefixes);
+  add_from_environment("ROS_PACKAGE_PATH", packages);
+  const fs::path data = config::data_directory();
+  if (!data.empty()) {
+    directories.push_back(data / "models");
+    last.push_back(data / "models" / "stand_ins");
+  }
+  directories.insert(directories.end(), more.begin(), more.end());
+}
+
 /// A package of this name below `root`: a folder with a package.xml.
-fs::path package_below(const fs::path& root, const fs::path& name, int depth) {
+fs::path Finder::package_below(const fs::path& root, const fs::path& name, int depth) const {
   std::error_code error;
+  seen_.reads(root);
   for (fs::directory_iterator it(root, error), end; !error && it != end; it.increment(error)) {
     std::error_code ignored;
     if (!it->is_directory(ignored)) continue;
     const fs::path& folder = it->path();
-    if (folder.filename() == name && fs::exists(folder / "package.xml", ignored)) return folder;
+    if (folder.filename() == name && seen_.asks(folder / "package.xml")) return folder;
     if (depth <= 1) continue;
     if (fs::path found = package_below(folder, name, depth - 1); !found.empty()) return found;
   }
   return {};
 }
 
-bool there(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(path, error);
-}
-
-}  // namespace
-
-Finder::Finder(const std::vector<fs::path>& more) {
-  for (const char* name : {"SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH"})
-    add_from_environment(name, directories_);
-  add_from_environment("GAZEBO_RESOURCE_PATH", resources_);
-  directories_.insert(directories_.end(), resources_.begin(), resources_.end());
-  for (const char* name : {"AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH"}) add_from_environment(name, prefixes_);
-  add_from_environment("ROS_PACKAGE_PATH", packages_);
-  const fs::path data = config::data_directory();
-  if (!data.empty()) {
-    directories_.push_back(data / "models");
-    last_.push_back(data / "models" / "stand_ins");
-  }
-  directories_.insert(directories_.end(), more.begin(), more.end());
-}
-
 fs::path Finder::in_package(std::string_view name_and_rest) const {
-  for (const fs::path& directory : directories_) {
-    if (fs::path path = directory / name_and_rest; there(path)) return path;
+  for (const fs::path& directory : path_.directories) {
+    if (fs::path path = directory / name_and_rest; seen_.asks(path)) return path;
   }
   const std::size_t slash = name_and_rest.find('/');
   const fs::path name = name_and_rest.substr(0, slash);
   const fs::path rest = slash == std::string_view::npos ? fs::path() : fs::path(name_and_rest.substr(slash + 1));
-  for (const fs::path& prefix : prefixes_) {
+  for (const fs::path& prefix : path_.prefixes) {
     for (const fs::path& share : {prefix / "share", prefix / name / "share"}) {
-      if (fs::path path = share / name_and_rest; there(path)) return path;
+      if (fs::path path = share / name_and_rest; seen_.asks(path)) return path;
     }
   }
-  for (const fs::path& directory : packages_) {
+  for (const fs::path& directory : path_.packages) {
     constexpr int kFolders = 3;
     const bool itself = directory.filename() == name;
     for (const fs::path& folder : {itself ? directory : directory / name, package_below(directory, name, kFolders)}) {
-      if (!folder.empty() && there(folder) && there(folder / rest)) return rest.empty() ? folder : folder / rest;
+      if (!folder.empty() && seen_.asks(folder) && seen_.asks(folder / rest)) return rest.empty() ? folder : folder / rest;
     }
   }
-  for (const fs::path& directory : last_) {
-    if (fs::path path = directory / name_and_rest; there(path)) return path;
+  for (const fs::path& directory : path_.last) {
+    if (fs::path path = directory / name_and_rest; seen_.asks(path)) return path;
   }
   return {};
 }
@@ -92,10 +88,10 @@ fs::path Finder::in_package(std::string_view name_and_rest) const {
 fs::path Finder::find(std::string_view uri, const fs::path& base) const {
   if (take_prefix(uri, "model://") || take_prefix(uri, "package://")) return in_package(uri);
   take_prefix(uri, "file://");
-  if (const fs::path path(uri); path.is_absolute()) return there(path) ? path : fs::path{};
-  if (fs::path path = base / uri; there(path)) return path;
-  for (const fs::path& directory : resources_) {
-    if (fs::path path = directory / uri; there(path)) return path;
+  if (const fs::path path(uri); path.is_absolute()) return seen_.asks(path) ? path : fs::path{};
+  if (fs::path path = base / uri; seen_.asks(path)) return path;
+  for (const fs::path& directory : path_.resources) {
+    if (fs::path path = directory / uri; seen_.asks(path)) return path;
   }
   return {};
 }
@@ -111,12 +107,12 @@ std::string Finder::searched(std::string_view uri, const fs::path& base) const {
   };
   if (plain) {
     add({base}, "");
-    add(resources_, "");
+    add(path_.resources, "");
     return text;
   }
-  add(directories_, "");
-  add(prefixes_, "/share");
-  add(packages_, "");
+  add(path_.directories, "");
+  add(path_.prefixes, "/share");
+  add(path_.packages, "");
   return text;
 }
 

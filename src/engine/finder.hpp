@@ -15,11 +15,22 @@
 #include <string_view>
 #include <vector>
 
+#include "seen_files.hpp"
+
 namespace vsa::engine {
+
+/// The directories above, as the environment gives them now.
+struct SearchPath {
+  explicit SearchPath(const std::vector<std::filesystem::path>& more);
+  [[nodiscard]] bool operator==(const SearchPath&) const = default;
+
+  std::vector<std::filesystem::path> directories, prefixes, packages, resources, last;
+};
 
 class Finder {
  public:
-  explicit Finder(const std::vector<std::filesystem::path>& more);
+  /// Where it looks is noted in `seen`.
+  Finder(SearchPath path, SeenFiles& seen) : path_(std::move(path)), seen_(seen) {}
   /// Empty where nothing is found.
   [[nodiscard]] std::filesystem::path find(std::string_view uri, const std::filesystem::path& base) const;
   /// For error messages: where it looked.
@@ -27,8 +38,11 @@ class Finder {
 
  private:
   [[nodiscard]] std::filesystem::path in_package(std::string_view name_and_rest) const;
+  [[nodiscard]] std::filesystem::path package_below(const std::filesystem::path& root, const std::filesystem::path& name,
+                                                    int depth) const;
 
-  std::vector<std::filesystem::path> directories_, prefixes_, packages_, resources_, last_;
+  SearchPath path_;
+  SeenFiles& seen_;
 };
 
 }  // namespace vsa::engine

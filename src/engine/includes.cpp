@@ -59,6 +59,7 @@ class Walk {
 
   void file(const fs::path& path) {
     tinyxml2::XMLDocument xml;
+    c_.seen.reads(path);
     if (xml.LoadFile(path.c_str()) != tinyxml2::XML_SUCCESS) return;  // what is broken, libsdformat reports
     if (document(xml, path.string(), fs::absolute(path).parent_path())) c_.files.replace(path, printed(xml));
   }
@@ -74,8 +75,11 @@ class Walk {
     for (tinyxml2::XMLElement* element : uris) {
       const std::string uri = element->GetText();
       const fs::path found = c_.finder.find(uri, base);
-      if (found.empty()) continue;
-      const fs::path target = model_file(found);
+      if (found.empty()) {
+        c_.seen.lost();  // libsdformat may know where it is
+        continue;
+      }
+      const fs::path target = model_file(found, c_.seen);
       enter(target, uri, label);
       if (libsdformat_finds(uri) == target && c_.files.stand_in(target) == target) continue;
       element->SetText(c_.files.stand_in(target).c_str());
@@ -88,7 +92,7 @@ class Walk {
   /// It looks for a plain path among its own files and in the working directory first.
   [[nodiscard]] fs::path libsdformat_finds(const std::string& uri) const {
     const bool plain = uri.find("://") == std::string::npos || uri.rfind("file://", 0) == 0;
-    return plain && !fs::path(uri).is_absolute() ? fs::path() : model_file(c_.finder.find(uri, c_.base));
+    return plain && !fs::path(uri).is_absolute() ? fs::path() : model_file(c_.finder.find(uri, c_.base), c_.seen);
   }
 
   void enter(const fs::path& path, const std::string& uri, const std::string& from) {
@@ -112,12 +116,13 @@ class Walk {
 }  // namespace
 
 /// What an include's directory holds: as libsdformat, the file of the newest version in its model.config that can be read.
-fs::path model_file(const fs::path& found) {
+fs::path model_file(const fs::path& found, SeenFiles& seen) {
   std::error_code ignored;
   if (!fs::is_directory(found, ignored)) return found;
   tinyxml2::XMLDocument config;
   fs::path file = "model.sdf";
   int newest = -1;
+  seen.reads(found / "model.config");
   if (config.LoadFile((found / "model.config").c_str()) == tinyxml2::XML_SUCCESS && config.RootElement() != nullptr) {
     for (auto* e = config.RootElement()->FirstChildElement("sdf"); e != nullptr; e = e->NextSiblingElement("sdf")) {
       const int minor = minor_version(e->Attribute("version"));

@@ -14,6 +14,6 @@ namespace vsa::engine {
 [[nodiscard]] bool prepare_files(const SdfSource& source, ReadContext& context);
 
 /// The file that libsdformat is to read for what an <include> names.
-[[nodiscard]] std::filesystem::path model_file(const std::filesystem::path& found);
+[[nodiscard]] std::filesystem::path model_file(const std::filesystem::path& found, SeenFiles& seen);
 
 }  // namespace vsa::engine

@@ -23,7 +23,9 @@ MujocoPhysics::MujocoPhysics(const MujocoPhysics& other)
       unit_(other.unit_),
       column_(other.column_),
       jacobian_(other.jacobian_),
-      mobility_(other.mobility_) {
+      mobility_(other.mobility_),
+      mass_matrix_(other.mass_matrix_),
+      damped_(other.damped_) {
   make_data();
   restore(other.save());
 }

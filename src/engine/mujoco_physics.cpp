@@ -34,7 +34,7 @@ const char* warning_text(int kind) {
 
 }  // namespace
 
-MujocoPhysics::MujocoPhysics(ModelPtr model, const WorldDescription& world, const std::vector<TreeNode>& tree)
+MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const WorldDescription& world, const std::vector<TreeNode>& tree)
     : model_(std::move(model)), joint_(world.joints.size()), root_(world.links.size(), -1) {
   const mjModel* m = model_.get();
   q_owner_.resize(static_cast<std::size_t>(m->nq));

@@ -22,7 +22,7 @@ namespace vsa::engine {
 
 class MujocoPhysics final : public Physics {
  public:
-  MujocoPhysics(ModelPtr model, const WorldDescription& world, const std::vector<TreeNode>& tree);
+  MujocoPhysics(std::shared_ptr<mjModel> model, const WorldDescription& world, const std::vector<TreeNode>& tree);
 
   void prepare() override;
   std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const override;
@@ -64,7 +64,7 @@ class MujocoPhysics final : public Physics {
   std::optional<Fault> find_fault() const;
   std::optional<Fault> check(const mjtNum* values, int n, bool positions, const char* quantity) const;
 
-  std::shared_ptr<mjModel> model_;  // of all clones: never changed, but replaced by grow()
+  std::shared_ptr<mjModel> model_;  // of all of the file: never changed, but replaced by grow()
   DataPtr data_;
   DataPtr view_;  // kinematics of the present state, brought up to date when somebody looks
   mutable bool view_stale_ = true;

@@ -116,8 +116,26 @@ void MujocoPhysics::contacts(std::vector<Contact>& out) const {
   }
 }
 
-std::unique_ptr<Physics> make_mujoco(const WorldDescription& world, double step_s, std::string_view file, Problems& problems) {
-  const std::vector<TreeNode> tree = build_tree(world, file, problems);
+namespace {
+
+class CompiledMujoco final : public CompiledWorld {
+ public:
+  CompiledMujoco(ModelPtr model, std::shared_ptr<const WorldDescription> world, std::vector<TreeNode> tree)
+      : model_(std::move(model)), world_(std::move(world)), tree_(std::move(tree)) {}
+  std::unique_ptr<Physics> start() const override { return std::make_unique<MujocoPhysics>(model_, *world_, tree_); }
+
+ private:
+  std::shared_ptr<mjModel> model_;
+  std::shared_ptr<const WorldDescription> world_;
+  std::vector<TreeNode> tree_;
+};
+
+}  // namespace
+
+std::shared_ptr<const CompiledWorld> compile_mujoco(const std::shared_ptr<const WorldDescription>& description, double step_s,
+                                                    std::string_view file, Problems& problems) {
+  const WorldDescription& world = *description;
+  std::vector<TreeNode> tree = build_tree(world, file, problems);
   if (!problems.empty()) return nullptr;
   int moving = 0;
   for (const Link& l : world.links) moving += l.is_static ? 0 : static_cast<int>(l.collisions.size());
@@ -136,7 +154,7 @@ std::unique_ptr<Physics> make_mujoco(const WorldDescription& world, double step_
     const double scale = heightmap_scale(map);
     for (const double height : map.heights) *to++ = static_cast<float>(height / scale);
   }
-  return std::make_unique<MujocoPhysics>(std::move(model), world, tree);
+  return std::make_shared<CompiledMujoco>(std::move(model), description, std::move(tree));
 }
 
 }  // namespace vsa::engine

@@ -83,8 +83,15 @@ class Physics {
   virtual void jacobian(std::size_t link, const std::array<double, 3>& point, std::span<double> out) const = 0;
 };
 
-/// Builds the world in MuJoCo. Adds to `problems` and returns null where it can't.
-[[nodiscard]] std::unique_ptr<Physics> make_mujoco(const WorldDescription& world, double step_s, std::string_view file,
-                                                   Problems& problems);
+/// What an engine makes of a description, the same for all who step it; never changed.
+class CompiledWorld {
+ public:
+  virtual ~CompiledWorld() = default;
+  [[nodiscard]] virtual std::unique_ptr<Physics> start() const = 0;  ///< at its joints' zeros
+};
+
+/// Compiles the world for MuJoCo. Adds to `problems` and returns null where it can't.
+[[nodiscard]] std::shared_ptr<const CompiledWorld> compile_mujoco(const std::shared_ptr<const WorldDescription>& world,
+                                                                  double step_s, std::string_view file, Problems& problems);
 
 }  // namespace vsa::engine

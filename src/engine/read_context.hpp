@@ -39,6 +39,7 @@ struct ReadContext {
   Notes& notes;
   const Finder& finder;
   InputFiles& files;
+  SeenFiles& seen;
   std::string file;            ///< the world's, where an element doesn't know its own
   std::filesystem::path base;  ///< directory for relative paths of elements that don't know their file
   Concave concave = Concave::refuse;

@@ -112,6 +112,7 @@ std::optional<Geometry> read_mesh_geometry(Where& w, const sdf::Mesh& mesh) {
   Geometry g;
   g.kind = Geometry::Kind::mesh;
   g.size = mesh.Scale();
+  w.c.seen.reads(path);
   try {
     g.mesh = std::make_shared<const Mesh>(read_mesh(path, mesh.Scale()));
   } catch (const InputError& error) {
@@ -127,6 +128,7 @@ std::optional<Geometry> read_heightmap_geometry(Where& w, const sdf::Heightmap& 
   if (path.empty()) return w.not_found("heightmap/uri", map.Uri(), map.FilePath());
   std::optional<Geometry> g = w.sized(Geometry::Kind::heightmap, map.Size(), 3, "heightmap/size");
   if (!g) return g;
+  w.c.seen.reads(path);
   try {
     g->heightmap = std::make_shared<const Heightmap>(read_heightmap(path, map.Size(), map.Position()));
   } catch (const InputError& error) {

@@ -155,7 +155,7 @@ sdf::ParserConfig parser_config(const ReadContext& c) {
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetFindCallback([&c](const std::string& uri) {
     const std::filesystem::path found = c.finder.find(uri, c.base);
-    return found.empty() ? std::string() : c.files.stand_in(model_file(found)).string();
+    return found.empty() ? std::string() : c.files.stand_in(model_file(found, c.seen)).string();
   });
   return config;
 }

@@ -61,8 +61,8 @@ void read_root(ReadContext& c, const sdf::Root& root) {
 
 }  // namespace
 
-WorldDescription read_sdf(const SdfSource& source, const WorldOptions& options, std::vector<std::string>& warnings,
-                          Problems& problems) {
+WorldDescription read_sdf(const SdfSource& source, const WorldOptions& options, const Finder& finder, SeenFiles& seen,
+                          std::vector<std::string>& warnings, Problems& problems) {
   WorldDescription out;
   std::error_code ignored;
   if (!source.path.empty() && !fs::is_regular_file(source.path, ignored)) {
@@ -70,11 +70,13 @@ WorldDescription read_sdf(const SdfSource& source, const WorldOptions& options, 
     return out;
   }
   const fs::path base = source.path.empty() ? fs::current_path() : fs::absolute(source.path).parent_path();
-  const Finder finder(options.model_path);
   Notes notes;
   InputFiles files;
-  if (!source.path.empty()) files.call(source.path);
-  ReadContext context{out, problems, notes, finder, files, source.label(), base, options.concave};
+  if (!source.path.empty()) {
+    files.call(source.path);
+    seen.reads(source.path);
+  }
+  ReadContext context{out, problems, notes, finder, files, seen, source.label(), base, options.concave};
   if (!prepare_files(source, context)) return out;
   sdf::Root root;
   parse_sdf(source, context, root);

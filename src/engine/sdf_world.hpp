@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "description.hpp"
+#include "finder.hpp"
 
 namespace vsa::engine {
 
@@ -21,8 +22,9 @@ struct SdfSource {
   [[nodiscard]] std::string label() const { return path.empty() ? "SDF text" : path.string(); }
 };
 
-/// Everything wrong goes to `problems`; the description is complete only where nothing was.
-[[nodiscard]] WorldDescription read_sdf(const SdfSource& source, const WorldOptions& options, std::vector<std::string>& warnings,
-                                        Problems& problems);
+/// Everything wrong goes to `problems`; the description is complete only where nothing was. Of the options only `concave` counts.
+/// What is read goes to `seen`, the finder's. One call at a time: world_cache.hpp sees to that.
+[[nodiscard]] WorldDescription read_sdf(const SdfSource& source, const WorldOptions& options, const Finder& finder, SeenFiles& seen,
+                                        std::vector<std::string>& warnings, Problems& problems);
 
 }  // namespace vsa::engine

@@ -65,12 +65,18 @@ struct World::Impl {
   std::vector<Pull> pulls;
   std::vector<std::pair<std::size_t, Wrench>> wrenches;  ///< by link
   std::vector<std::pair<std::size_t, double>> torques;   ///< by joint
-  std::int64_t dt_ns = 0, time_ns = 0, steps = 0;
+  std::int64_t dt_ns = 0, time_ns = 0, steps = 0;        ///< dt_ns: of a step of `substeps`
+  int substeps = 1;
   std::shared_ptr<const Snapshot> initial;
 
   [[nodiscard]] static std::unique_ptr<Impl> load(const SdfSource& source, WorldOptions options);
   void add_robots(const std::string& file, Problems& problems);
+  void find_substeps(const std::string& file, Problems& problems);
+  [[nodiscard]] std::int64_t substep_ns() const { return dt_ns / substeps; }
+  [[nodiscard]] double substep_s() const { return static_cast<double>(substep_ns()) * 1e-9; }
   void step();
+  [[nodiscard]] std::optional<Fault> substep();
+  [[nodiscard]] std::shared_ptr<const Snapshot> before_step() const;
   void join_trees();
   void ask_mobility(RobotSlot& slot);
   void drive();

@@ -6,18 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 
-#include "sdf_world.hpp"
 #include "vsa/config/plugin_xml.hpp"
+#include "world_cache.hpp"
 #include "world_impl.hpp"
 
 namespace vsa::engine {
 namespace {
-
-// libsdformat keeps global state while it reads: two threads in sdf::Root::Load crash.
-std::mutex reading;
 
 constexpr double kStepMin_s = 1e-6, kStepMax_s = 16e-3;
 
@@ -147,19 +143,41 @@ void World::Impl::add_robots(const std::string& file, Problems& problems) {
   check_shared_joints(robots, *world, file, problems);
 }
 
+/// One number for all: engine and robots step together.
+void World::Impl::find_substeps(const std::string& file, Problems& problems) {
+  const RobotSlot* first = nullptr;
+  for (const RobotSlot& slot : robots) {
+    const std::optional<int> n = slot.robot.config().substeps;
+    if (!n) continue;
+    if (first != nullptr && *n != substeps) {
+      problems.add({file, "substeps", fmt::format("{} of {}, {} of {}", substeps, first->model, *n, slot.model),
+                    "robots of one world can't have different ones", "one number, or given once"});
+      return;
+    }
+    first = &slot;
+    substeps = *n;
+  }
+  const std::int64_t least_ns = std::llround(kStepMin_s * 1e9);
+  if (first == nullptr || (dt_ns % substeps == 0 && substep_ns() >= least_ns)) return;
+  problems.add({file + ": " + first->model, "substeps", fmt::format("{}", substeps),
+                fmt::format("can't divide the world's step of {} ns", dt_ns),
+                fmt::format("what leaves whole nanoseconds, at least {}", least_ns)});
+}
+
 std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOptions options) {
   auto impl = std::make_unique<World::Impl>();
   impl->options = std::move(options);
   Problems problems;
-  {
-    const std::scoped_lock lock(reading);
-    impl->world = std::make_shared<const WorldDescription>(read_sdf(source, impl->options, impl->warnings, problems));
-  }
+  const std::shared_ptr<ReadWorld> file = read_world(source, impl->options, problems);
+  impl->world = file->world;
+  impl->warnings = file->warnings;
   impl->dt_ns = step_ns(impl->options, *impl->world, source.label(), problems);
   impl->add_robots(source.label(), problems);
+  impl->find_substeps(source.label(), problems);
   problems.throw_if_any();
-  impl->physics = make_mujoco(*impl->world, static_cast<double>(impl->dt_ns) * 1e-9, source.label(), problems);
+  const auto compiled = file->compiled(impl->substep_s(), source.label(), problems);
   problems.throw_if_any();
+  impl->physics = compiled->start();
   impl->join_trees();
   for (std::size_t j = 0; j < impl->world->joints.size(); ++j) {
     const Joint& joint = impl->world->joints[j];

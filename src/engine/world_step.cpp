@@ -1,12 +1,12 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// A step:
+// A step, or each of its substeps:
 //   1  prepare()              everything that depends on q
 //   2  where host::MobilityWatch says so   B of the driven joints of every tree
 //   3  Robot::advance         q, v, B → torque, for [t, t + dt)
 //   4  apply, hands, advance()  v' = v + dt·a, q' = q + dt·v'
 //   5  Robot::observe         q', v', for readings
-// After a fault in 4 physics and robots are put back to where they were before 1.
+// After a fault in 4 physics and robots are put back to where they were before the (whole) step.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -64,7 +64,7 @@ void World::Impl::drive() {
       slot.in[i].speed_rad_per_s = state.speed;
     }
     if (slot.mobility.watch.due(slot.in)) ask_mobility(slot);
-    slot.robot.advance(time_ns, dt_ns, slot.in, slot.torques, slot.mobility.matrices);
+    slot.robot.advance(time_ns, substep_ns(), slot.in, slot.torques, slot.mobility.matrices);
     for (std::size_t i = 0; i < slot.joints.size(); ++i) physics->apply(slot.joints[i], slot.torques[i]);
   }
 }
@@ -79,21 +79,40 @@ void World::Impl::observe() {
   }
 }
 
-void World::Impl::step() {
-  std::vector<std::shared_ptr<const host::Robot::Snapshot>> before;
-  before.reserve(robots.size());
-  for (const RobotSlot& slot : robots) before.push_back(slot.robot.snapshot());
+std::optional<Fault> World::Impl::substep() {
   physics->prepare();
   drive();
   apply_hands();
-  if (const std::optional<Fault> fault = physics->advance()) {
-    for (std::size_t i = 0; i < robots.size(); ++i) robots[i].robot.restore(*before[i]);
-    forget_mobility();
-    throw SimulationError(fmt::format("the simulation blew up at t = {:.6f} s: {}: {} = {:.6g}",
-                                      static_cast<double>(time_ns) * kNanosecond, fault->where, fault->quantity, fault->value));
-  }
+  if (std::optional<Fault> fault = physics->advance()) return fault;
   observe();
-  time_ns += dt_ns;
+  time_ns += substep_ns();
+  return std::nullopt;
+}
+
+/// What a fault goes back to: the robots only where physics, which takes back its last step by itself, has made no other.
+std::shared_ptr<const World::Snapshot> World::Impl::before_step() const {
+  if (substeps > 1) return snapshot();
+  auto out = std::make_shared<Snapshot>();
+  out->robots.reserve(robots.size());
+  for (const RobotSlot& slot : robots) out->robots.push_back(slot.robot.snapshot());
+  return out;
+}
+
+void World::Impl::step() {
+  const std::shared_ptr<const Snapshot> before = before_step();
+  for (int k = 0; k < substeps; ++k) {
+    const std::optional<Fault> fault = substep();
+    if (!fault) continue;
+    const double at_s = static_cast<double>(time_ns) * kNanosecond;
+    if (substeps > 1) {
+      restore(*before);
+    } else {
+      for (std::size_t i = 0; i < robots.size(); ++i) robots[i].robot.restore(*before->robots[i]);
+    }
+    forget_mobility();
+    throw SimulationError(
+        fmt::format("the simulation blew up at t = {:.6f} s: {}: {} = {:.6g}", at_s, fault->where, fault->quantity, fault->value));
+  }
   ++steps;
 }
 

@@ -41,7 +41,7 @@ void World::place(const ActuatorRef& ref, const host::Placement& to) {
     throw InputError(Problem{"", ref.name + ": angle_rad", fmt::format("{}", to.angle_rad),
                              "beyond the limits of " + joints()[joint].name, fmt::format("{} … {}", (*range)[0], (*range)[1])});
   }
-  impl_->robots[ref.robot].robot.place(ref.index, to, step_s());
+  impl_->robots[ref.robot].robot.place(ref.index, to, impl_->substep_s());
   impl_->physics->set_joint(joint, {to.angle_rad, to.speed_rad_per_s});
   impl_->forget_mobility();
 }
@@ -123,6 +123,7 @@ World World::clone() const {
   to->wrenches = impl_->wrenches;
   to->torques = impl_->torques;
   to->dt_ns = impl_->dt_ns;
+  to->substeps = impl_->substeps;
   to->time_ns = impl_->time_ns;
   to->steps = impl_->steps;
   to->initial = impl_->initial;

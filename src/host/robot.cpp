@@ -39,6 +39,8 @@ void check_whole(const RobotConfig& config) {
   }
   if (!(config.state_rate_Hz > 0 && config.state_rate_Hz <= 1e9))
     problems.add({"", "state_rate_Hz", std::to_string(config.state_rate_Hz), "is out of range", "above 0, up to 1e9"});
+  if (const int n = config.substeps.value_or(1); n < 1 || n > kMostSubsteps)
+    problems.add({"", "substeps", std::to_string(n), "is out of range", "1 … " + std::to_string(kMostSubsteps)});
   problems.throw_if_any();
 }
 

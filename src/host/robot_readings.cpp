@@ -78,7 +78,8 @@ std::vector<Notice> Robot::take_notices() {
         const Resolution r = resolution(x);
         text += ": its spring on the inertia behind the joint swings with ω·dt = " + rounded(x) +
                 ": at this step length such a swing has " + rounded(r.frequency) + " times its frequency and " + rounded(r.radius) +
-                " times its amplitude after each step" + "; steps shorter by a factor of " + rounded(x / 0.3) + " resolve it";
+                " times its amplitude after each step" + "; steps shorter by a factor of " + rounded(x / 0.3) +
+                " resolve it (<substeps> in the plug-in element, or a smaller <max_step_size>)";
         break;
       }
       case NoticeKind::unsettled:

@@ -156,6 +156,20 @@ TEST(Plugin, AllProblemsComeTogetherAndLeadWithWhere) {
   for (const Problem& p : problems) EXPECT_EQ(p.file, "arm.sdf");
 }
 
+TEST(Plugin, SubstepsAreKnownOrLeftToTheHost) {
+  EXPECT_EQ(parse(plugin(kElbow)).substeps, std::nullopt);
+  EXPECT_EQ(parse(plugin(kElbow + "<substeps>64</substeps>")).substeps, 64);
+}
+
+TEST(Plugin, AHostThatCantMakeSubstepsSaysWhatToSetInstead) {
+  Problems problems;
+  for (const char* one : {"", "<substeps>1</substeps>"}) config::check_one_step(parse(plugin(kElbow + one)), "arm.sdf", problems);
+  EXPECT_TRUE(problems.empty());
+  config::check_one_step(parse(plugin(kElbow + "<substeps>4</substeps>")), "arm.sdf", problems);
+  ASSERT_EQ(problems.list().size(), 1u);
+  expect_pieces(problems.list()[0].text(), {"arm.sdf: substeps = 4", "<max_step_size>", "divided by 4"});
+}
+
 TEST(Plugin, JointsThatTheModelLacksAreReported) {
   Problems problems;
   const host::RobotConfig robot = parse(plugin(maker_pro("m::shaft_1") + maker_pro("m::shaft_2")));
@@ -210,7 +224,13 @@ INSTANTIATE_TEST_SUITE_P(
             "rate_zero", plugin(kElbow + "<state_rate_Hz>0</state_rate_Hz>"), {"state_rate_Hz = 0: is out of range", "1000 Hz"}},
         BadPlugin{"rate_high", plugin(kElbow + "<state_rate_Hz>1001</state_rate_Hz>"), {"is out of range"}},
         BadPlugin{"rate_nan", plugin(kElbow + "<state_rate_Hz>nan</state_rate_Hz>"), {"must be a finite number"}},
-        BadPlugin{"rate_empty", plugin(kElbow + "<state_rate_Hz/>"), {"must be a finite number"}}),
+        BadPlugin{"rate_empty", plugin(kElbow + "<state_rate_Hz/>"), {"must be a finite number"}},
+        BadPlugin{"two_substeps", plugin(kElbow + "<substeps>2</substeps><substeps>2</substeps>"), {"substeps", "more than once"}},
+        BadPlugin{"substeps_zero", plugin(kElbow + "<substeps>0</substeps>"), {"substeps = \"0\": is out of range", "1 … 64"}},
+        BadPlugin{"substeps_high", plugin(kElbow + "<substeps>65</substeps>"), {"substeps = \"65\": is out of range", "1 … 64"}},
+        BadPlugin{"substeps_part", plugin(kElbow + "<substeps>2.5</substeps>"), {"substeps = \"2.5\"", "whole"}},
+        BadPlugin{"substeps_empty", plugin(kElbow + "<substeps/>"), {"substeps"}},
+        BadPlugin{"substeps_unit", plugin(kElbow + "<substeps unit='1'>2</substeps>"), {"substeps@unit"}}),
     [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(

@@ -41,6 +41,19 @@ TEST(Clone, GoesOnAsTheOriginalAndBothAreTheirOwn) {
   EXPECT_EQ(c.time_ns(), 50'000'000);
 }
 
+TEST(Clone, KnowsTheJointsDampers) {
+  std::string text = arm();
+  const std::string elbow = "<xyz>0 1 0</xyz></axis></joint><plugin";
+  ASSERT_NE(text.find(elbow), std::string::npos);
+  text.replace(text.find(elbow), elbow.size(), "<xyz>0 1 0</xyz><dynamics><damping>0.5</damping></dynamics></axis></joint><plugin");
+  World w = World::load_string(text);
+  w.command("shoulder", -0.4, 0.3);
+  w.run(0.05);
+  World c = w.clone();
+  for (World* x : {&w, &c}) x->run(0.2);
+  EXPECT_EQ(state(c), state(w));
+}
+
 TEST(Clone, HasTheParametersThatWereChanged) {
   World w = World::load_string(arm());
   auto unit = w.robot(0).config().actuators[0].unit;

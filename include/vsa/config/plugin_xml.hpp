@@ -27,6 +27,9 @@ struct Replacement {
 [[nodiscard]] host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, const PresetLibrary& presets,
                                              const Replacement& replacement = {});
 
+/// For hosts whose engine steps by itself: adds a problem where the robot asks for more than one substep.
+void check_one_step(const host::RobotConfig& config, std::string_view where, Problems& problems);
+
 /// Adds a problem for every configured joint that isn't among `joints` (scoped names).
 void check_joints(const host::RobotConfig& config, const std::vector<std::string>& joints, std::string_view where,
                   Problems& problems);

@@ -41,7 +41,7 @@ struct WorldOptions {
   config::Replacement actuator{};                 ///< puts another actuator on the world's robots
   std::vector<std::filesystem::path> model_path;  ///< searched for model:// URIs after Gazebo's variables and the built-in models
   Concave concave = Concave::refuse;
-  bool actuators = true;  ///< false: no torques, for measuring the engine alone
+  bool actuators = true;  ///< false: no robots, so no torques and no substeps; for measuring the engine alone
 };
 
 /// A blow-up: the state is no longer finite or an engine warning was raised. what() names time, joint and value.
@@ -101,23 +101,27 @@ struct ActuatorRef {
 class World {
  public:
   /// A file, or the name of a built-in world ("snake_flat.sdf"). Throws InputError with all problems. Safe from several
-  /// threads at once (reading takes turns); a World itself belongs to one thread, but for commands.
+  /// threads at once (reading takes turns); a World itself belongs to one thread, but for commands. The second World of a file
+  /// that hasn't changed takes milliseconds: what was read is kept (docs/8-engine.md). Presets are read each time.
   [[nodiscard]] static World load(const std::filesystem::path& sdf, WorldOptions options = {});
   [[nodiscard]] static World load_string(std::string_view sdf, WorldOptions options = {});
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
-  /// Another world that goes on just as this one would: state, parameters, hands and what reset() returns to. Some 100 times faster
-  /// than load(): what was read of the file and the engine's model are shared. Commands that no step has taken yet aren't taken
-  /// along. Each clone may have a thread of its own.
+  /// Another world that goes on just as this one would: state, parameters, hands and what reset() returns to. What was read of the
+  /// file and the engine's model are shared. Commands that no step has taken yet aren't taken along. Each clone may have a thread
+  /// of its own.
   [[nodiscard]] World clone() const;
 
   [[nodiscard]] const std::string& name() const;  ///< the SDF world's
   [[nodiscard]] double step_s() const;
+  /// How many steps of engine and actuators together are made of one of the world's: the robots' <substeps>, else 1. Firmware, bus,
+  /// sensors, contacts and hands know those only; time, samples and commands' beginnings are the world's steps'.
+  [[nodiscard]] int substeps() const;
   [[nodiscard]] std::int64_t time_ns() const;
   [[nodiscard]] double time_s() const;
 
-  /// One step; throws SimulationError on a blow-up and stays where it was before.
+  /// One step, of substeps() where there are several; throws SimulationError on a blow-up and stays where it was before.
   void step();
   /// Whole steps until `duration_s` more has passed, 0 … 1e9 s: a part of a step counts as one. Else: InputError.
   void run(double duration_s);
@@ -171,8 +175,8 @@ class World {
   [[nodiscard]] Energy energy() const;
   [[nodiscard]] actuator::Ledger ledger() const;  ///< over all robots
   [[nodiscard]] int contact_count() const;
-  /// The contacts that the last step worked with, each pair of points once; none before the first step and after a restore or
-  /// reset. Clears `out` first.
+  /// The contacts that the last step (of several substeps: the last one) worked with, each pair of points once; none before the
+  /// first step and after a restore or reset. Clears `out` first.
   void contacts(std::vector<Contact>& out) const;
 
   /// From the next step on these hands pull, and no others; none lets go. They are no part of the state: reset() lets go of all,

@@ -64,10 +64,15 @@ struct BusConfig {
   std::optional<std::string> serial_port = std::nullopt;
 };
 
+inline constexpr int kMostSubsteps = 64;
+
 struct RobotConfig {
   std::vector<ActuatorConfig> actuators;
   std::vector<BusConfig> buses;
   double state_rate_Hz = 100;
+  /// Steps that the host makes of each of its own, engine and actuators together, 1 … kMostSubsteps: advance() is then called for
+  /// each. None: as the host likes. A host that can't do it refuses the robot.
+  std::optional<int> substeps = std::nullopt;
 };
 
 /// What a host tells of one joint at the start of a step.
@@ -93,7 +98,7 @@ struct ActuatorReading {
   double deflection_rad = 0;  ///< shaft − equilibrium
   double stiffness_Nm_per_rad = 0;
   double torque_Nm = 0;       ///< on the shaft by springs and frictions
-  double mean_torque_Nm = 0;  ///< the same as the host got it: over the last step
+  double mean_torque_Nm = 0;  ///< the same as the host got it: over the last step (of several substeps: the last one)
   std::array<double, 2> motor_rad{};
   std::array<double, 2> motor_speed_rad_per_s{};
   std::array<double, 2> motor_torque_Nm{};  ///< on each pulley by its spring and tendon

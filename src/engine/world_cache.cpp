@@ -1,0 +1,92 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "world_cache.hpp"
+
+#include <algorithm>
+#include <list>
+#include <mutex>
+
+#include "finder.hpp"
+
+namespace vsa::engine {
+namespace {
+
+constexpr std::size_t kMost = 8;  // files kept; a world of many large meshes holds some 10 MB
+
+struct Key {
+  std::filesystem::path path, directory;
+  std::string text;
+  SearchPath search;
+  Concave concave;
+  [[nodiscard]] bool operator==(const Key&) const = default;
+};
+
+struct Entry {
+  Key key;
+  std::shared_ptr<ReadWorld> file;
+  SeenFiles seen;
+};
+
+Key key_of(const SdfSource& source, const WorldOptions& options) {
+  std::error_code ignored;
+  return {source.path, std::filesystem::current_path(ignored), std::string(source.text), SearchPath(options.model_path),
+          options.concave};
+}
+
+/// The one used last stands first.
+class Cache {
+ public:
+  std::shared_ptr<const Entry> find(const Key& key) {
+    std::shared_ptr<const Entry> known;
+    {
+      const std::scoped_lock lock(mutex_);
+      const auto at = std::find_if(entries_.begin(), entries_.end(), [&](const auto& e) { return e->key == key; });
+      if (at == entries_.end()) return nullptr;
+      entries_.splice(entries_.begin(), entries_, at);
+      known = *at;
+    }
+    if (known->seen.unchanged()) return known;
+    const std::scoped_lock lock(mutex_);
+    entries_.remove(known);
+    return nullptr;
+  }
+
+  void keep(std::shared_ptr<const Entry> entry) {
+    const std::scoped_lock lock(mutex_);
+    entries_.push_front(std::move(entry));
+    if (entries_.size() > kMost) entries_.pop_back();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::list<std::shared_ptr<const Entry>> entries_;
+};
+
+Cache cache;
+
+// libsdformat keeps global state while it reads: two threads in sdf::Root::Load crash.
+std::mutex reading;
+
+}  // namespace
+
+std::shared_ptr<const CompiledWorld> ReadWorld::compiled(double step_s, std::string_view file, Problems& problems) {
+  const std::scoped_lock lock(compiling_);
+  if (compiled_ == nullptr || step_s_ != step_s) {
+    compiled_ = compile_mujoco(world, step_s, file, problems);
+    step_s_ = step_s;
+  }
+  return compiled_;
+}
+
+std::shared_ptr<ReadWorld> read_world(const SdfSource& source, const WorldOptions& options, Problems& problems) {
+  Key key = key_of(source, options);
+  if (const auto known = cache.find(key)) return known->file;
+  const std::scoped_lock lock(reading);
+  if (const auto known = cache.find(key)) return known->file;  // read while this thread waited
+  const auto entry = std::make_shared<Entry>(Entry{std::move(key), std::make_shared<ReadWorld>(), {}});
+  entry->file->world = std::make_shared<const WorldDescription>(
+      read_sdf(source, options, Finder(entry->key.search, entry->seen), entry->seen, entry->file->warnings, problems));
+  if (problems.empty() && entry->seen.settled()) cache.keep(entry);
+  return entry->file;
+}
+
+}  // namespace vsa::engine
