@@ -48,6 +48,7 @@ test-long:
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -L long
 	@sh scripts/test_gazebo.sh $(BUILD) long
+	@sh scripts/test_gz.sh $(BUILD) long
 
 flakes:
 	@sh scripts/setup.sh test

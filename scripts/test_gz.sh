@@ -2,10 +2,12 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #
 # Builds the plug-in for gz-sim and tests it in a real server, where gz-sim is found: on the system, or below VSA_GZ_PREFIX.
-# test_gz.sh BUILD: the release build, for the embedded engine's side of the bench comparison.
+#   test_gz.sh BUILD         the tests; BUILD: the release build, for the embedded engine's side of the bench comparison
+#   test_gz.sh BUILD long    every chain of the rest matrix
 set -eu
 cd "$(dirname "$0")/.."
 build=$1
+what=${2:-test}
 prefix=${VSA_GZ_PREFIX:-}
 if [ -n "$prefix" ]; then
   for lib in "$prefix"/lib "$prefix"/lib/*-linux-gnu; do
@@ -21,10 +23,17 @@ done
 [ -n "$found" ] || { echo "gz-sim left out: neither the system nor VSA_GZ_PREFIX has gz-sim 10, 9, 8 or ignition-gazebo6"; exit 0; }
 echo "gz-sim: $found $(pkg-config --modversion "$found")"
 
-mkdir -p build/gazebo_bench
-"$build/bin/vsa-gazebo-bench" build/gazebo_bench/embedded_1ms.csv
-"$build/bin/vsa-gazebo-bench" build/gazebo_bench/embedded_025ms.csv 0.00025
+if [ "$what" = test ]; then
+  mkdir -p build/gazebo_bench
+  "$build/bin/vsa-gazebo-bench" build/gazebo_bench/embedded_1ms.csv
+  "$build/bin/vsa-gazebo-bench" build/gazebo_bench/embedded_025ms.csv 0.00025
+fi
 cmake -S . -B build/gz -G Ninja -DCMAKE_BUILD_TYPE=Release -DVSA_SIMULATOR=OFF -DVSA_TESTS=OFF -DVSA_BENCH=OFF -DVSA_GZ_SIM=ON \
   -DVSA_GAZEBO_TESTS=ON -DCMAKE_PREFIX_PATH="$prefix" -Wno-dev >/dev/null
 cmake --build build/gz -- --quiet
-cd build/gz && ctest --output-on-failure
+cd build/gz
+case "$what" in
+  test) ctest --output-on-failure -LE long ;;
+  long) VSA_TEST_LONG=1 ctest --verbose -L long ;;
+  *) echo "test_gz.sh: $what?" >&2; exit 2 ;;
+esac

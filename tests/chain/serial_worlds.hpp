@@ -20,12 +20,11 @@ struct SerialWorld {
   std::string overrides;                           ///< <override …/> elements for every actuator
 };
 
-inline std::string serial_world(const SerialWorld& w) {
+/// <model name='m'> with links l0, l1 … and joints j1, j2 …, and its robot.
+inline std::string serial_model(const SerialWorld& w) {
   std::ostringstream s;
   s.precision(17);
-  s << "<sdf version='1.7'><world name='w'><gravity>0 0 " << (w.gravity ? "-9.81" : "0")
-    << "</gravity><physics name='p' type='ode'><max_step_size>" << w.step_s
-    << "</max_step_size></physics><model name='m'><link name='l0'><inertial><mass>1</mass></inertial></link>"
+  s << "<model name='m'><link name='l0'><inertial><mass>1</mass></inertial></link>"
     << "<joint name='fix' type='fixed'><parent>world</parent><child>l0</child></joint>";
   for (int i = 1; i <= w.joints; ++i) {
     const bool last = i == w.joints;
@@ -43,7 +42,16 @@ inline std::string serial_world(const SerialWorld& w) {
     if (w.type.rfind("sea_", 0) != 0) s << " preset_rad='" << w.preset << "'";  // a series elastic type has none
     s << "/>" << w.overrides << "</actuator>";
   }
-  s << "<bus name='b'/></plugin></model></world></sdf>";
+  s << "<bus name='b'/></plugin></model>";
+  return s.str();
+}
+
+inline std::string serial_world(const SerialWorld& w) {
+  std::ostringstream s;
+  s.precision(17);
+  s << "<sdf version='1.7'><world name='w'><gravity>0 0 " << (w.gravity ? "-9.81" : "0")
+    << "</gravity><physics name='p' type='ode'><max_step_size>" << w.step_s << "</max_step_size></physics>" << serial_model(w)
+    << "</world></sdf>";
   return s.str();
 }
 
