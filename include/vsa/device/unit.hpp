@@ -61,6 +61,7 @@ void check(const UnitConfig& config, std::string_view where, Problems& problems)
 struct Held {
   std::array<double, 2> voltage{};
   std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
+  std::array<drive::PwmHold, 2> pwm{};  ///< counts where the enable pin is modulated, `voltage` where the inputs are
 };
 
 /// A shaft's angle (rad) and speed (rad/s).
