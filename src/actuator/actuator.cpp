@@ -44,6 +44,7 @@ Actuator::Actuator(ActuatorParams params)
       motors_(params_.transmission->motor_count()),
       springs_(params_.transmission->spring_count()),
       chopped_(params_.bridge.pin == drive::PwmPin::enable),
+      back_loss_(params_.gearbox.back_loss.value_or(params_.gearbox.load_loss)),
       winding_Ohm_(motor_.resistance_Ohm),
       winding_H_(motor_.inductance_H.value_or(0.0)) {
   if (chopped_) {
@@ -116,10 +117,17 @@ void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentIn
   seg.rub = {};
   seg.damping = params_.tendon.damping_s / h_s;
   for (int i = 0; i < motors_; ++i) {
-    // The limit of the gears' friction follows the load of the last segment; its bristle's stiffness doesn't, so that a limit that
-    // grows adds no energy and one that shrinks burns what it lets go.
+    if (chopped_ && seg.in.terminal[i] == drive::Terminal::driven) {
+      begin_pwm(seg, i, s.motor[i].speed, h_s);
+    } else {
+      seg.free[i] = seg.stepper[i]->free_displacement(s.motor[i], in.voltage[i]);
+      seg.give[i] = seg.stepper[i]->compliance();
+    }
+    // The limit of the gears' friction follows the load of the last segment, by where that and the motor would go; its bristle's
+    // stiffness doesn't, so that a limit that grows adds no energy and one that shrinks burns what it lets go.
     drive::Friction& gear = seg.gear[i];
-    gear = drive::at_load(friction_, params_.gearbox.load_loss, s.load[i]);
+    const bool back = (seg.free[i] + seg.give[i] * s.load[i]) * s.load[i] > 0;
+    gear = drive::at_load(friction_, back ? back_loss_ : params_.gearbox.load_loss, s.load[i]);
     double& u = seg.gear_u[i];
     u = s.motor[i].angle - s.motor_anchor[i];
     if (gear.stiffness > 0 && std::abs(u) > gear.presliding_rad) {
@@ -128,12 +136,6 @@ void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentIn
       s.motor_anchor[i] = s.motor[i].angle - kept;
       u = kept;
     }
-    if (chopped_ && seg.in.terminal[i] == drive::Terminal::driven) {
-      begin_pwm(seg, i, s.motor[i].speed, h_s);
-      continue;
-    }
-    seg.free[i] = seg.stepper[i]->free_displacement(s.motor[i], in.voltage[i]);
-    seg.give[i] = seg.stepper[i]->compliance();
   }
   if (tendon_.coulomb_Nm > 0) {
     seg.w = s.spring_w;

@@ -30,7 +30,7 @@ double last_good(double most, double step, const Ok& ok) {
 /// The firmware's limit, chosen by the supply as its converter reads it.
 double full_duty(const device::UnitConfig& unit) {
   const auto supply = sensor::supply_from_adc(sensor::supply_adc(unit.actuator.bridge.supply_V));
-  return (unit.supply_limited() ? firmware::supply_limit_pct(supply) : 100) / kDutyScale;
+  return (unit.supply_limited() ? firmware::supply_limit_pct(supply, unit.program.generation) : 100) / kDutyScale;
 }
 
 }  // namespace
@@ -73,6 +73,7 @@ MotorLine motor_line(const device::UnitConfig& unit) {
   line.back_Nms_per_rad = m.torque_constant_Nm_per_A * m.back_emf_Vs_per_rad / resistance + m.viscous_Nms_per_rad;
   line.friction_Nm = drive::at_pulley(unit.actuator.gearbox.friction, unit.actuator.gearbox.ratio).coulomb_Nm;
   line.load_loss = unit.actuator.gearbox.load_loss;
+  line.back_loss = unit.actuator.gearbox.back_loss.value_or(line.load_loss);
   if (chopped) {
     const auto at = [&](double duty) {
       return drive::PwmCycle(bridge, bridge.supply_V, m.resistance_Ohm, m.inductance_H.value_or(0), duty);
@@ -102,7 +103,7 @@ elastic::Response Workspace::at(double preset, double lag_rad, int direction) co
 
 bool Workspace::carries(const elastic::Response& r, const std::array<double, 2>& rates, double speed, Task task) const {
   for (int i = 0; i < unit_.actuator.transmission->motor_count(); ++i) {
-    const double torque = -r.load[i], helped = (1 - line_.load_loss) * std::abs(torque);
+    const double torque = -r.load[i], helped = (1 - line_.back_loss) * std::abs(torque);
     if (task == Task::unpowered) {
       if (helped > line_.friction_Nm) return false;
     } else if (task == Task::hold || rates[i] == 0) {

@@ -16,8 +16,9 @@
 // The bristle has a damper of the time constant T_d: s = (w − z + T_d ẇ)/w_max within ±1. That only ever burns more, by
 // (μ/w_max)(clamp(u + T_d ẇ) − u)ẇ ≥ 0, and nothing where the motion is slow. Without it a bent bristle is a spring that rings.
 //
-// GEAR LOSS: the limit of the gearbox's friction grows by λ·|load_i| of the last segment. Its bristle's stiffness stays, so a
-// growing limit adds no energy, and one that shrinks burns what it lets go.
+// GEAR LOSS: the limit of the gearbox's friction grows by λ·|load_i| of the last segment, with another λ where motor and load
+// together would turn the pulley the load's way (the load drives the motor back) than where the motor drives the load. Its
+// bristle's stiffness stays, so a growing limit adds no energy, and one that shrinks burns what it lets go.
 //
 // States: pulley angle, speed, current (2 each), friction anchors (5), shaft position of the last segment's end, energy ledger.
 #pragma once
@@ -217,7 +218,8 @@ class Actuator {
   int motors_, springs_;
   std::array<Prepared, 2> prepared_{};  // the two step lengths used last
   bool chopped_;                        // the bridge's enable pin is modulated
-  double winding_Ohm_, winding_H_;      // motor_ has the switches' resistance, too, and no inductance where chopped
+  double back_loss_;
+  double winding_Ohm_, winding_H_;  // motor_ has the switches' resistance, too, and no inductance where chopped
   std::array<std::array<drive::PwmCycle, 2>, 2> cycles_{};  // of each motor, the two used last
 };
 

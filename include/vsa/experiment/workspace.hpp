@@ -15,10 +15,10 @@
 // ẋ_i = r_i ω, r_i = ∂x_ref,i/∂θ. Motor i carries M_i = −load_i(q₀ − d, x_ref(0, p)). (ω, p) is reachable with every lag from 0 up
 // to d for which
 //
-//   M⁻(|r_i ω|) ≤ sign(r_i ω) M_i ≤ M⁺(|r_i ω|)  for all motors;    an input that stands (r_i = 0):  (1 − λ)|M_i| ≤ K_τ V/R + τ_c
+//   M⁻(|r_i ω|) ≤ sign(r_i ω) M_i ≤ M⁺(|r_i ω|)  for all motors;    an input that stands (r_i = 0):  (1 − λ_b)|M_i| ≤ K_τ V/R + τ_c
 //
 // Torque at the shaft: τ(q₀ − d) − τ_shaft; stiffness: σ there. At the largest p the motors hold each other: pretension costs
-// torque. Holding (ω = 0, friction helps): (1 − λ)|M_i| ≤ K_τ V/R + τ_c, without voltage ≤ τ_c, and the shaft's friction adds.
+// torque. Holding (ω = 0, friction helps): (1 − λ_b)|M_i| ≤ K_τ V/R + τ_c, without voltage ≤ τ_c, and the shaft's friction adds.
 //
 // Valid for rotary inputs and steady motion: no heat, no inertia, no controller error (the attained preset, not the commanded one).
 // Friction along the springs (tendon.*) changes the deflection at which a torque passes, not the torque that the motors can pass.
@@ -40,6 +40,7 @@ struct MotorLine {
   double friction_Nm = 0;       ///< τ_c
   double back_Nms_per_rad = 0;  ///< K_τ K_b/R + b
   double load_loss = 0;         ///< λ
+  double back_loss = 0;         ///< λ where the load drives the motor back
   /// The enable pin is modulated: the motor at full duty, both ways.
   struct Chopped {
     drive::PwmCycle along, against;
