@@ -119,6 +119,39 @@ TEST(Pwm, AStepOfAnyLengthLandsNearTheConvergedMotion) {
   EXPECT_LT(std::abs(at_half.angle - fine.angle), 0.6 * std::abs(at_1ms.angle - fine.angle) + 1e-9);
 }
 
+TEST(Pwm, AMotorThatSlowsDownIntoTheDrivenBranchIsDrivenWithinTheSameStep) {
+  ActuatorParams p = loose();
+  p.bridge.period_s = 0;
+  p.motor.viscous_Nms_per_rad = 0.1;
+  const auto run = [&](double h) {
+    Actuator a(p);
+    auto s = a.initial({0, 0}, 0);
+    s.motor[0].speed = 12;  // 9.6 V: above the 6.8 V from which 0.8 of the duty drives
+    for (int n = 0; n < std::lround(0.01 / h); ++n) a.segment(s, h, input(0, 0.8, 0));
+    return s.motor[0];
+  };
+  const auto coarse = run(0.01), fine = run(1e-5);
+  EXPECT_GT(fine.speed, 5.5) << "it would be 4.4 without current";
+  EXPECT_NEAR(coarse.speed, fine.speed, 1.0);
+}
+
+TEST(Pwm, AtFullDutyItIsTheMotorOnTheSupplysVoltage) {
+  ActuatorParams p = loose();
+  Actuator chopped(p);
+  p.bridge.pin = drive::PwmPin::input;
+  p.motor.inductance_H.reset();
+  Actuator plain(p);
+  auto a = chopped.initial({0, 0}, 0), b = plain.initial({0, 0}, 0);
+  for (int n = 0; n < 50; ++n) {
+    chopped.segment(a, 2e-3, input(0, 1, -1));
+    plain.segment(b, 2e-3, {0, {kV, -kV}});
+  }
+  EXPECT_NEAR(a.motor[0].speed, b.motor[0].speed, 1e-9);
+  EXPECT_NEAR(a.motor[0].angle, b.motor[0].angle, 1e-9);
+  EXPECT_NEAR(a.ledger.supply, b.ledger.supply, 1e-8);
+  EXPECT_NEAR(a.ledger.copper + a.ledger.bridge, b.ledger.copper + b.ledger.bridge, 1e-8);
+}
+
 TEST(Pwm, AtDutyZeroTheMotorCoastsAndWithTheSupplyGoneToo) {
   for (const double supply : {kV, 0.0}) {
     ActuatorParams p = loose();
@@ -126,7 +159,7 @@ TEST(Pwm, AtDutyZeroTheMotorCoastsAndWithTheSupplyGoneToo) {
     Actuator a(p);
     auto s = a.initial({0, 0}, 0);
     s.motor[0].speed = 5;  // 4 V
-    for (int n = 0; n < 100; ++n) a.segment(s, 1e-3, input(0, 0, 0, supply));
+    for (int n = 0; n < 100; ++n) a.segment(s, 1e-3, input(0, supply > 0 ? 0.0 : 0.5, 0, supply));
     EXPECT_NEAR(s.motor[0].speed, 5.0, 1e-6);
     EXPECT_EQ(s.ledger.copper, 0.0);
   }
