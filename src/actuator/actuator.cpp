@@ -109,7 +109,7 @@ const drive::MotorStepper& Actuator::stepper(double h_s, drive::Terminal termina
 void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentInput& in) noexcept {
   seg.in = in;
   for (int i = 0; i < 2; ++i) {
-    if (chopped_ && !(in.pwm[i].supply_V > 0)) seg.in.terminal[i] = drive::Terminal::open;
+    if (chopped_ && !(in.supply_V > 0)) seg.in.terminal[i] = drive::Terminal::open;
     seg.stepper[i] = &stepper(h_s, seg.in.terminal[i]);
     seg.pwm[i].cycle = nullptr;
   }
@@ -357,8 +357,9 @@ elastic::Response Actuator::response(const ActuatorState& s, double shaft) const
 }
 
 double Actuator::motor_current(const ActuatorState& s, int i, double voltage, drive::Terminal terminal,
-                               const drive::PwmHold& pwm) const noexcept {
-  return chopped_ ? pwm_current(s.motor[i], i, terminal, pwm) : drive::current(motor_, terminal, s.motor[i], voltage);
+                               double supply_V) const noexcept {
+  return chopped_ ? pwm_current(s.motor[i], i, terminal, {voltage / supply_V, supply_V})
+                  : drive::current(motor_, terminal, s.motor[i], voltage);
 }
 
 }  // namespace vsa::actuator

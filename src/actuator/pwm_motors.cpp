@@ -34,7 +34,7 @@ const drive::PwmCycle& Actuator::cycle(int i, const drive::PwmHold& hold) noexce
 
 void Actuator::begin_pwm(Segment& seg, int i, double speed, double h_s) noexcept {
   Segment::Pwm& pwm = seg.pwm[i];
-  pwm.cycle = &cycle(i, seg.in.pwm[i]);
+  pwm.cycle = &cycle(i, {seg.in.voltage[i] / seg.in.supply_V, seg.in.supply_V});
   pwm.start = speed;
   pwm.h = h_s;
   aim(seg, i, speed);
@@ -46,7 +46,7 @@ void Actuator::aim(Segment& seg, int i, double speed) const noexcept {
   const double droop = mean.conductance * motor_.back_emf_Vs_per_rad;
   pwm.aim = speed;
   pwm.current_at_rest = mean.current + droop * speed;
-  pwm.stepper = {motor_, droop, pwm.h};
+  if (droop != pwm.stepper.droop_As_per_rad() || pwm.stepper.h_s() != pwm.h) pwm.stepper = {motor_, droop, pwm.h};
   seg.free[i] = pwm.stepper.free_displacement(pwm.start, pwm.current_at_rest);
   seg.give[i] = pwm.stepper.compliance();
 }

@@ -70,7 +70,7 @@ firmware::TickInputs Unit::sample(UnitState& s, StepPlan& plan, std::int64_t at_
   const double whole = static_cast<double>(plan.dt_ns);
   while (plan.walked_ns < until) {
     const std::int64_t h_ns = std::min(substep_ns_, until - plan.walked_ns);
-    actuator::SegmentInput in{0.0, s.held.voltage, s.held.terminal, plan.lead, s.held.pwm};
+    actuator::SegmentInput in{0.0, s.held.voltage, s.held.terminal, plan.lead, s.held.supply_V};
     in.lead.before = static_cast<double>(plan.walked_ns) / whole;
     in.lead.share = static_cast<double>(h_ns) / whole;
     in.dq = plan.dy * in.lead.share;
@@ -128,7 +128,7 @@ void Unit::begin_trials(UnitState& s, StepPlan& plan) noexcept {
   }
   if (segment_ns(plan, 0) == plan.dt_ns)
     actuator_.begin(s.actuator, plan.last, seconds(plan.dt_ns),
-                    {0.0, plan.held[0].voltage, plan.held[0].terminal, plan.lead, plan.held[0].pwm});
+                    {0.0, plan.held[0].voltage, plan.held[0].terminal, plan.lead, plan.held[0].supply_V});
 }
 
 ShaftTorque Unit::foresee(const UnitState& s, StepPlan& plan, double dy) const noexcept {
@@ -152,7 +152,7 @@ ShaftTorque Unit::attempt(UnitState& s, StepPlan& plan, double dy, bool rough) n
     for (;; h = segment_ns(plan, now)) {
       const double share = seconds(h) / seconds(plan.dt_ns);
       actuator::SegmentInput in{dy * share, plan.held[interval].voltage, plan.held[interval].terminal, plan.lead,
-                                plan.held[interval].pwm};
+                                plan.held[interval].supply_V};
       in.lead.before = seconds(now) / seconds(plan.dt_ns);
       in.lead.share = share;
       actuator_.begin(s.actuator, plan.last, seconds(h), in);

@@ -17,19 +17,16 @@ double alternating(double x, C... reciprocal) noexcept {
   return sum;
 }
 
-/// (1 − e^(−x))/x
-double phi(double x) noexcept { return x > 0 ? -std::expm1(-x) / x : 1.0; }
-
-/// 1 − φ(x) ≈ x/2
-double phi_deficit(double x) noexcept {
+/// 1 − (1 − e^(−x))/x ≈ x/2
+double phi_deficit(double x, double phi) noexcept {
   if (x < kSmall) return x * alternating(x, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040);
-  return 1.0 - phi(x);
+  return 1.0 - phi;
 }
 
 /// 1 − 2φ(x) + φ(2x) ≈ x²/3
-double square_deficit(double x) noexcept {
+double square_deficit(double x, double phi, double phi_twice) noexcept {
   if (x < kSmall) return x * x * alternating(x, 1.0 / 3, 1.0 / 4, 7.0 / 60, 1.0 / 24, 31.0 / 2520, 1.0 / 320);
-  return 1.0 - 2.0 * phi(x) + phi(2.0 * x);
+  return 1.0 - 2.0 * phi + phi_twice;
 }
 
 /// ρ − ln(1 + ρ) ≈ ρ²/2
@@ -38,22 +35,23 @@ double log_deficit(double rho) noexcept {
   return rho - std::log1p(rho);
 }
 
-/// ρ²/2 − ρ + ln(1 + ρ) ≈ ρ³/3
-double log_deficit2(double rho) noexcept {
+/// ρ²/2 − ρ + ln(1 + ρ) ≈ ρ³/3, from the other
+double log_deficit2(double rho, double deficit) noexcept {
   if (rho < kSmall)
     return rho * rho * rho * alternating(rho, 1.0 / 3, 1.0 / 4, 1.0 / 5, 1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10);
-  return 0.5 * rho * rho - rho + std::log1p(rho);
+  return 0.5 * rho * rho - deficit;
 }
 
 }  // namespace
 
 void PwmCycle::Phase::prepare(double part, double x) noexcept {
-  rise = -std::expm1(-x);
-  decay = part * phi(x);
-  rest = part * phi_deficit(x);
-  begin2 = part * phi(2.0 * x);
+  rise = x > 0 ? -std::expm1(-x) : 0.0;
+  const double phi = x > 0 ? rise / x : 1.0, phi_twice = phi * (1.0 - 0.5 * rise);  // φ(x), φ(2x)
+  decay = part * phi;
+  rest = part * phi_deficit(x, phi);
+  begin2 = part * phi_twice;
   mixed = decay - begin2;
-  end2 = part * square_deficit(x);
+  end2 = part * square_deficit(x, phi, phi_twice);
 }
 
 PwmCycle::PwmCycle(const BridgeParams& bridge, double supply_V, double resistance_Ohm, double inductance_H, double duty) noexcept
@@ -75,7 +73,7 @@ PwmCycle::PwmCycle(const BridgeParams& bridge, double supply_V, double resistanc
   off_.prepare(off, x_off);
   // j₀ = w₁ j_on + w₂ j_off, the peak likewise; for T → 0 both are the mean, weighted with the resistances.
   if (slow_ > 0) {
-    const double whole = -std::expm1(-(x_on + x_off));
+    const double whole = on_.rise + off_.rise * (1.0 - on_.rise);  // 1 − e^(−both)
     begin_on_ = on_.rise * (1.0 - off_.rise) / whole;
     begin_off_ = off_.rise / whole;
     peak_on_ = on_.rise / whole;
@@ -143,8 +141,9 @@ PwmPower PwmCycle::power(double emf_V) const noexcept {
     jj_off = off_.begin2 * s.peak * s.peak + 2.0 * off_.mixed * s.peak * target + off_.end2 * target * target;
   } else if (slow_ > 0 && s.against > 0) {
     const double rho = off_.resistance * s.peak / s.against, unit = s.against / (off_.resistance * slow_);
-    q_off = unit * log_deficit(rho);
-    jj_off = unit * s.against / off_.resistance * log_deficit2(rho);
+    const double deficit = log_deficit(rho);
+    q_off = unit * deficit;
+    jj_off = unit * s.against / off_.resistance * log_deficit2(rho, deficit);
   }
   if (pin_ == PwmPin::input) return {supply_ * q_on, winding_ * (jj_on + jj_off), switch_ * (jj_on + jj_off)};
   return {supply_ * (s.sign * q_on - q_off), winding_ * (jj_on + jj_off), switch_ * jj_on + 2.0 * diode_ * q_off};

@@ -36,7 +36,8 @@ ActuatorParams chopped() {
 actuator::SegmentInput input(double dq, double duty_1, double duty_2, double supply = kV) {
   actuator::SegmentInput in;
   in.dq = dq;
-  in.pwm = {{{duty_1, supply}, {duty_2, supply}}};
+  in.voltage = {duty_1 * supply, duty_2 * supply};
+  in.supply_V = supply;
   return in;
 }
 
@@ -101,7 +102,7 @@ TEST(Pwm, AMotorOnAConstantDutyRunsUpToWhereTheCircuitFeedsItsFriction) {
     const drive::PwmCycle cycle(p.bridge, kV, 2.3, 2e-4, duty);
     EXPECT_NEAR(0.8 * cycle.mean(0.8 * speed).current, 0.01 * speed, 1e-6) << duty;
     EXPECT_GT(speed * duty, 0.0);
-    EXPECT_NEAR(a.motor_current(s, 0, 0, Terminal::driven, {duty, kV}), cycle.mean(0.8 * speed).current, 1e-12);
+    EXPECT_NEAR(a.motor_current(s, 0, duty * kV, Terminal::driven, kV), cycle.mean(0.8 * speed).current, 1e-12);
   }
 }
 

@@ -95,7 +95,7 @@ struct SegmentInput {
   std::array<double, 2> voltage{};
   std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
   Lead lead{};
-  std::array<drive::PwmHold, 2> pwm{};  ///< where the bridge's enable pin is modulated: instead of `voltage`
+  double supply_V = 0;  ///< counts where the bridge's enable pin is modulated, by a duty of voltage/supply; 0: no current
 };
 
 struct SegmentResult {
@@ -177,7 +177,7 @@ class Actuator {
   /// The springs' response with the torques of the frictions on the shaft's side: what acts if the shaft is there.
   [[nodiscard]] elastic::Response response(const ActuatorState& state, double shaft) const noexcept;
   [[nodiscard]] double motor_current(const ActuatorState& state, int i, double voltage, drive::Terminal terminal,
-                                     const drive::PwmHold& pwm = {}) const noexcept;
+                                     double supply_V = 0) const noexcept;
   [[nodiscard]] int motors() const noexcept { return motors_; }
 
  private:

@@ -61,7 +61,7 @@ void check(const UnitConfig& config, std::string_view where, Problems& problems)
 struct Held {
   std::array<double, 2> voltage{};
   std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
-  std::array<drive::PwmHold, 2> pwm{};  ///< counts where the enable pin is modulated, `voltage` where the inputs are
+  double supply_V = 0;  ///< where the enable pin is modulated, by a duty of voltage/supply
 };
 
 /// A shaft's angle (rad) and speed (rad/s).

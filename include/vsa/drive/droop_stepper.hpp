@@ -32,12 +32,13 @@ class DroopStepper {
     return h_ * h_ * h_ * psi_ * s * s;
   }
   [[nodiscard]] double droop_As_per_rad() const noexcept { return droop_; }
+  [[nodiscard]] double h_s() const noexcept { return h_; }
 
  private:
   [[nodiscard]] double start_slope(double speed, double current_at_rest, double torque) const noexcept {
     return (torque_constant_ * current_at_rest + torque) / inertia_ - decay_ * speed;
   }
-  double h_ = 1, inertia_ = 1, torque_constant_ = 0, droop_ = 0, decay_ = 0;
+  double h_ = 0, inertia_ = 1, torque_constant_ = 0, droop_ = 0, decay_ = 0;
   double phi1_ = 1, phi2_ = 0.5, psi_ = 1.0 / 12;
 };
 

@@ -38,7 +38,7 @@ struct PwmPower {
   double supply = 0, winding = 0, bridge = 0;
 };
 
-/// One duty, prepared: five exponentials. Evaluating it costs a logarithm at most. Ranges: R > 0; |d| ≤ 1; L ≤ 0 means T = 0.
+/// One duty, prepared: two exponentials. Evaluating it costs a logarithm at most. Ranges: R > 0; |d| ≤ 1; L ≤ 0 means T = 0.
 class PwmCycle {
  public:
   PwmCycle() = default;
