@@ -252,9 +252,10 @@ std::vector<record::Statistic> RunSession::statistics() const {
   }
   const actuator::Ledger energy = world_.ledger();
   out.push_back({"energy from supply", fmt::format("{:.4g} J", energy.supply)});
-  out.push_back({"  became heat",
-                 fmt::format("{:.4g} J in copper, {:.4g} J in gearboxes, {:.4g} J in tendons, {:.4g} J at shafts, {:.4g} J viscous",
-                             energy.copper, energy.motor_friction, energy.tendon_friction, energy.shaft_friction, energy.viscous)});
+  out.push_back({"  became heat", fmt::format("{:.4g} J in copper, {:.4g} J in bridges, {:.4g} J in gearboxes, {:.4g} J in "
+                                              "tendons, {:.4g} J at shafts, {:.4g} J viscous",
+                                              energy.copper, energy.bridge, energy.motor_friction, energy.tendon_friction,
+                                              energy.shaft_friction, energy.viscous)});
   out.push_back({"  went to robots", fmt::format("{:.4g} J delivered at the shafts, {:+.4g} J stored in the actuators",
                                                  energy.delivered, energy.stored() - energy.stored_at_start)});
   out.push_back({"  model and step", fmt::format("{:+.3g} J motor constants, {:+.3g} J integration, {:+.3g} J coupling",

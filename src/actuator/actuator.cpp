@@ -42,7 +42,17 @@ Actuator::Actuator(ActuatorParams params)
       shaft_friction_(actuator::shaft_friction(params_)),
       tendon_(drive::FrictionParams{params_.tendon.friction, params_.tendon.presliding_J}),
       motors_(params_.transmission->motor_count()),
-      springs_(params_.transmission->spring_count()) {}
+      springs_(params_.transmission->spring_count()),
+      chopped_(params_.bridge.pin == drive::PwmPin::enable),
+      back_loss_(params_.gearbox.back_loss.value_or(params_.gearbox.load_loss)),
+      winding_Ohm_(motor_.resistance_Ohm),
+      winding_H_(motor_.inductance_H.value_or(0.0)) {
+  if (chopped_) {
+    motor_.inductance_H.reset();  // it shapes the current within a period, whose mean follows the speed at once
+  } else {
+    motor_.resistance_Ohm += params_.bridge.switch_Ohm;
+  }
+}
 
 elastic::Positions Actuator::positions(const ActuatorState& s, double shaft) const noexcept {
   return {shaft, {s.motor[0].angle, s.motor[1].angle}};
@@ -97,18 +107,29 @@ const drive::MotorStepper& Actuator::stepper(double h_s, drive::Terminal termina
 }
 
 void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentInput& in) noexcept {
-  for (int i = 0; i < 2; ++i) seg.stepper[i] = &stepper(h_s, in.terminal[i]);
   seg.in = in;
+  for (int i = 0; i < 2; ++i) {
+    if (chopped_ && !(in.supply_V > 0)) seg.in.terminal[i] = drive::Terminal::open;
+    seg.stepper[i] = &stepper(h_s, seg.in.terminal[i]);
+    seg.pwm[i].cycle = nullptr;
+  }
   seg.tried = false;
   seg.rub = {};
   seg.damping = params_.tendon.damping_s / h_s;
   seg.own = in.lead.share + 3.0 * in.lead.spring;
   seg.whole = seg.own + 2.0 * in.lead.before;
   for (int i = 0; i < motors_; ++i) {
-    // The limit of the gears' friction follows the load of the last segment; its bristle's stiffness doesn't, so that a limit that
-    // grows adds no energy and one that shrinks burns what it lets go.
+    if (chopped_ && seg.in.terminal[i] == drive::Terminal::driven) {
+      begin_pwm(seg, i, s.motor[i].speed, h_s);
+    } else {
+      seg.free[i] = seg.stepper[i]->free_displacement(s.motor[i], in.voltage[i]);
+      seg.give[i] = seg.stepper[i]->compliance();
+    }
+    // The limit of the gears' friction follows the load of the last segment, by where that and the motor would go; its bristle's
+    // stiffness doesn't, so that a limit that grows adds no energy and one that shrinks burns what it lets go.
     drive::Friction& gear = seg.gear[i];
-    gear = drive::at_load(friction_, params_.gearbox.load_loss, s.load[i]);
+    const bool back = (seg.free[i] + seg.give[i] * s.load[i]) * s.load[i] > 0;
+    gear = drive::at_load(friction_, back ? back_loss_ : params_.gearbox.load_loss, s.load[i]);
     double& u = seg.gear_u[i];
     u = s.motor[i].angle - s.motor_anchor[i];
     if (gear.stiffness > 0 && std::abs(u) > gear.presliding_rad) {
@@ -117,7 +138,6 @@ void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentIn
       s.motor_anchor[i] = s.motor[i].angle - kept;
       u = kept;
     }
-    seg.free[i] = seg.stepper[i]->free_displacement(s.motor[i], in.voltage[i]);
   }
   if (tendon_.coulomb_Nm > 0) {
     seg.w = s.spring_w;
@@ -143,7 +163,7 @@ SegmentResult Actuator::foresee(const ActuatorState& s, Segment& seg) const noex
   const double shift = 2.0 * seg.shift(0);
   SegmentResult r{s.end.torque - s.end.slope.qq * shift, 0};
   for (int i = 0; i < motors_; ++i) {
-    const double c = seg.stepper[i]->compliance();
+    const double c = seg.give[i];
     // load̄ ≈ end.load − qx·(dq + shift) − κ·dx, at dq = 0.
     const double qx = s.end.slope.qx[i];
     const double yield = 1.0 / (1.0 + c * std::max(load_curvature(s.end.slope, i), 0.0));
@@ -164,7 +184,8 @@ SegmentResult Actuator::foresee(const ActuatorState& s, Segment& seg) const noex
 bool Actuator::correction(Segment& seg, std::array<double, 2>& step) const noexcept {
   bool accepted = true;
   for (int i = 0; i < motors_; ++i) {
-    const double c = seg.stepper[i]->compliance();
+    if (seg.pwm[i].cycle != nullptr) follow(seg, i);
+    const double c = seg.give[i];
     // load(dx) ≈ load − κ·step; κ > −1/(2c) keeps the linear problem monotone where a law isn't convex.
     const double kappa = std::max(load_curvature(seg.mean.slope, i), -0.5 / c);
     const double yield = 1.0 / (1.0 + c * kappa);
@@ -215,16 +236,21 @@ void Actuator::drive_motors(ActuatorState& s, const Segment& seg) const noexcept
   Ledger& l = s.ledger;
   for (int i = 0; i < motors_; ++i) {
     drive::MotorState& m = s.motor[i];
+    const double torque = seg.mean.load[i] + seg.friction[i].torque;
     const double voltage = seg.in.terminal[i] == drive::Terminal::driven ? seg.in.voltage[i] : 0.0;
     if (seg.in.terminal[i] == drive::Terminal::open && motor_.inductance_H) {
       l.copper += 0.5 * *motor_.inductance_H * m.current * m.current;  // an opened winding burns what it stored
       m.current = 0;
     }
-    const drive::MotorStep step = seg.stepper[i]->step(m, voltage, seg.mean.load[i] + seg.friction[i].torque);
+    const bool pwm = seg.pwm[i].cycle != nullptr;
+    const drive::MotorStep step = pwm ? pwm_step(l, seg.pwm[i], torque) : seg.stepper[i]->step(m, voltage, torque);
     l.motor_friction += drive::friction_heat(seg.gear[i], seg.gear_u[i], seg.friction[i]);
-    l.supply += voltage * step.charge;
-    l.supply_moved += std::abs(voltage * step.charge);
-    l.copper += motor_.resistance_Ohm * step.int_II;
+    if (!pwm) {
+      l.supply += voltage * step.charge;
+      l.supply_moved += std::abs(voltage * step.charge);
+      l.copper += winding_Ohm_ * step.int_II;
+      l.bridge += params_.bridge.switch_Ohm * step.int_II;
+    }
     l.conversion += (motor_.back_emf_Vs_per_rad - motor_.torque_constant_Nm_per_A) * step.int_Iw;
     l.viscous += motor_.viscous_Nms_per_rad * step.int_ww;
     m.angle += step.displacement;
@@ -336,8 +362,10 @@ elastic::Response Actuator::response(const ActuatorState& s, double shaft) const
   return r;
 }
 
-double Actuator::motor_current(const ActuatorState& s, int i, double voltage, drive::Terminal terminal) const noexcept {
-  return drive::current(motor_, terminal, s.motor[i], voltage);
+double Actuator::motor_current(const ActuatorState& s, int i, double voltage, drive::Terminal terminal,
+                               double supply_V) const noexcept {
+  return chopped_ ? pwm_current(s.motor[i], i, terminal, {voltage / supply_V, supply_V})
+                  : drive::current(motor_, terminal, s.motor[i], voltage);
 }
 
 }  // namespace vsa::actuator

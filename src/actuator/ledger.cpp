@@ -6,6 +6,7 @@ namespace vsa::actuator {
 Ledger& Ledger::operator+=(const Ledger& o) noexcept {
   supply += o.supply;
   copper += o.copper;
+  bridge += o.bridge;
   conversion += o.conversion;
   viscous += o.viscous;
   motor_friction += o.motor_friction;

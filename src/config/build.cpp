@@ -90,6 +90,15 @@ void check_together(const device::UnitConfig& unit, Resolver& resolver) {
     resolver.problem(resolver.line_of("tendon.presliding_J"), "tendon.presliding_J", number_text(unit.actuator.tendon.presliding_J),
                      "tendon.friction needs a presliding", "above 0");
   }
+  const drive::BridgeParams& bridge = unit.actuator.bridge;
+  if (bridge.pin == drive::PwmPin::enable && bridge.period_s > 0 && !unit.actuator.motor.inductance_H) {
+    resolver.problem(resolver.line_of("drive.inductance_H"), "drive.inductance_H", "",
+                     "a modulated enable pin with a period needs the winding's inductance", "above 0, or drive.pwm_period_s = 0");
+  }
+  if (unit.program.generation != firmware::Generation::v6 && unit.program.model != firmware::Model::maker_pro) {
+    resolver.problem(resolver.line_of("firmware.generation"), "firmware.generation", "",
+                     "older loops are those of the maker pro: the advanced unit has one", "6.1, or firmware.model = maker_pro");
+  }
   const std::int32_t low = unit.memory.limit_low[0], high = unit.memory.limit_high[0];
   if (low >= high) {
     resolver.problem(resolver.line_of("firmware.limit_low_raw"), "firmware.limit_low_raw", std::to_string(low),

@@ -65,7 +65,7 @@ firmware::TickInputs Unit::sample(UnitState& s, StepPlan& plan, std::int64_t at_
   const double whole = static_cast<double>(plan.dt_ns);
   while (plan.walked_ns < until) {
     const std::int64_t h_ns = std::min(substep_ns_, until - plan.walked_ns);
-    actuator::SegmentInput in{0.0, s.held.voltage, s.held.terminal, plan.lead};
+    actuator::SegmentInput in{0.0, s.held.voltage, s.held.terminal, plan.lead, s.held.supply_V};
     in.lead.before = static_cast<double>(plan.walked_ns) / whole;
     in.lead.share = static_cast<double>(h_ns) / whole;
     in.dq = plan.dy * in.lead.share;
@@ -122,7 +122,8 @@ void Unit::begin_trials(UnitState& s, StepPlan& plan) noexcept {
     plan.start = s.actuator;
   }
   if (plan.whole)
-    actuator_.begin(s.actuator, plan.last, seconds(plan.dt_ns), {0.0, plan.held[0].voltage, plan.held[0].terminal, plan.lead});
+    actuator_.begin(s.actuator, plan.last, seconds(plan.dt_ns),
+                    {0.0, plan.held[0].voltage, plan.held[0].terminal, plan.lead, plan.held[0].pwm});
 }
 
 ShaftTorque Unit::foresee(const UnitState& s, StepPlan& plan, double dy) const noexcept {
@@ -145,7 +146,8 @@ ShaftTorque Unit::attempt(UnitState& s, StepPlan& plan, double dy, bool rough) n
     for (std::int64_t now = 0;;) {
       const std::int64_t h = segment_ns(plan, now);
       const double share = seconds(h) / seconds(plan.dt_ns);
-      actuator::SegmentInput in{dy * share, plan.held[interval].voltage, plan.held[interval].terminal, plan.lead};
+      actuator::SegmentInput in{dy * share, plan.held[interval].voltage, plan.held[interval].terminal, plan.lead,
+                                plan.held[interval].supply_V};
       in.lead.before = seconds(now) / seconds(plan.dt_ns);
       in.lead.share = share;
       actuator_.begin(s.actuator, plan.last, seconds(h), in);

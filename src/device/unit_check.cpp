@@ -49,8 +49,14 @@ void check_drive(const actuator::ActuatorParams& p, Bounds& b) {
   b.not_negative("drive.friction_Nm", p.gearbox.friction.coulomb_Nm);
   b.not_negative("drive.presliding_rad", p.gearbox.friction.presliding_rad);
   b.not_negative("drive.load_loss", p.gearbox.load_loss);
+  if (p.gearbox.back_loss) b.not_negative("drive.back_loss", *p.gearbox.back_loss);
   b.within("drive.supply_V", p.bridge.supply_V, 0, 1000);
   b.within("drive.dead_band", p.bridge.dead_band, 0, 0.99);
+  b.within("drive.pwm_period_s", p.bridge.period_s, 0, 1);
+  b.not_negative("drive.switch_Ohm", p.bridge.switch_Ohm);
+  b.not_negative("drive.diode_V", p.bridge.diode_V);
+  if (p.bridge.pin == drive::PwmPin::enable && p.bridge.period_s > 0)
+    b.positive("drive.inductance_H", p.motor.inductance_H.value_or(0));
 }
 
 }  // namespace

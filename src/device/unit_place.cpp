@@ -69,6 +69,7 @@ void Unit::place(UnitState& s, const UnitPlace& at) const noexcept {
   placed.last_encoder = s.last_encoder;
   placed.dice = s.dice;
   placed.held.terminal = s.held.terminal;
+  placed.held.supply_V = s.held.supply_V;
   auto x = config_.actuator.transmission->references({at.equilibrium, at.preset});
   const auto speed = pulley_speeds(*config_.actuator.transmission, at);
   for (std::size_t i = 0; i < 2; ++i) x[i] -= at.lag_s * speed[i];

@@ -97,7 +97,8 @@ firmware::TickInputs Unit::read_sensors(UnitState& s, double shaft) const noexce
     in.encoder[i] = s.last_encoder[i];
   }
   for (int i = 0; i < 2; ++i)
-    in.current_adc[i] = sensor::current_adc(actuator_.motor_current(s.actuator, i, s.held.voltage[i], s.held.terminal[i]));
+    in.current_adc[i] =
+        sensor::current_adc(actuator_.motor_current(s.actuator, i, s.held.voltage[i], s.held.terminal[i], s.held.supply_V));
   in.supply_adc = sensor::supply_adc(supply_V(s));
   return in;
 }
@@ -110,9 +111,11 @@ void Unit::hold(UnitState& s, StepPlan& plan) const noexcept {
   // The duty went out before this tick's supply reading changed the limit.
   const std::int32_t limit = direct ? kFull : s.limit_pct;
   s.limit_pct = s.program.loop.limit_pct;
+  s.held.supply_V = bridge.supply_V;
   for (int i = 0; i < 2; ++i) {
     const bool on = s.faults.powered && drive.enabled[i];
-    const bool open = s.faults.motor_unplugged[i] || (!on && !bridge.brake_when_off);
+    const bool enable = bridge.pin == drive::PwmPin::enable;  // then off is a duty of 0: open, but for the diodes
+    const bool open = s.faults.motor_unplugged[i] || (!on && !bridge.brake_when_off && !enable);
     const double output = limit > 0 ? drive.duty_pct[i] / static_cast<double>(limit) : 0.0;
     s.held.terminal[i] = open ? drive::Terminal::open : drive::Terminal::driven;
     s.held.voltage[i] = on && !open ? config_.polarity * drive::bridge_voltage(bridge, output, limit / kDutyScale) : 0.0;

@@ -39,7 +39,7 @@ LoopErrors loop_errors(const device::UnitConfig& unit, const MotorLine& line) {
   double low = 0, high = 1;
   for (int i = 0; i < 60; ++i) {
     const double mid = 0.5 * (low + high);
-    (drive::bridge_voltage(unit.actuator.bridge, mid, line.full_duty) > share * line.voltage_V ? high : low) = mid;
+    (standing_voltage(unit, mid, line.full_duty) > share * line.voltage_V ? high : low) = mid;
   }
   e.moves_rad = share < 1 ? high * e.full_rad : std::numeric_limits<double>::quiet_NaN();
   return e;

@@ -30,27 +30,57 @@ double last_good(double most, double step, const Ok& ok) {
 /// The firmware's limit, chosen by the supply as its converter reads it.
 double full_duty(const device::UnitConfig& unit) {
   const auto supply = sensor::supply_from_adc(sensor::supply_adc(unit.actuator.bridge.supply_V));
-  return (unit.supply_limited() ? firmware::supply_limit_pct(supply) : 100) / kDutyScale;
+  return (unit.supply_limited() ? firmware::supply_limit_pct(supply, unit.program.generation) : 100) / kDutyScale;
 }
 
 }  // namespace
 
 double MotorLine::most_Nm(double speed) const noexcept {
+  if (chopped) return (chopped->torque_Nm(chopped->along, speed) - friction_Nm) / (1 + load_loss);
   return (stall_Nm - friction_Nm - back_Nms_per_rad * speed) / (1 + load_loss);
 }
-double MotorLine::least_Nm(double speed) const noexcept { return -(stall_Nm + friction_Nm + back_Nms_per_rad * speed); }
-double MotorLine::no_load_speed_rad_per_s() const noexcept { return std::max(0.0, (stall_Nm - friction_Nm) / back_Nms_per_rad); }
+double MotorLine::least_Nm(double speed) const noexcept {
+  if (chopped) return chopped->torque_Nm(chopped->against, speed) - friction_Nm;
+  return -(stall_Nm + friction_Nm + back_Nms_per_rad * speed);
+}
+double MotorLine::no_load_speed_rad_per_s() const noexcept {
+  if (!chopped) return std::max(0.0, (stall_Nm - friction_Nm) / back_Nms_per_rad);
+  if (most_Nm(0) <= 0) return 0;
+  double low = 0, high = chopped->along.supply_V() / chopped->back_emf_Vs_per_rad;  // where no current is left
+  for (double mid = 0.5 * (low + high); mid > low && mid < high; mid = 0.5 * (low + high)) (most_Nm(mid) > 0 ? low : high) = mid;
+  return low;
+}
+
+double standing_voltage(const device::UnitConfig& unit, double output, double full_duty) noexcept {
+  const drive::BridgeParams& bridge = unit.actuator.bridge;
+  if (bridge.pin == drive::PwmPin::input) return drive::bridge_voltage(bridge, output, full_duty);
+  const drive::MotorParams& m = unit.actuator.motor;
+  const drive::PwmCycle cycle(bridge, bridge.supply_V, m.resistance_Ohm, m.inductance_H.value_or(0),
+                              drive::bridge_duty(bridge, output, full_duty));
+  return cycle.mean(0).current * m.resistance_Ohm;
+}
 
 MotorLine motor_line(const device::UnitConfig& unit) {
+  const drive::BridgeParams& bridge = unit.actuator.bridge;
   const drive::MotorParams m = drive::at_pulley(unit.actuator.motor, unit.actuator.gearbox.ratio);
+  const bool chopped = bridge.pin == drive::PwmPin::enable;
+  const double resistance = m.resistance_Ohm + (chopped ? 0.0 : bridge.switch_Ohm);
   MotorLine line;
   line.full_duty = full_duty(unit);
-  line.voltage_V = drive::bridge_voltage(unit.actuator.bridge, 1.0, line.full_duty);
-  line.stall_current_A = line.voltage_V / m.resistance_Ohm;
+  line.voltage_V = standing_voltage(unit, 1.0, line.full_duty);
+  line.stall_current_A = line.voltage_V / resistance;
   line.stall_Nm = m.torque_constant_Nm_per_A * line.stall_current_A;
-  line.back_Nms_per_rad = m.torque_constant_Nm_per_A * m.back_emf_Vs_per_rad / m.resistance_Ohm + m.viscous_Nms_per_rad;
+  line.back_Nms_per_rad = m.torque_constant_Nm_per_A * m.back_emf_Vs_per_rad / resistance + m.viscous_Nms_per_rad;
   line.friction_Nm = drive::at_pulley(unit.actuator.gearbox.friction, unit.actuator.gearbox.ratio).coulomb_Nm;
   line.load_loss = unit.actuator.gearbox.load_loss;
+  line.back_loss = unit.actuator.gearbox.back_loss.value_or(line.load_loss);
+  if (chopped) {
+    const auto at = [&](double duty) {
+      return drive::PwmCycle(bridge, bridge.supply_V, m.resistance_Ohm, m.inductance_H.value_or(0), duty);
+    };
+    line.chopped = {at(line.full_duty), at(-line.full_duty), m.torque_constant_Nm_per_A, m.back_emf_Vs_per_rad,
+                    m.viscous_Nms_per_rad};
+  }
   return line;
 }
 
@@ -73,7 +103,7 @@ elastic::Response Workspace::at(double preset, double lag_rad, int direction) co
 
 bool Workspace::carries(const elastic::Response& r, const std::array<double, 2>& rates, double speed, Task task) const {
   for (int i = 0; i < unit_.actuator.transmission->motor_count(); ++i) {
-    const double torque = -r.load[i], helped = (1 - line_.load_loss) * std::abs(torque);
+    const double torque = -r.load[i], helped = (1 - line_.back_loss) * std::abs(torque);
     if (task == Task::unpowered) {
       if (helped > line_.friction_Nm) return false;
     } else if (task == Task::hold || rates[i] == 0) {

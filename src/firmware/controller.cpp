@@ -10,11 +10,12 @@ namespace vsa::firmware {
 namespace {
 
 constexpr std::int32_t kPwmMax = 100;
-constexpr std::int32_t kSumMax = 100000;
 constexpr std::int32_t kFarError = 131072;  // 2¹⁷: beyond it the P product is shifted early
 
-std::int32_t add_clamped(std::int32_t& sum, std::int32_t error) noexcept {
-  sum = std::clamp(wrap_add(sum, error), -kSumMax, kSumMax);
+constexpr std::int32_t kCurrentSumMax = 100000;
+
+std::int32_t add_clamped(std::int32_t& sum, std::int32_t error, std::int32_t most = kCurrentSumMax) noexcept {
+  sum = std::clamp(wrap_add(sum, error), -most, most);
   return sum;
 }
 
@@ -38,13 +39,17 @@ std::int32_t Controller::position_error(LoopMemory m, ControllerState& s, int i)
   if (deflecting(ControlMode{m.current.control_mode}))
     target = advanced() ? wrap_sub(0, wrap_sub(s.ref[i], s.meas[2])) : wrap_add(s.ref[i], s.meas[2]);
   const std::int32_t error = wrap_sub(target, s.meas[i]);
-  add_clamped(s.error_sum[i], error);
+  add_clamped(s.error_sum[i], error, loop_facts(generation).sum_max);
   return error;
 }
 
 std::int32_t Controller::position_law(LoopMemory m, ControllerState& s, int i) const noexcept {
   const Gains& k = m.current.position;
   const std::int32_t error = position_error(m, s, i);
+  if (loop_facts(generation).plain_products) {
+    const std::int32_t pi = wrap_add(wrap_mul(k.p, error) >> 16, wrap_mul(k.i, s.error_sum[i]) >> 16);
+    return wrap_add(pi, wrap_mul(k.d, wrap_sub(s.meas_driven[i], s.meas[i])) >> 16);
+  }
   const std::int32_t integral = wrap_mul(k.i >> 6, s.error_sum[i]) >> 10;
   const std::int32_t derivative = wrap_mul(k.d, wrap_sub(s.meas_old[i], s.meas[i])) >> 16;
   return wrap_add(wrap_add(proportional(k.p, error), integral), derivative);
@@ -123,9 +128,19 @@ void Controller::drive_motor(LoopMemory m, ControllerState& s, int i) const noex
   s.pwm[i] = std::clamp(pwm, -kPwmMax, kPwmMax);
   if (advanced()) limit_rate(m, s, i);
   // The limit in force is the one that the last tick's supply reading chose.
-  const std::int32_t out = mode == ControlMode::pwm ? s.pwm[i] : (((s.pwm[i] * 1024) / kPwmMax) * s.limit_pct) >> 10;
+  const std::int32_t scaled = ((s.pwm[i] * 1024) / kPwmMax) * s.limit_pct;
+  const std::int32_t limited = loop_facts(generation).plain_products ? scaled / 1024 : scaled >> 10;
+  const std::int32_t out = mode == ControlMode::pwm ? s.pwm[i] : limited;
   s.current_sign[i] = out >= 0 ? 1 : -1;
   s.duty[i] = s.forward[i] ? std::abs(out) : -std::abs(out);
+}
+
+void Controller::drive_motors(LoopMemory m, ControllerState& s) const noexcept {
+  const std::uint8_t ticks = loop_facts(generation).ticks;
+  if (ticks > 1 && ++s.loop_phase < ticks) return;
+  s.loop_phase = 0;
+  for (int i = 0; i < 2; ++i) drive_motor(m, s, i);
+  s.meas_driven = {s.meas[0], s.meas[1]};
 }
 
 void Controller::end_tick(ControllerState& s) noexcept {
@@ -140,7 +155,7 @@ void Controller::end_tick(ControllerState& s) noexcept {
 
 void Controller::tick(LoopMemory m, ControllerState& s, const TickInputs& in) const noexcept {
   for (int i = 0; i < 3; ++i) read_encoder(m, s, in, i);
-  for (int i = 0; i < 2; ++i) drive_motor(m, s, i);
+  drive_motors(m, s);
   read_analog(s, in);
   end_tick(s);
 }

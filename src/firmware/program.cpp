@@ -15,7 +15,7 @@ constexpr std::uint8_t kBothMotors = 3;
 
 Program::Program(const ProgramParams& params) noexcept
     : params_(params),
-      controller_{params.model, params.supply_table.value_or(params.model == Model::maker_pro), params.repairs},
+      controller_{params.model, params.supply_table.value_or(params.model == Model::maker_pro), params.repairs, params.generation},
       wire_{params.dialect, params.repairs.layout_134, params.repairs.list_checksum} {}
 
 ProgramState Program::fresh(std::int64_t now_ns) const noexcept {
@@ -98,7 +98,7 @@ void Program::begin_tick(ProgramState& s, const TickInputs& in, std::int64_t now
   if (skips(s, now_ns) || s.in_bootloader) return;
   const LoopMemory m{s.memory.stored, s.memory.current};
   for (int i = 0; i < 3; ++i) controller_.read_encoder(m, s.loop, in, i);
-  for (int i = 0; i < 2; ++i) controller_.drive_motor(m, s.loop, i);
+  controller_.drive_motors(m, s.loop);
 }
 
 void Program::end_tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, Output& out) const noexcept {
@@ -142,6 +142,7 @@ void settle(const Program& program, ProgramState& s, const TickInputs& in) noexc
     c.meas[i] = wrap_add(c.meas[i], c.turns[i] * kTurn);
   }
   c.meas_old = c.meas;
+  c.meas_driven = {c.meas[0], c.meas[1]};
   c.first_tick = true;
   program.controller().read_analog(c, in);
   c.orders.onoff = c.orders_old.onoff = c.orders_new.onoff = s.enable = kBothMotors;

@@ -11,6 +11,9 @@ constexpr std::uint8_t kBelieveAfter = 10;    // … unless it stays for ten tic
 constexpr std::int32_t kAdcOffset = 1638;
 constexpr std::int32_t kFilterAlpha = 3;  // of 1024 a tick: τ ≈ 341 ms
 
+/// Percent PWM of version 3.0, by supply in steps of 500 mV above 8 V.
+constexpr std::array<std::int32_t, 10> kFirstPwm{80, 76, 75, 74, 72, 71, 69, 68, 66, 64};
+
 /// Percent PWM that gives about 8 V, by supply in steps of 512 mV from 8 V. The makers measured these; the last is never reached.
 constexpr std::array<std::uint8_t, 36> kEightVoltPwm{100, 76, 71, 69, 67, 65, 63, 61, 60, 58, 57, 56, 55, 54, 53, 52, 51, 50,
                                                      49,  49, 48, 47, 47, 46, 45, 45, 45, 44, 44, 43, 43, 43, 43, 42, 42, 42};
@@ -61,7 +64,7 @@ void Controller::read_analog(ControllerState& s, const TickInputs& in) const noe
     return;
   }
   s.supply_seen = true;
-  s.limit_pct = supply_table ? supply_limit_pct(s.supply) : 100;
+  s.limit_pct = supply_table ? supply_limit_pct(s.supply, generation) : 100;
   for (int i = 0; i < 2; ++i) {
     const std::int32_t mA = s.current_sign[i] * (wrap_mul(adc_counts(in.current_adc[i]), 25771) >> 13);
     const std::int32_t old = wrap_mul(s.current_filter[i], 1024 - kFilterAlpha);
@@ -70,10 +73,16 @@ void Controller::read_analog(ControllerState& s, const TickInputs& in) const noe
   }
 }
 
-std::int32_t supply_limit_pct(MilliVolt supply) noexcept {
+std::int32_t supply_limit_pct(MilliVolt supply, Generation generation) noexcept {
+  const std::int32_t over = supply.value - 8000;
+  if (generation == Generation::v2) return 100;
+  if (generation == Generation::v3) {
+    if (over > 5000) return 0;
+    return over <= 0 ? 100 : kFirstPwm[static_cast<std::size_t>((over - 1) / 500)];
+  }
   if (supply.value > 25500) return 0;
-  if (supply.value < 8000) return 100;
-  return kEightVoltPwm[static_cast<std::size_t>((supply.value - 8000) >> 9)];
+  if (over < 0) return 100;
+  return kEightVoltPwm[static_cast<std::size_t>(generation == Generation::v6 ? over >> 9 : over / 500)];
 }
 
 }  // namespace vsa::firmware

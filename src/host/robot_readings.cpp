@@ -44,7 +44,7 @@ ActuatorReading Robot::read(std::size_t actuator) const {
     r.motor_rad[m] = u.actuator.motor[m].angle;
     r.motor_speed_rad_per_s[m] = u.actuator.motor[m].speed;
     r.motor_torque_Nm[m] = now.load[m];
-    r.current_A[m] = unit.physics().motor_current(u.actuator, m, u.held.voltage[m], u.held.terminal[m]);
+    r.current_A[m] = unit.physics().motor_current(u.actuator, m, u.held.voltage[m], u.held.terminal[m], u.held.supply_V);
   }
   r.measured = impl_->buses[impl_->config.actuators[actuator].bus]->measured(slot, unit);
   return r;

@@ -16,9 +16,10 @@ struct EnergyColumn {
 };
 
 // "motor_kinetic" is the ledger's own kinetic energy (motors); "kinetic" is that of the bodies.
-inline constexpr std::array<EnergyColumn, 22> kEnergyColumns{{
+inline constexpr std::array<EnergyColumn, 23> kEnergyColumns{{
     {"supply", [](const Sample& s) { return s.ledger.supply; }},
     {"copper", [](const Sample& s) { return s.ledger.copper; }},
+    {"bridge", [](const Sample& s) { return s.ledger.bridge; }},
     {"conversion", [](const Sample& s) { return s.ledger.conversion; }},
     {"viscous", [](const Sample& s) { return s.ledger.viscous; }},
     {"motor_friction", [](const Sample& s) { return s.ledger.motor_friction; }},

@@ -71,6 +71,7 @@ TEST(Segment, EveryLossIsPositiveAndTheBalanceClosesWhateverHappens) {
     if (trial % 3 == 1) p.motor.inductance_H = 1e-3;
     if (trial % 4 == 1) p.gearbox.friction.presliding_rad = 0;
     if (trial % 5 == 1) p.gearbox.ratio = 3.0;
+    if (trial % 6 == 1) p.gearbox.back_loss = 0.5 * (trial % 12 == 1);
     p.motor.back_emf_Vs_per_rad = 0.8;  // K_b = K_τ: no conversion entry
     Actuator a(p);
     auto s = a.initial({0.7 * unit(rng), 0.7 * unit(rng)}, 0.3 * unit(rng));
@@ -158,6 +159,26 @@ TEST(Segment, AGearLossHoldsMoreTheMoreItCarries) {
     EXPECT_LE(carried, 0.4 / 0.8 + 1e-6) << load;
     EXPECT_GT(carried, 0.46) << "it slides no further than its limit asks";
   }
+}
+
+TEST(Segment, AGearThatLosesLessBackwardsHoldsLessThanItsMotorNeedsToDrive) {
+  // One motor against a spring at rest: it starts to give way below M (1 − λ_b) = load, to drive above M = load (1 + λ_f).
+  const auto moved = [](double back, double torque) {
+    ActuatorParams p = maker_pro();
+    p.transmission = std::make_shared<vsa::elastic::TwoSinh>(vsa::elastic::TwoSinhParams{{1e-4, 1e-4}, {1, 1}, {1.0, 1.0}});
+    p.gearbox = {1.0, {0, 0.0}, 0.3, back};
+    Actuator a(p);
+    auto s = a.initial({1.0, 1.0}, 0.0);  // the shaft at 0 pulls either pulley back with 1 N·m
+    const double volts = torque * 2.3 / 0.8;
+    for (int n = 0; n < 300; ++n) a.segment(s, 1e-3, {0.0, {volts, volts}, {Terminal::driven, Terminal::driven}});
+    return s.motor[0].angle - 1.0;
+  };
+  const double load = 1.0;
+  EXPECT_LT(moved(0.1, 0.85 * load), -0.01);
+  EXPECT_NEAR(moved(0.1, 0.92 * load), 0.0, 2e-3);
+  EXPECT_NEAR(moved(0.3, 0.85 * load), 0.0, 2e-3) << "a symmetric one holds";
+  EXPECT_NEAR(moved(0.1, 1.25 * load), 0.0, 2e-3);
+  EXPECT_GT(moved(0.1, 1.4 * load), 0.01);
 }
 
 TEST(Segment, LockedPulleysDeflectAsTheClosedFormSays) {

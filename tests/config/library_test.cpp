@@ -57,6 +57,38 @@ TEST(Override, WorksForWordsSwitchesWholeNumbersAndAbsentOptionalKeys) {
   EXPECT_EQ(preset.unit.actuator.motor.inductance_H, 1e-3);
 }
 
+TEST(Override, TurnsOnTheBridgeAsACircuitAndAnOlderLoop) {
+  const auto as_shipped = shipped().load("qbmove_maker_pro").unit;
+  EXPECT_EQ(as_shipped.actuator.bridge.pin, drive::PwmPin::input);
+  EXPECT_EQ(as_shipped.actuator.bridge.period_s, 50.5e-6);
+  EXPECT_EQ(as_shipped.actuator.bridge.switch_Ohm, 0.0);
+  EXPECT_FALSE(as_shipped.actuator.gearbox.back_loss.has_value());
+  EXPECT_EQ(as_shipped.program.generation, firmware::Generation::v6);
+  const auto u = shipped()
+                     .load("qbmove_maker_pro", {{"drive.pwm_pin", "enable"},
+                                                {"drive.pwm_period_s", "1e-5"},
+                                                {"drive.inductance_H", "2e-4"},
+                                                {"drive.switch_Ohm", "0.24"},
+                                                {"drive.diode_V", "0.7"},
+                                                {"drive.back_loss", "0.1"},
+                                                {"firmware.generation", "3"}})
+                     .unit;
+  EXPECT_EQ(u.actuator.bridge.pin, drive::PwmPin::enable);
+  EXPECT_EQ(u.actuator.bridge.period_s, 1e-5);
+  EXPECT_EQ(u.actuator.bridge.switch_Ohm, 0.24);
+  EXPECT_EQ(u.actuator.bridge.diode_V, 0.7);
+  EXPECT_EQ(u.actuator.gearbox.back_loss, 0.1);
+  EXPECT_EQ(u.program.generation, firmware::Generation::v3);
+}
+
+TEST(Override, OfTheBridgeOrTheLoopThatDoNotGoTogetherAreRefused) {
+  const auto told = [](std::vector<Override> o) {
+    return text_of(problems_of([&] { (void)shipped().load("qbmove_maker_pro", o); }));
+  };
+  expect_pieces(told({{"drive.pwm_pin", "enable"}}), {"drive.inductance_H", "needs the winding's inductance"});
+  expect_pieces(told({{"firmware.model", "advanced"}, {"firmware.generation", "4"}}), {"firmware.generation", "maker pro"});
+}
+
 TEST(Override, ThatIsBadIsRefusedByNameOfTheOverride) {
   const std::pair<Override, const char*> table[] = {
       {{"drive.friction_Nm", "0.7 "}, "must be a number"},

@@ -140,6 +140,65 @@ TEST(Unit, CoastsOrBrakesWhenOff) {
   }
 }
 
+/// Fast switching: below half the duty a bridge with a modulated enable pin gives a standing motor nothing.
+vsa::device::UnitConfig chopped() {
+  auto config = maker_pro();
+  config.actuator.bridge.pin = vsa::drive::PwmPin::enable;
+  config.actuator.bridge.dead_band = 0;
+  config.program.supply_table = false;
+  return config;
+}
+
+TEST(Unit, AModulatedEnablePinGivesNothingBelowHalfTheDuty) {
+  for (const double error : {0.03, -0.03, 0.085, -0.085}) {  // 0.096 rad is full output
+    OneJoint joint(chopped(), 0.0, 0.0, 1e-3, 1'000'000);
+    run(joint, 0.1);
+    command(joint, error, 0.0);
+    run(joint, 0.02);
+    const double current = joint.unit.physics().motor_current(joint.state.actuator, 0, joint.state.held.voltage[0],
+                                                              joint.state.held.terminal[0], joint.state.held.supply_V);
+    EXPECT_GT(joint.state.held.voltage[0] * error, 0.0);
+    if (std::abs(error) < 0.05) {
+      EXPECT_EQ(joint.state.actuator.ledger.copper, 0.0);
+      EXPECT_EQ(current, 0.0);
+    } else {
+      EXPECT_GT(joint.state.actuator.ledger.copper, 0.0);
+      EXPECT_GT(current * error, 0.0);
+    }
+  }
+}
+
+TEST(Unit, AModulatedEnablePinFollowsACommandAndKeepsTheBooks) {
+  auto config = chopped();
+  config.actuator.bridge.period_s = 50.5e-6;
+  config.actuator.motor.inductance_H = 2e-4;
+  config.actuator.gearbox.friction.coulomb_Nm = 0.2;
+  for (const std::int64_t dt_ns : {1'000'000, 700'000, 4'000'000}) {
+    OneJoint joint(config, 0.0, 0.3, 1e-3, dt_ns);
+    run(joint, 0.1);
+    command(joint, 1.0, 0.3);
+    run(joint, 2.0);
+    EXPECT_NEAR(joint.q, 1.0, 0.15) << dt_ns;
+    const auto& ledger = joint.state.actuator.ledger;
+    EXPECT_LT(std::abs(ledger.imbalance()), 1e-10 * ledger.moved()) << dt_ns;
+    EXPECT_LT(std::abs(ledger.integrator), 0.02 * ledger.moved()) << dt_ns;
+  }
+}
+
+TEST(Unit, OffOrWithoutSupplyAModulatedEnablePinLetsTheMotorsCoast) {
+  for (const bool supply : {true, false}) {
+    auto config = chopped();
+    config.actuator.gearbox.friction = {0, 0};
+    OneJoint joint(config, 0.0, 0.0, 1e-3, 1'000'000);
+    joint.state.program.enable = 0;
+    joint.state.supply_on = supply;
+    joint.q = 0.2;  // the springs turn the motors, more slowly than the diodes need
+    run(joint, 0.2);
+    EXPECT_EQ(joint.state.actuator.ledger.copper, 0.0);
+    EXPECT_GT(std::abs(joint.state.actuator.motor[0].angle), 0.01);
+  }
+}
+
 TEST(Unit, ASeriesElasticActuatorRunsThroughTheSameDoor) {
   auto config = maker_pro();
   config.actuator.transmission = std::make_shared<vsa::elastic::SeriesSpring>(10.0);

@@ -57,6 +57,24 @@ TEST(MotorLine, IsTheStraightLineOfADcMotorBehindItsFriction) {
   EXPECT_NEAR(line.most_Nm(line.no_load_speed_rad_per_s()), 0, 1e-12);
 }
 
+TEST(MotorLine, OfAModulatedEnablePinIsTheCircuitsCurrentBehindTheFriction) {
+  device::UnitConfig u = qbmove();
+  u.actuator.bridge.pin = drive::PwmPin::enable;
+  u.actuator.gearbox.friction.coulomb_Nm = 0.2;
+  const MotorLine line = motor_line(u);
+  EXPECT_NEAR(line.voltage_V, (2 * kDuty - 1) * kSupply, 1e-12) << "fast switching: (2d - 1)V";
+  EXPECT_NEAR(line.most_Nm(0), 0.8 * line.voltage_V / 2.3 - 0.2, 1e-12);
+  EXPECT_NEAR(line.most_Nm(line.no_load_speed_rad_per_s()), 0, 1e-9);
+  EXPECT_NEAR(line.least_Nm(1), -(0.8 * (line.voltage_V + 1.3) / 2.3 + 0.2 + 0.01), 1e-12);
+  EXPECT_NEAR(standing_voltage(u, 0.8, line.full_duty), 0, 1e-12) << "below half the duty there is none";
+  // A slow PWM leaves the current time to rise: the line bends, and a fast motor still has some torque.
+  u.actuator.bridge.period_s = 50.5e-6;
+  u.actuator.motor.inductance_H = 1e-4;
+  const MotorLine bent = motor_line(u);
+  EXPECT_GT(bent.voltage_V, line.voltage_V);
+  EXPECT_GT(bent.no_load_speed_rad_per_s(), 1.2 * line.no_load_speed_rad_per_s());
+}
+
 TEST(MotorLine, GivesTheSameAtThePulleyThroughAGearbox) {
   device::UnitConfig geared = qbmove();
   const double n = 50;

@@ -1,7 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // Dialect seven, the advanced unit, the controller's repairs, and what a snapshot is.
+#include <cstdlib>
+#include <span>
 #include <type_traits>
+#include <vector>
 
 #include "unit_bench.hpp"
 #include "vsa/bus/parameters.hpp"
@@ -218,6 +221,76 @@ TEST(Duty, OnePercentUpIsLostAndOnePercentDownIsNot) {
   Controller{}.drive_motor({m, m}, s, 1);
   EXPECT_EQ(s.pwm, (std::array{1, -1}));
   EXPECT_EQ(s.duty, (std::array{0, -1}));
+}
+
+/// Ticks of one motor's loop at a steady supply, and what went out.
+std::vector<std::int32_t> duties(Generation generation, std::span<const std::int32_t> positions, std::int32_t reference) {
+  Memory m = initial_memory(Model::maker_pro);
+  ControllerState s;
+  s.limit_pct = 100;
+  s.ref = s.ref_new = {reference, 0};
+  const Controller controller{Model::maker_pro, false, {}, generation};
+  std::vector<std::int32_t> out;
+  for (const std::int32_t at : positions) {
+    controller.tick({m, m}, s, {{at, 0, 0}, {1638, 1638}, 2400});
+    out.push_back(s.pwm[0]);
+  }
+  return out;
+}
+
+TEST(Generation, TheLoopOf2014RunsEverySecondTickAndDampsTwiceAsMuch) {
+  std::vector<std::int32_t> turning;
+  for (std::int32_t n = 0; n < 12; ++n) turning.push_back(16 * n);
+  // P of 100·0.1 = 10 % less 16·0.8 = 12.8 % a tick, floored each.
+  const auto now = duties(Generation::v6, turning, 300), then = duties(Generation::v4, turning, 300);
+  for (std::size_t n = 4; n < 12; ++n) {
+    const std::int32_t p = (6553 * (300 - turning[n])) >> 16;
+    EXPECT_EQ(now[n], p - 13) << n;
+    EXPECT_EQ(then[n], n % 2 == 1 ? p - 26 : then[n - 1]) << n;
+  }
+}
+
+TEST(Generation, OnePercentDownWasLostToo) {
+  Memory m = initial_memory(Model::maker_pro);
+  ControllerState s;
+  s.limit_pct = 100;
+  s.ref = {-1, -1};
+  const Controller then{Model::maker_pro, true, {}, Generation::v4};
+  then.drive_motor({m, m}, s, 0);
+  EXPECT_EQ(s.pwm[0], -1);
+  EXPECT_EQ(s.duty[0], 0);
+}
+
+TEST(Generation, TheSupplysTablesAreThoseOfTheirTime) {
+  const auto pct = [](int mV, Generation g) { return supply_limit_pct(vsa::MilliVolt{mV}, g); };
+  EXPECT_EQ(pct(12000, Generation::v6), 61);
+  EXPECT_EQ(pct(12000, Generation::v4), 60);
+  EXPECT_EQ(pct(11999, Generation::v4), 61);
+  EXPECT_EQ(pct(25500, Generation::v4), 42);
+  EXPECT_EQ(pct(25501, Generation::v4), 0);
+  EXPECT_EQ(pct(8000, Generation::v3), 100);
+  EXPECT_EQ(pct(8001, Generation::v3), 80);
+  EXPECT_EQ(pct(12000, Generation::v3), 68);
+  EXPECT_EQ(pct(12001, Generation::v3), 66);
+  EXPECT_EQ(pct(13000, Generation::v3), 64);
+  EXPECT_EQ(pct(13001, Generation::v3), 0);
+  EXPECT_EQ(pct(24000, Generation::v2), 100);
+}
+
+TEST(Generation, AUnitOfThatTimeSettlesOnItsReferencesWithoutAKick) {
+  ProgramParams p;
+  p.generation = Generation::v4;
+  const Program program(p);
+  ProgramState s = program.fresh(0);
+  s.loop.ref_new = {16000, -16000};
+  const TickInputs in{{16000, -16000, 0}, {1638, 1638}, 2400};
+  settle(program, s, in);
+  Output out;
+  for (int n = 0; n < 4; ++n) {
+    program.tick(s, in, n * 1'000'000, out);
+    EXPECT_LE(std::abs(s.loop.pwm[0]), 2) << n;
+    EXPECT_LE(std::abs(s.loop.pwm[1]), 2) << n;
+  }
 }
 
 TEST(Current, AtZeroDutyIsReadAsPositive) {

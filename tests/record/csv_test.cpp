@@ -29,13 +29,14 @@ TEST(CsvFiles, WriteTheBytesThatTheirHeadersPromise) {
             "time_s,link,x_m,y_m,z_m,qw,qx,qy,qz\n"
             "0,arm::lever,0.5,0,-1,1,0,0,0\n"
             "0.01,arm::lever,0.5,0,-1,1,0,0,0\n");
-  EXPECT_EQ(slurp(dir.path() / "new/out/energy.csv"),
-            "time_s,supply_J,copper_J,conversion_J,viscous_J,motor_friction_J,shaft_friction_J,tendon_friction_J,delivered_J,"
-            "pending_J,integrator_J,coupling_J,motor_kinetic_J,magnetic_J,elastic_J,bristle_J,shaft_bristle_J,tendon_bristle_J,"
-            "stored_at_start_J,supply_moved_J,delivered_moved_J,kinetic_J,"
-            "gravitational_J\n"
-            "0,2,1.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0.25,-9.81\n"
-            "0.01,2,1.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0.25,-9.81\n");
+  EXPECT_EQ(
+      slurp(dir.path() / "new/out/energy.csv"),
+      "time_s,supply_J,copper_J,bridge_J,conversion_J,viscous_J,motor_friction_J,shaft_friction_J,tendon_friction_J,delivered_J,"
+      "pending_J,integrator_J,coupling_J,motor_kinetic_J,magnetic_J,elastic_J,bristle_J,shaft_bristle_J,tendon_bristle_J,"
+      "stored_at_start_J,supply_moved_J,delivered_moved_J,kinetic_J,"
+      "gravitational_J\n"
+      "0,2,1.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0.25,-9.81\n"
+      "0.01,2,1.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0.25,-9.81\n");
 }
 
 TEST(CsvFiles, NameThePresetsUnitAndLeaveAMissingMotorEmpty) {

@@ -67,6 +67,7 @@ export function energyPanels() {
       digits: 1,
       lines: [
         ['copper', 'copper', 'solid'],
+        ['bridge', 'bridge', 'longdashdot'],
         ['gear friction', 'motor_friction', 'dash'],
         ['viscous', 'viscous', 'dot'],
         ['shaft friction', 'shaft_friction', 'dashdot'],

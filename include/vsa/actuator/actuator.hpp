@@ -16,8 +16,9 @@
 // The bristle has a damper of the time constant T_d: s = (w − z + T_d ẇ)/w_max within ±1. That only ever burns more, by
 // (μ/w_max)(clamp(u + T_d ẇ) − u)ẇ ≥ 0, and nothing where the motion is slow. Without it a bent bristle is a spring that rings.
 //
-// GEAR LOSS: the limit of the gearbox's friction grows by λ·|load_i| of the last segment. Its bristle's stiffness stays, so a
-// growing limit adds no energy, and one that shrinks burns what it lets go.
+// GEAR LOSS: the limit of the gearbox's friction grows by λ·|load_i| of the last segment, with another λ where motor and load
+// together would turn the pulley the load's way (the load drives the motor back) than where the motor drives the load. Its
+// bristle's stiffness stays, so a growing limit adds no energy, and one that shrinks burns what it lets go.
 //
 // States: pulley angle, speed, current (2 each), friction anchors (5), shaft position of the last segment's end, energy ledger.
 #pragma once
@@ -27,7 +28,9 @@
 
 #include "vsa/actuator/ledger.hpp"
 #include "vsa/drive/bridge.hpp"
+#include "vsa/drive/droop_stepper.hpp"
 #include "vsa/drive/motor.hpp"
+#include "vsa/drive/pwm_cycle.hpp"
 #include "vsa/elastic/transmission.hpp"
 #include "vsa/sensor/sensors.hpp"
 
@@ -100,6 +103,7 @@ struct SegmentInput {
   std::array<double, 2> voltage{};
   std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
   Lead lead{};
+  double supply_V = 0;  ///< counts where the bridge's enable pin is modulated, by a duty of voltage/supply; 0: no current
 };
 
 struct SegmentResult {
@@ -112,7 +116,14 @@ struct SegmentResult {
 class Segment {
  private:
   friend class Actuator;
+  /// A motor on a bridge whose enable pin is modulated: its current as a straight line about the speed `aim`.
+  struct Pwm {
+    const drive::PwmCycle* cycle = nullptr;  // none: terminals at a mean voltage, or open
+    drive::DroopStepper stepper;
+    double start = 0, aim = 0, current_at_rest = 0, h = 0;
+  };
   std::array<const drive::MotorStepper*, 2> stepper{};
+  std::array<Pwm, 2> pwm{};
   SegmentInput in;
   bool tried = false;
   // what the frictions see at the start
@@ -120,6 +131,7 @@ class Segment {
   std::array<double, 2> gear_u{};
   std::array<double, 2> w{}, w_u{};  // the springs' signed energies, and their distance from the anchors
   std::array<double, 2> free{};      // the motors' displacements without load
+  std::array<double, 2> give{};      // and what a torque adds to them, rad/(N·m)
   double damping = 0;                // T_d/h of the tendons' bristles
   double own = 1, whole = 1;         // how far the springs' end moves with the step's Δy: by the segment, and in all
   // what the last trial found
@@ -175,7 +187,8 @@ class Actuator {
   [[nodiscard]] elastic::Response spring(const ActuatorState& state, double shaft) const noexcept;
   /// The springs' response with the torques of the frictions on the shaft's side: what acts if the shaft is there.
   [[nodiscard]] elastic::Response response(const ActuatorState& state, double shaft) const noexcept;
-  [[nodiscard]] double motor_current(const ActuatorState& state, int i, double voltage, drive::Terminal terminal) const noexcept;
+  [[nodiscard]] double motor_current(const ActuatorState& state, int i, double voltage, drive::Terminal terminal,
+                                     double supply_V = 0) const noexcept;
   [[nodiscard]] int motors() const noexcept { return motors_; }
 
  private:
@@ -184,6 +197,16 @@ class Actuator {
     drive::MotorStepper driven, open;
   };
   const drive::MotorStepper& stepper(double h_s, drive::Terminal terminal) noexcept;
+  const drive::PwmCycle& cycle(int i, const drive::PwmHold& hold) noexcept;
+  [[nodiscard]] drive::PwmCycle new_cycle(const drive::PwmHold& hold) const noexcept;
+  void begin_pwm(Segment& segment, int i, double speed, double h_s) noexcept;
+  /// The line of a PWM motor's current about a mean speed, and what follows from it.
+  void aim(Segment& segment, int i, double speed) const noexcept;
+  /// The same where the last displacement found is that of another speed.
+  void follow(Segment& segment, int i) const noexcept;
+  drive::MotorStep pwm_step(Ledger& ledger, const Segment::Pwm& pwm, double torque) const noexcept;
+  [[nodiscard]] double pwm_current(const drive::MotorState& motor, int i, drive::Terminal terminal,
+                                   const drive::PwmHold& hold) const noexcept;
   void add_tendon_friction(Segment& segment, const elastic::Positions& to) const noexcept;
   void move_tendons(ActuatorState& state, const Segment& segment) const noexcept;
   /// One Newton correction of the pulleys from the mean at segment.dx; returns whether it was small enough to be the last.
@@ -205,6 +228,10 @@ class Actuator {
   drive::Friction tendon_;  // in the energy's coordinate: "torque" μ, "angle" J
   int motors_, springs_;
   std::array<Prepared, 2> prepared_{};  // the two step lengths used last
+  bool chopped_;                        // the bridge's enable pin is modulated
+  double back_loss_;
+  double winding_Ohm_, winding_H_;  // motor_ has the switches' resistance, too, and no inductance where chopped
+  std::array<std::array<drive::PwmCycle, 2>, 2> cycles_{};  // of each motor, the two used last
 };
 
 }  // namespace vsa::actuator

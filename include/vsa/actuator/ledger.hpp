@@ -2,7 +2,7 @@
 //
 // Where the energy of one actuator went:
 //
-//   supply = copper + conversion + viscous + motor_friction + shaft_friction + tendon_friction
+//   supply = copper + bridge + conversion + viscous + motor_friction + shaft_friction + tendon_friction
 //            + (stored − stored at the start) + delivered + pending + integrator + coupling
 //
 // `integrator` and `coupling` close the balance of a part (springs over a segment; shaft between unit and host), so the whole
@@ -15,6 +15,7 @@ namespace vsa::actuator {
 struct Ledger {
   double supply = 0;           ///< Σ ∫V I dt drawn from the supply; negative when motors feed back
   double copper = 0;           ///< Σ ∫R I² dt
+  double bridge = 0;           ///< heat of the bridges' switches and diodes
   double conversion = 0;       ///< Σ (K_b − K_τ)∫Iω dt: zero where the two constants agree, as physics asks
   double viscous = 0;          ///< Σ ∫b ω² dt
   double motor_friction = 0;   ///< heat of the gearboxes' friction
@@ -37,7 +38,7 @@ struct Ledger {
   [[nodiscard]] double stored() const noexcept { return kinetic + magnetic + elastic + bristle + shaft_bristle + tendon_bristle; }
   /// Left side less right side of the balance, J: rounding only.
   [[nodiscard]] double imbalance() const noexcept {
-    return supply - (copper + conversion + viscous + motor_friction + shaft_friction + tendon_friction +
+    return supply - (copper + bridge + conversion + viscous + motor_friction + shaft_friction + tendon_friction +
                      (stored() - stored_at_start) + delivered + pending + integrator + coupling);
   }
   /// ∫|P_supply| + ∫|P_shaft|, J: what the balance is measured against.

@@ -61,6 +61,7 @@ void check(const UnitConfig& config, std::string_view where, Problems& problems)
 struct Held {
   std::array<double, 2> voltage{};
   std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
+  double supply_V = 0;  ///< where the enable pin is modulated, by a duty of voltage/supply
 };
 
 /// A shaft's angle (rad) and speed (rad/s).

@@ -38,6 +38,7 @@ struct GearboxParams {
   double ratio = 1.0;       ///< n = motor turns per pulley turn, > 0
   FrictionParams friction;  ///< loss torque at the motor's shaft (eq. 5) and its presliding at the PULLEY
   double load_loss = 0;     ///< λ ≥ 0: friction grows by λ·|load on the pulley|; a gear of efficiency η has λ = 1/η − 1
+  std::optional<double> back_loss{};  ///< λ where the load drives the motor back, ≥ 0: 1 − η; none: as load_loss
   bool operator==(const GearboxParams&) const = default;
 };
 

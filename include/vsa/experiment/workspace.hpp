@@ -6,22 +6,25 @@
 //   M⁺(ω) = (K_τ V/R − τ_c − (K_τ K_b/R + b) ω)/(1 + λ)         most that a motor gives to its pulley, driving it at ω ≥ 0
 //   M⁻(ω) = −(K_τ V/R + τ_c + (K_τ K_b/R + b) ω)                most that it brakes it with; friction helps
 //
-// all at the pulley; τ_c Coulomb friction, λ the friction that grows with the load (K_τ, K_b, b, τ_c after the gearbox). The
-// bridge's dead band has no part in V: full output gives full voltage.
+// or, where the bridge's enable pin is modulated, K_τ ī(d, K_b ω) − b ω in place of K_τ V/R − (K_τ K_b/R + b) ω, with the circuit's
+// own mean current at full duty d (drive/pwm_cycle.hpp), and V := ī(d, 0) R; all at the pulley; τ_c Coulomb friction, λ the
+// friction that grows with the load (K_τ, K_b, b, τ_c after the gearbox). The bridge's dead band has no part in V: full output
+// gives full voltage.
 //
 // While the shaft turns at ω against a load it stays behind its equilibrium by d, and the law's inputs follow the equilibrium with
 // ẋ_i = r_i ω, r_i = ∂x_ref,i/∂θ. Motor i carries M_i = −load_i(q₀ − d, x_ref(0, p)). (ω, p) is reachable with every lag from 0 up
 // to d for which
 //
-//   M⁻(|r_i ω|) ≤ sign(r_i ω) M_i ≤ M⁺(|r_i ω|)  for all motors;    an input that stands (r_i = 0):  (1 − λ)|M_i| ≤ K_τ V/R + τ_c
+//   M⁻(|r_i ω|) ≤ sign(r_i ω) M_i ≤ M⁺(|r_i ω|)  for all motors;    an input that stands (r_i = 0):  (1 − λ_b)|M_i| ≤ K_τ V/R + τ_c
 //
 // Torque at the shaft: τ(q₀ − d) − τ_shaft; stiffness: σ there. At the largest p the motors hold each other: pretension costs
-// torque. Holding (ω = 0, friction helps): (1 − λ)|M_i| ≤ K_τ V/R + τ_c, without voltage ≤ τ_c, and the shaft's friction adds.
+// torque. Holding (ω = 0, friction helps): (1 − λ_b)|M_i| ≤ K_τ V/R + τ_c, without voltage ≤ τ_c, and the shaft's friction adds.
 //
 // Valid for rotary inputs and steady motion: no heat, no inertia, no controller error (the attained preset, not the commanded one).
 // Friction along the springs (tendon.*) changes the deflection at which a torque passes, not the torque that the motors can pass.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "vsa/device/unit.hpp"
@@ -37,12 +40,26 @@ struct MotorLine {
   double friction_Nm = 0;       ///< τ_c
   double back_Nms_per_rad = 0;  ///< K_τ K_b/R + b
   double load_loss = 0;         ///< λ
+  double back_loss = 0;         ///< λ where the load drives the motor back
+  /// The enable pin is modulated: the motor at full duty, both ways.
+  struct Chopped {
+    drive::PwmCycle along, against;
+    double torque_constant_Nm_per_A = 0, back_emf_Vs_per_rad = 0, viscous_Nms_per_rad = 0;
+    [[nodiscard]] double torque_Nm(const drive::PwmCycle& cycle, double speed_rad_per_s) const noexcept {
+      return torque_constant_Nm_per_A * cycle.mean(back_emf_Vs_per_rad * speed_rad_per_s).current -
+             viscous_Nms_per_rad * speed_rad_per_s;
+    }
+  };
+  std::optional<Chopped> chopped;
 
   [[nodiscard]] double most_Nm(double speed_rad_per_s) const noexcept;   ///< M⁺; negative beyond the no-load speed
   [[nodiscard]] double least_Nm(double speed_rad_per_s) const noexcept;  ///< M⁻
   [[nodiscard]] double no_load_speed_rad_per_s() const noexcept;         ///< where M⁺ is 0; 0: friction holds the motor
 };
 [[nodiscard]] MotorLine motor_line(const device::UnitConfig& unit);
+
+/// Mean voltage that a standing motor gets at a controller output, V: its current times the resistance in its way.
+[[nodiscard]] double standing_voltage(const device::UnitConfig& unit, double output, double full_duty) noexcept;
 
 enum class Task {
   move,      ///< turn against the load at a speed; at speed 0: begin to

@@ -85,12 +85,14 @@ struct ControllerState {
   MilliVolt supply{};
   std::int32_t limit_pct = 0;  ///< supply-dependent limit in force
   bool supply_seen = false;
-  bool first_tick = true;      ///< no sample of the third encoder was good yet: samples are taken as they are
-  bool reset_samples = false;  ///< SET_ZEROS: the next reading starts from 0
+  bool first_tick = true;                     ///< no sample of the third encoder was good yet: samples are taken as they are
+  std::array<std::int32_t, 2> meas_driven{};  ///< positions at the last loop, where that isn't the last tick
+  std::uint8_t loop_phase = 0;                ///< ticks since then
+  bool reset_samples = false;                 ///< SET_ZEROS: the next reading starts from 0
 };
 
 /// Percent of full duty that keeps about 8 V at the motor: 100 up to 8 V, 61 at 12 V, 43 at 24 V, 0 above 25.5 V.
-[[nodiscard]] std::int32_t supply_limit_pct(MilliVolt supply) noexcept;
+[[nodiscard]] std::int32_t supply_limit_pct(MilliVolt supply, Generation generation = Generation::v6) noexcept;
 
 /// The two sets that the loop reads.
 struct LoopMemory {
@@ -103,8 +105,11 @@ struct Controller {
   Model model = Model::maker_pro;
   bool supply_table = true;  ///< false: full duty at any supply (the advanced unit)
   Repairs repairs{};
+  Generation generation = Generation::v6;
 
   void read_encoder(LoopMemory m, ControllerState& s, const TickInputs& in, int i) const noexcept;
+  /// Both motors, in the ticks in which the loop runs.
+  void drive_motors(LoopMemory m, ControllerState& s) const noexcept;
   void drive_motor(LoopMemory m, ControllerState& s, int i) const noexcept;
   void read_analog(ControllerState& s, const TickInputs& in) const noexcept;
   static void end_tick(ControllerState& s) noexcept;

@@ -11,6 +11,26 @@ namespace vsa::firmware {
 /// 1eac9d4; that repository's last commit is a merge that holds 6.1.2 again).
 enum class Model : std::uint8_t { maker_pro, advanced };
 
+/// Which years' control loop a maker pro runs; commands, parameters and protocol are those of 6.1 whatever it says. Dates and
+/// commits: docs/lab/firmware-history.md.
+enum class Generation : std::uint8_t {
+  v6,  ///< 6.1 (2016–): 1 kHz
+  v4,  ///< 4.0.2 … 5.0.1 (2014-05-15 … 2015-01-28): motors at 500 Hz, the supply's table in steps of 500 mV
+  v3,  ///< 3.0.0 … 3.0.2 (2014-04): as v4, with the first table, to 13 V
+  v2   ///< 2.0 … 2.1.1 (2014-01 … 04): as v4, without a limit by the supply
+};
+
+/// What they differ in. Gains are the same numbers in all, but the derivative is a difference over a loop's period: at 500 Hz the
+/// same gain damps twice as much.
+struct LoopFacts {
+  std::uint8_t ticks = 1;         ///< of 1 ms a loop; encoders are read every tick
+  std::int32_t sum_max = 100000;  ///< of the integral's error sum
+  bool plain_products = false;    ///< no early shift for far errors, and the output's scaling truncates instead of rounding down
+};
+[[nodiscard]] constexpr LoopFacts loop_facts(Generation g) noexcept {
+  return g == Generation::v6 ? LoopFacts{} : LoopFacts{2, 1000, true};
+}
+
 /// All false: the program as it is. Each switch repairs one defect and nothing else.
 struct Repairs {
   /// 134 (positions) and 137 write their values four bytes apart instead of two: the second lands in the third's place.

@@ -38,6 +38,7 @@ struct ProgramParams {
   Model model = Model::maker_pro;
   bus::Dialect dialect = bus::Dialect::six;
   Repairs repairs{};
+  Generation generation = Generation::v6;  ///< of a maker pro's control loop
   std::optional<bool> supply_table;        ///< duty limited by the supply; none: as the model has it (maker pro yes, advanced no)
   std::int64_t row_write_ns = 10'000'000;  ///< EEPROM row of 16 bytes
   std::uint32_t loop_time_us = 0;          ///< info text's "debug": the loop's run time, UNKNOWN
