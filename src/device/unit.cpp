@@ -123,7 +123,7 @@ void Unit::begin_trials(UnitState& s, StepPlan& plan) noexcept {
   }
   if (plan.whole)
     actuator_.begin(s.actuator, plan.last, seconds(plan.dt_ns),
-                    {0.0, plan.held[0].voltage, plan.held[0].terminal, plan.lead, plan.held[0].pwm});
+                    {0.0, plan.held[0].voltage, plan.held[0].terminal, plan.lead, plan.held[0].supply_V});
 }
 
 ShaftTorque Unit::foresee(const UnitState& s, StepPlan& plan, double dy) const noexcept {
