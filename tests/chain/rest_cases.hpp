@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "chain/rest_meter.hpp"
@@ -73,7 +74,7 @@ class RestTable {
 
   void expect_quiet(const RestCase& c) {
     const Rest rest = run_(c);
-    Row& row = rows_[c.chain.step_s];
+    Row& row = rows_[{c.held_rad != 0, c.chain.step_s}];
     ++row.cases;
     top_speed_ = std::max(top_speed_, rest.top_speed);
     row.least_coupling = std::min(row.least_coupling, rest.coupling_part);
@@ -106,11 +107,13 @@ class RestTable {
   /// And expects that something has moved at all.
   void print(const std::string& title) const {
     EXPECT_GT(top_speed_, 0.01) << title;
-    std::printf("%s\n   step cases | quiet  rad/s scatter | busy  rad/s  scatter  over short steps'  tried | coupling/moved\n",
-                title.c_str());
-    for (const auto& [step_s, r] : rows_) {
-      std::printf("%4.2g ms %5d | %5d %.4f %5.2f %% | %4d %.4f %6.2f %% %18.2f %6d | %.1e\n", step_s * 1e3, r.cases, r.quiet, r.rms,
-                  r.scatter * 100, r.cases - r.quiet, r.busy_rms, r.busy_scatter * 100, r.over_fine, r.nearby, r.least_coupling);
+    std::printf(
+        "%s\n            step cases | quiet  rad/s scatter | busy  rad/s  scatter  over short steps'  tried | coupling/moved\n",
+        title.c_str());
+    for (const auto& [at, r] : rows_) {
+      std::printf("%-8s %4.2g ms %5d | %5d %.4f %5.2f %% | %4d %.4f %6.2f %% %18.2f %6d | %.1e\n", at.first ? "aside" : "at zero",
+                  at.second * 1e3, r.cases, r.quiet, r.rms, r.scatter * 100, r.cases - r.quiet, r.busy_rms, r.busy_scatter * 100,
+                  r.over_fine, r.nearby, r.least_coupling);
     }
     std::fflush(stdout);
   }
@@ -123,7 +126,7 @@ class RestTable {
 
   Run run_;
   ShortRun in_short_steps_;
-  std::map<double, Row> rows_;
+  std::map<std::pair<bool, double>, Row> rows_;  ///< held aside, step
   double top_speed_ = 0;
 };
 

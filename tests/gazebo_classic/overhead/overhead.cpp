@@ -5,7 +5,7 @@
 //
 // Two worlds in one process take turns, a block of steps each: one with the plug-in, one without, whose joints get the torques that
 // the first one's got. So both make the same motion, which is checked bit for bit, and the difference is the plug-in's. A clock
-// around the plug-in's own call gives a second figure.
+// around the plug-in's own call gives a second figure, the stepping thread's processor time.
 #include <ignition/msgs/double.pb.h>
 #include <ignition/msgs/model.pb.h>
 #include <unistd.h>
@@ -24,6 +24,7 @@
 #include "classic_world.hpp"
 #include "gait_player.hpp"
 #include "peer.hpp"
+#include "processor_time.hpp"
 #include "spread.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/host/topics.hpp"
@@ -33,6 +34,7 @@ namespace {
 using namespace std::chrono;  // NOLINT(google-build-using-namespace): a program, not a header
 using gazebo::common::UpdateInfo;
 using gazebo::event::Events;
+using vsa::test::processor_time;
 using vsa::test::RobotWorld;
 using vsa::test::spread;
 using vsa::test::text;
@@ -157,11 +159,11 @@ class Comparison {
   void before_plugin(const UpdateInfo& info) {
     if (gait_ && info.worldName == ours_name_)
       gait_->play(info.simTime.sec * std::int64_t{1'000'000'000} + info.simTime.nsec - 1'000'000);
-    call_begin_ = steady_clock::now();
+    call_begin_ = processor_time();
   }
 
   void after_plugin(const UpdateInfo& info) {
-    const auto now = steady_clock::now();
+    const auto now = processor_time();
     if (info.worldName == ours_name_) {
       in_call_ += now - call_begin_;
       for (std::size_t i = 0; i < kModules; ++i) torques_.push_back(ours_->torques()[i]);
@@ -201,8 +203,7 @@ class Comparison {
   std::vector<gazebo::physics::JointPtr> joints_;  ///< of the world without the plug-in
   std::vector<double> torques_;
   std::size_t taken_ = 0;
-  steady_clock::time_point call_begin_;
-  steady_clock::duration in_call_{};
+  nanoseconds call_begin_{}, in_call_{};
   double last_ours_us_ = 0, last_call_us_ = 0;
   gazebo::event::ConnectionPtr before_, after_;
 };

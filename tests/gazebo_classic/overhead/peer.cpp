@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "classic_world.hpp"
+#include "processor_time.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::test {
@@ -75,10 +76,9 @@ namespace {
 
 void serve(const std::string& world_file, const std::string& engine) {
   start_server();
-  steady_clock::time_point begin;
-  steady_clock::duration in_call{};
+  std::chrono::nanoseconds begin{}, in_call{};
   using gazebo::event::Events;
-  const auto before = Events::ConnectWorldUpdateBegin([&](const auto&) { begin = steady_clock::now(); });
+  const auto before = Events::ConnectWorldUpdateBegin([&](const auto&) { begin = processor_time(); });
   ClassicWorld world(read_file(world_file), engine);
   world.world->Physics()->SetRealTimeUpdateRate(0);
   const unsigned alone =
@@ -86,7 +86,7 @@ void serve(const std::string& world_file, const std::string& engine) {
   world.run(kLoadSteps);
   if (Events::worldUpdateBegin.ConnectionCount() == alone)
     throw std::runtime_error("no model's plug-in listens to the begin of a step");
-  const auto after = Events::ConnectWorldUpdateBegin([&](const auto&) { in_call += steady_clock::now() - begin; });
+  const auto after = Events::ConnectWorldUpdateBegin([&](const auto&) { in_call += processor_time() - begin; });
   int steps = 0;
   while (receive(STDIN_FILENO, &steps, sizeof steps)) {
     in_call = {};
