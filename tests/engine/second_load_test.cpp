@@ -92,17 +92,11 @@ TEST(SecondLoad, HasTheStepThatWasAskedFor) {
   EXPECT_EQ(four, trajectory(World::load_string(fresh(lively()), slow)));
 }
 
-TEST(SecondLoad, TakesMilliseconds) {
+/// What it saves is in bench/bench_load.cpp: times have no place here.
+TEST(SecondLoad, OfAShippedWorldIsSharedEachTime) {
   const std::string file = VSA_SOURCE_DIR "/models/worlds/snake_rubble.sdf";
   const World first = World::load(file);
-  double best_s = 1;
-  for (int i = 0; i < 5; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    const World w = World::load(file);
-    best_s = std::min(best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    EXPECT_TRUE(share(w, first));
-  }
-  EXPECT_LT(best_s, 0.01);
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(share(World::load(file), first));
 }
 
 TEST(SecondLoad, OfOneTextWithOtherWishesForConcaveMeshesIsReadAnew) {
