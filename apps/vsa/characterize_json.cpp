@@ -47,7 +47,6 @@ void put_preset(Json& out, const Characterization& c, double preset) {
 Json stiffness_json(const Characterization& c, const StiffnessResult& r) {
   Json out;
   put_preset(out, c, r.options.preset);
-  if (!c.preset_unit().empty()) out["sent_preset_" + c.preset_unit()] = r.run.samples.front().preset_command;
   out["file"] = stiffness_file(c, r);
   out["period_s"] = r.options.period_s;
   out["amplitude_rad"] = r.run.amplitude_rad;

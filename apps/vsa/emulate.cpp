@@ -42,9 +42,9 @@ constexpr const char* kNotes =
 path as it would a real one; --port NAME is a path if it has a '/', else a name in $XDG_RUNTIME_DIR, or /tmp.
 
 Examples:
-  vsa emulate qbmove_maker_pro
-  vsa emulate qbmove_maker_pro --units 12 --port arm --active
-  vsa emulate qbmove_maker_pro --units 3 --fault "2 lost_byte=0.01 seed=7" --fault "1,3 noise_rad=0.01"
+  vsa emulate qbmove_maker_pro_6_1
+  vsa emulate qbmove_maker_pro_6_1 --units 12 --port arm --active
+  vsa emulate qbmove_maker_pro_6_1 --units 3 --fault "2 lost_byte=0.01 seed=7" --fault "1,3 noise_rad=0.01"
 
 )";
 

@@ -21,7 +21,7 @@ using vsa::test::write_file;
 
 using Arguments = std::vector<std::string>;
 
-/// vsa emulate qbmove_maker_pro on a port of its own, which is there.
+/// vsa emulate qbmove_maker_pro_6_1 on a port of its own, which is there.
 class Emulated {
  public:
   explicit Emulated(const Arguments& more = {}) : path((scratch / "port").string()), process_(arguments(path, more)) {
@@ -41,7 +41,7 @@ class Emulated {
 
  private:
   static Arguments arguments(const std::string& path, const Arguments& more) {
-    Arguments all{"emulate", "qbmove_maker_pro", "--port", path};
+    Arguments all{"emulate", "qbmove_maker_pro_6_1", "--port", path};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -76,7 +76,7 @@ TEST(Emulate, TellsItsPortAndRemovesItWhenASignalEndsIt) {
 
 TEST(Emulate, ADurationEndsItAndASignalThatCutsItShortShows) {
   const Scratch scratch;
-  const Arguments arguments{"emulate", "qbmove_maker_pro", "--port", (scratch / "port").string(), "--duration-s"};
+  const Arguments arguments{"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--duration-s"};
   Arguments brief = arguments;
   brief.emplace_back("0.05");
   expect(run_vsa(brief), 0, {"0.050 s in"});
@@ -89,7 +89,7 @@ TEST(Emulate, BadInputIsToldBeforeThereIsAPort) {
   const Scratch scratch;
   const std::string path = (scratch / "port").string();
   const auto with = [&path](Arguments more) {
-    more.insert(more.begin(), {"emulate", "qbmove_maker_pro", "--port", path});
+    more.insert(more.begin(), {"emulate", "qbmove_maker_pro_6_1", "--port", path});
     return run_vsa(more);
   };
   expect(with({"--units", "0"}), 2, {"ids"});
@@ -106,7 +106,7 @@ TEST(Emulate, BadInputIsToldBeforeThereIsAPort) {
 TEST(Emulate, APortThatIsServedIsRefused) {
   Emulated units;
   ASSERT_TRUE(units.ready);
-  expect(run_vsa({"emulate", "qbmove_maker_pro", "--port", units.path}), 2, {"another program serves"});
+  expect(run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", units.path}), 2, {"another program serves"});
 }
 
 TEST(Ping, ListsTheUnitsThatAnswerAndFailsForOthers) {
@@ -133,7 +133,7 @@ TEST(Ping, WithoutAPortTakesTheOnlyVirtualOne) {
   const Scratch runtime;
   vsa::test::Surroundings alone;
   alone.environment = {{"XDG_RUNTIME_DIR", (runtime / "").string()}};
-  Subprocess units({"emulate", "qbmove_maker_pro", "--port", "arm"}, alone);
+  Subprocess units({"emulate", "qbmove_maker_pro_6_1", "--port", "arm"}, alone);
   ASSERT_TRUE(units.read_until([](const Result& r) { return r.out.find("Ctrl-C") != std::string::npos; }));
   expect(run_vsa({"ping", "--id", "1", "--timeout-ms", "20000"}, alone), 0, {"vsa-arm"});
   expect(run_vsa({"get", "arm", "active", "--timeout-ms", "20000"}, alone), 0, {"off"});
