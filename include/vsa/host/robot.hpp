@@ -174,6 +174,14 @@ class Robot {
   enum class Channel { equilibrium, preset };
   bool follow(std::size_t actuator, Channel channel, std::vector<Knot> knots);
 
+  /// Several at once: all begin with the same step, or none where one is refused (false).
+  struct Path {
+    std::size_t actuator = 0;
+    Channel channel = Channel::equilibrium;
+    std::vector<Knot> knots;
+  };
+  bool follow(std::vector<Path> paths);
+
   // An actuator that isn't there: InputError.
   [[nodiscard]] ActuatorReading read(std::size_t actuator) const;
   /// The references that the unit received last, as they came over its bus.
