@@ -191,11 +191,10 @@ device::PortLine* Robot::serial_line(std::size_t bus) { return bus < impl_->buse
 
 std::shared_ptr<const Robot::Snapshot> Robot::snapshot() const {
   auto s = std::make_shared<Snapshot>();
-  for (const auto& bus : impl_->buses) bus->lock();
+  const QuietBuses quiet(impl_->buses);
   s->made_of = impl_->made_of;
   s->state = impl_->state;
   for (const auto& bus : impl_->buses) s->buses.push_back(bus->state());
-  for (const auto& bus : impl_->buses) bus->unlock();
   return s;
 }
 

@@ -150,13 +150,12 @@ struct Robot::Impl {
   }
 
   void restore(const Snapshot& from) {
-    for (const auto& bus : buses) bus->lock();
+    const QuietBuses quiet(buses);
     queue.clear();
     faults.clear();
     state = from.state;
     for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->restore(from.buses[b]);
     if (from.made_of != made_of) adopt(*from.made_of);
-    for (const auto& bus : buses) bus->unlock();
   }
 
   void adopt(const RobotConfig& from) noexcept;  ///< the state came from a robot with these parameters
