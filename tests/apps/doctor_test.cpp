@@ -154,7 +154,6 @@ TEST(Doctor, PortsThatCannotBeOpenedAreProblemsAndDeadOnesNotes) {
   fs::create_symlink("/nowhere", machine.scratch / "dev" / "ttyACM0");
   fs::remove(machine.scratch / "dev" / "cpu_dma_latency");
   fs::create_symlink("/dev/pts/99999", machine.scratch / "run" / "vsa-dead");
-  write_file(machine.scratch / "run" / ".vsa-dead.lock", "1");
   fs::create_symlink("/dev/null", machine.scratch / "run" / "vsa-somebody-elses");
   const Result result = machine.doctor();
   expect(result, 1,
