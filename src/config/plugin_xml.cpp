@@ -178,8 +178,14 @@ class Parser {
       }
     }
     if (const XMLElement* port = xml_.only(e, draft.path, "serial_port")) {
-      draft.serial_port = xml_.text(*port, draft.path + "/serial_port");
-      check_port(draft.path + "/serial_port", *draft.serial_port);
+      const std::string path = draft.path + "/serial_port";
+      xml_.check_attributes(*port, path, {"any_rate"});
+      draft.serial_port = xml_.text(*port, path);
+      check_port(path, *draft.serial_port);
+      const std::string any_rate = xml_.attribute(*port, "any_rate").value_or("false");
+      draft.any_rate = any_rate == "true";
+      if (!draft.any_rate && any_rate != "false")
+        xml_.add(path + "@any_rate", '"' + any_rate + '"', "must be a switch", "true, false");
     }
     return draft;
   }

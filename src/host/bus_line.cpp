@@ -36,6 +36,7 @@ BusLine::BusLine(const BusConfig& config, std::vector<BusMember> members)
       master_(schedule(config, members_.size()), ids(members_), *this) {
   if (!config.serial_port) return;
   port_ = std::make_unique<device::PortLine>(chain_);
+  if (config.any_rate) port_->take_any_rate();
   sensors_.resize(members_.size());
 }
 

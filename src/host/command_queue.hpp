@@ -84,7 +84,7 @@ class Queue {
 using CommandQueue = Queue<Order>;
 using FaultQueue = Queue<FaultOrder>;
 
-enum class NoticeKind { preset, limits, port, unresolved, unsettled, energy };
+enum class NoticeKind { preset, limits, port, rate, unresolved, unsettled, energy };
 
 struct RawNotice {
   std::size_t actuator;
@@ -95,7 +95,7 @@ struct RawNotice {
 /// At most one notice of a kind per actuator between resets, so room for them is made once.
 class NoticeList {
  public:
-  void reserve(std::size_t actuators) { list_.reserve(6 * actuators); }
+  void reserve(std::size_t actuators) { list_.reserve(7 * actuators); }
   void push_back(const RawNotice& notice) noexcept {
     const std::lock_guard lock(mutex_);
     if (list_.size() < list_.capacity()) list_.push_back(notice);

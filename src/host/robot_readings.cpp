@@ -91,6 +91,9 @@ std::vector<Notice> Robot::take_notices() {
         text = "energy out of nothing: " + rounded(100 * n.value) +
                " % of what actuators and bodies exchanged (the ledger's coupling): shorter steps are needed";
         break;
+      case NoticeKind::rate:
+        text = "bus " + impl_->config.buses[a.bus].name + ": " + impl_->buses[a.bus]->port()->wrong_rate().text();
+        break;
       case NoticeKind::port:
         text += ": commands aren't taken: its bus belongs to the serial port " + *impl_->config.buses[a.bus].serial_port;
         break;

@@ -247,6 +247,31 @@ TEST(RobotPort, AClientMovesTheUnitsAndCommandsAreNotTaken) {
   EXPECT_EQ(reply->positions, bench.robot.read(1).measured);
 }
 
+TEST(RobotPort, AClientAtAnotherRateIsToldOnce) {
+  Flanges bench(with_port(2));
+  bench.run(20);
+  bench.robot.serial_line(0)->set_rate(460'800);
+  std::vector<std::uint8_t> answer;
+  std::vector<std::string> said;
+  for (int n = 0; n < 3; ++n) {
+    bench.robot.serial_line(0)->exchange(bus::encode_request({}, 1, bus::Ping{}).view(), answer);
+    bench.run(200);
+    for (const auto& notice : bench.robot.take_notices()) said.push_back(notice.text);
+  }
+  EXPECT_TRUE(answer.empty());
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said[0].find("bus spine: the client's serial port is set to 460800 bit/s, the units listen at 2000000"),
+            std::string::npos)
+      << said[0];
+  auto config = with_port(1);
+  config.buses[0].any_rate = true;
+  Flanges lenient(config);
+  lenient.run(20);
+  lenient.robot.serial_line(0)->set_rate(460'800);
+  lenient.robot.serial_line(0)->exchange(bus::encode_request({}, 1, bus::Ping{}).view(), answer);
+  EXPECT_FALSE(answer.empty());
+}
+
 TEST(RobotPort, ASnapshotThatMemoryDoesNotSufficeForLeavesTheBusesToTheirClients) {
   auto config = with_port(2);
   config.buses.push_back({"other", 2e6, std::nullopt, "vsa-other"});

@@ -62,6 +62,8 @@ struct BusConfig {
   /// The bus belongs to an external client on this virtual serial port: no master, commands to its actuators are not taken, units
   /// hold their initial references until the client tells them otherwise. The port itself is opened by the host's program.
   std::optional<std::string> serial_port = std::nullopt;
+  /// For clients that can't set a rate: whatever theirs is, they are heard. Else one at another rate than the units' sends noise.
+  bool any_rate = false;
 };
 
 inline constexpr int kMostSubsteps = 64;
