@@ -192,7 +192,7 @@ class Robot {
   [[nodiscard]] actuator::Ledger ledger() const;                      ///< summed over all actuators
   [[nodiscard]] std::vector<Notice> take_notices();                   ///< since the last call
 
-  /// Cuts or restores the supply of every unit (0 V: the motors short through the bridge).
+  /// Cuts or restores the supply of every unit (0 V: the motors short through the bridge), at once. The stepping thread's.
   void set_supply(bool on);
 
   /// Puts an actuator somewhere as if it had been there for long, so that there is no kick: shaft at q with q̇, pulleys on the law's
