@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -107,6 +108,23 @@ TEST(Emulate, APortThatIsServedIsRefused) {
   Emulated units;
   ASSERT_TRUE(units.ready);
   expect(run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", units.path}), 2, {"another program serves"});
+}
+
+TEST(Emulate, AClientAtAnotherRateGetsNothingAndTheUserIsTold) {
+  Emulated units;
+  ASSERT_TRUE(units.ready);
+  const Arguments slow{"--id", "1", "--baud-Hz", "460800", "--timeout-ms", "20"};
+  Arguments ping{"ping", units.path};
+  ping.insert(ping.end(), slow.begin(), slow.end());
+  expect(run_vsa(ping), 1, {"no answer from unit 1"});
+  expect(units.vsa({"ping", "--id", "1"}), 0, {"1     6"});
+  const Result ended = units.end();
+  expect(ended, 0, {"warning: the client's serial port is set to 460800 bit/s, the units listen at 2000000", " at another rate"});
+  EXPECT_EQ(ended.out.find(" 0 at another rate"), std::string::npos) << ended.out;
+  Emulated patient({"--any-rate"});
+  ASSERT_TRUE(patient.ready);
+  expect(patient.vsa({"ping", "--id", "1", "--baud-Hz", "460800"}), 0, {"1     6"});
+  EXPECT_EQ(patient.end().err, "");
 }
 
 TEST(Ping, ListsTheUnitsThatAnswerAndFailsForOthers) {
@@ -257,7 +275,9 @@ void connect_and_die(const std::string& path) {
   const pid_t client = fork();
   if (client == 0) {
     const int fd = open(path.c_str(), O_RDWR | O_NOCTTY);
-    const bool said = fd >= 0 && write(fd, "::\x01\x02", 4) == 4;
+    termios settings{};
+    bool said = tcgetattr(fd, &settings) == 0 && cfsetspeed(&settings, B2000000) == 0 && tcsetattr(fd, TCSANOW, &settings) == 0;
+    said = said && write(fd, "::\x01\x02", 4) == 4;
     _exit(said ? 0 : 1);
   }
   int status = 0;

@@ -156,6 +156,21 @@ TEST(Plugin, AllProblemsComeTogetherAndLeadWithWhere) {
   for (const Problem& p : problems) EXPECT_EQ(p.file, "arm.sdf");
 }
 
+TEST(Plugin, ChildrenGivenAsAttributesAreToldOnceEachAndNothingElse) {
+  EXPECT_EQ(problems_in(plugin("<actuator joint='elbow' preset='qbmove_maker_pro'/>")).size(), 2u);
+  EXPECT_EQ(problems_in("<plugin name='vsa::Robot' substeps='2' state_rate_Hz='50'>" + maker_pro("a") + "</plugin>").size(), 2u);
+}
+
+TEST(Plugin, ABusMayHearClientsAtAnyRate) {
+  const auto robot =
+      parse(plugin("<bus name='a'><serial_port any_rate='true'>p</serial_port></bus>"
+                   "<bus name='b'><serial_port>q</serial_port></bus>" +
+                   maker_pro("x", "<bus>a</bus>") + maker_pro("y", "<bus>b</bus>")));
+  EXPECT_TRUE(robot.buses[0].any_rate);
+  EXPECT_FALSE(robot.buses[1].any_rate);
+  EXPECT_EQ(robot.buses[0].serial_port, "p");
+}
+
 TEST(Plugin, SubstepsAreKnownOrLeftToTheHost) {
   EXPECT_EQ(parse(plugin(kElbow)).substeps, std::nullopt);
   EXPECT_EQ(parse(plugin(kElbow + "<substeps>64</substeps>")).substeps, 64);
@@ -279,6 +294,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadPlugin{"cycle_short",
                   plugin("<bus name='b' cycle_s='0.00013'/>" + maker_pro("a")),
                   {"is shorter than the time on the wire of 1 units", "at least 0.00014 s"}},
+        BadPlugin{"children_as_attributes",
+                  kHead + "<actuator joint='elbow' preset='qbmove_maker_pro' bus='arm'/><bus name='arm' serial_port='p'/></plugin>",
+                  {"actuator[1]@joint = \"elbow\": is an element, not an attribute (allowed: <joint>elbow</joint>)",
+                   "<preset>qbmove_maker_pro</preset>", "<bus>arm</bus>", "<serial_port>p</serial_port>"},
+                  4},
+        BadPlugin{"port_any_rate_not_a_switch",
+                  plugin("<bus name='b'><serial_port any_rate='yes'>p</serial_port></bus>" + maker_pro("a")),
+                  {"bus[b]/serial_port@any_rate = \"yes\"", "true, false"}},
         BadPlugin{"port_empty", plugin("<bus name='b'><serial_port></serial_port></bus>" + maker_pro("a")), {"bus[b]/serial_port"}},
         BadPlugin{"port_name",
                   plugin("<bus name='b'><serial_port>my port</serial_port></bus>" + maker_pro("a")),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "support.hpp"
@@ -22,6 +23,21 @@ using config::Preset;
 TEST(ShippedPresets, AreTheSixOfTheDocumentation) {
   EXPECT_EQ(shipped().names(), (std::vector<std::string>{"qbmove_advanced", "qbmove_maker_pro", "qbmove_maker_pro_6_1",
                                                          "qbmove_maker_pro_datasheet", "qbmove_maker_pro_paper", "sea_example"}));
+}
+
+TEST(ShippedPresets, AreInTheDocumentationsTableWithTheirOwnTitles) {
+  const std::string text = read(source_dir() / "docs/config.md");
+  const std::size_t from = text.find("| preset |"), to = text.find("\n\n", from);
+  ASSERT_NE(to, std::string::npos);
+  std::istringstream table(text.substr(from, to - from));
+  std::vector<std::string> names;
+  for (std::string row; std::getline(table, row);) {
+    if (row.rfind("| `", 0) != 0) continue;
+    names.push_back(row.substr(3, row.find('`', 3) - 3));
+    EXPECT_NE(row.find("| " + shipped().load(names.back()).title + " |"), std::string::npos) << row;
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, shipped().names());
 }
 
 TEST(ShippedPresets, EveryOneLoadsAndEveryEntryHasMeaningBoundsAndSource) {
