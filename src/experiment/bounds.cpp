@@ -106,14 +106,6 @@ Published read_published(Item& item) {
   return p;
 }
 
-Origin read_origin(Item& item) {
-  Origin o;
-  o.folder = item.text("folder");
-  o.text = item.text("origin");
-  item.refuse_others();
-  return o;
-}
-
 template <class Read>
 auto read_all(const toml::table& root, const char* key, const std::string& place, Problems& problems, Read read) {
   Item dummy(root, place, problems);
@@ -138,12 +130,10 @@ BoundsFile read_bounds(const std::filesystem::path& file) {
   Problems problems;
   for (const auto& [key, node] : root) {
     const std::string name(key.str());
-    if (name != "bound" && name != "published" && name != "recordings")
-      problems.add({file.string(), name, "", "unknown key", "[[bound]], [[published]], [[recordings]]"});
+    if (name != "bound" && name != "published") problems.add({file.string(), name, "", "unknown key", "[[bound]], [[published]]"});
   }
   BoundsFile out{read_all(root, "bound", file.string(), problems, read_bound),
-                 read_all(root, "published", file.string(), problems, read_published),
-                 read_all(root, "recordings", file.string(), problems, read_origin)};
+                 read_all(root, "published", file.string(), problems, read_published)};
   problems.throw_if_any();
   return out;
 }

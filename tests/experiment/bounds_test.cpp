@@ -77,9 +77,6 @@ TEST(BoundsFile, TheShippedOneHasAReasonForEachAndTheIssuesNumbers) {
   const BoundsFile f = read_bounds(std::filesystem::path(VSA_SOURCE_DIR) / "data" / "bounds.toml");
   EXPECT_GE(f.bounds.size(), 5u);
   EXPECT_EQ(f.published.size(), 2u);
-  ASSERT_EQ(f.origins.size(), 1u);
-  EXPECT_EQ(f.origins[0].folder, "qbmove_maker_pro");
-  EXPECT_NE(f.origins[0].text.find("digitised from a figure"), std::string::npos);
   const auto max_of = [&](const std::string& quantity) {
     for (const Bound& b : f.bounds) {
       if (b.quantity == quantity) return b.max.value_or(NAN);
@@ -107,7 +104,6 @@ TEST(BoundsFile, ThatIsWrongIsTold) {
   EXPECT_TRUE(told(fine + "kind = \"predicted\"\n").empty());
   EXPECT_TRUE(has(told(fine + "kind = \"guess\"\n").at(0), "\"guess\": is no kind"));
   EXPECT_TRUE(has(told(fine + "kind = 3\n").at(0), "some text"));
-  EXPECT_TRUE(has(told("[[recordings]]\nfolder = \"x\"\n").at(0), "origin"));
   EXPECT_TRUE(has(told("bound = 3\n").at(0), "array of tables"));
   EXPECT_TRUE(has(told("bonds = 3\n").at(0), "unknown key"));
   EXPECT_TRUE(has(problems([&] { (void)read_bounds(files.path()); }).at(0), "can't be read"));

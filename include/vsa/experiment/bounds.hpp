@@ -4,7 +4,6 @@
 //
 //   [[bound]]       quantity, min, max or both, why; optional kind = "calibrated" | "predicted"
 //   [[published]]   what others reach on a recording
-//   [[recordings]]  folder, origin: where its recordings come from
 #pragma once
 
 #include <filesystem>
@@ -39,16 +38,9 @@ struct Published {
   std::string source;
 };
 
-/// Where the recordings of a folder come from.
-struct Origin {
-  std::string folder;  ///< below the data directory: "qbmove_maker_pro"
-  std::string text;    ///< "digitised from …, one unit"
-};
-
 struct BoundsFile {
   std::vector<Bound> bounds;
   std::vector<Published> published;
-  std::vector<Origin> origins;
 };
 
 /// Throws InputError with every problem: unreadable, no TOML, unknown or missing keys, neither min nor max, min above max, no
