@@ -69,6 +69,9 @@ LeaveOneOut read_leave_one_out(const std::filesystem::path& file) {
   out.file = file.string();
   const Fields all(root, "", out.file);
   out.command = all.text("command");
+  const Json& parameters = all.member("parameters");
+  if (!parameters.is_array() || parameters.empty()) all.fail("parameters", "holds no parameter");
+  for (const Json& p : parameters) out.fitted.push_back(Fields(p, "parameters.", out.file).text("name"));
   const Json& rows = all.member("leave_one_preset_out");
   if (!rows.is_array() || rows.empty()) all.fail("leave_one_preset_out", "holds no preset that was left out");
   for (const Json& row : rows) {

@@ -1,8 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // The leave-one-out figures of a preset: fitted without a recording, judged on it. They take minutes, so `vsa identify` finds them
-// once; its results.json, kept as data/PRESET/leave_one_out.json, is the record. Read here: "command", "leave_one_preset_out",
-// "identified_values"; other keys are the identification's own.
+// once; its results.json, kept as data/PRESET/leave_one_out.json, is the record. Read here: "command", "parameters",
+// "leave_one_preset_out", "identified_values"; other keys are the identification's own.
 #pragma once
 
 #include <filesystem>
@@ -24,6 +24,7 @@ struct LeaveOneOut {
     std::string key, text;
   };
   std::string file, command;
+  std::vector<std::string> fitted;  ///< parameters that were fitted again each time; all others were held
   std::vector<Row> rows;
   std::vector<Value> values;  ///< of every parameter of the identified preset
 };

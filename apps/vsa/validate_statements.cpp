@@ -52,11 +52,14 @@ std::string record_text(const Validation& v) {
                        v.actuator.name, record_name(v.actuator.name).generic_string());
   }
   const std::vector<std::string> apart = differences(*v.left_out, v.actuator);
-  if (apart.empty()) return fmt::format("Leave-one-out figures: {}, by `{}`.", v.left_out->file, v.left_out->command);
+  const std::string how =
+      fmt::format("Without each recording in turn {} {} fitted again and every other value held, by `{}`.",
+                  config::join(v.left_out->fitted), v.left_out->fitted.size() == 1 ? "was" : "were", v.left_out->command);
+  if (apart.empty()) return fmt::format("Leave-one-out figures: {}. {}", v.left_out->file, how);
   std::vector<std::string> first(apart.begin(), apart.begin() + static_cast<std::ptrdiff_t>(std::min(kToldOf, apart.size())));
   if (apart.size() > kToldOf) first.push_back(fmt::format("and {} more", apart.size() - kToldOf));
-  return fmt::format("The leave-one-out figures are STALE: {} is of another parameter set ({}). It was written by `{}`.",
-                     v.left_out->file, config::join(first), v.left_out->command);
+  return fmt::format("The leave-one-out figures are STALE: {} is of another parameter set ({}). {}", v.left_out->file,
+                     config::join(first), how);
 }
 
 }  // namespace

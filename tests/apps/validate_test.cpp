@@ -41,7 +41,7 @@ void has(const std::string& text, const std::vector<std::string>& parts) {
 
 /// A record as `vsa identify` writes one, of a preset with another motor friction.
 std::string foreign_record() {
-  return R"({"program": "vsa", "command": "vsa identify here", "more": [1], "identified_values": {"drive.friction_Nm": "9"},
+  return R"({"program": "vsa", "command": "vsa identify here", "more": [1], "parameters": [{"name": "drive.load_loss"}], "identified_values": {"drive.friction_Nm": "9"},
     "leave_one_preset_out": [{"preset": 0.6903, "values": [], "rms_rad": 0.0412, "rms_rad_fitted_to_all": 0.0123}]})";
 }
 
@@ -85,8 +85,9 @@ TEST(Validate, CountsAnUnseenRecordingAsPredictedAndEndsWithOneWhereABoundIsBrok
                           (scratch / "loo.json").string()});
   EXPECT_EQ(r.exit_code, 1) << r.err;
   has(r.err, {"broken"});
-  has(r.out, {"The recording (preset 0.4602 rad) is of an origin that nobody states", "STALE", "drive.friction_Nm was 9 and is",
-              "0.0412", "Predictions held: 0 of 1; calibrated figures within their guard: 1 of 1."});
+  has(r.out, {"The recording (preset 0.4602 rad) is of an origin that nobody states", "STALE",
+              "drive.load_loss was fitted again and every other value held", "drive.friction_Nm was 9 and is", "0.0412",
+              "Predictions held: 0 of 1; calibrated figures within their guard: 1 of 1."});
   has(r.out, {"The recordings (presets 0.0000, 0.6903 rad) are digitised from a figure"});
   const std::string errors = r.out.substr(std::min(r.out.size(), r.out.find("Simulated − recorded")));
   EXPECT_LT(errors.find("predicted"), errors.find("calibrated")) << "predictions first\n" << r.out;
@@ -152,9 +153,13 @@ TEST(Validate, RefusesALeaveOneOutRecordThatIsNone) {
   refused("{", "isn't JSON");
   refused("[]", "isn't an object");
   refused("{}", "command");
-  refused(R"({"command": "x", "identified_values": {}, "leave_one_preset_out": []})", "no preset that was left out");
-  refused(R"({"command": "x", "identified_values": {}, "leave_one_preset_out": [{"preset": "a"}]})", "leave_one_preset_out.preset");
-  refused(R"({"command": "x", "identified_values": {"drive.x": 3},
+  refused(R"({"command": "x", "parameters": []})", "holds no parameter");
+  refused(R"({"command": "x", "parameters": [{"name": 3}]})", "parameters.name");
+  refused(R"({"command": "x", "parameters": [{"name": "a"}], "identified_values": {}, "leave_one_preset_out": []})",
+          "no preset that was left out");
+  refused(R"({"command": "x", "parameters": [{"name": "a"}], "identified_values": {}, "leave_one_preset_out": [{"preset": "a"}]})",
+          "leave_one_preset_out.preset");
+  refused(R"({"command": "x", "parameters": [{"name": "a"}], "identified_values": {"drive.x": 3},
     "leave_one_preset_out": [{"preset": 0, "rms_rad": null, "rms_rad_fitted_to_all": 1}]})",
           "identified_values.drive.x");
   const auto r = run_vsa({"validate", "--leave-one-out", (scratch / "none.json").string()});

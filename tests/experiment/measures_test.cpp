@@ -269,6 +269,15 @@ TEST(Ringing, IsThatOfTheDominantSwingAndNotOfARippleOnIt) {
   EXPECT_NEAR(step_measures(r.time_s, r.y, 0, 1.57).ringing_Hz, 3, 0.1);
 }
 
+TEST(Ringing, OfOneSwingIsNone) {
+  const auto swing = [](double t) {
+    const double past_s = t - 0.4;
+    return 1.57 * std::min(1.0, t / 0.4) + (past_s > 0 && past_s < 0.2 ? 0.1 * std::sin(2 * kPi * 5 * past_s) : 0);
+  };
+  const Response r = sampled(swing, 3);
+  EXPECT_TRUE(std::isnan(step_measures(r.time_s, r.y, 0, 1.57).ringing_Hz)) << "up, down, at rest: its period isn't seen";
+}
+
 TEST(Ringing, OfOneOvershootIsNone) {
   const auto once = [](double t) { return t < 0.5 ? 1.7 * std::sin(kPi * t) : 1.57 + 0.13 * std::exp(-(t - 0.5) / 0.1); };
   const Response r = sampled(once, 3);

@@ -89,12 +89,15 @@ TEST(BranchInverse, PoolsWhatFallsBackAndIsMonotone) {
 }
 
 TEST(BranchInverse, ReachesItsEndsAndTellsWhatLiesBeyond) {
-  const BranchInverse b({-1, 0, 0.6, 1, 1.1, 1.2}, {-0.4, 0, 0.3, 0.4, kNaN, 0.42});
+  const BranchInverse b({-1, -0.9, -0.6, 0, 0.6, 1, 1.1, 1.2}, {-0.4, -0.39, -0.36, 0, 0.3, 0.4, kNaN, 0.42});
   EXPECT_FALSE(b.at(-0.4).beyond || b.at(0.42).beyond);
   EXPECT_NEAR(b.at(0.42).torque_Nm, 1.2, 1e-12);
   EXPECT_TRUE(b.at(0.44).beyond && b.at(-0.41).beyond);
   EXPECT_NEAR(b.at(0.44).torque_Nm, 1.4, 1e-12) << "by the knots within 0.5 N·m: 10 N·m/rad";
-  EXPECT_NEAR(b.at(-0.6).torque_Nm, -1.5, 1e-12) << "by the first knot and its neighbour, further away";
+  EXPECT_NEAR(b.at(-0.41).torque_Nm, -1.1, 1e-12);
+  const BranchInverse turn({-1, -0.9, -0.6}, {-0.4, -0.399, -0.36});
+  EXPECT_NEAR(turn.at(-0.42).torque_Nm, -1.2, 1e-12) << "not by the turn's 100 N·m/rad";
+  EXPECT_NEAR(BranchInverse({-1, 0}, {-0.4, 0}).at(-0.6).torque_Nm, -1.5, 1e-12) << "the neighbour, however far";
 }
 
 }  // namespace
