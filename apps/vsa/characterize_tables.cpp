@@ -86,7 +86,7 @@ report::Table speed_table(const Characterization& c) {
     row.push_back(text(p.mean_speed, "{:.3f}"));
     row.push_back(text(s.peak_slope, "{:.2f}"));
     row.push_back(text(s.overshoot_pct, "{:.2f}"));
-    row.push_back(s.ringing_Hz > 0 ? text(s.ringing_Hz, "{:.1f}") : "–");
+    row.push_back(text(s.ringing_Hz, "{:.1f}"));
     row.push_back(text(s.damping_ratio, "{:.3f}"));
     row.push_back(text(s.steady_error, "{:+.4f}"));
     out.rows.push_back(row);
