@@ -2,11 +2,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "validate_output.hpp"
 #include "vsa/errors.hpp"
-#include "vsa/files.hpp"
 
 namespace vsa::app {
 namespace {
@@ -168,9 +169,11 @@ std::string with_tables(const std::filesystem::path& file, const std::string& ta
   const std::string block = std::string(kMarkdownBegin) + "\n\n" + tables + kMarkdownEnd;
   std::error_code error;
   if (!std::filesystem::exists(file, error) && !error) return block + '\n';
-  const auto read = read_file(file);
-  if (!read) throw InputError({file.string(), "--markdown", "", "isn't a file that can be read", "a Markdown file, or a new name"});
-  const std::string& text = *read;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    throw InputError({file.string(), "--markdown", "", "isn't a file that can be read", "a Markdown file, or a new name"});
+  }
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
   const std::size_t begin = once(text, kMarkdownBegin, file), end = once(text, kMarkdownEnd, file);
   if (end < begin) throw InputError({file.string(), "--markdown", "", "the markers are in the wrong order", kMarkdownBegin});
   return text.substr(0, begin) + block + text.substr(end + std::string_view(kMarkdownEnd).size());
