@@ -110,7 +110,6 @@ void read_frank(const std::string& file, const toml::table* table, Problems& pro
   f.shoulder_half_width_m = s.number("shoulder_half_width_m", 0.05, 1);
   f.upper_arm_m = s.number("upper_arm_m", 0.05, 1);
   f.forearm_m = s.number("forearm_m", 0.05, 1);
-  f.bracket_mass_kg = s.number("bracket_mass_kg", 1e-3, 1);
   f.torso_mass_kg = s.number("torso_mass_kg", 0.01, 100);
   f.torso_size_m = s.size("torso_size_m", 0.01, 1);
   f.head_pan_height_m = s.number("head_pan_height_m", 0.1, 3);
@@ -168,7 +167,8 @@ void read_robots(const std::string& file, const toml::table& root, Problems& pro
                 s.number("flange_thickness_m", 1e-3, 1),
                 s.number("chamfer_m", 1e-4, 0.1),
                 s.number("contact_radius_m", 1e-3, 1),
-                s.number("friction", 0, 10)};
+                s.number("friction", 0, 10),
+                s.number("bracket_mass_kg", 1e-3, 1)};
     if (d.module.flange_mass_kg >= d.module.mass_kg)
       s.problem("flange_mass_kg", "", "not less than mass_kg, which includes it", "");
   }

@@ -15,7 +15,8 @@ using Range = std::array<double, 2>;
 using Size = std::array<double, 3>;
 
 struct ModuleSpec {
-  double edge_m, mass_kg, flange_mass_kg, flange_radius_m, flange_thickness_m, chamfer_m, contact_radius_m, friction;
+  double edge_m, mass_kg, flange_mass_kg, flange_radius_m, flange_thickness_m, chamfer_m, contact_radius_m, friction,
+      bracket_mass_kg;
 };
 struct ActuatorSpec {
   std::string preset, plugin_file;
@@ -30,7 +31,7 @@ struct SnakeSpec {
   std::string bus;
 };
 struct FrankSpec {
-  double toe_in_deg, shoulder_height_m, shoulder_half_width_m, upper_arm_m, forearm_m, bracket_mass_kg, torso_mass_kg;
+  double toe_in_deg, shoulder_height_m, shoulder_half_width_m, upper_arm_m, forearm_m, torso_mass_kg;
   Size torso_size_m;
   double head_pan_height_m, head_tilt_m, head_mass_kg;
   Size head_size_m;

@@ -34,7 +34,7 @@ void write_arm(Xml& xml, const Description& d, const Arm& a) {
   Inertial elbow = housing(m);
   elbow.center_m[2] = -f.upper_arm_m;
   begin_link(xml, a.name + "_upper_arm", a.shoulder, a.yaw);
-  write_inertial(xml, combine({bracket(m, Axis::y, -f.upper_arm_m, f.bracket_mass_kg), elbow}));
+  write_inertial(xml, combine({bracket(m, Axis::y, -f.upper_arm_m, m.bracket_mass_kg), elbow}));
   box_contact(xml, "elbow", {0, 0, -f.upper_arm_m, 0, 0, 0}, {e, e, e}, m.friction);
   bracket_visuals(xml, m, Axis::y, -f.upper_arm_m);
   housing_visuals(xml, m, Axis::y, kBodyAlternate, {{0, 0, -f.upper_arm_m}, 0, ""});
@@ -42,7 +42,7 @@ void write_arm(Xml& xml, const Description& d, const Arm& a) {
 
   const Vec at_elbow{a.shoulder[0], a.shoulder[1], a.shoulder[2] - f.upper_arm_m};
   begin_link(xml, a.name + "_forearm", at_elbow, a.yaw);
-  write_inertial(xml, combine({bracket(m, Axis::y, -f.forearm_m, f.bracket_mass_kg), palm(d, a.side, -f.forearm_m)}));
+  write_inertial(xml, combine({bracket(m, Axis::y, -f.forearm_m, m.bracket_mass_kg), palm(d, a.side, -f.forearm_m)}));
   bracket_visuals(xml, m, Axis::y, -f.forearm_m);
   palm_shapes(xml, d, a.side, -f.forearm_m);
   xml.close();
@@ -60,7 +60,7 @@ void write_neck(Xml& xml, const Description& d) {
   const Inertial flange =
       solid_cylinder(m.flange_mass_kg, m.flange_radius_m, m.flange_thickness_m, Axis::z, {0, 0, top + m.flange_thickness_m / 2});
   write_inertial(
-      xml, combine({flange, solid_cylinder(f.bracket_mass_kg, 0.02, bottom - top, Axis::z, {0, 0, (top + bottom) / 2}), tilt}));
+      xml, combine({flange, solid_cylinder(m.bracket_mass_kg, 0.02, bottom - top, Axis::z, {0, 0, (top + bottom) / 2}), tilt}));
   cylinder_visual(xml, "flange", {0, 0, top + 0.004}, Axis::z, m.flange_radius_m, 0.006, kFlange);
   cylinder_visual(xml, "tube", {0, 0, (top + bottom) / 2}, Axis::z, 0.018, bottom - top, kSteel);
   housing_visuals(xml, m, Axis::y, kBodyAlternate, {{0, 0, f.head_tilt_m}, 0, ""});

@@ -43,7 +43,7 @@ void write_upper_arm(Xml& xml, const Description& d) {
   Inertial box = housing(m);
   box.center_m[2] = reach;
   begin_link(xml, "upper_arm", {0, 0, d.manipulator.base_height_m + d.manipulator.shoulder_m}, 0);
-  write_inertial(xml, combine({bracket(m, Axis::y, reach, d.frank.bracket_mass_kg), box}));
+  write_inertial(xml, combine({bracket(m, Axis::y, reach, d.module.bracket_mass_kg), box}));
   box_contact(xml, "elbow", {0, 0, reach, 0, 0, 0}, {e, e, e}, m.friction);
   bracket_visuals(xml, m, Axis::y, reach);
   housing_visuals(xml, m, Axis::y, kBody, {{0, 0, reach}, 0, ""});
@@ -54,7 +54,7 @@ void write_forearm(Xml& xml, const Description& d) {
   const ManipulatorSpec& s = d.manipulator;
   const double radius = 0.018;
   begin_link(xml, "forearm", {0, 0, s.base_height_m + s.shoulder_m + s.upper_arm_m}, 0);
-  write_inertial(xml, combine({bracket(d.module, Axis::y, s.forearm_m, d.frank.bracket_mass_kg),
+  write_inertial(xml, combine({bracket(d.module, Axis::y, s.forearm_m, d.module.bracket_mass_kg),
                                solid_cylinder(s.tip_mass_kg, radius, 2 * radius, Axis::z, {0, 0, s.forearm_m})}));
   bracket_visuals(xml, d.module, Axis::y, s.forearm_m);
   sphere_visual(xml, "tip", {0, 0, s.forearm_m}, radius, kMark);

@@ -9,9 +9,6 @@ namespace vsa::bus {
 namespace {
 
 constexpr std::int64_t kMillisecondNs = 1'000'000;
-constexpr std::int64_t kPsPerNs = 1000;
-
-std::int64_t to_ns(std::int64_t ps) noexcept { return (ps + kPsPerNs - 1) / kPsPerNs; }
 
 LineRate rate_of(double baud_Hz) noexcept { return {std::max(std::llround(baud_Hz), 1LL)}; }
 

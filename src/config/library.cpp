@@ -1,13 +1,12 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "config/build.hpp"
 #include "vsa/config/preset.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/files.hpp"
 
 namespace vsa::config {
 namespace fs = std::filesystem;
@@ -27,13 +26,9 @@ std::vector<fs::path> standard_directories() {
 }
 
 std::string read_text(const fs::path& file) {
-  std::error_code error;
-  std::ifstream in;
-  if (fs::is_regular_file(file, error)) in.open(file, std::ios::binary);
-  if (!in.is_open()) throw InputError(Problem{file.string(), "", "", "can't be read: no such file, or no permission", ""});
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) throw InputError(Problem{file.string(), "", "", "can't be read to its end", ""});
-  return text;
+  auto text = read_file(file);
+  if (!text) throw InputError(Problem{file.string(), "", "", "can't be read: no such file, or no permission", ""});
+  return std::move(*text);
 }
 
 std::string searched_text(const std::vector<std::string>& names, const std::vector<fs::path>& directories) {

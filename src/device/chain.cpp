@@ -9,12 +9,10 @@
 namespace vsa::device {
 namespace {
 
-constexpr std::int64_t kPsPerNs = 1000;
 constexpr std::size_t kMaxDead = 4096;  // bytes of ended speeches that may lie in front of the living ones
 
-/// Rounded up: a byte isn't there before its last bit.
-std::int64_t to_ns(std::int64_t ps) noexcept { return (ps + kPsPerNs - 1) / kPsPerNs; }
-
+using bus::kPsPerNs;
+using bus::to_ns;
 }  // namespace
 
 Chain::Chain(const LineConfig& config, std::vector<Station> stations) : config_(config), stations_(std::move(stations)) {

@@ -8,7 +8,7 @@
 namespace vsa::device {
 namespace {
 
-constexpr std::int64_t kPsPerNs = 1000;
+using bus::kPsPerNs;
 constexpr std::int64_t kShortestSleepNs = 50'000;
 constexpr int kMaxYields = 100;
 

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <sstream>
+
+#include "vsa/files.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -53,11 +53,10 @@ GreyImage pgm(const std::string& data, const fs::path& file) {
 double Heightmap::highest() const { return heights.empty() ? 0.0 : *std::max_element(heights.begin(), heights.end()); }
 
 GreyImage read_grey_image(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail(file, "can't be read");
-  const std::string data{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (data.rfind("P5", 0) == 0) return pgm(data, file);
-  if (data.rfind("\x89PNG\r\n\x1a\n", 0) == 0) return decode_png(data, file);
+  const auto data = read_file(file);
+  if (!data) fail(file, "can't be read");
+  if (data->rfind("P5", 0) == 0) return pgm(*data, file);
+  if (data->rfind("\x89PNG\r\n\x1a\n", 0) == 0) return decode_png(*data, file);
   fail(file, "isn't an image that can be read");
 }
 

@@ -6,10 +6,10 @@
 #include <bit>
 #include <cctype>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
+
+#include "vsa/files.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -27,9 +27,9 @@ std::string extension(const fs::path& file) {
 }
 
 std::string read_all(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail(file, "can't be read");
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  auto text = read_file(file);
+  if (!text) fail(file, "can't be read");
+  return std::move(*text);
 }
 
 /// Joins equal corners, so that STL's loose triangles share vertices.

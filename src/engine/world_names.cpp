@@ -5,21 +5,12 @@
 
 #include <algorithm>
 
+#include "vsa/host/topics.hpp"
 #include "world_check.hpp"
 #include "world_impl.hpp"
 
 namespace vsa::engine {
 namespace {
-
-std::string joined_scope(std::string_view scoped) {
-  std::string out;
-  for (std::size_t i = 0; i < scoped.size(); ++i) {
-    const bool colons = scoped.substr(i, 2) == "::";
-    out += colons ? '/' : scoped[i];
-    i += colons ? 1 : 0;
-  }
-  return out;
-}
 
 JointInfo info_of(const Joint& joint) {
   using Type = JointInfo::Type;
@@ -133,7 +124,7 @@ void World::Impl::index_names() {
     if (ref.index == 0) made->first_actuator[ref.robot] = a;
     made->joints[robots[ref.robot].joints[ref.index]].actuator = a;
     made->full.emplace(ref.model + "/" + ref.name, a);
-    made->full.emplace(joined_scope(robots[ref.robot].model) + "/" + ref.name, a);
+    made->full.emplace(host::slashed(robots[ref.robot].model) + "/" + ref.name, a);
     if (!made->actuator.emplace(ref.name, a).second) made->actuator[ref.name] = WorldNames::kSeveral;
   }
   names = std::move(made);

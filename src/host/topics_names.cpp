@@ -8,18 +8,18 @@
 namespace vsa::host {
 namespace {
 
-std::string joined(std::string_view scoped_name) {
+bool bad_character(char c) { return std::isspace(static_cast<unsigned char>(c)) || c == '@' || c == '~'; }
+
+}  // namespace
+
+std::string slashed(std::string_view scoped_name) {
   std::string out(scoped_name);
   for (auto at = out.find("::"); at != std::string::npos; at = out.find("::", at + 1)) out.replace(at, 2, "/");
   return out;
 }
 
-bool bad_character(char c) { return std::isspace(static_cast<unsigned char>(c)) || c == '@' || c == '~'; }
-
-}  // namespace
-
 std::string topic_scope(std::string_view scoped_name, std::string_view what) {
-  std::string out = joined(scoped_name);
+  std::string out = slashed(scoped_name);
   const bool empty_part = out.empty() || out.front() == '/' || out.back() == '/' || out.find("//") != std::string::npos;
   const bool forbidden = std::any_of(out.begin(), out.end(), bad_character) || out.find(":=") != std::string::npos;
   if (empty_part || forbidden) {

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "record/energy_columns.hpp"
 #include "record/output_file.hpp"
 #include "record/page_json.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 
 namespace vsa::record {
 namespace {
@@ -127,15 +126,13 @@ std::string PageData::json(const RunInfo& info, const PageText& text) const {
 
 std::string read_template(const std::filesystem::path& file) {
   const auto problem = [&](const std::string& message) { return InputError(Problem{file.string(), "", "", message, ""}); };
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw problem("can't read the page's template: " + std::system_category().message(errno));
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  const std::size_t at = text.find(kPageMarker);
-  if (at == std::string::npos || text.find(kPageMarker, at + 1) != std::string::npos) {
+  auto text = read_file(file);
+  if (!text) throw problem("can't read the page's template: " + std::system_category().message(errno));
+  const std::size_t at = text->find(kPageMarker);
+  if (at == std::string::npos || text->find(kPageMarker, at + 1) != std::string::npos) {
     throw problem("not a page's template: it must hold " + std::string(kPageMarker) + " once");
   }
-  return text;
+  return std::move(*text);
 }
 
 void write_page(const std::filesystem::path& file, std::string_view page_template, std::string_view json) {

@@ -8,6 +8,7 @@
 #include "record/log_messages.hpp"
 #include "record/number_text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/host/topics.hpp"
 #include "vsa/record/mcap.hpp"
 #include "vsa/record/page.hpp"
 
@@ -20,17 +21,6 @@ std::string number(double value) {
   std::string text;
   put(text, value);
   return text;
-}
-
-/// "lab::arm" → "lab/arm".
-std::string scoped_topic(std::string_view name) {
-  std::string out;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const bool scope = name.substr(i, 2) == "::";
-    out += scope ? '/' : name[i];
-    if (scope) ++i;
-  }
-  return out;
 }
 
 McapMetadata metadata(const RunInfo& info, double rate_Hz) {
@@ -73,9 +63,9 @@ struct RunLog::Impl {
     for (const RobotInfo& robot : info.robots) {
       McapMap presets;
       for (const ActuatorInfo& a : robot.actuators) presets.emplace_back(a.name, a.preset);
-      c.channels.push_back({kActuators, unused(c, "/model/" + scoped_topic(robot.model), "/actuators"), presets});
+      c.channels.push_back({kActuators, unused(c, "/model/" + host::slashed(robot.model), "/actuators"), presets});
     }
-    const std::string world = "/world/" + scoped_topic(info.world);
+    const std::string world = "/world/" + host::slashed(info.world);
     c.channels.push_back({kEnergy, world + "/energy"});
     c.channels.push_back({kTransforms, world + "/links"});
     c.channels.push_back({kTransforms, world + "/static_links"});

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <system_error>
+
+#include "vsa/files.hpp"
 
 namespace vsa::view {
 namespace {
@@ -89,9 +89,9 @@ std::vector<Recordings::Done> Recordings::done() const {
 std::optional<Download> Recordings::get(std::string_view name) const {
   for (const Done& one : done()) {
     if (one.name != name) continue;
-    std::ifstream in(one.page, std::ios::binary);
-    if (!in) return std::nullopt;
-    return Download{"text/html", one.name + ".html", std::string(std::istreambuf_iterator<char>(in), {})};
+    auto page = read_file(one.page);
+    if (!page) return std::nullopt;
+    return Download{"text/html", one.name + ".html", std::move(*page)};
   }
   return std::nullopt;
 }

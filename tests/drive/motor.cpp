@@ -132,6 +132,8 @@ TEST(Gearbox, AnyRatioIsThePulleySideMotor) {
   EXPECT_DOUBLE_EQ(at_pulley(FrictionParams{8e-3, 0.03}, 100).coulomb_Nm, 0.8);
 }
 
+TEST(Bridge, HasNoDeadBandUnlessAsked) { EXPECT_EQ(bridge_duty(BridgeParams{}, 0.1, 1.0), 0.1); }
+
 TEST(Bridge, HasADeadBandASaturationAndTheRightSign) {
   const BridgeParams p{12.0, 0.3, true};
   EXPECT_EQ(bridge_voltage(p, 0.3, 0.6), 0.0);

@@ -15,6 +15,7 @@ namespace vsa::test {
 inline device::UnitConfig maker_pro() {
   device::UnitConfig c;
   c.actuator.transmission = std::make_shared<elastic::TwoSinh>(elastic::TwoSinhParams{{0.022, 0.022}, {6.85, 6.85}});
+  c.actuator.bridge.dead_band = 0.3;
   c.actuator.motor = {0.001, 0.01, 0.8, 1.3, 2.3, std::nullopt};
   c.actuator.gearbox = {1.0, {0.8, 0.03}};
   c.actuator.shaft_friction = {0.01, 0.03};

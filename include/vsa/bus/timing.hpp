@@ -23,7 +23,11 @@ namespace vsa::bus {
 
 inline constexpr int kBitsPerByte = 10;
 inline constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;
+inline constexpr std::int64_t kPsPerNs = 1000;
 inline constexpr std::int64_t kDefaultBaud_Hz = 2'000'000;
+
+/// Rounded up: a byte isn't there before its last bit.
+[[nodiscard]] constexpr std::int64_t to_ns(std::int64_t ps) noexcept { return (ps + kPsPerNs - 1) / kPsPerNs; }
 
 struct LineRate {
   std::int64_t baud_Hz = kDefaultBaud_Hz;

@@ -23,7 +23,7 @@ enum class PwmPin {
 
 struct BridgeParams {
   double supply_V = 12.0;      ///< ≥ 0; source of the default unknown, 24 V on one published robot
-  double dead_band = 0.3;      ///< [0, 1)
+  double dead_band = 0;        ///< [0, 1); none, as in the published firmware (the paper's Table I has 0.3)
   bool brake_when_off = true;  ///< off, inputs modulated: terminals shorted (true) or open (false). UNKNOWN for the maker pro.
   PwmPin pin = PwmPin::input;
   double period_s = 0;    ///< of the PWM, ≥ 0; 0: far below the winding's time constant, no ripple

@@ -1,0 +1,49 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/files.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "vsa_files_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder = name;
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  fs::path folder;
+};
+
+TEST_F(Files, AreReadByteForByte) {
+  const std::string bytes("a\0\r\n\xff, no line's end", 24);
+  std::ofstream(folder / "some", std::ios::binary) << bytes;
+  std::ofstream(folder / "empty");
+  EXPECT_EQ(vsa::read_file(folder / "some"), bytes);
+  EXPECT_EQ(vsa::read_file(folder / "empty"), "");
+}
+
+TEST_F(Files, WhatIsNoFileOrCannotBeReadIsNoneAndErrnoSaysWhy) {
+  EXPECT_FALSE(vsa::read_file(folder / "absent"));
+  EXPECT_EQ(errno, ENOENT);
+  EXPECT_FALSE(vsa::read_file(folder)) << "an open directory reads like an empty file";
+  EXPECT_EQ(errno, EISDIR);
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_FALSE(vsa::read_file(folder / "pipe")) << "nobody would ever write to it";
+  std::ofstream(folder / "secret") << "text";
+  fs::permissions(folder / "secret", fs::perms::none);
+  if (geteuid() != 0) {
+    EXPECT_FALSE(vsa::read_file(folder / "secret"));
+  }
+}
+
+}  // namespace
