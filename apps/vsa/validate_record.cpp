@@ -2,6 +2,7 @@
 #include "validate_record.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -57,6 +58,33 @@ Json parse(const std::filesystem::path& file) {
   return out;
 }
 
+void add_parameter(LeaveOneOut& out, const Json& parameter) {
+  const Fields f(parameter, "parameters.", out.file);
+  out.fitted.push_back(f.text("name"));
+  const Json& interval = f.member("interval_95");
+  if (!interval.is_array() || interval.size() != 2) f.fail("interval_95", "isn't a pair of numbers");
+  const auto end = [&](std::size_t i) {
+    if (interval[i].is_null()) return std::numeric_limits<double>::quiet_NaN();
+    if (!interval[i].is_number()) f.fail("interval_95", "isn't a pair of numbers");
+    return interval[i].get<double>();
+  };
+  const Json& keys = f.member("keys");
+  if (!keys.is_array()) f.fail("keys", "isn't a list");
+  for (const Json& key : keys) {
+    if (!key.is_string()) f.fail("keys", "holds what isn't a text");
+    out.intervals.push_back({key.get<std::string>(), end(0), end(1)});
+  }
+}
+
+/// A fitted value is what the data leave open: another one within the interval is the same finding.
+bool within_interval(const LeaveOneOut& record, const config::Entry& e) {
+  const auto same = [&](const LeaveOneOut::Interval& i) { return i.key == e.key; };
+  const auto it = std::find_if(record.intervals.begin(), record.intervals.end(), same);
+  if (it == record.intervals.end()) return false;
+  const double value = std::strtod(e.value.c_str(), nullptr);
+  return value >= it->low && value <= it->high;
+}
+
 }  // namespace
 
 std::filesystem::path record_name(const std::string& preset) {
@@ -71,7 +99,7 @@ LeaveOneOut read_leave_one_out(const std::filesystem::path& file) {
   out.command = all.text("command");
   const Json& parameters = all.member("parameters");
   if (!parameters.is_array() || parameters.empty()) all.fail("parameters", "holds no parameter");
-  for (const Json& p : parameters) out.fitted.push_back(Fields(p, "parameters.", out.file).text("name"));
+  for (const Json& p : parameters) add_parameter(out, p);
   const Json& rows = all.member("leave_one_preset_out");
   if (!rows.is_array() || rows.empty()) all.fail("leave_one_preset_out", "holds no preset that was left out");
   for (const Json& row : rows) {
@@ -92,7 +120,7 @@ std::vector<std::string> differences(const LeaveOneOut& record, const config::Pr
     const auto it = std::find_if(record.values.begin(), record.values.end(), same);
     if (it == record.values.end()) {
       unknown.push_back(e.key + " isn't in the record");
-    } else if (it->text != e.value) {
+    } else if (it->text != e.value && !within_interval(record, e)) {
       changed.push_back(e.key + " was " + it->text + " and is " + e.value);
     }
   }

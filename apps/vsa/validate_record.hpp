@@ -23,8 +23,14 @@ struct LeaveOneOut {
   struct Value {
     std::string key, text;
   };
+  /// The 95 % interval of a parameter that was fitted; NaN where it isn't determined.
+  struct Interval {
+    std::string key;
+    double low = 0, high = 0;
+  };
   std::string file, command;
   std::vector<std::string> fitted;  ///< parameters that were fitted again each time; all others were held
+  std::vector<Interval> intervals;  ///< of each key of them, tied ones each
   std::vector<Row> rows;
   std::vector<Value> values;  ///< of every parameter of the identified preset
 };
@@ -35,7 +41,8 @@ struct LeaveOneOut {
 /// Throws InputError where it isn't what `vsa identify` writes, or holds no cross-validation.
 [[nodiscard]] LeaveOneOut read_leave_one_out(const std::filesystem::path& file);
 
-/// What tells that the record isn't this preset's: values that differ or that it doesn't know. Empty: it is this preset's.
+/// What tells that the record isn't this preset's: held values that differ, fitted ones outside of the record's interval, and what it
+/// doesn't know. Empty: it is this preset's.
 [[nodiscard]] std::vector<std::string> differences(const LeaveOneOut& record, const config::Preset& preset);
 
 }  // namespace vsa::app

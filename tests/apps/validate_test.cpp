@@ -155,15 +155,39 @@ TEST(Validate, RefusesALeaveOneOutRecordThatIsNone) {
   refused("{}", "command");
   refused(R"({"command": "x", "parameters": []})", "holds no parameter");
   refused(R"({"command": "x", "parameters": [{"name": 3}]})", "parameters.name");
-  refused(R"({"command": "x", "parameters": [{"name": "a"}], "identified_values": {}, "leave_one_preset_out": []})",
-          "no preset that was left out");
-  refused(R"({"command": "x", "parameters": [{"name": "a"}], "identified_values": {}, "leave_one_preset_out": [{"preset": "a"}]})",
-          "leave_one_preset_out.preset");
-  refused(R"({"command": "x", "parameters": [{"name": "a"}], "identified_values": {"drive.x": 3},
+  refused(R"({"command": "x", "parameters": [{"name": "a", "keys": [], "interval_95": [1]}]})", "parameters.interval_95");
+  refused(R"({"command": "x", "parameters": [{"name": "a", "keys": [1], "interval_95": [1, null]}]})", "parameters.keys");
+  refused(
+      R"({"command": "x", "parameters": [{"name": "a", "keys": ["drive.x"], "interval_95": [1, 2]}], "identified_values": {}, "leave_one_preset_out": []})",
+      "no preset that was left out");
+  refused(
+      R"({"command": "x", "parameters": [{"name": "a", "keys": ["drive.x"], "interval_95": [1, 2]}], "identified_values": {}, "leave_one_preset_out": [{"preset": "a"}]})",
+      "leave_one_preset_out.preset");
+  refused(
+      R"({"command": "x", "parameters": [{"name": "a", "keys": ["drive.x"], "interval_95": [1, 2]}], "identified_values": {"drive.x": 3},
     "leave_one_preset_out": [{"preset": 0, "rms_rad": null, "rms_rad_fitted_to_all": 1}]})",
-          "identified_values.drive.x");
+      "identified_values.drive.x");
   const auto r = run_vsa({"validate", "--leave-one-out", (scratch / "none.json").string()});
   EXPECT_EQ(r.exit_code, 2);
+}
+
+TEST(Validate, TakesARecordForStaleWhereAHeldValueOrAFittedOneBeyondItsIntervalDiffers) {
+  const Scratch scratch;
+  const std::string shipped = read_file(std::filesystem::path(VSA_SOURCE_DIR) / "data/qbmove_maker_pro/leave_one_out.json");
+  const auto stale = [&](const std::string& from, const std::string& to) {
+    std::string text = shipped;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    if (at != std::string::npos) text.replace(at, from.size(), to);
+    write_file(scratch / "r.json", text);
+    const auto r = run_vsa({"validate", "--leave-one-out", (scratch / "r.json").string(), "--out", (scratch / "out").string()});
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    return r.out.find("stale") != std::string::npos;
+  };
+  EXPECT_FALSE(stale("\"drive.supply_V\": \"8", "\"drive.supply_V\": \"8"));
+  EXPECT_TRUE(stale("\"drive.supply_V\": \"8", "\"drive.supply_V\": \"9"));
+  EXPECT_FALSE(
+      stale("\"drive.resistance_Ohm\": \"6.", "\"drive.resistance_Ohm\": \"7."));  // within the interval is the preset's own
 }
 
 }  // namespace
