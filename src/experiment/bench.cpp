@@ -154,7 +154,12 @@ double law_deflection(const elastic::Transmission& law, double preset, double lo
 }
 
 double sent_preset(const Specimen& specimen, double preset) {
-  const device::UnitConfig unit = specimen.library.load(specimen.preset, specimen.overrides).unit;
+  return sent_preset(specimen.library.load(specimen.preset, specimen.overrides).unit, preset);
+}
+
+double bench_load_peak_Nm(const Specimen& specimen) { return Bench(specimen, kLoadBench, nullptr).load_peak_Nm(); }
+
+double sent_preset(const device::UnitConfig& unit, double preset) {
   if (unit.actuator.transmission->preset_unit() != "rad") return preset;
   return std::min(preset, radians(Raw{unit.memory.max_stiffness}));
 }

@@ -89,6 +89,10 @@ struct StiffnessOptions {
 /// made (NMMI/qbmove-simulink, November 2013; 4000 ticks from March 2014), as 3000 ticks is the firmware's default. Evidence: a
 /// free limit is identified as 0.579 ± 0.004 rad from the recordings (docs/validation.md).
 [[nodiscard]] double sent_preset(const Specimen& specimen, double preset);
+[[nodiscard]] double sent_preset(const device::UnitConfig& unit, double preset);
+
+/// M g r of the load bench with this specimen on it, N·m.
+[[nodiscard]] double bench_load_peak_Nm(const Specimen& specimen);
 
 /// The amplitude for any preset by one rule, as an experimenter would find it: with it, the first quarter of the sweep at this
 /// period brings the shaft to the angle that data/README.md tells for the recordings (94° at preset 0, 90° at 0.46, 81° at 0.6903
