@@ -89,6 +89,7 @@ void check_numbers(const IdentifyOptions& o) {
   if (o.amplitude_rad) require(*o.amplitude_rad, "--amplitude-rad", 0.01, 3, "rad");
   require(o.cycles, "--cycles", 1.5, 100, "cycles");
   require(o.starts, "--starts", 1, 100, "starts");
+  require(o.seed, "--seed", 0, 1e9, "");
   require(o.iterations, "--iterations", 1, 1000, "iterations");
   require(o.profile, "--profile", 0, 101, "points");
   if (o.name.empty() ||
@@ -107,6 +108,8 @@ std::string command_of(const IdentifyOptions& o) {
   if (o.amplitude_rad) out += fmt::format(" --amplitude-rad {}", *o.amplitude_rad);
   if (o.cycles != usual.cycles) out += fmt::format(" --cycles {}", o.cycles);
   if (o.starts != usual.starts) out += fmt::format(" --starts {}", o.starts);
+  if (o.seed != usual.seed) out += fmt::format(" --seed {}", o.seed);
+  if (o.no_global) out += " --no-global";
   if (o.iterations != usual.iterations) out += fmt::format(" --iterations {}", o.iterations);
   if (o.profile != usual.profile) out += fmt::format(" --profile {}", o.profile);
   if (o.weights != usual.weights) out += " --weights " + o.weights;
@@ -129,6 +132,8 @@ void identify_all(Identification& r, const IdentifyOptions& o, Console& console)
   identify::FitOptions fit;
   fit.starts = o.starts;
   fit.iterations = o.iterations;
+  fit.global = !o.no_global;
+  fit.seed = static_cast<unsigned>(o.seed);
   fit.progress = [&](const std::string& text) { console.line(text); };
   std::vector<double> start;
   for (const identify::Parameter& p : r.task.parameters) start.push_back(p.start);
@@ -206,7 +211,7 @@ void setup_identify(CLI::App& app, int& exit_code) {
   sub->add_option("RECORDING", o->recordings, "CSV files")->required();
   sub->add_option("--preset", o->preset, "Actuator preset: start values, bounds and all that isn't identified")->required();
   sub->add_option("--parameters", o->parameters, "Keys to identify, comma-separated; key=key gives both one value")->required();
-  sub->add_option("--set", o->set, "Hold a parameter at another value: key=value");
+  sub->add_option("--set", o->set, "Hold a parameter at another value, or start there if it is identified: key=value");
   sub->add_option("--out", o->out, "Directory for the files; default: identify_PRESET");
   sub->add_option("--name", o->name, "Name of the preset that is written")->capture_default_str();
   sub->add_option("--period-s", o->period_s, "Period of the sweep")->check(number_given())->capture_default_str();
@@ -216,7 +221,12 @@ void setup_identify(CLI::App& app, int& exit_code) {
   sub->add_option("--cycles", o->cycles, "Cycles to simulate; the first half is left out")
       ->check(number_given())
       ->capture_default_str();
-  sub->add_option("--starts", o->starts, "Local solutions from different values")->check(number_given())->capture_default_str();
+  sub->add_option("--starts", o->starts,
+                  "Local solutions: from the preset's values, and from the places that a global search finds")
+      ->check(number_given())
+      ->capture_default_str();
+  sub->add_option("--seed", o->seed, "Of the global search")->check(number_given())->capture_default_str();
+  sub->add_flag("--no-global", o->no_global, "Take the other starts about the preset's values instead");
   sub->add_option("--iterations", o->iterations, "Most iterations of each")->check(number_given())->capture_default_str();
   sub->add_option("--profile", o->profile, "Points of each parameter's profile; 0: none")
       ->check(number_given())

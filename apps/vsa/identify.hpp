@@ -19,6 +19,8 @@ struct IdentifyOptions {
   std::optional<double> amplitude_rad;  ///< of the sweep; none: by the rule in experiment/bench.hpp
   double cycles = 1.5;                  ///< simulated; the first half is left out
   int starts = 3;
+  int seed = 1;  ///< of the global search
+  bool no_global = false;
   int iterations = 20;
   int profile = 0;                  ///< points of each parameter's profile; 0: none
   std::string weights = "scatter";  ///< or "equal"

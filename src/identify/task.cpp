@@ -105,8 +105,13 @@ std::vector<Parameter> parse_parameters(const std::string& text, const config::P
   return out;
 }
 
-std::vector<config::Override> overrides(const std::vector<Parameter>& parameters, const std::vector<double>& values) {
+std::vector<config::Override> overrides(const std::vector<Parameter>& parameters, const std::vector<double>& values,
+                                        const std::vector<config::Override>& also) {
   std::vector<config::Override> out;
+  for (const config::Override& o : also) {
+    const auto named = [&](const Parameter& p) { return std::find(p.keys.begin(), p.keys.end(), o.key) != p.keys.end(); };
+    if (std::none_of(parameters.begin(), parameters.end(), named)) out.push_back(o);
+  }
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     for (const std::string& key : parameters[k].keys) out.push_back({key, config::number_text(values[k])});
   }
