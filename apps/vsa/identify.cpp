@@ -11,6 +11,7 @@
 #include <iostream>
 #include <memory>
 
+#include "compare.hpp"
 #include "console.hpp"
 #include "exit_codes.hpp"
 #include "identify_output.hpp"
@@ -36,26 +37,14 @@ or branch means (…_branches.csv). Period and amplitude of the sweep are common
 Writes report.html, results.json and identified.toml, a preset for vsa. Where the data don't determine a parameter it
 says which, writes no preset and ends with 1.
 
-Example:
+--compare FILE fits each hypothesis of a TOML file to the recordings that it names, and with each of them left out, and
+writes comparison.md, comparison.json and every fit into --out; begun again it goes on. docs/11-identify.md tells the
+file's keys.
+
+Examples:
   vsa identify data/qbmove_maker_pro/*_samples.csv --preset qbmove_maker_pro \
-    --parameters elastic.k1_Nm=elastic.k2_Nm,drive.dead_band,shaft.friction_Nm,sensor.encoder_zero_rad)";
-
-bool holds_branches(const std::string& file) {
-  constexpr std::string_view kEnd = "_branches.csv";
-  return file.size() >= kEnd.size() && file.compare(file.size() - kEnd.size(), kEnd.size(), kEnd) == 0;
-}
-
-identify::Observation read_observation(const std::string& file, const config::Preset& preset) {
-  const experiment::NamedPreset named = experiment::preset_of_name(file);
-  const std::string unit(preset.unit.actuator.transmission->preset_unit());
-  if (named.unit != unit) {
-    throw InputError({file, "file name", named.unit, "the preset isn't in the unit of " + preset.name,
-                      unit.empty() ? "an actuator with a preset" : unit});
-  }
-  experiment::Branches data =
-      holds_branches(file) ? experiment::read_branches(file) : experiment::branches(experiment::read_load_recording(file));
-  return {file, named.value, std::move(data), 1.0};
-}
+    --parameters elastic.k1_Nm=elastic.k2_Nm,drive.dead_band,shaft.friction_Nm,sensor.encoder_zero_rad
+  vsa identify --compare data/qbmove_maker_pro/hypotheses.toml)";
 
 identify::Task read_task(const IdentifyOptions& o, const config::Preset& preset) {
   Problems problems;
@@ -70,7 +59,7 @@ identify::Task read_task(const IdentifyOptions& o, const config::Preset& preset)
   collect([&] { task.parameters = identify::parse_parameters(o.parameters, preset); });
   for (const std::string& file : o.recordings) {
     collect([&] {
-      task.observations.push_back(read_observation(file, preset));
+      task.observations.push_back(identify::read_observation(file, preset));
       identify::Observation& last = task.observations.back();
       if (o.weights == "scatter") last.weight = identify::scatter_weight(last.data);
     });
@@ -96,6 +85,15 @@ void check_numbers(const IdentifyOptions& o) {
       o.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos) {
     problems.add({"", "--name", o.name, "isn't a preset's name", "letters, digits, _ and -"});
   }
+  problems.throw_if_any();
+}
+
+/// What has no default, where there is no file of hypotheses that says it.
+void check_given(const IdentifyOptions& o) {
+  Problems problems;
+  if (o.recordings.empty()) problems.add({"", "RECORDING", "", "is missing", "CSV files, or --compare FILE"});
+  if (o.preset.empty()) problems.add({"", "--preset", "", "is missing", "an actuator preset, see vsa actuators"});
+  if (o.parameters.empty()) problems.add({"", "--parameters", "", "is missing", "keys, see vsa actuators NAME"});
   problems.throw_if_any();
 }
 
@@ -169,6 +167,7 @@ bool wait_for(std::future<void>& work, experiment::Watch& watch) {
 }  // namespace
 
 int run_identify(const IdentifyOptions& o) {
+  check_given(o);
   check_numbers(o);
   Identification r;
   experiment::Specimen specimen;
@@ -208,11 +207,11 @@ int run_identify(const IdentifyOptions& o) {
 void setup_identify(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<IdentifyOptions>();
   CLI::App* sub = app.add_subcommand("identify", "Find parameters of a preset from load-test recordings");
-  sub->add_option("RECORDING", o->recordings, "CSV files")->required();
-  sub->add_option("--preset", o->preset, "Actuator preset: start values, bounds and all that isn't identified")->required();
-  sub->add_option("--parameters", o->parameters, "Keys to identify, comma-separated; key=key gives both one value")->required();
+  sub->add_option("RECORDING", o->recordings, "CSV files");
+  sub->add_option("--preset", o->preset, "Actuator preset: start values, bounds and all that isn't identified");
+  sub->add_option("--parameters", o->parameters, "Keys to identify, comma-separated; key=key gives both one value");
   sub->add_option("--set", o->set, "Hold a parameter at another value, or start there if it is identified: key=value");
-  sub->add_option("--out", o->out, "Directory for the files; default: identify_PRESET");
+  sub->add_option("--out", o->out, "Directory for the files; default: identify_PRESET, compare_FILE");
   sub->add_option("--name", o->name, "Name of the preset that is written")->capture_default_str();
   sub->add_option("--period-s", o->period_s, "Period of the sweep")->check(number_given())->capture_default_str();
   sub->add_option("--amplitude-rad", o->amplitude_rad,
@@ -235,8 +234,20 @@ void setup_identify(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"scatter", "equal"}))
       ->capture_default_str();
   sub->add_flag("--no-cross-validation", o->no_cross_validation, "Don't fit again without each preset in turn");
+  auto c = std::make_shared<CompareOptions>();
+  CLI::Option* compare = sub->add_option("--compare", c->file, "Compare the hypotheses of this TOML file instead");
+  sub->add_option("--jobs", c->jobs, "With --compare: fits side by side, 0 as many as the machine runs; default: as the file says")
+      ->check(number_given())
+      ->needs(compare);
+  for (CLI::Option* other : sub->get_options()) {
+    const std::string name = other->get_name();
+    if (name != "--help" && name != "--out" && name != "--jobs" && name != "--compare") compare->excludes(other);
+  }
   sub->footer(kNotes);
-  sub->callback([o, &exit_code] { exit_code = run_identify(*o); });
+  sub->callback([o, c, compare, &exit_code] {
+    c->out = o->out;
+    exit_code = compare->count() > 0 ? run_compare(*c) : run_identify(*o);
+  });
 }
 
 }  // namespace vsa::app

@@ -191,7 +191,7 @@ std::vector<std::vector<double>> starting_points(const Residuals& residuals, con
   std::vector<double> first;
   for (const Parameter& p : residuals.task().parameters) first.push_back(p.start);
   std::vector<std::vector<double>> out{first};
-  if (o.starts <= 1) return out;
+  if (o.starts <= 1 || first.empty()) return out;
   if (!o.global || !add_global(out, residuals, o)) add_trials(out, residuals, static_cast<std::size_t>(o.starts));
   return out;
 }
@@ -260,7 +260,7 @@ void evaluate_at(Fit& fit, const Residuals& residuals, double effect_rad) {
   std::vector<std::size_t> all(fit.values.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   fit.jacobian = residuals.jacobian(fit.values, fit.residuals, fit.steps, all);
-  if (fit.jacobian.empty()) throw std::runtime_error("the model can't be evaluated beside the solution");
+  if (fit.jacobian.empty() && !all.empty()) throw std::runtime_error("the model can't be evaluated beside the solution");
   fit.at_bound.clear();
   for (std::size_t k = 0; k < fit.values.size(); ++k) {
     const Parameter& p = task.parameters[k];

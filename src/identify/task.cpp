@@ -118,6 +118,20 @@ std::vector<config::Override> overrides(const std::vector<Parameter>& parameters
   return out;
 }
 
+Observation read_observation(const std::filesystem::path& file, const config::Preset& preset) {
+  constexpr std::string_view kBranches = "_branches.csv";
+  const std::string path = file.string();
+  const experiment::NamedPreset named = experiment::preset_of_name(file);
+  const std::string unit(preset.unit.actuator.transmission->preset_unit());
+  if (named.unit != unit) {
+    throw InputError({path, "file name", named.unit, "the preset isn't in the unit of " + preset.name,
+                      unit.empty() ? "an actuator with a preset" : unit});
+  }
+  const bool means = path.size() >= kBranches.size() && path.substr(path.size() - kBranches.size()) == kBranches;
+  return {path, named.value, means ? experiment::read_branches(file) : experiment::branches(experiment::read_load_recording(file)),
+          1.0};
+}
+
 double scatter_weight(const experiment::Branches& data) {
   constexpr double kLeastScatter_rad = 2e-4;  // no recording of a 12-bit encoder is known better
   double sum = 0, n = 0;

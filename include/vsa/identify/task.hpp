@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -55,6 +56,10 @@ struct Task {
 /// The overrides that give a preset these values, after those of `also` that are about other keys.
 [[nodiscard]] std::vector<config::Override> overrides(const std::vector<Parameter>& parameters, const std::vector<double>& values,
                                                       const std::vector<config::Override>& also = {});
+
+/// A recording for a preset: branch means (…_branches.csv) or samples, the commanded preset in its name; weight 1. Throws
+/// InputError where it can't be read, or where that preset isn't in the unit of this actuator's.
+[[nodiscard]] Observation read_observation(const std::filesystem::path& file, const config::Preset& preset);
 
 /// 1 / root mean square of the recording's own scatter about its branches, so that a curve counts as much as it is known.
 [[nodiscard]] double scatter_weight(const experiment::Branches& data);
