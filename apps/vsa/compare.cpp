@@ -41,7 +41,7 @@ Share share(int jobs, std::size_t fits) {
   return {wanted, std::max(1u, machine / wanted)};
 }
 
-/// The fits that aren't in `fits` yet, each written when it is done. False: it was stopped.
+/// The fits that aren't in `fits` yet, each written when it is done.
 void fit_all(Compared& c, const fs::path& fits, int jobs, Console& console, experiment::Watch& watch) {
   const std::vector<identify::FitRequest> all = identify::requests(c.comparison);
   const std::vector<std::string> hashes = identify::request_hashes(c.comparison, all, share(jobs, all.size()).fits, &watch);

@@ -97,6 +97,19 @@ void check_given(const IdentifyOptions& o) {
   problems.throw_if_any();
 }
 
+/// A file of hypotheses says all but where to write and how many fits at once.
+void refuse_mixed(const CLI::App& sub, bool comparing) {
+  Problems problems;
+  for (const CLI::Option* option : sub.get_options()) {
+    const std::string name = option->get_name();
+    const bool either = name == "--help" || name == "--out" || name == "--compare";
+    if (option->count() == 0 || either || (name == "--jobs") == comparing) continue;
+    problems.add({"", name, "", comparing ? "isn't for --compare: its file says it" : "is for --compare only",
+                  comparing ? "--out, --jobs" : "--compare FILE --jobs N"});
+  }
+  problems.throw_if_any();
+}
+
 std::string command_of(const IdentifyOptions& o) {
   const IdentifyOptions usual;
   std::string out = "vsa identify " + config::join(o.recordings, " ") + " --preset " + o.preset + " --parameters " + o.parameters;
@@ -237,14 +250,10 @@ void setup_identify(CLI::App& app, int& exit_code) {
   auto c = std::make_shared<CompareOptions>();
   CLI::Option* compare = sub->add_option("--compare", c->file, "Compare the hypotheses of this TOML file instead");
   sub->add_option("--jobs", c->jobs, "With --compare: fits side by side, 0 as many as the machine runs; default: as the file says")
-      ->check(number_given())
-      ->needs(compare);
-  for (CLI::Option* other : sub->get_options()) {
-    const std::string name = other->get_name();
-    if (name != "--help" && name != "--out" && name != "--jobs" && name != "--compare") compare->excludes(other);
-  }
+      ->check(number_given());
   sub->footer(kNotes);
-  sub->callback([o, c, compare, &exit_code] {
+  sub->callback([o, c, sub, compare, &exit_code] {
+    refuse_mixed(*sub, compare->count() > 0);
     c->out = o->out;
     exit_code = compare->count() > 0 ? run_compare(*c) : run_identify(*o);
   });
