@@ -12,7 +12,7 @@
 
 namespace {
 
-vsa::device::UnitConfig maker_pro() { return vsa::config::PresetLibrary().load("qbmove_maker_pro").unit; }
+vsa::device::UnitConfig maker_pro() { return vsa::config::PresetLibrary().load("qbmove_maker_pro_6_1").unit; }
 
 void sinh_cosh_pair(benchmark::State& state) {
   double u = 0.1;

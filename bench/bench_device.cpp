@@ -16,7 +16,7 @@ namespace {
 
 using namespace vsa;
 
-device::UnitConfig maker_pro() { return config::PresetLibrary().load("qbmove_maker_pro").unit; }
+device::UnitConfig maker_pro() { return config::PresetLibrary().load("qbmove_maker_pro_6_1").unit; }
 
 /// A millisecond of the physics alone: bridges at changing voltages, the shaft swinging.
 void physics_1ms(benchmark::State& state) {

@@ -11,6 +11,7 @@
 #include "exit_codes.hpp"
 #include "table.hpp"
 #include "vsa/config/preset.hpp"
+#include "vsa/config/text.hpp"
 #include "vsa/elastic/transmission.hpp"
 
 namespace vsa::app {
@@ -59,13 +60,20 @@ int list(const config::PresetLibrary& library) {
   return written ? kDone : kFailed;
 }
 
+std::string evidence_text(const std::optional<config::Evidence>& evidence) {
+  if (!evidence) return "not told";
+  return (evidence->calibrated_on.empty() ? "nothing" : config::join(evidence->calibrated_on)) + ": " + evidence->source;
+}
+
 int show(const config::Preset& preset) {
   const std::size_t width = terminal_width();
   const std::size_t text_width = width == 0 ? 0 : std::min(width, kReadableWidth);
   std::cout << preset.title << '\n';
   for (const std::string& line : wrap(preset.description, text_width)) std::cout << line << '\n';
-  std::cout << fmt::format("file: {}\nelastic law: {}, {} at rest, preset {}\n\n", preset.file.string(), preset.law,
+  std::cout << fmt::format("file: {}\nelastic law: {}, {} at rest, preset {}\n", preset.file.string(), preset.law,
                            stiffness_text(preset.unit), preset_text(preset.unit));
+  for (const std::string& line : wrap("calibrated on " + evidence_text(preset.evidence), text_width)) std::cout << line << '\n';
+  std::cout << '\n';
   std::vector<std::vector<std::string>> rows{{"parameter", "value", "unit", "bounds", "source"}};
   for (const config::Entry& e : preset.entries) rows.push_back({e.key, e.value, e.unit, e.bounds, e.source});
   std::cout << table_text(rows, width);

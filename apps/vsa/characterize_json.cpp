@@ -28,7 +28,7 @@ Json step_json(const experiment::StepMeasures& m, const std::string& unit) {
   out["mean_speed_" + unit + "_per_s"] = number(m.mean_speed);
   out["peak_slope_" + unit + "_per_s"] = number(m.peak_slope);
   out["overshoot_pct"] = number(m.overshoot_pct);
-  out["ringing_Hz"] = m.ringing_Hz > 0 ? Json(m.ringing_Hz) : Json(nullptr);
+  out["ringing_Hz"] = number(m.ringing_Hz);
   out["damping_ratio"] = number(m.damping_ratio);
   out["steady_error_" + unit] = number(m.steady_error);
   return out;
@@ -47,7 +47,6 @@ void put_preset(Json& out, const Characterization& c, double preset) {
 Json stiffness_json(const Characterization& c, const StiffnessResult& r) {
   Json out;
   put_preset(out, c, r.options.preset);
-  if (!c.preset_unit().empty()) out["sent_preset_" + c.preset_unit()] = r.run.samples.front().preset_command;
   out["file"] = stiffness_file(c, r);
   out["period_s"] = r.options.period_s;
   out["amplitude_rad"] = r.run.amplitude_rad;

@@ -51,7 +51,7 @@ double mean_finite(const std::vector<double>& values) {
   return count > 0 ? sum / count : kNaN;
 }
 
-/// A mean that keeps what some edges don't have (a damping ratio) to those that have it.
+/// A mean that keeps what some edges don't have (ringing, a damping ratio) to those that have it.
 StepMeasures mean_of(const std::vector<Edge>& edges, StepMeasures Edge::*part) {
   const auto mean = [&](double StepMeasures::*field) {
     std::vector<double> values;
@@ -61,15 +61,11 @@ StepMeasures mean_of(const std::vector<Edge>& edges, StepMeasures Edge::*part) {
   };
   StepMeasures out;
   for (const auto field : {&StepMeasures::rise_s, &StepMeasures::mean_speed, &StepMeasures::peak_slope,
-                           &StepMeasures::overshoot_pct, &StepMeasures::damping_ratio}) {
+                           &StepMeasures::overshoot_pct, &StepMeasures::ringing_Hz, &StepMeasures::damping_ratio}) {
     out.*field = mean(field);
   }
-  std::vector<double> ringing, error;
-  for (const Edge& e : edges) {
-    ringing.push_back((e.*part).ringing_Hz > 0 ? (e.*part).ringing_Hz : kNaN);
-    error.push_back((e.*part).steady_error * (e.to_rad < e.from_rad ? -1 : 1));
-  }
-  out.ringing_Hz = std::isfinite(mean_finite(ringing)) ? mean_finite(ringing) : 0;
+  std::vector<double> error;
+  for (const Edge& e : edges) error.push_back((e.*part).steady_error * (e.to_rad < e.from_rad ? -1 : 1));
   out.steady_error = mean_finite(error);
   out.final_value = out.rise_start_s = kNaN;  // of no meaning over ups and downs
   return out;

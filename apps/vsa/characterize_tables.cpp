@@ -36,10 +36,7 @@ void put_preset(Row& row, const Characterization& c, const std::string& cell) {
 Row head(const Characterization& c, const std::vector<std::string>& rest, bool attained) {
   Row out;
   put_preset(out, c, "preset [" + c.preset_unit() + "]");
-  if (attained) {
-    put_preset(out, c, "sent");
-    put_preset(out, c, "attained");
-  }
+  if (attained) put_preset(out, c, "attained");
   out.insert(out.end(), rest.begin(), rest.end());
   return out;
 }
@@ -56,7 +53,6 @@ report::Table stiffness_table(const Characterization& c) {
   for (const StiffnessResult& r : c.stiffness) {
     Row row;
     put_preset(row, c, fmt::format("{:.4g}", r.options.preset));
-    put_preset(row, c, fmt::format("{:.4g}", r.run.samples.front().preset_command));
     put_preset(row, c, fmt::format("{:.3f} … {:.3f}", r.preset.least, r.preset.most));
     row.push_back(fmt::format("{:.1f}", r.shaft_rad.most * 180 / kPi));
     row.push_back(fmt::format("{:.3f}", r.load_Nm.most));
@@ -90,7 +86,7 @@ report::Table speed_table(const Characterization& c) {
     row.push_back(text(p.mean_speed, "{:.3f}"));
     row.push_back(text(s.peak_slope, "{:.2f}"));
     row.push_back(text(s.overshoot_pct, "{:.2f}"));
-    row.push_back(s.ringing_Hz > 0 ? text(s.ringing_Hz, "{:.1f}") : "–");
+    row.push_back(text(s.ringing_Hz, "{:.1f}"));
     row.push_back(text(s.damping_ratio, "{:.3f}"));
     row.push_back(text(s.steady_error, "{:+.4f}"));
     out.rows.push_back(row);

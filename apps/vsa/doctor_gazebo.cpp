@@ -123,6 +123,8 @@ void check_library(Findings& findings, const Host& host, const fs::path& file) {
   if (!said.done && said.text.find("=>") == std::string::npos) {
     findings.problem(what, file.string() + " can't be loaded: " + said.text.substr(0, said.text.find('\n')), build);
   } else if (said.text.find(host.library_mark) == std::string::npos) {
+    // setup.sh names one directory for gz-sim and for Fortress: the plug-in in it is for the one that is here.
+    if (!host.found) return;
     findings.problem(what, file.string() + " is another Gazebo's plug-in",
                      std::string("put the directory of its own first in ") + host.plugin_path);
   } else if (!lacks.libraries.empty()) {

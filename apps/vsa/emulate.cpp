@@ -42,9 +42,9 @@ constexpr const char* kNotes =
 path as it would a real one; --port NAME is a path if it has a '/', else a name in $XDG_RUNTIME_DIR, or /tmp.
 
 Examples:
-  vsa emulate qbmove_maker_pro
-  vsa emulate qbmove_maker_pro --units 12 --port arm --active
-  vsa emulate qbmove_maker_pro --units 3 --fault "2 lost_byte=0.01 seed=7" --fault "1,3 noise_rad=0.01"
+  vsa emulate qbmove_maker_pro_6_1
+  vsa emulate qbmove_maker_pro_6_1 --units 12 --port arm --active
+  vsa emulate qbmove_maker_pro_6_1 --units 3 --fault "2 lost_byte=0.01 seed=7" --fault "1,3 noise_rad=0.01"
 
 )";
 
@@ -120,8 +120,12 @@ class Runner {
       emulation_.advance(sim_ns_);
       if (!pace_.hold(sim_ns_)) tell_late();
       constexpr std::int64_t kShow = 100 * kStepNs;
-      if (sim_ns_ % kShow == 0) show(Clock::now() - start);
+      if (sim_ns_ % kShow == 0) {
+        tell_wrong_rate();
+        show(Clock::now() - start);
+      }
     }
+    tell_wrong_rate();
     console_.wipe();
     wall_s_ = std::chrono::duration<double>(Clock::now() - start).count();
     return sim_ns_ < end_ns ? interrupted() : 0;
@@ -133,6 +137,10 @@ class Runner {
   void tell_late() {
     if (std::exchange(told_, true)) return;
     console_.line("warning: this machine can't keep up with real time for so many units; simulated time falls behind");
+  }
+  void tell_wrong_rate() {
+    const auto wrong = emulation_.line().wrong_rate();
+    if (wrong.bytes > 0 && !std::exchange(told_rate_, true)) console_.line("warning: " + wrong.text());
   }
   void show(Clock::duration wall) {
     const auto unit = emulation_.read(0);
@@ -149,7 +157,7 @@ class Runner {
   RealTimePace pace_;
   std::int64_t sim_ns_ = 0;
   double wall_s_ = 0;
-  bool told_ = false;
+  bool told_ = false, told_rate_ = false;
 };
 
 void introduce(const EmulateOptions& o, const std::string& path) {
@@ -167,6 +175,7 @@ int run_emulate(const EmulateOptions& options) {
   check(options);
   device::Emulation emulation(units_of(options));
   break_units(options, emulation);
+  if (options.any_rate) emulation.line().take_any_rate();
   std::optional<serial::ProcessorsAwake> awake;
   if (options.low_latency) awake.emplace();
   catch_interrupts();
@@ -177,7 +186,7 @@ int run_emulate(const EmulateOptions& options) {
     Runner runner(emulation, port, options.duration_s);
     signal = runner.run();
     std::cout << fmt::format("{:<20}{:.3f} s in {:.3f} s of wall time\n", "simulated time", runner.simulated_s(), runner.wall_s())
-              << port_report(port.counters(), emulation.line().lost());
+              << port_report(port.counters(), emulation.line().lost(), emulation.line().wrong_rate().bytes);
   }
   if (!std::cout.flush()) return kFailed;
   return signal != 0 && options.duration_s ? kSignalled + signal : kDone;
@@ -195,6 +204,7 @@ void setup_emulate(CLI::App& app, int& exit_code) {
   sub->add_option("--dialect", options->dialect, "Of the firmware")->capture_default_str()->check(CLI::IsMember({6, 7}));
   sub->add_flag("--active", options->active, "Motors on from the start, as the unit's start-up activation does");
   sub->add_flag("--held", options->held, "Shafts are held instead of free");
+  sub->add_flag("--any-rate", options->any_rate, "Hear clients whatever rate their port is set to; for those that can't set one");
   sub->add_flag("--low-latency", options->low_latency, kLowLatencyHelp);
   sub->add_option("--set", options->set, "Override a parameter of the preset: key=value");
   sub->add_option("--duration-s", options->duration_s, "Seconds to run; default: until Ctrl-C")->check(number_given());

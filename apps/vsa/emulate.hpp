@@ -18,6 +18,7 @@ struct EmulateOptions {
   bool active = false;
   bool held = false;
   bool low_latency = false;
+  bool any_rate = false;
   std::vector<std::string> set;
   std::optional<double> duration_s;
   std::vector<std::string> faults;  ///< "IDS FAULT…" or "all FAULT…", see config/faults_text.hpp

@@ -23,8 +23,8 @@ offsets, multipliers, limits_on, limits, max_steps, current_limit; dialect 7 als
 Without WHAT: active, inputs, measurements, currents.
 
 Examples:
-  vsa get /tmp/vsa-qbmove_maker_pro
-  vsa get qbmove_maker_pro measurements currents --id 1-12
+  vsa get /tmp/vsa-qbmove_maker_pro_6_1
+  vsa get qbmove_maker_pro_6_1 measurements currents --id 1-12
   vsa get /dev/ttyUSB0 control_mode --id 3)";
 
 using Rows = std::vector<std::vector<std::string>>;

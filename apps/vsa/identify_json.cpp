@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "identify_output.hpp"
+#include "vsa/config/text.hpp"
 
 namespace vsa::app {
 namespace {
@@ -108,6 +109,16 @@ Json residuals_json(const Identification& r) {
   return out;
 }
 
+/// Every value of the identified preset: by these `vsa validate` knows which preset a record belongs to.
+Json values_json(const Identification& r) {
+  Json out = Json::object();
+  for (const config::Entry& e : r.preset.entries) out[e.key] = e.value;
+  for (std::size_t k = 0; k < r.task.parameters.size(); ++k) {
+    for (const std::string& key : r.task.parameters[k].keys) out[key] = config::number_text(r.fit.values[k]);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string results_json(const Identification& r) {
@@ -121,6 +132,7 @@ std::string results_json(const Identification& r) {
   out["determined"] = !u.deficient();
   out["warnings"] = warnings(r);
   out["parameters"] = parameters_json(r);
+  out["identified_values"] = values_json(r);
   Json& correlation = out["correlation"] = Json::array();
   for (const auto& row : u.correlation) correlation.push_back(numbers(row));
   out["condition"] = number(u.condition);

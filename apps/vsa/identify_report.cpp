@@ -240,7 +240,10 @@ std::string identified_preset(const Identification& r, const config::PresetLibra
         fmt::format("identified, {}: {}; {}", r.fit.at_bound[k] ? "no interval" : "95 % interval", interval_text(r, k), r.command);
     for (const std::string& key : r.task.parameters[k].keys) changes.push_back({key, r.fit.values[k], source});
   }
-  return identify::preset_text(r.preset, r.name, changes, library);
+  config::Evidence fitted{{}, r.command};
+  for (const identify::Observation& o : r.task.observations)
+    fitted.calibrated_on.push_back(config::experiment_name("stiffness", o.preset));
+  return identify::preset_text(r.preset, r.name, changes, fitted, library);
 }
 
 }  // namespace vsa::app

@@ -29,7 +29,7 @@ they may be anything.
 
 Examples:
   vsa ping
-  vsa ping /tmp/vsa-qbmove_maker_pro
+  vsa ping /tmp/vsa-qbmove_maker_pro_6_1
   vsa ping /dev/ttyUSB0 --id 1-12)";
 
 /// The one virtual port there is. Throws InputError with what could be meant.

@@ -5,10 +5,10 @@
 
 namespace vsa::app {
 
-std::string port_report(const serial::PortCounters& port, std::uint64_t lost_bytes) {
+std::string port_report(const serial::PortCounters& port, std::uint64_t lost_bytes, std::uint64_t noise_bytes) {
   return fmt::format("{:<20}{}, {} bytes in, {} bytes out\n", "exchanges", port.exchanges, port.bytes_in, port.bytes_out) +
-         fmt::format("{:<20}{} of answers that nobody read, {} of requests that came faster than the line\n", "bytes lost",
-                     port.bytes_dropped, lost_bytes) +
+         fmt::format("{:<20}{} of answers that nobody read, {} of requests that came faster than the line, {} at another rate\n",
+                     "bytes lost", port.bytes_dropped, lost_bytes, noise_bytes) +
          fmt::format("{:<20}{}\n", "clients gone", port.clients_gone) +
          fmt::format("{:<20}{:.3f} ms in the port, {:.3f} ms of that in the units\n", "longest service",
                      static_cast<double>(port.longest_service_ns) * 1e-6, static_cast<double>(port.longest_exchange_ns) * 1e-6);

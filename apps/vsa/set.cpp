@@ -28,8 +28,8 @@ constexpr const char* kNotes = R"(WHAT and its values; angles in degrees, or in 
   store                           write the parameters to the unit's memory
 
 Examples:
-  vsa set qbmove_maker_pro active on
-  vsa set qbmove_maker_pro equilibrium 20 15
+  vsa set qbmove_maker_pro_6_1 active on
+  vsa set qbmove_maker_pro_6_1 equilibrium 20 15
   vsa set /dev/ttyUSB0 inputs -910ticks 910ticks --id 3
   vsa set /dev/ttyUSB0 position_pid 0.1 0 0.8 --id 1-12 --store)";
 

@@ -47,7 +47,7 @@ bus::ClientOptions client_options(const UnitPortOptions& options, bus::Dialect d
 
 void add_port_options(CLI::App& sub, UnitPortOptions& options) {
   sub.add_option("--dialect", options.dialect, "How the units speak; default: as their ping shows")->check(CLI::IsMember({6, 7}));
-  sub.add_option("--baud-Hz", options.baud_Hz, "Rate of a real port")->capture_default_str()->check(number_given());
+  sub.add_option("--baud-Hz", options.baud_Hz, "Rate of the port")->capture_default_str()->check(number_given());
   sub.add_option("--timeout-ms", options.timeout_ms, "Time for an answer")->capture_default_str()->check(number_given());
 }
 

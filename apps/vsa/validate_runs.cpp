@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "pace.hpp"
+#include "validate_recordings.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::app {
@@ -23,45 +24,13 @@ constexpr double kFullPreset_rad = 0.75;       // 100 % in the paper's figures
 constexpr int kPercents[] = {0, 15, 40, 100};
 constexpr double kMaxTorque_Nm = 1.4;
 
-struct Recording {
-  std::string file;
-  double preset;
-  experiment::Branches data;
-};
-
 fs::path data_directory() {
   const auto found = config::find_data("data");
   if (!found) throw InputError({"", "data", "", "the recordings are in no data directory", "set VSA_DATA_DIR"});
   return *found;
 }
 
-/// Every load test below data/: its branch file, or its samples where there is none.
-std::vector<Recording> read_recordings(const fs::path& data) {
-  constexpr std::string_view kSamples = "_samples.csv", kBranches = "_branches.csv";
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(data)) {
-    const std::string name = entry.path().filename().string();
-    if (name.rfind("stiffness_preset_", 0) != 0 || name.find(kSamples) == std::string::npos) continue;
-    files.push_back(entry.path());
-  }
-  if (files.empty()) throw InputError({data.string(), "", "", "holds no recording", "stiffness_preset_0.6903rad_samples.csv"});
-  std::sort(files.begin(), files.end());
-  std::vector<Recording> out;
-  for (const fs::path& samples : files) {
-    std::string beside = samples.string();
-    beside.replace(beside.rfind(kSamples), kSamples.size(), kBranches);
-    const bool has_branches = fs::exists(beside);
-    const fs::path used = has_branches ? fs::path(beside) : samples;
-    out.push_back({fs::relative(used, data).generic_string(), experiment::preset_of_name(used).value,
-                   has_branches ? experiment::read_branches(used) : experiment::branches(experiment::read_load_recording(used))});
-  }
-  return out;
-}
-
-Characterization plan(const experiment::Specimen& specimen, const std::vector<Recording>& recordings) {
-  Characterization out;
-  out.specimen = specimen;
-  out.actuator = specimen.library.load(specimen.preset, specimen.overrides);
+Characterization plan(Characterization out, const std::vector<Recording>& recordings) {
   for (const double period : kPeriods_s) {
     for (const Recording& r : recordings) {
       experiment::StiffnessOptions o;
@@ -173,8 +142,18 @@ void compare_stiffness(Validation& v, const Characterization& done, const std::v
     const experiment::Difference rms = experiment::difference(r.branches, data);
     v.periods.push_back({recording.preset, r.options.period_s, rms, r.loop});
     if (i >= recordings.size()) continue;
-    v.recordings.push_back({recording.file, recording.preset, data, r.branches, experiment::loop(data), r.loop, rms,
-                            published_of(published, recording.preset)});
+    RecordingCheck& check = v.recordings.emplace_back();
+    check.file = recording.file;
+    check.origin = recording.origin;
+    check.preset = recording.preset;
+    check.kind = experiment::kind_of(v.evidence, config::experiment_name("stiffness", recording.preset));
+    check.data = data;
+    check.ours = r.branches;
+    check.data_loop = experiment::loop(data);
+    check.our_loop = r.loop;
+    check.rms = rms;
+    check.torque = experiment::torque_difference(r.branches, data);
+    check.published = published_of(published, recording.preset);
   }
 }
 
@@ -191,7 +170,10 @@ void put(std::map<std::string, double>& out, const std::string& stem, const Step
 std::map<std::string, double> quantities(const Validation& v) {
   std::map<std::string, double> out;
   for (const RecordingCheck& r : v.recordings) {
-    const std::string stem = fmt::format("stiffness.{:.4f}.", r.preset);
+    const std::string stem = config::experiment_name("stiffness", r.preset) + '.';
+    out[stem + "rms_Nm"] = r.torque.both_Nm;
+    out[stem + "rms_rising_Nm"] = r.torque.rising_Nm;
+    out[stem + "rms_falling_Nm"] = r.torque.falling_Nm;
     out[stem + "rms_rad"] = r.rms.both_rad;
     out[stem + "rms_rising_rad"] = r.rms.rising_rad;
     out[stem + "rms_falling_rad"] = r.rms.falling_rad;
@@ -201,7 +183,7 @@ std::map<std::string, double> quantities(const Validation& v) {
     out[stem + "mean_width_ratio"] = r.our_loop.mean_width_rad / r.data_loop.mean_width_rad;
   }
   for (const SpeedCheck& s : v.speeds) {
-    const std::string stem = fmt::format("speed.{:.4f}.", s.preset);
+    const std::string stem = config::experiment_name("speed", s.preset) + '.';
     put(out, stem, s.shaft, "rad");
     out[stem + "mean_pulley_rad_per_s"] = s.pulleys.mean_speed;
   }
@@ -228,19 +210,25 @@ std::string reversed_text(const experiment::Branches& b) {
   return out.empty() ? "none" : out;
 }
 
-std::optional<Validation> validate(const experiment::Specimen& specimen, const std::vector<experiment::Published>& published,
-                                   Console& console) {
+std::optional<Validation> validate(const experiment::Specimen& specimen, const experiment::BoundsFile& bounds,
+                                   const std::vector<std::string>& more_recordings, Console& console) {
   Stopwatch wall;
   wall.run();
   const fs::path data = data_directory(), plugin = data / "plugin_2015";
-  const std::vector<Recording> recordings = read_recordings(data);
+  Characterization all;
+  all.specimen = specimen;
+  all.actuator = specimen.library.load(specimen.preset, specimen.overrides);
+  const std::vector<Recording> recordings = read_recordings(data, more_recordings, all.actuator);
   const double command_s = edge_s(experiment::read_series(plugin / "step_reference.csv", "shaft_angle_rad"), 0);
-  const auto done = run_plan(plan(specimen, recordings), console);
+  const auto done = run_plan(plan(std::move(all), recordings), console);
   if (!done) return std::nullopt;
   Validation v;
   v.actuator = done->actuator;
   v.overrides = specimen.overrides;
-  compare_stiffness(v, *done, recordings, published);
+  if (v.overrides.empty()) v.evidence = v.actuator.evidence;
+  compare_stiffness(v, *done, recordings, bounds.published);
+  const auto predicted = [](const RecordingCheck& r) { return r.kind == experiment::Kind::predicted; };
+  std::stable_partition(v.recordings.begin(), v.recordings.end(), predicted);
   for (std::size_t i = 0; i < done->speed.size(); ++i)
     v.speeds.push_back(check_speed(done->speed[i], kPercents[i], plugin, command_s));
   for (const PresetStepResult& r : done->preset_step) v.preset_steps.push_back(check_preset_step(r, plugin));

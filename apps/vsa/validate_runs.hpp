@@ -9,17 +9,21 @@
 #include <vector>
 
 #include "characterize_runs.hpp"
+#include "validate_record.hpp"
 #include "vsa/experiment/bounds.hpp"
 
 namespace vsa::app {
 
 /// One recording of the load test, and the simulation of it.
 struct RecordingCheck {
-  std::string file;  ///< relative to the data directory
+  std::string file;    ///< relative to the data directory, or as the user named it
+  std::string origin;  ///< where it comes from; empty: nobody says
   double preset = 0;
+  experiment::Kind kind = experiment::Kind::calibrated;
   experiment::Branches data, ours;
   experiment::Loop data_loop, our_loop;
   experiment::Difference rms;
+  experiment::TorqueDifference torque;
   std::optional<experiment::Published> published;
 };
 
@@ -49,7 +53,9 @@ struct Validation {
   std::string command;
   config::Preset actuator;
   std::vector<config::Override> overrides;
-  std::vector<RecordingCheck> recordings;
+  std::optional<config::Evidence> evidence;  ///< the preset's; none where it has none, or where --set changed what it speaks of
+  std::optional<LeaveOneOut> left_out;       ///< the record of it, if there is one
+  std::vector<RecordingCheck> recordings;    ///< the predicted ones first
   std::vector<PeriodCheck> periods;
   std::vector<SpeedCheck> speeds;
   std::vector<PresetStepCheck> preset_steps;
@@ -63,8 +69,9 @@ struct Validation {
 /// The torques at which the falling branch lies below the rising one, against the loop's usual sense: "−0.2 … 0.05"; "none".
 [[nodiscard]] std::string reversed_text(const experiment::Branches& branches);
 
-/// Reads data/, runs all experiments in parallel and compares. None: a signal stopped it. `command` and `verdicts` stay empty.
-[[nodiscard]] std::optional<Validation> validate(const experiment::Specimen& specimen,
-                                                 const std::vector<experiment::Published>& published, Console& console);
+/// Reads data/ and the directories with more recordings, runs all experiments in parallel and compares. None: a signal stopped it.
+/// `command`, `left_out` and `verdicts` stay empty.
+[[nodiscard]] std::optional<Validation> validate(const experiment::Specimen& specimen, const experiment::BoundsFile& bounds,
+                                                 const std::vector<std::string>& more_recordings, Console& console);
 
 }  // namespace vsa::app

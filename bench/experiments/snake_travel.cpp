@@ -2,8 +2,8 @@
 //
 // How far the snake gets: worlds × gaits × starts. Prints a table in Markdown and, with --json, writes every run.
 //
-//   snake_travel [--worlds flat,rubble,hills] [--gaits sidewind,steered_soft,…] [--starts 8] [--duration-s 60] [--jobs 1] [--json
-//   FILE]
+//   snake_travel [--worlds flat,rubble,hills] [--gaits sidewind,steered_soft,…] [--starts 8] [--duration-s 60] [--jobs 1]
+//                [--json FILE]
 //
 // Path and net displacement are those of the cycle-averaged centre of mass: its mean over one gait period, one value a period. A
 // start differs from the others by its yaw (−2° … +2°) and by ±1 mm in x and y: a tiny difference that grows, so look at medians.

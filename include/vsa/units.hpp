@@ -17,12 +17,6 @@ struct Ticks {
   constexpr bool operator==(const Ticks&) const = default;
 };
 
-/// Output of the position loop after the supply-dependent limit: percent of the bridge's full duty.
-struct DutyPercent {
-  std::int32_t value = 0;
-  constexpr bool operator==(const DutyPercent&) const = default;
-};
-
 struct MilliAmp {
   std::int32_t value = 0;
   constexpr bool operator==(const MilliAmp&) const = default;

@@ -16,6 +16,8 @@ constexpr double kRelativeTolerance = 1e-4;
 constexpr double kAbsoluteTolerance_Nm = 1e-6;
 constexpr double kRough_rad = 0.02;  // a correction that is larger isn't trusted unseen
 
+// Each motor's correction takes its own curvature alone: where a law ties the motors together (x0x1 ≠ 0), the iteration converges
+// linearly instead of quadratically.
 double load_curvature(const elastic::Hessian& h, int i) noexcept { return i == 0 ? h.x0x0 : h.x1x1; }
 
 /// The mean, carried from the displacements it was evaluated at to nearby ones.

@@ -115,6 +115,7 @@ Preset build_preset(const Document& document, const std::vector<Override>& overr
   preset.description = document.description;
   preset.law = document.law;
   preset.file = document.file;
+  preset.evidence = document.evidence;
   Resolver resolver(document, overrides, problems);
   bool law_known = false;
   const Law law = make_law(document, laws, resolver, law_known);

@@ -11,9 +11,12 @@
 namespace vsa::config {
 namespace {
 
-const std::vector<std::string> kGroups{"preset", "elastic", "drive", "tendon", "shaft", "sensor", "firmware", "limits", "physics"};
+const std::vector<std::string> kGroups{"preset", "evidence", "elastic",  "drive",  "tendon",
+                                       "shaft",  "sensor",   "firmware", "limits", "physics"};
 const std::vector<std::string> kPresetKeys{"name", "title", "description"};
 const std::vector<std::string> kItemKeys{"value", "unit", "bounds", "source"};
+const std::vector<std::string> kEvidenceKeys{"calibrated_on"};
+const std::vector<std::string> kEvidenceParts{"value", "source"};
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
@@ -46,6 +49,8 @@ class Reader {
         add(line_of(node), group, node_text(node), "must be a table", "[" + group + "]");
       } else if (group == "preset") {
         read_preset(*table);
+      } else if (group == "evidence") {
+        read_evidence(*table);
       } else {
         read_group(group, *table);
       }
@@ -85,6 +90,53 @@ class Reader {
         doc_.description = text_at(node, key);
       } else {
         unknown(line_of(node), key, name.str(), kPresetKeys, "unknown key");
+      }
+    }
+  }
+
+  void read_evidence(const toml::table& table) {
+    const std::string key = "evidence.calibrated_on";
+    for (const auto& [name, node] : table) {
+      const toml::table* item = node.as_table();
+      if (name != "calibrated_on") {
+        unknown(line_of(node), "evidence." + std::string(name.str()), name.str(), kEvidenceKeys, "unknown key");
+      } else if (item == nullptr) {
+        add(line_of(node), key, node_text(node), "must be a table", "{ value = [\"stiffness.0.6903\", …], source = … }");
+      } else {
+        doc_.evidence = evidence(*item, key, line_of(node));
+      }
+    }
+    if (!table.contains("calibrated_on")) add(line_of(table), key, "", "is missing", "a list of experiments, [] for none");
+  }
+
+  Evidence evidence(const toml::table& table, const std::string& key, int line) {
+    Evidence out;
+    for (const auto& [name, node] : table) {
+      const std::string part = key + "." + std::string(name.str());
+      if (name == "value") {
+        experiments(node, part, out.calibrated_on);
+      } else if (name == "source") {
+        out.source = text_at(node, part);
+      } else {
+        unknown(line_of(node), part, name.str(), kEvidenceParts, "unknown key");
+      }
+    }
+    if (!table.contains("value")) add(line, key + ".value", "", "is missing", "a list of experiments, [] for none");
+    if (!table.contains("source")) add(line, key + ".source", "", "is missing", "how the values were found");
+    return out;
+  }
+
+  void experiments(const toml::node& node, const std::string& key, std::vector<std::string>& out) {
+    const toml::array* list = node.as_array();
+    if (list == nullptr) return add(line_of(node), key, node_text(node), "must be a list", "[\"stiffness.0.6903\", …]");
+    for (const toml::node& element : *list) {
+      const auto* text = element.as_string();
+      if (text == nullptr || !names_experiment(text->get())) {
+        add(line_of(element), key, node_text(element), "names no experiment", std::string(kExperimentNames));
+      } else if (std::find(out.begin(), out.end(), text->get()) != out.end()) {
+        add(line_of(element), key, node_text(element), "is named twice");
+      } else {
+        out.push_back(text->get());
       }
     }
   }

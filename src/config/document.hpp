@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "vsa/config/evidence.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::config {
@@ -31,6 +32,7 @@ struct Document {
   std::string file;
   std::string name, title, description, law;
   int law_line = 0;
+  std::optional<Evidence> evidence;
   std::vector<Item> items;
   /// Keys whose form is wrong, so that they are not reported as missing as well.
   std::vector<std::string> broken;

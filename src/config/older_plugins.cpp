@@ -123,7 +123,7 @@ std::string file_of(const XMLElement& root) {
 /// The preset that stands for an older library; where the library was renamed already, its spring tells.
 std::string preset_of(const XMLElement& root, bool of_2015) {
   const std::string file = file_of(root);
-  if (of_2015) return "qbmove_maker_pro";
+  if (of_2015) return "qbmove_maker_pro_6_1";
   if (file == "libbavs_plugin.so" || root.FirstChildElement("spring_k_e") != nullptr) return "YOUR_PRESET_OF_A_BAVS";
   if (file == "libawas_ii_plugin.so" || root.FirstChildElement("spring_Ks") != nullptr) return "YOUR_PRESET_OF_AN_AWAS_II";
   const bool one_spring = root.FirstChildElement("spring_k") != nullptr || root.FirstChildElement("stiffness") != nullptr;

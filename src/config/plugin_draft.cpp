@@ -44,7 +44,7 @@ class Finisher {
     std::set<std::string> seen;
     for (const BusDraft& b : draft_.buses) {
       if (!seen.insert(b.name).second) add(b.path + "@name", '"' + b.name + '"', "two buses have this name", "unique names");
-      config_.buses.push_back({b.name, b.baud_Hz, b.cycle_s, b.serial_port});
+      config_.buses.push_back({b.name, b.baud_Hz, b.cycle_s, b.serial_port, b.any_rate});
     }
     if (draft_.buses.empty()) config_.buses.emplace_back().name = kDefaultBus;
     used_.resize(config_.buses.size());

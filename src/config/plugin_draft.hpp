@@ -38,6 +38,7 @@ struct BusDraft {
   double baud_Hz = 2'000'000;
   std::optional<double> cycle_s;
   std::optional<std::string> serial_port;
+  bool any_rate = false;
 };
 
 struct RobotDraft {

@@ -33,7 +33,8 @@ class Parser {
       return robot;
     }
     if (std::string(root.Name()) != "plugin") xml_.add(root.Name(), "", "is not a plug-in element", "plugin");
-    xml_.check_attributes(root, "plugin", {"name", "filename"});
+    xml_.check_attributes(root, "plugin", {"name", "filename"}, {"state_rate_Hz", "substeps"});
+    for (const char* child : {"state_rate_Hz", "substeps"}) xml_.child_as_attribute(root, "plugin", child);
     const std::string name = xml_.attribute(root, "name").value_or("");
     if (name != kPluginName) xml_.add("plugin@name", '"' + name + '"', "is not this plug-in", std::string(kPluginName));
     xml_.check_children(root, "plugin", {"actuator", "bus", "state_rate_Hz", "substeps"});
@@ -57,6 +58,7 @@ class Parser {
  private:
   /// Text of a child that must be there; empty where it isn't, and reported.
   std::string required_text(const XMLElement& e, const std::string& path, const char* name) {
+    if (const auto attribute = xml_.child_as_attribute(e, path, name)) return *attribute;
     const XMLElement* child = xml_.only(e, path, name);
     const std::string key = path + "/" + name;
     std::string text;
@@ -73,7 +75,7 @@ class Parser {
     const std::string numbered = "actuator[" + std::to_string(index) + "]";
     const auto given = xml_.attribute(e, "name");
     draft.path = given && !given->empty() ? "actuator[" + *given + "]" : numbered;
-    xml_.check_attributes(e, draft.path, {"name"});
+    xml_.check_attributes(e, draft.path, {"name"}, {"joint", "preset", "bus"});
     xml_.check_children(e, draft.path, {"joint", "preset", "bus", "initial", "override"}, is_older_tag);
     draft.joint = required_text(e, draft.path, "joint");
     draft.preset = required_text(e, draft.path, "preset");
@@ -83,6 +85,7 @@ class Parser {
     } else if (!draft.joint.empty()) {
       draft.name_ok = xml_.check_name(draft.path + "/joint (as the actuator's name; give it a name attribute)", draft.name);
     }
+    draft.bus = xml_.child_as_attribute(e, draft.path, "bus").value_or("");
     if (const XMLElement* child = xml_.only(e, draft.path, "bus")) place_on_bus(*child, draft);
     if (const XMLElement* child = xml_.only(e, draft.path, "initial")) initial(*child, draft);
     for (const XMLElement* o = e.FirstChildElement("override"); o; o = o->NextSiblingElement("override")) add_override(*o, draft);
@@ -161,7 +164,8 @@ class Parser {
     BusDraft draft;
     draft.name = xml_.attribute(e, "name").value_or("");
     draft.path = "bus[" + draft.name + "]";
-    xml_.check_attributes(e, draft.path, {"name", "baud", "cycle_s"});
+    xml_.check_attributes(e, draft.path, {"name", "baud", "cycle_s"}, {"serial_port"});
+    xml_.child_as_attribute(e, draft.path, "serial_port");
     xml_.check_children(e, draft.path, {"serial_port"});
     xml_.check_name(draft.path + "@name", draft.name);
     if (const auto text = xml_.attribute(e, "baud")) {
@@ -178,8 +182,14 @@ class Parser {
       }
     }
     if (const XMLElement* port = xml_.only(e, draft.path, "serial_port")) {
-      draft.serial_port = xml_.text(*port, draft.path + "/serial_port");
-      check_port(draft.path + "/serial_port", *draft.serial_port);
+      const std::string path = draft.path + "/serial_port";
+      xml_.check_attributes(*port, path, {"any_rate"});
+      draft.serial_port = xml_.text(*port, path);
+      check_port(path, *draft.serial_port);
+      const std::string any_rate = xml_.attribute(*port, "any_rate").value_or("false");
+      draft.any_rate = any_rate == "true";
+      if (!draft.any_rate && any_rate != "false")
+        xml_.add(path + "@any_rate", '"' + any_rate + '"', "must be a switch", "true, false");
     }
     return draft;
   }

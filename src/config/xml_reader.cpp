@@ -28,12 +28,22 @@ void XmlReader::add(std::string key, std::string value, std::string message, std
   problems_.add({where_, std::move(key), std::move(value), std::move(message), std::move(allowed)});
 }
 
-void XmlReader::check_attributes(const tinyxml2::XMLElement& e, const std::string& path, const std::vector<std::string>& known) {
+void XmlReader::check_attributes(const tinyxml2::XMLElement& e, const std::string& path, const std::vector<std::string>& known,
+                                 const std::vector<std::string>& children) {
   for (const tinyxml2::XMLAttribute* a = e.FirstAttribute(); a != nullptr; a = a->Next()) {
     const std::string name = a->Name();
-    if (is_hosts_own(name) || contains(known, name)) continue;
+    if (is_hosts_own(name) || contains(known, name) || contains(children, name)) continue;
     add(attribute_path(path, name), a->Value(), "attribute " + unknown(name, known), known.empty() ? "none" : join(known));
   }
+}
+
+std::optional<std::string> XmlReader::child_as_attribute(const tinyxml2::XMLElement& e, const std::string& path, const char* name) {
+  const auto value = attribute(e, name);
+  if (!value) return std::nullopt;
+  const std::string tag(name);
+  add(attribute_path(path, tag), '"' + *value + '"', "is an element, not an attribute",
+      "<" + tag + ">" + *value + "</" + tag + ">");
+  return value;
 }
 
 void XmlReader::check_children(const tinyxml2::XMLElement& e, const std::string& path, const std::vector<std::string>& known,

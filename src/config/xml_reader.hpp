@@ -26,8 +26,12 @@ class XmlReader {
 
   void add(std::string key, std::string value, std::string message, std::string allowed = {});
 
-  /// Reports attributes that aren't in `known`. Those of hosts and XML itself pass: xmlns, and any with a namespace prefix.
-  void check_attributes(const tinyxml2::XMLElement& e, const std::string& path, const std::vector<std::string>& known);
+  /// Reports attributes that aren't in `known`; `children` were reported as such. Those of hosts and XML itself pass: xmlns, and
+  /// any with a namespace prefix.
+  void check_attributes(const tinyxml2::XMLElement& e, const std::string& path, const std::vector<std::string>& known,
+                        const std::vector<std::string>& children = {});
+  /// Reports and tells of an attribute that is a child element in our grammar, and shows that: its value. None: there is none.
+  std::optional<std::string> child_as_attribute(const tinyxml2::XMLElement& e, const std::string& path, const char* name);
   /// Reports children that aren't in `known`, and text between them. Names that `others` takes are somebody else's to check.
   void check_children(const tinyxml2::XMLElement& e, const std::string& path, const std::vector<std::string>& known,
                       bool (*others)(std::string_view) = nullptr);

@@ -2,6 +2,7 @@
 #include "vsa/device/port_line.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 namespace vsa::device {
@@ -52,6 +53,10 @@ void PortLine::exchange(std::span<const std::uint8_t> from_client, std::vector<s
   const std::lock_guard lock(mutex_);
   client_waits_.store(false, std::memory_order_relaxed);
   const std::int64_t now = line_now_ns();
+  if (!heard_at_clients_rate()) {
+    wrong_rate_.bytes += from_client.size();
+    from_client = {};
+  }
   const std::size_t room = kMaxWaiting - std::min(kMaxWaiting, waiting_.size() - taken_);
   const auto kept = from_client.first(std::min(room, from_client.size()));
   lost_ += from_client.size() - kept.size();
@@ -78,9 +83,31 @@ std::optional<bus::SerialLine::Clock::time_point> PortLine::wake() const {
   return now + std::chrono::nanoseconds(std::max(sleep, kShortestSleepNs));
 }
 
-void PortLine::set_rate(std::int64_t baud_Hz) {
+/// Under the lock: the line's own port gets the client's rate; false: no unit can make out what is said at it.
+bool PortLine::heard_at_clients_rate() {
+  if (!client_Hz_ || any_rate_) return true;
+  const bus::LineRate rate{*client_Hz_};
+  if (rate.baud_Hz > 0 && !(chain_.state().host_ear.rate == rate)) chain_.set_host_rate(rate);
+  const auto& ears = chain_.state().ears;
+  const auto hears = [&](const ChainState::Ear& ear) {
+    const auto units = static_cast<double>(ear.receiver.rate.baud_Hz), clients = static_cast<double>(rate.baud_Hz);
+    return std::abs(clients - units) <= kRateSlack * units;
+  };
+  if (ears.empty() || std::any_of(ears.begin(), ears.end(), hears)) return true;
+  wrong_rate_.client_Hz = *client_Hz_;
+  wrong_rate_.units_Hz = ears.front().receiver.rate.baud_Hz;
+  return false;
+}
+
+std::string PortLine::WrongRate::text() const {
+  const std::string units = std::to_string(units_Hz);
+  return "the client's serial port is set to " + std::to_string(client_Hz) + " bit/s, the units listen at " + units +
+         ": what it sends is noise to them (in a shell: stty -F PORT " + units + "; if it can't set a rate: any_rate, --any-rate)";
+}
+
+PortLine::WrongRate PortLine::wrong_rate() const {
   const std::lock_guard lock(mutex_);
-  chain_.set_host_rate({std::max<std::int64_t>(baud_Hz, 1)});
+  return wrong_rate_;
 }
 
 void PortLine::forget() {

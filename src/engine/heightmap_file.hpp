@@ -22,7 +22,7 @@ struct GreyImage {
 [[nodiscard]] GreyImage read_grey_image(const std::filesystem::path& file);
 [[nodiscard]] Heightmap read_heightmap(const std::filesystem::path& file, const Vec3& size, const Vec3& centre);
 
-/// PNG by the engine's own decoder (mujoco_png.cpp); width × height × RGB bytes. Throws InputError.
+/// PNG by the engine's own decoder (mujoco_model.cpp); width × height × RGB bytes. Throws InputError.
 [[nodiscard]] GreyImage decode_png(const std::string& bytes, const std::filesystem::path& file);
 
 }  // namespace vsa::engine

@@ -185,8 +185,7 @@ class Writer {
 
   // MuJoCo 2.2.2's broad phase
   //   - pairs a body that has a plane or heightmap with everything, and once more where boxes overlap: contacts come out twice.
-  //   Only the
-  //     world's own body is spared, so these shapes go there;
+  //     Only the world's own body is spared, so these shapes go there;
   //   - sorts bodies, not shapes: the shapes of a static link get a body each, and a field of blocks costs what lies near.
   static bool endless(const Collision& c) {
     return c.geometry.kind == Geometry::Kind::plane || c.geometry.kind == Geometry::Kind::heightmap;

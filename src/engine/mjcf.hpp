@@ -6,14 +6,12 @@
 // Choices
 //   contact        elliptic cones; solref 0.004 s (MuJoCo keeps it ≥ 2 dt), critically damped
 //   friction       a pair has the smaller coefficient of its two shapes, as with Gazebo's ODE and DART. MuJoCo would take the
-//   larger one,
-//                  but where priorities differ the higher one's: a lower coefficient gets a higher priority. Spin friction is that
-//                  of the same shape.
+//                  larger one, but where priorities differ the higher one's: a lower coefficient gets a higher priority. Spin
+//                  friction is that of the same shape.
 //   collisions     links joined by a joint never collide; links of one model only where one of them has self_collide
 //   joints         no armature; limits, dry friction and joints that follow others as constraints with solref 0.004 s. A limit
-//   gives
-//                  way by a share 1 − d of torque times mobility, so that an actuator would press a light finger far beyond it: d
-//                  grows to 0.9999 within 1 mrad
+//                  gives way by a share 1 − d of torque times mobility, so that an actuator would press a light finger far
+//                  beyond it: d grows to 0.9999 within 1 mrad
 #pragma once
 
 #include <string>

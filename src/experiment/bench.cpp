@@ -84,18 +84,18 @@ Command sweep(double amplitude, double period_s, double preset) {
 }
 
 /// The reached angle grows with the amplitude, nearly one to one: a fixed-point iteration.
-SweepAmplitude amplitude_on(Bench& bench, double preset, double sent, double period_s) {
+SweepAmplitude amplitude_on(Bench& bench, double preset, double period_s) {
   constexpr double kPeak_cycles = 0.3;  // the shaft's peak comes a little after the command's
   constexpr double kClose_rad = 0.25 * kPi / 180;
   constexpr int kTrials = 8;
   SweepAmplitude out;
   out.target_rad = target_angle_rad(bench.law().preset_unit() == "rad" ? preset : 0.0);
-  const double by_law = out.target_rad + law_deflection(bench.law(), sent, bench.load_peak_Nm() * std::sin(out.target_rad));
+  const double by_law = out.target_rad + law_deflection(bench.law(), preset, bench.load_peak_Nm() * std::sin(out.target_rad));
   out.amplitude_rad = by_law;
   for (int trial = 1;; ++trial) {
     bench.reset();
-    settle(bench, {0, sent});
-    out.reached_rad = bench.run(kPeak_cycles * period_s, sweep(out.amplitude_rad, period_s, sent));
+    settle(bench, {0, preset});
+    out.reached_rad = bench.run(kPeak_cycles * period_s, sweep(out.amplitude_rad, period_s, preset));
     const double missing = out.target_rad - out.reached_rad;
     const double next = std::clamp(out.amplitude_rad + missing, 0.1 * by_law, by_law + kMostMore_rad);
     if (std::abs(missing) <= kClose_rad || trial == kTrials || next == out.amplitude_rad) return out;
@@ -153,42 +153,29 @@ double law_deflection(const elastic::Transmission& law, double preset, double lo
   return sign * high;
 }
 
-double sent_preset(const Specimen& specimen, double preset) {
-  return sent_preset(specimen.library.load(specimen.preset, specimen.overrides).unit, preset);
-}
-
 double bench_load_peak_Nm(const Specimen& specimen) { return Bench(specimen, kLoadBench, nullptr).load_peak_Nm(); }
 
-double sent_preset(const device::UnitConfig& unit, double preset) {
-  if (unit.actuator.transmission->preset_unit() != "rad") return preset;
-  return std::min(preset, radians(Raw{unit.memory.max_stiffness}));
-}
-
-SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s, bool limit_preset) {
+SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s) {
   StiffnessOptions options;
   options.preset = preset;
   options.period_s = period_s;
   check(specimen, options);
   Bench bench(specimen, kLoadBench, nullptr);
-  return amplitude_on(bench, preset, limit_preset ? sent_preset(specimen, preset) : preset, period_s);
+  return amplitude_on(bench, preset, period_s);
 }
 
 BenchRun run_stiffness(const Specimen& specimen, const StiffnessOptions& options, Watch* watch) {
   check(specimen, options);
   Bench bench(specimen, kLoadBench, watch);
-  const double sent = options.limit_preset ? sent_preset(specimen, options.preset) : options.preset;
   SweepAmplitude found;
-  if (!options.amplitude_rad) found = amplitude_on(bench, options.preset, sent, options.period_s);
+  if (!options.amplitude_rad) found = amplitude_on(bench, options.preset, options.period_s);
   const double amplitude = options.amplitude_rad.value_or(found.amplitude_rad);
   bench.reset();
-  settle(bench, {0, sent});
+  settle(bench, {0, options.preset});
   const double lead_in_s = options.lead_in_cycles * options.period_s;
   BenchRun out = bench.record(lead_in_s + options.cycles * options.period_s, lead_in_s, options.sample_s,
-                              sweep(amplitude, options.period_s, sent));
+                              sweep(amplitude, options.period_s, options.preset));
   out.amplitude_rad = amplitude;
-  if (sent < options.preset) {
-    out.notices.push_back(fmt::format("preset {:.4f} rad is sent as {:.4f} rad, the unit's max_stiffness", options.preset, sent));
-  }
   note_reach(out, found.target_rad, found.reached_rad);
   return out;
 }

@@ -27,6 +27,10 @@ class Item {
   std::string text(const char* key) {
     return read<std::string>(key, true, "some text", [](const std::string& v) { return !v.empty(); }).value_or("");
   }
+  std::optional<std::string> optional_text(const char* key) {
+    return read<std::string>(key, false, "some text", [](const std::string& v) { return !v.empty(); });
+  }
+  [[nodiscard]] std::string place() const { return place_ + ':' + std::to_string(table_.source().begin.line); }
   void refuse_others() {
     for (const auto& [key, node] : table_) {
       const std::string name(key.str());
@@ -34,7 +38,7 @@ class Item {
     }
   }
   void add(const std::string& key, const std::string& value, const std::string& message, const std::string& allowed) {
-    problems_.add({place_ + ':' + std::to_string(table_.source().begin.line), key, value, message, allowed});
+    problems_.add({place(), key, value, message, allowed});
   }
 
  private:
@@ -70,12 +74,21 @@ toml::table parse(const std::filesystem::path& file) {
   }
 }
 
+constexpr const char* kCalibrated = "calibrated";
+constexpr const char* kPredicted = "predicted";
+
 Bound read_bound(Item& item) {
   Bound b;
+  b.place = item.place();
   b.quantity = item.text("quantity");
   b.min = item.number("min", false);
   b.max = item.number("max", false);
   b.why = item.text("why");
+  if (const auto kind = item.optional_text("kind")) {
+    if (*kind == kCalibrated) b.kind = Kind::calibrated;
+    if (*kind == kPredicted) b.kind = Kind::predicted;
+    if (!b.kind) item.add("kind", '"' + *kind + '"', "is no kind", "calibrated, predicted; left out: by the preset's [evidence]");
+  }
   item.refuse_others();
   if (!b.min && !b.max) item.add(b.quantity, "", "has no bound", "min, max or both");
   if (b.min && b.max && *b.min > *b.max) item.add(b.quantity, bound_text(b), "no value can hold it", "min up to max");
@@ -125,7 +138,25 @@ BoundsFile read_bounds(const std::filesystem::path& file) {
   return out;
 }
 
-std::vector<Verdict> judge(const std::vector<Bound>& bounds, const std::map<std::string, double>& quantities) {
+const char* kind_text(Kind kind) { return kind == Kind::predicted ? kPredicted : kCalibrated; }
+
+Kind kind_of(const std::optional<config::Evidence>& evidence, std::string_view quantity) {
+  return evidence && !config::covers(*evidence, quantity) ? Kind::predicted : Kind::calibrated;
+}
+
+void check_kinds(const std::vector<Bound>& bounds, const std::optional<config::Evidence>& evidence) {
+  Problems problems;
+  for (const Bound& b : bounds) {
+    if (b.kind != Kind::predicted || !evidence || !config::covers(*evidence, b.quantity)) continue;
+    problems.add({b.place, "kind", std::string(kPredicted), "the preset was calibrated on " + b.quantity + ", by its [evidence]",
+                  "calibrated, or no kind"});
+  }
+  problems.throw_if_any();
+}
+
+std::vector<Verdict> judge(const std::vector<Bound>& bounds, const std::map<std::string, double>& quantities,
+                           const std::optional<config::Evidence>& evidence) {
+  check_kinds(bounds, evidence);
   std::vector<std::string> names;
   for (const auto& [name, value] : quantities) names.push_back(name);
   Problems problems;
@@ -137,7 +168,8 @@ std::vector<Verdict> judge(const std::vector<Bound>& bounds, const std::map<std:
       continue;
     }
     const double v = it->second;
-    out.push_back({b, v, std::isfinite(v) && (!b.min || v >= *b.min) && (!b.max || v <= *b.max)});
+    out.push_back({b, v, std::isfinite(v) && (!b.min || v >= *b.min) && (!b.max || v <= *b.max),
+                   b.kind.value_or(kind_of(evidence, b.quantity))});
   }
   problems.throw_if_any();
   return out;
@@ -145,6 +177,16 @@ std::vector<Verdict> judge(const std::vector<Bound>& bounds, const std::map<std:
 
 bool all_held(const std::vector<Verdict>& verdicts) {
   return std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.held; });
+}
+
+Count count(const std::vector<Verdict>& verdicts, Kind kind) {
+  Count out;
+  for (const Verdict& v : verdicts) {
+    if (v.kind != kind) continue;
+    ++out.all;
+    out.held += v.held ? 1 : 0;
+  }
+  return out;
 }
 
 std::string bound_text(const Bound& b) {

@@ -3,6 +3,11 @@
 // Step responses. Everything is measured on the normalised response u(t) = (y − from)/(final − from): 0 before, 1 at rest.
 // Swings are differences of successive extrema, so that a shaft that friction stops beside its target doesn't bias them:
 //   swing_k = |e_k − e_{k+1}|,   ln swing_k = c − k·d,   ζ = d/√(π² + d²),   f = half swings / (2·time between the extrema)
+//
+// Ringing is what swings after the response has reached 90 %: at least one whole period, so two swings. A swing counts from twice
+// an encoder's count up, peak to peak, which a reading that flickers by one count doesn't reach; and from a twentieth of the
+// largest up, so that the frequency is the dominant one's and not that of a ripple on it. Extrema against such a floor are a filter
+// that shifts nothing in time.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -63,12 +68,16 @@ std::vector<Extremum> extrema(const Series& s, double from_s, double floor) {
   return out;
 }
 
-void measure_ringing(const std::vector<Extremum>& e, StepMeasures& out) {
-  out.damping_ratio = kNaN;
-  if (e.size() < 2) return;
+void measure_ringing(const Series& s, double from_s, double floor, StepMeasures& out) {
+  out.ringing_Hz = out.damping_ratio = kNaN;
+  constexpr double kDominant = 0.05;  // of the largest swing
+  std::vector<Extremum> e = extrema(s, from_s, floor);
+  double largest = 0;
+  for (std::size_t k = 0; k + 1 < e.size(); ++k) largest = std::max(largest, std::abs(e[k].value - e[k + 1].value));
+  if (kDominant * largest > floor) e = extrema(s, from_s, kDominant * largest);
+  if (e.size() < 3) return;
   const auto swings = static_cast<double>(e.size() - 1);
   out.ringing_Hz = swings / (2 * (e.back().time_s - e.front().time_s));
-  if (e.size() < 3) return;
   double mean_log = 0, covariance = 0, variance = 0;
   for (std::size_t k = 0; k + 1 < e.size(); ++k) mean_log += std::log(std::abs(e[k].value - e[k + 1].value)) / swings;
   for (std::size_t k = 0; k + 1 < e.size(); ++k) {
@@ -99,7 +108,7 @@ void check(const std::vector<double>& time_s, const std::vector<double>& y) {
 }  // namespace
 
 StepMeasures step_measures(const std::vector<double>& time_s, const std::vector<double>& y, double from, double to,
-                           double ringing_floor_pct) {
+                           double ringing_floor) {
   check(time_s, y);
   StepMeasures out;
   const std::size_t tail = y.size() - y.size() / 10;
@@ -108,7 +117,7 @@ StepMeasures step_measures(const std::vector<double>& time_s, const std::vector<
   const double change = out.final_value - from;
   // A part in a million of the step is no response.
   if (std::abs(change) <= 1e-6 * std::abs(to - from) || change == 0) {
-    out.rise_s = out.rise_start_s = out.mean_speed = out.peak_slope = out.overshoot_pct = out.damping_ratio = kNaN;
+    out.rise_s = out.rise_start_s = out.mean_speed = out.peak_slope = out.overshoot_pct = out.ringing_Hz = out.damping_ratio = kNaN;
     return out;
   }
   Series s{time_s, {}};
@@ -121,7 +130,7 @@ StepMeasures step_measures(const std::vector<double>& time_s, const std::vector<
     out.peak_slope = std::max(out.peak_slope, std::abs(change) * (s.u[i] - s.u[i - 1]) / (s.t[i] - s.t[i - 1]));
   }
   out.overshoot_pct = 100 * std::max(0.0, *std::max_element(s.u.begin(), s.u.end()) - 1);
-  measure_ringing(extrema(s, end, ringing_floor_pct / 100), out);
+  measure_ringing(s, end, ringing_floor / std::abs(change), out);
   return out;
 }
 

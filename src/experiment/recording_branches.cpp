@@ -145,20 +145,31 @@ Branches branches(const LoadRecording& recording, const BranchOptions& o) {
   return out;
 }
 
-Difference difference(const Branches& a, const Branches& b) {
-  std::vector<double> rising, falling;
-  const auto add = [](std::vector<double>& to, double x, double y) {
-    if (std::isfinite(x) && std::isfinite(y)) to.push_back((x - y) * (x - y));
-  };
+Branches subtract(const Branches& a, const Branches& b) {
+  Branches out;
   for (std::size_t i = 0, k = 0; i < a.torque_Nm.size() && k < b.torque_Nm.size();) {
     const double gap = a.torque_Nm[i] - b.torque_Nm[k];
     if (std::abs(gap) <= kSameTorque) {
-      add(rising, a.rising_rad[i], b.rising_rad[k]);
-      add(falling, a.falling_rad[i], b.falling_rad[k]);
+      out.torque_Nm.push_back(b.torque_Nm[k]);
+      out.rising_rad.push_back(a.rising_rad[i] - b.rising_rad[k]);
+      out.falling_rad.push_back(a.falling_rad[i] - b.falling_rad[k]);
     }
     if (gap <= kSameTorque) ++i;
     if (gap >= -kSameTorque) ++k;
   }
+  return out;
+}
+
+Difference difference(const Branches& a, const Branches& b) {
+  const Branches apart = subtract(a, b);
+  const auto squares = [](const std::vector<double>& values) {
+    std::vector<double> out;
+    for (const double v : values) {
+      if (std::isfinite(v)) out.push_back(v * v);
+    }
+    return out;
+  };
+  const std::vector<double> rising = squares(apart.rising_rad), falling = squares(apart.falling_rad);
   const std::size_t points = rising.size() + falling.size();
   if (points == 0) throw InputError({"", "branches", "", "the two have no torque in common", "overlapping torque grids"});
   std::vector<double> both = rising;

@@ -2,10 +2,12 @@
 #include "host/bus_line.hpp"
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "host/state.hpp"
 #include "vsa/firmware/exchange.hpp"
+#include "vsa/owner.hpp"
 
 namespace vsa::host {
 namespace {
@@ -34,6 +36,7 @@ BusLine::BusLine(const BusConfig& config, std::vector<BusMember> members)
       master_(schedule(config, members_.size()), ids(members_), *this) {
   if (!config.serial_port) return;
   port_ = std::make_unique<device::PortLine>(chain_);
+  if (config.any_rate) port_->take_any_rate();
   sensors_.resize(members_.size());
 }
 
@@ -78,18 +81,22 @@ void BusLine::shift_time(std::int64_t by_ns) noexcept {
   master_.shift_time(by_ns);
 }
 
-void BusLine::set_wiring(const ActuatorSlot& slot, const device::Faults& faults) noexcept {
+std::size_t BusLine::member_of(const ActuatorSlot& slot) const noexcept {
   const auto member = std::find_if(members_.begin(), members_.end(), [&](const BusMember& m) { return m.slot == &slot; });
-  const auto k = static_cast<std::size_t>(member - members_.begin());
-  lock();
+  require(member != members_.end(), "vsa::host::BusLine", "the actuator isn't on this bus");
+  return static_cast<std::size_t>(member - members_.begin());
+}
+
+void BusLine::set_wiring(const ActuatorSlot& slot, const device::Faults& faults) noexcept {
+  const std::size_t k = member_of(slot);
+  const std::lock_guard quiet(*this);
   chain_.set_wiring(k, faults.wiring(), faults.seed);
-  unlock();
 }
 
 void BusLine::set_unit(const ActuatorSlot& slot, device::Unit& unit) noexcept {
-  const auto member = std::find_if(members_.begin(), members_.end(), [&](const BusMember& m) { return m.slot == &slot; });
-  member->unit = &unit;
-  chain_.set_program(static_cast<std::size_t>(member - members_.begin()), unit.program());
+  const std::size_t k = member_of(slot);
+  members_[k].unit = &unit;
+  chain_.set_program(k, unit.program());
 }
 
 std::array<Ticks, 3> BusLine::measured(const ActuatorSlot& slot, const device::Unit& unit) const {

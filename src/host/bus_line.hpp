@@ -47,20 +47,25 @@ class BusLine final : private bus::MasterClient {
   void shift_time(std::int64_t by_ns) noexcept;
   void set_wiring(const ActuatorSlot& slot, const device::Faults& faults) noexcept;
 
-  /// That member goes on as another unit; between lock() and unlock().
+  /// That member goes on as another unit; while it is locked.
   void set_unit(const ActuatorSlot& slot, device::Unit& unit) noexcept;
 
   [[nodiscard]] device::PortLine* port() noexcept { return port_.get(); }
   [[nodiscard]] std::array<Ticks, 3> measured(const ActuatorSlot& slot, const device::Unit& unit) const;
 
-  /// Around state() and restore(): keeps the client out.
-  void lock() const { port_ ? port_->lock() : void(); }
-  void unlock() const { port_ ? port_->unlock() : void(); }
+  /// Around state() and restore(): keeps the client out. For std::lock_guard; QuietBuses holds several.
+  void lock() const {
+    if (port_) port_->lock();
+  }
+  void unlock() const {
+    if (port_) port_->unlock();
+  }
   [[nodiscard]] BusState state() const { return {chain_.state(), master_.state()}; }
   /// The programs' states are restored by their owner.
   void restore(const BusState& state);
 
  private:
+  [[nodiscard]] std::size_t member_of(const ActuatorSlot& slot) const noexcept;
   /// The line up to a tick, and the tick of every unit.
   void tick(std::int64_t at_ns) noexcept;
   std::array<Ticks, 2> inputs(int k, std::int64_t now_ns) noexcept override;
@@ -71,6 +76,23 @@ class BusLine final : private bus::MasterClient {
   bus::Master master_;
   std::unique_ptr<device::PortLine> port_;
   std::vector<firmware::TickInputs> sensors_;  // with a port: read before its lock is taken
+};
+
+/// Keeps the clients of all of a robot's buses out while it lives.
+class QuietBuses {
+ public:
+  using Buses = std::vector<std::unique_ptr<BusLine>>;
+  explicit QuietBuses(const Buses& buses) : buses_(buses) {
+    for (const auto& bus : buses_) bus->lock();
+  }
+  ~QuietBuses() {
+    for (const auto& bus : buses_) bus->unlock();
+  }
+  QuietBuses(const QuietBuses&) = delete;
+  QuietBuses& operator=(const QuietBuses&) = delete;
+
+ private:
+  const Buses& buses_;
 };
 
 }  // namespace vsa::host

@@ -37,15 +37,17 @@ class Queue {
     taken_.reserve(orders);
   }
 
-  /// All that `fill` hands to its argument, so that no step falls between.
+  /// Up to `most` orders that `fill` hands to its argument: no step falls between, and where memory runs out there is none of them.
   template <class F>
-  void push_all(F&& fill) {
+  void push_all(std::size_t most, F&& fill) {
     const std::lock_guard lock(mutex_);
-    fill([this](T order) { waiting_.push_back(std::move(order)); });
+    const std::size_t room = waiting_.size() + most;
+    if (room > waiting_.capacity()) waiting_.reserve(std::max(room, 2 * waiting_.capacity()));
+    fill([this](T order) noexcept { waiting_.push_back(std::move(order)); });
     any_.store(true, std::memory_order_release);
   }
   void push(T order) {
-    push_all([&](auto&& add) { add(std::move(order)); });
+    push_all(1, [&](auto&& add) { add(std::move(order)); });
   }
 
   template <class F>
@@ -82,7 +84,7 @@ class Queue {
 using CommandQueue = Queue<Order>;
 using FaultQueue = Queue<FaultOrder>;
 
-enum class NoticeKind { preset, limits, port, unresolved, unsettled, energy };
+enum class NoticeKind { preset, limits, port, rate, unresolved, unsettled, energy };
 
 struct RawNotice {
   std::size_t actuator;
@@ -93,7 +95,7 @@ struct RawNotice {
 /// At most one notice of a kind per actuator between resets, so room for them is made once.
 class NoticeList {
  public:
-  void reserve(std::size_t actuators) { list_.reserve(6 * actuators); }
+  void reserve(std::size_t actuators) { list_.reserve(7 * actuators); }
   void push_back(const RawNotice& notice) noexcept {
     const std::lock_guard lock(mutex_);
     if (list_.size() < list_.capacity()) list_.push_back(notice);

@@ -45,11 +45,22 @@ void check_whole(const RobotConfig& config) {
 }
 
 constexpr std::int64_t kLongestStepNs = 16'000'000, kLatestNs = 4'000'000'000'000'000'000;
+constexpr double kLongestPath_s = 1e9;
 
 /// Whether a joint can be worked with.
 bool told(const JointIn& joint) noexcept {
   const double a = joint.inverse_inertia.value_or(0.0);
   return std::isfinite(joint.angle_rad) && std::isfinite(joint.speed_rad_per_s) && a >= 0 && std::isfinite(a);
+}
+
+/// Whether a channel can follow these: some, finite, times that grow.
+bool in_order(const std::vector<Robot::Knot>& knots) noexcept {
+  double last = -1.0;
+  for (const Robot::Knot& k : knots) {
+    if (!std::isfinite(k.value) || !(k.time_s >= 0 && k.time_s > last && k.time_s <= kLongestPath_s)) return false;
+    last = k.time_s;
+  }
+  return !knots.empty();
 }
 
 }  // namespace
@@ -134,7 +145,7 @@ bool Robot::command(std::span<const Command> commands) {
     if (c.actuator >= size()) return false;
     if (!std::isfinite(c.equilibrium_rad.value_or(0.0)) || !std::isfinite(c.preset.value_or(0.0))) return false;
   }
-  impl_->queue.push_all([&](auto&& add) {
+  impl_->queue.push_all(2 * commands.size(), [&](auto&& add) {
     for (const Command& c : commands) {
       if (c.equilibrium_rad) add({c.actuator, Channel::equilibrium, *c.equilibrium_rad});
       if (c.preset) add({c.actuator, Channel::preset, *c.preset});
@@ -144,13 +155,21 @@ bool Robot::command(std::span<const Command> commands) {
 }
 
 bool Robot::follow(std::size_t actuator, Channel channel, std::vector<Knot> knots) {
-  if (actuator >= size() || knots.empty()) return false;
-  double last = -1.0;
-  for (const Knot& k : knots) {
-    if (!std::isfinite(k.time_s) || !std::isfinite(k.value) || k.time_s < 0 || k.time_s <= last || k.time_s > 1e9) return false;
-    last = k.time_s;
-  }
-  impl_->queue.push({actuator, channel, 0.0, std::make_shared<const std::vector<Knot>>(std::move(knots))});
+  std::vector<Path> one;
+  one.push_back({actuator, channel, std::move(knots)});
+  return follow(std::move(one));
+}
+
+bool Robot::follow(std::vector<Path> paths) {
+  if (!std::all_of(paths.begin(), paths.end(), [this](const Path& p) { return p.actuator < size() && in_order(p.knots); }))
+    return false;
+  std::vector<Order> orders;
+  orders.reserve(paths.size());
+  for (Path& p : paths)
+    orders.push_back({p.actuator, p.channel, 0.0, std::make_shared<const std::vector<Knot>>(std::move(p.knots))});
+  impl_->queue.push_all(orders.size(), [&](auto&& add) {
+    for (Order& order : orders) add(std::move(order));
+  });
   return true;
 }
 
@@ -172,11 +191,10 @@ device::PortLine* Robot::serial_line(std::size_t bus) { return bus < impl_->buse
 
 std::shared_ptr<const Robot::Snapshot> Robot::snapshot() const {
   auto s = std::make_shared<Snapshot>();
-  for (const auto& bus : impl_->buses) bus->lock();
+  const QuietBuses quiet(impl_->buses);
   s->made_of = impl_->made_of;
   s->state = impl_->state;
   for (const auto& bus : impl_->buses) s->buses.push_back(bus->state());
-  for (const auto& bus : impl_->buses) bus->unlock();
   return s;
 }
 

@@ -130,6 +130,13 @@ struct Robot::Impl {
     notice(i, slot.noted_limits, out, NoticeKind::limits, q);
   }
 
+  void look_at_client(BusLine& bus) noexcept {
+    if (bus.port() == nullptr || bus.members().empty()) return;
+    const std::size_t first = bus.members().front().index;
+    const device::PortLine::WrongRate wrong = bus.port()->wrong_rate();
+    notice(first, state.actuators[first].noted_rate, wrong.bytes > 0, NoticeKind::rate, static_cast<double>(wrong.client_Hz));
+  }
+
   /// What a user should know of the run as a whole; now and then.
   void look() noexcept {
     actuator::Ledger sum;
@@ -138,6 +145,7 @@ struct Robot::Impl {
       notice(i, slot.noted_unresolved, slot.unit.unresolved > 0, NoticeKind::unresolved, slot.unit.unresolved);
       sum += slot.unit.actuator.ledger;
     }
+    for (const auto& bus : buses) look_at_client(*bus);
     notice(0, state.noted_unsettled, state.unsettled > 0, NoticeKind::unsettled, static_cast<double>(state.unsettled));
     const bool created = sum.coupling < -std::max(kCreated * sum.moved(), kCreatedLeast_J);
     notice(0, state.noted_energy, created, NoticeKind::energy, -sum.coupling / sum.moved());
@@ -150,13 +158,12 @@ struct Robot::Impl {
   }
 
   void restore(const Snapshot& from) {
-    for (const auto& bus : buses) bus->lock();
+    const QuietBuses quiet(buses);
     queue.clear();
     faults.clear();
     state = from.state;
     for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->restore(from.buses[b]);
     if (from.made_of != made_of) adopt(*from.made_of);
-    for (const auto& bus : buses) bus->unlock();
   }
 
   void adopt(const RobotConfig& from) noexcept;  ///< the state came from a robot with these parameters

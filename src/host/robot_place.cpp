@@ -3,6 +3,7 @@
 // Putting an actuator somewhere, giving it other parameters, copying a robot, and whose snapshots it takes.
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <string>
 
 #include "host/robot_impl.hpp"
@@ -60,9 +61,8 @@ void Robot::place(std::size_t actuator, const Placement& at, double step_s) {
   slot.equilibrium.hold(equilibrium);
   slot.preset.hold(at.preset);
   const BusLine& bus = *d.buses[d.config.actuators[actuator].bus];
-  bus.lock();
+  const std::lock_guard quiet(bus);
   unit.place(slot.unit, there);
-  bus.unlock();
 }
 
 void Robot::set_parameters(std::size_t actuator, const UnitConfig& unit) {
@@ -81,11 +81,12 @@ void Robot::Impl::set_parameters(std::size_t i, const UnitConfig& unit) {
   const std::shared_ptr<device::Unit> next = unit_for(unit);
   config.actuators[i].unit = unit;
   made_of = std::make_shared<const RobotConfig>(config);
-  bus.lock();
-  bus.set_unit(state.actuators[i], *next);
-  units[i] = next;
-  next->adopt(state.actuators[i].unit, before);
-  bus.unlock();
+  {
+    const std::lock_guard quiet(bus);
+    bus.set_unit(state.actuators[i], *next);
+    units[i] = next;
+    next->adopt(state.actuators[i].unit, before);
+  }
   make_clusters(std::vector(trees));
   initial.state.actuators[i].unit = first_state(i);
   initial.made_of = made_of;

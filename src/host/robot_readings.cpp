@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -90,6 +91,9 @@ std::vector<Notice> Robot::take_notices() {
         text = "energy out of nothing: " + rounded(100 * n.value) +
                " % of what actuators and bodies exchanged (the ledger's coupling): shorter steps are needed";
         break;
+      case NoticeKind::rate:
+        text = "bus " + impl_->config.buses[a.bus].name + ": " + impl_->buses[a.bus]->port()->wrong_rate().text();
+        break;
       case NoticeKind::port:
         text += ": commands aren't taken: its bus belongs to the serial port " + *impl_->config.buses[a.bus].serial_port;
         break;
@@ -105,10 +109,9 @@ std::array<Ticks, 2> Robot::received_inputs(std::size_t actuator) const {
   const firmware::ProgramState& s = impl_->state.actuators[actuator].unit.program;
   const std::int32_t sign = config.program.model == firmware::Model::advanced ? -1 : 1;
   std::array<Ticks, 2> out;
-  bus.lock();
+  const std::lock_guard quiet(bus);
   for (int i = 0; i < 2; ++i)
     out[i] = {firmware::cut_16(firmware::shift_right(firmware::wrap_mul(sign, s.loop.ref_new[i]), s.memory.stored.resolution[i]))};
-  bus.unlock();
   return out;
 }
 

@@ -53,7 +53,7 @@ struct ActuatorSlot {
   device::UnitState unit;
   Track equilibrium, preset;
   std::array<Ticks, 3> measured{};
-  bool noted_preset = false, noted_limits = false, noted_port = false, noted_unresolved = false;
+  bool noted_preset = false, noted_limits = false, noted_port = false, noted_unresolved = false, noted_rate = false;
 };
 
 struct RobotState {

@@ -128,12 +128,14 @@ void TopicCommands::trajectory(const std::string& topic, const Trajectory& messa
     apply_point(targets, message.points.front().positions);
     return;
   }
+  std::vector<Robot::Path> paths;
   for (std::size_t k = 0; k < targets.size(); ++k) {
-    std::vector<Robot::Knot> knots;
-    knots.reserve(message.points.size());
-    for (const auto& point : message.points) knots.push_back({point.time_from_start_s, point.positions[k]});
-    robot_.follow(targets[k].actuator, targets[k].channel, std::move(knots));
+    Robot::Path& path = paths.emplace_back();
+    path.actuator = targets[k].actuator;
+    path.channel = targets[k].channel;
+    for (const auto& point : message.points) path.knots.push_back({point.time_from_start_s, point.positions[k]});
   }
+  robot_.follow(std::move(paths));
 }
 
 void TopicCommands::apply_point(const std::vector<Target>& targets, const std::vector<double>& values) {

@@ -68,14 +68,12 @@ class Surrogate {
   experiment::Branches branches(const std::vector<double>& values, std::size_t observation) {
     if (watch_ != nullptr && watch_->stop) throw experiment::Stopped();
     const std::shared_ptr<const Known> known = at(values);
-    const double sent = experiment::sent_preset(known->unit, presets_[observation]);
-    return known->model.branches(sent, torques_[observation]);
+    return known->model.branches(presets_[observation], torques_[observation]);
   }
 
  private:
   struct Known {
     std::vector<double> values;
-    device::UnitConfig unit;
     QuasiStatic model;
   };
 
@@ -95,10 +93,10 @@ class Surrogate {
         if (k->values == values) return k;
       }
     }
-    device::UnitConfig unit = specimen_.library.load(specimen_.preset, overrides(parameters_, values, specimen_.overrides)).unit;
+    const device::UnitConfig unit =
+        specimen_.library.load(specimen_.preset, overrides(parameters_, values, specimen_.overrides)).unit;
     if (const auto why = unsupported(unit)) throw std::runtime_error(*why);
-    QuasiStatic model(unit, load_peak_Nm_);
-    auto made = std::make_shared<const Known>(Known{values, std::move(unit), std::move(model)});
+    auto made = std::make_shared<const Known>(Known{values, QuasiStatic(unit, load_peak_Nm_)});
     const std::lock_guard lock(mutex_);
     if (known_.size() == kKept) known_.erase(known_.begin());
     known_.push_back(made);

@@ -55,10 +55,28 @@ std::string entry_text(const config::Entry& e, const Identified* change) {
                      bounds_text(e.bounds), source);
 }
 
+std::string evidence_text(const config::Evidence& e) {
+  std::vector<std::string> names;
+  for (const std::string& n : e.calibrated_on) names.push_back(toml_string(n));
+  return fmt::format("\n[evidence]\ncalibrated_on = {{ value = [{}], source = {} }}\n", config::join(names), toml_string(e.source));
+}
+
 }  // namespace
 
+config::Evidence evidence_with(const std::optional<config::Evidence>& before, const config::Evidence& fitted) {
+  if (!before)
+    return {fitted.calibrated_on, fitted.source + "; the preset that it began from doesn't say what it was calibrated on"};
+  config::Evidence out = *before;
+  if (out.source.find(fitted.source) == std::string::npos) out.source += "; " + fitted.source;
+  for (const std::string& name : fitted.calibrated_on) {
+    if (std::find(out.calibrated_on.begin(), out.calibrated_on.end(), name) == out.calibrated_on.end())
+      out.calibrated_on.push_back(name);
+  }
+  return out;
+}
+
 std::string preset_text(const config::Preset& preset, const std::string& name, const std::vector<Identified>& changes,
-                        const config::PresetLibrary& library) {
+                        const config::Evidence& fitted, const config::PresetLibrary& library) {
   std::vector<std::string> groups{"elastic"};
   std::map<std::string, std::string> body;
   for (const config::Entry& e : preset.entries) {
@@ -70,6 +88,7 @@ std::string preset_text(const config::Preset& preset, const std::string& name, c
   std::string out = "# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0\n\n[preset]\n";
   out += fmt::format("name = {}\ntitle = {}\n", toml_string(name), toml_string(preset.title + ", identified"));
   if (!preset.description.empty()) out += fmt::format("description = {}\n", toml_string(preset.description));
+  out += evidence_text(evidence_with(preset.evidence, fitted));
   for (const std::string& group : groups) {
     out += fmt::format("\n[{}]\n", group);
     if (group == "elastic") out += fmt::format("law = {}\n", toml_string(preset.law));

@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "vsa/errors.hpp"
+#include "vsa/serial/ports.hpp"
 
 namespace vsa::serial {
 namespace {
@@ -53,7 +54,7 @@ void sign(int lock) {
 PortLink::PortLink(const std::string& path) : path_(path) {
   const std::filesystem::path p(path);
   if (p.filename().empty()) refuse(path, "names no file", "a path such as /tmp/vsa-arm");
-  lock_path_ = (p.parent_path() / ("." + p.filename().string() + ".lock")).string();
+  lock_path_ = lock_path(path);
   take_lock();
   struct stat there {};
   if (lstat(path_.c_str(), &there) != 0) return;
@@ -66,11 +67,16 @@ PortLink::PortLink(const std::string& path) : path_(path) {
 
 void PortLink::take_lock() {
   while (true) {
-    constexpr int kFlags = O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NOCTTY;
-    Descriptor lock(open(lock_path_.c_str(), kFlags | O_EXCL, 0644));
+    constexpr int kFlags = O_CLOEXEC | O_NOFOLLOW | O_NOCTTY;
+    Descriptor lock(open(lock_path_.c_str(), O_RDWR | O_CREAT | O_EXCL | kFlags, 0644));
     lock_is_new_ = static_cast<bool>(lock);
-    if (!lock) lock = Descriptor(open(lock_path_.c_str(), kFlags, 0644));
-    if (!lock) refuse(path_, "can't be made: " + std::string(std::strerror(errno)), "a path in a directory that can be written");
+    if (!lock) lock = Descriptor(open(lock_path_.c_str(), O_RDWR | kFlags));
+    if (!lock) lock = Descriptor(open(lock_path_.c_str(), O_RDONLY | kFlags));  // another user's: enough for a lock
+    if (!lock && errno == ENOENT) continue;                                     // gone meanwhile
+    if (!lock) {
+      const std::string why = std::strerror(errno);
+      refuse(path_, "its lock " + lock_path_ + " can't be made: " + why, "a directory for locks that can be written");
+    }
     if (flock(lock.get(), LOCK_EX | LOCK_NB) != 0) {
       refuse(path_, "another program serves this port" + owner_in(lock.get()), "another path, or end that program first");
     }
@@ -83,7 +89,11 @@ void PortLink::take_lock() {
 }
 
 void PortLink::point_to(const std::string& target) {
-  const std::string fresh = lock_path_ + "." + std::to_string(getpid());
+  // Beside it under a name that holds nothing of the port's, by which programs for the hardware find theirs.
+  struct stat lock {};
+  fstat(lock_.get(), &lock);
+  const std::string name = ".vsa-" + std::to_string(getpid()) + "-" + std::to_string(lock.st_ino);
+  const std::string fresh = (std::filesystem::path(path_).parent_path() / name).string();
   unlink(fresh.c_str());
   if (symlink(target.c_str(), fresh.c_str()) != 0 || rename(fresh.c_str(), path_.c_str()) != 0) {
     const std::string why = std::strerror(errno);

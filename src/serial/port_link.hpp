@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The stable name of a pseudo-terminal: a symbolic link, and beside it a locked file that says its owner lives.
+// The stable name of a pseudo-terminal: a symbolic link, and elsewhere (serial::lock_path) a locked file that says its owner lives.
 #pragma once
 
 #include <string>

@@ -3,8 +3,12 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -22,13 +26,31 @@ fs::path directory() {
   return runtime != nullptr && fs::is_directory(runtime, none) ? fs::path(runtime) : fs::path("/tmp");
 }
 
+fs::path lock_directory() {
+  constexpr const char* kLocks = "/run/lock";  // Filesystem Hierarchy Standard 3.0
+  std::error_code none;
+  return fs::is_directory(kLocks, none) && access(kLocks, W_OK | X_OK) == 0 ? fs::path(kLocks) : directory();
+}
+
+/// FNV-1a, 64 bits, in hex.
+std::string hash_of(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3;
+  std::array<char, 17> hex{};
+  std::snprintf(hex.data(), hex.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return hex.data();
+}
+
 enum class Which { all, served, left_behind };
 
-/// Its owner holds a lock on the file beside it; one that was killed leaves that file.
+/// Its owner holds a lock; one that was killed leaves its lock's file, or at least a link to a terminal that is gone.
 bool is(const fs::path& link, Which which) {
-  const std::string lock = (link.parent_path() / ("." + link.filename().string() + ".lock")).string();
-  const Descriptor fd(open(lock.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NOCTTY | O_NONBLOCK));
-  return fd && (flock(fd.get(), LOCK_SH | LOCK_NB) != 0) == (which == Which::served);
+  std::error_code none;
+  const Descriptor fd(open(lock_path(link.string()).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NOCTTY | O_NONBLOCK));
+  const bool served = fd && flock(fd.get(), LOCK_SH | LOCK_NB) != 0;
+  if (which == Which::served) return served;
+  const bool to_terminal = fs::read_symlink(link, none).string().rfind("/dev/pts/", 0) == 0;
+  return !served && (fd || (to_terminal && !fs::exists(link, none)));
 }
 
 std::vector<std::string> names_in(const fs::path& where, std::string_view prefix, Which which) {
@@ -50,6 +72,15 @@ std::string port_path(std::string_view name) {
   if (name.find('/') != std::string_view::npos) return std::string(name);
   const std::string prefix(name.rfind(kPrefix, 0) == 0 ? std::string_view() : kPrefix);
   return (directory() / (prefix + std::string(name))).string();
+}
+
+std::string lock_path(std::string_view port) {
+  constexpr std::size_t kMostOfName = 100;
+  std::error_code none;
+  const fs::path path = fs::absolute(fs::path(port), none);
+  const fs::path place = fs::weakly_canonical(path.parent_path(), none) / path.filename();
+  const std::string name = place.filename().string().substr(0, kMostOfName);
+  return (lock_directory() / (std::string(kPrefix) + name + "-" + hash_of(place.string()) + ".lock")).string();
 }
 
 PortList find_ports() {

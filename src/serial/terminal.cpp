@@ -24,6 +24,11 @@ bool make_raw(int fd) noexcept {
   return ioctl(fd, TCSETS2, &t) == 0;
 }
 
+std::int64_t baud_of(int fd) noexcept {
+  termios2 t{};
+  return ioctl(fd, TCGETS2, &t) == 0 ? static_cast<std::int64_t>(t.c_ospeed) : 0;
+}
+
 bool set_baud(int fd, std::int64_t baud_Hz) noexcept {
   termios2 t{};
   if (baud_Hz < 1 || baud_Hz > 100'000'000 || ioctl(fd, TCGETS2, &t) != 0) return false;

@@ -41,6 +41,8 @@ bool TerminalPair::open_theirs() noexcept {
 
 void TerminalPair::add_watch() noexcept { watch_id_ = inotify_add_watch(watch_.get(), device_.c_str(), IN_CLOSE); }
 
+std::int64_t TerminalPair::clients_baud_Hz() const noexcept { return baud_of(ours_.get()); }
+
 bool TerminalPair::somebody_left() const noexcept {
   bool left = false;
   alignas(inotify_event) std::array<char, 4096> events{};

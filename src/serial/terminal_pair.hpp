@@ -3,6 +3,7 @@
 // A pseudo-terminal: our end, the client's end, which we keep open too, and a watch that tells when a client closed it.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "serial/descriptor.hpp"
@@ -16,6 +17,8 @@ class TerminalPair {
   [[nodiscard]] int ours() const noexcept { return ours_.get(); }
   [[nodiscard]] int watch() const noexcept { return watch_.get(); }  ///< readable: somebody may have closed the client's end
   [[nodiscard]] const std::string& device() const noexcept { return device_; }
+
+  [[nodiscard]] std::int64_t clients_baud_Hz() const noexcept;  ///< what the client's end is set to; 0: hung up
 
   /// Reads what the watch has to tell; true: somebody closed the client's end.
   [[nodiscard]] bool somebody_left() const noexcept;

@@ -133,6 +133,7 @@ std::optional<std::size_t> VirtualPort::Server::receive() {
 
 void VirtualPort::Server::exchange(std::span<const std::uint8_t> bytes) {
   const auto before = Clock::now();
+  line_.set_rate(pair_.clients_baud_Hz());
   line_.exchange(bytes, answer_);
   longest_exchange_.at_least(nanoseconds(Clock::now() - before));
   exchanges_.add(1);

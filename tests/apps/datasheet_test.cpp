@@ -38,19 +38,19 @@ TEST(Datasheet, HasTheNumbersOfLawAndDrive) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(result.err.empty()) << "no progress in a pipe: " << result.err;
   const std::string html = data_of(scratch / "sheet.html");
-  // With V = 12 V · 61/101 and M = K_τ V/R − τ_c: σ from 2 a k to 2 a √(k² + M²), τ = 2 M − τ_shaft; full output at 100 %/(0.1
-  // %/tick).
-  expect_holds(html, {"\"one_page\":true", "\"Stiffness and preset\"", "\"Step of the preset\"", "\"3.43 N·m\"", "\"0.301 … 23.6\"",
+  // With V = 12 V · 61/101 and M = K_τ V/R − τ_c: σ from 2 a k to 2 a k cosh(a · 0.785 rad), τ = 2 M − τ_shaft; full output at
+  // 100 %/(0.1 %/tick).
+  expect_holds(html, {"\"one_page\":true", "\"Stiffness and preset\"", "\"Step of the preset\"", "\"4.82 N·m\"", "\"0.301 … 32.6\"",
                       "two_sinh", "k1 = 0.022 N·m", "vsa datasheet qbmove_maker_pro_paper"});
-  expect_holds(result.out, {"2.87 / 5.49", "stiffness variation time", "written: " + (scratch / "sheet.html").string()});
+  expect_holds(result.out, {"2.61 / 5.49", "stiffness variation time", "written: " + (scratch / "sheet.html").string()});
   EXPECT_FALSE(std::filesystem::exists(scratch / "sheet.html.part"));
 }
 
 TEST(Datasheet, AgreesWithCharacterize) {
   const Scratch scratch;
-  const auto sheet = run_vsa({"datasheet", "qbmove_maker_pro", "--out", scratch / "sheet.html"});
+  const auto sheet = run_vsa({"datasheet", "qbmove_maker_pro_6_1", "--out", scratch / "sheet.html"});
   const auto measured = run_vsa(
-      {"characterize", "qbmove_maker_pro", "--experiment", "speed", "--experiment", "preset-step", "--out", scratch / "measured"});
+      {"characterize", "qbmove_maker_pro_6_1", "--experiment", "speed", "--experiment", "preset-step", "--out", scratch / "measured"});
   ASSERT_EQ(sheet.exit_code, 0) << sheet.err;
   ASSERT_EQ(measured.exit_code, 0) << measured.err;
   const auto speeds = words_after(sheet.out, "mean speed 10–90 %, preset 0 / 0.75");  // "4.38 / 3.72 rad/s …"

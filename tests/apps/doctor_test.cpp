@@ -102,8 +102,9 @@ TEST(Doctor, IgnOrGzWithoutGazeboIsNone) {
 }
 
 TEST(Doctor, ALibraryThatIsNoneOrLacksAnotherOrIsAnotherGazebosIsAProblem) {
-  const auto with = [](const std::string& directory) {
+  const auto with = [](const std::string& directory, const std::string& program = "") {
     Machine machine;
+    if (!program.empty()) machine.add_program(program);
     machine.set("GAZEBO_PLUGIN_PATH", directory);
     return machine.doctor();
   };
@@ -113,7 +114,10 @@ TEST(Doctor, ALibraryThatIsNoneOrLacksAnotherOrIsAnotherGazebosIsAProblem) {
   expect(with((scratch / "").string()), 1,
          {"problem: plug-in for Gazebo Classic: ", "can't be loaded", "build the plug-in against"});
   expect(with(made + "lacking"), 1, {"problem: plug-in for Gazebo Classic: ", "lacks libgazebo_physics-absent.so"});
-  expect(with(made + "foreign"), 1, {"is another Gazebo's plug-in", "first in GAZEBO_PLUGIN_PATH"});
+  expect(with(made + "foreign", "gzserver"), 1, {"is another Gazebo's plug-in", "first in GAZEBO_PLUGIN_PATH"});
+  const Result without_classic = with(made + "foreign");
+  expect(without_classic, 0, {"0 problems"});
+  expect_none(without_classic, "plug-in for Gazebo Classic");
   expect(with(made + "undefined"), 1, {"was built for other versions of its libraries: none has vsa_doctor_nowhere"});
   expect(with(made + "whole"), 0, {"ok: plug-in for Gazebo Classic: " + made + "whole/libvsa-robot.so"});
 }
@@ -154,7 +158,6 @@ TEST(Doctor, PortsThatCannotBeOpenedAreProblemsAndDeadOnesNotes) {
   fs::create_symlink("/nowhere", machine.scratch / "dev" / "ttyACM0");
   fs::remove(machine.scratch / "dev" / "cpu_dma_latency");
   fs::create_symlink("/dev/pts/99999", machine.scratch / "run" / "vsa-dead");
-  write_file(machine.scratch / "run" / ".vsa-dead.lock", "1");
   fs::create_symlink("/dev/null", machine.scratch / "run" / "vsa-somebody-elses");
   const Result result = machine.doctor();
   expect(result, 1,

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -21,7 +22,7 @@ using vsa::test::write_file;
 
 using Arguments = std::vector<std::string>;
 
-/// vsa emulate qbmove_maker_pro on a port of its own, which is there.
+/// vsa emulate qbmove_maker_pro_6_1 on a port of its own, which is there.
 class Emulated {
  public:
   explicit Emulated(const Arguments& more = {}) : path((scratch / "port").string()), process_(arguments(path, more)) {
@@ -41,7 +42,7 @@ class Emulated {
 
  private:
   static Arguments arguments(const std::string& path, const Arguments& more) {
-    Arguments all{"emulate", "qbmove_maker_pro", "--port", path};
+    Arguments all{"emulate", "qbmove_maker_pro_6_1", "--port", path};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -76,7 +77,7 @@ TEST(Emulate, TellsItsPortAndRemovesItWhenASignalEndsIt) {
 
 TEST(Emulate, ADurationEndsItAndASignalThatCutsItShortShows) {
   const Scratch scratch;
-  const Arguments arguments{"emulate", "qbmove_maker_pro", "--port", (scratch / "port").string(), "--duration-s"};
+  const Arguments arguments{"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--duration-s"};
   Arguments brief = arguments;
   brief.emplace_back("0.05");
   expect(run_vsa(brief), 0, {"0.050 s in"});
@@ -89,7 +90,7 @@ TEST(Emulate, BadInputIsToldBeforeThereIsAPort) {
   const Scratch scratch;
   const std::string path = (scratch / "port").string();
   const auto with = [&path](Arguments more) {
-    more.insert(more.begin(), {"emulate", "qbmove_maker_pro", "--port", path});
+    more.insert(more.begin(), {"emulate", "qbmove_maker_pro_6_1", "--port", path});
     return run_vsa(more);
   };
   expect(with({"--units", "0"}), 2, {"ids"});
@@ -106,7 +107,24 @@ TEST(Emulate, BadInputIsToldBeforeThereIsAPort) {
 TEST(Emulate, APortThatIsServedIsRefused) {
   Emulated units;
   ASSERT_TRUE(units.ready);
-  expect(run_vsa({"emulate", "qbmove_maker_pro", "--port", units.path}), 2, {"another program serves"});
+  expect(run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", units.path}), 2, {"another program serves"});
+}
+
+TEST(Emulate, AClientAtAnotherRateGetsNothingAndTheUserIsTold) {
+  Emulated units;
+  ASSERT_TRUE(units.ready);
+  const Arguments slow{"--id", "1", "--baud-Hz", "460800", "--timeout-ms", "20"};
+  Arguments ping{"ping", units.path};
+  ping.insert(ping.end(), slow.begin(), slow.end());
+  expect(run_vsa(ping), 1, {"no answer from unit 1"});
+  expect(units.vsa({"ping", "--id", "1"}), 0, {"1     6"});
+  const Result ended = units.end();
+  expect(ended, 0, {"warning: the client's serial port is set to 460800 bit/s, the units listen at 2000000", " at another rate"});
+  EXPECT_EQ(ended.out.find(" 0 at another rate"), std::string::npos) << ended.out;
+  Emulated patient({"--any-rate"});
+  ASSERT_TRUE(patient.ready);
+  expect(patient.vsa({"ping", "--id", "1", "--baud-Hz", "460800"}), 0, {"1     6"});
+  EXPECT_EQ(patient.end().err, "");
 }
 
 TEST(Ping, ListsTheUnitsThatAnswerAndFailsForOthers) {
@@ -133,7 +151,7 @@ TEST(Ping, WithoutAPortTakesTheOnlyVirtualOne) {
   const Scratch runtime;
   vsa::test::Surroundings alone;
   alone.environment = {{"XDG_RUNTIME_DIR", (runtime / "").string()}};
-  Subprocess units({"emulate", "qbmove_maker_pro", "--port", "arm"}, alone);
+  Subprocess units({"emulate", "qbmove_maker_pro_6_1", "--port", "arm"}, alone);
   ASSERT_TRUE(units.read_until([](const Result& r) { return r.out.find("Ctrl-C") != std::string::npos; }));
   expect(run_vsa({"ping", "--id", "1", "--timeout-ms", "20000"}, alone), 0, {"vsa-arm"});
   expect(run_vsa({"get", "arm", "active", "--timeout-ms", "20000"}, alone), 0, {"off"});
@@ -257,7 +275,9 @@ void connect_and_die(const std::string& path) {
   const pid_t client = fork();
   if (client == 0) {
     const int fd = open(path.c_str(), O_RDWR | O_NOCTTY);
-    const bool said = fd >= 0 && write(fd, "::\x01\x02", 4) == 4;
+    termios settings{};
+    bool said = tcgetattr(fd, &settings) == 0 && cfsetspeed(&settings, B2000000) == 0 && tcsetattr(fd, TCSANOW, &settings) == 0;
+    said = said && write(fd, "::\x01\x02", 4) == 4;
     _exit(said ? 0 : 1);
   }
   int status = 0;

@@ -45,7 +45,7 @@ TEST(Usage, AWordNobodyKnowsIsNamedWithTheNearestThatMeansSomething) {
   expect_bad_input(run_vsa({"run", "bench_free", "--duratoin-s", "3"}),
                    {"vsa: run: --duratoin-s: no such option, did you mean --duration-s?"});
   expect_bad_input(run_vsa({"run", "bench_free", "--duratoin-s=3"}), {"--duratoin-s: no such option"});
-  expect_bad_input(run_vsa({"actuators", "qbmove_maker_pro", "twice"}), {"vsa: actuators: twice: one word too many"});
+  expect_bad_input(run_vsa({"actuators", "qbmove_maker_pro_6_1", "twice"}), {"vsa: actuators: twice: one word too many"});
 }
 
 TEST(Usage, AnEmptyArgumentIsRefusedAndNamed) {

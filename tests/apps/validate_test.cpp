@@ -3,6 +3,7 @@
 // `vsa validate` as its users run it, on the shipped recordings and preset.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -34,31 +35,65 @@ std::vector<std::string> form(const std::string& text) {
   return out;
 }
 
+void has(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+}
+
+/// A record as `vsa identify` writes one, of a preset with another motor friction.
+std::string foreign_record() {
+  return R"({"program": "vsa", "command": "vsa identify here", "more": [1], "parameters": [{"name": "drive.load_loss"}], "identified_values": {"drive.friction_Nm": "9"},
+    "leave_one_preset_out": [{"preset": 0.6903, "values": [], "rms_rad": 0.0412, "rms_rad_fitted_to_all": 0.0123}]})";
+}
+
+const std::filesystem::path kRecordings = std::filesystem::path(VSA_SOURCE_DIR) / "data" / "qbmove_maker_pro";
+
 TEST(Validate, HoldsTheStatedBoundsAndWritesTheDocumentsTables) {
   const Scratch scratch;
   const auto r = run_vsa({"validate", "--out", (scratch / "out").string(), "--markdown", (scratch / "v.md").string()});
   EXPECT_EQ(r.exit_code, 0) << r.out << r.err;
-  const std::string json = read_file(scratch / "out" / "results.json");
-  for (const char* part : {"\"passed\": true", "stiffness.0.0000.rms_rad", "stiffness.0.6903.loop_area_ratio",
-                           "speed.0.1125.mean_pulley_rad_per_s", "preset_step.loaded.attained_rad", "\"period_s\": 76.0"}) {
-    EXPECT_NE(json.find(part), std::string::npos) << part;
-  }
+  EXPECT_EQ(r.out.rfind("The recordings (presets 0.0000, 0.6903 rad) are digitised from a figure", 0), 0u) << "said first\n"
+                                                                                                           << r.out;
+  has(r.out, {"qbmove_maker_pro was calibrated on stiffness.0.0000, stiffness.0.6903",
+              "Predictions held: ", "calibrated figures within their guard: "});
+  has(read_file(scratch / "out" / "results.json"),
+      {"\"passed\": true", "stiffness.0.0000.rms_rad", "stiffness.0.6903.rms_Nm", "stiffness.0.6903.loop_area_ratio",
+       "speed.0.1125.mean_pulley_rad_per_s", "preset_step.loaded.attained_rad", "\"period_s\": 76.0", "\"kind\": \"calibrated\""});
   EXPECT_GT(std::filesystem::file_size(scratch / "out" / "report.html"), 100000u);
-  const auto written = form(read_file(scratch / "v.md"));
-  EXPECT_EQ(written.size(), 12u);
-  EXPECT_EQ(written, form(read_file(std::filesystem::path(VSA_SOURCE_DIR) / "docs" / "validation.md")))
+  const std::string written = read_file(scratch / "v.md");
+  for (const char* preset : {"0.0000", "0.6903"}) {
+    const std::string name = std::string("figures/v-stiffness-") + preset + ".svg";
+    has(written, {"](" + name + ")"});
+    has(read_file(scratch / name), {"<svg ", "recorded, rising", "simulated, falling", "</svg>"});
+  }
+  EXPECT_EQ(form(written), form(read_file(std::filesystem::path(VSA_SOURCE_DIR) / "docs" / "validation.md")))
       << "write them anew: vsa validate --markdown docs/validation.md";
 }
 
-TEST(Validate, EndsWithOneWhereABoundIsBrokenAndStillWrites) {
+/// What somebody has recorded since is a prediction, whatever else is broken or out of date.
+TEST(Validate, CountsAnUnseenRecordingAsPredictedAndEndsWithOneWhereABoundIsBroken) {
   const Scratch scratch;
-  write_file(scratch / "b.toml", "[[bound]]\nquantity = \"stiffness.0.6903.rms_rad\"\nmax = 1e-6\nwhy = \"nothing does\"\n");
+  std::filesystem::create_directories(scratch / "mine");
+  std::filesystem::copy_file(kRecordings / "stiffness_preset_0.6903rad_branches.csv",
+                             scratch / "mine" / "stiffness_preset_0.4602rad_branches.csv");
+  write_file(scratch / "b.toml",
+             "[[bound]]\nquantity = \"stiffness.0.6903.rms_rad\"\nmax = 1\nwhy = \"fitted\"\n"
+             "[[bound]]\nquantity = \"stiffness.0.4602.rms_rad\"\nmax = 1e-6\nwhy = \"nothing does\"\n");
+  write_file(scratch / "loo.json", foreign_record());
   write_file(scratch / "doc.md", std::string("# Kept\n") + kBegin + "\nold\n" + kEnd + "\nkept too\n");
   const auto r = run_vsa({"validate", "--bounds", (scratch / "b.toml").string(), "--out", (scratch / "out").string(), "--markdown",
-                          (scratch / "doc.md").string()});
+                          (scratch / "doc.md").string(), "--recordings", (scratch / "mine").string(), "--leave-one-out",
+                          (scratch / "loo.json").string()});
   EXPECT_EQ(r.exit_code, 1) << r.err;
-  EXPECT_NE(r.err.find("broken"), std::string::npos);
-  EXPECT_NE(read_file(scratch / "out" / "results.json").find("\"passed\": false"), std::string::npos);
+  has(r.err, {"broken"});
+  has(r.out, {"The recording (preset 0.4602 rad) is of an origin that nobody states", "STALE",
+              "drive.load_loss was fitted again and every other value held", "drive.friction_Nm was 9 and is", "0.0412",
+              "Predictions held: 0 of 1; calibrated figures within their guard: 1 of 1."});
+  has(r.out, {"The recordings (presets 0.0000, 0.6903 rad) are digitised from a figure"});
+  const std::string errors = r.out.substr(std::min(r.out.size(), r.out.find("Simulated − recorded")));
+  EXPECT_LT(errors.find("predicted"), errors.find("calibrated")) << "predictions first\n" << r.out;
+  EXPECT_LT(r.out.find("Leave one recording out"), r.out.find("Predictions held to a bound"));
+  has(read_file(scratch / "out" / "results.json"),
+      {"\"passed\": false", "\"kind\": \"predicted\"", "\"rms_predicted_rad\": 0.0412"});
   const std::string doc = read_file(scratch / "doc.md");
   EXPECT_EQ(doc.rfind("# Kept\n", 0), 0u);
   EXPECT_NE(doc.find("\nkept too\n"), std::string::npos);
@@ -74,12 +109,61 @@ TEST(Validate, RefusesBadInputBeforeItSimulates) {
     EXPECT_NE(r.err.find(part), std::string::npos) << r.err;
   };
   write_file(scratch / "broken.toml", "[[bound]\n");
+  write_file(scratch / "claim.toml",
+             "[[bound]]\nquantity = \"stiffness.0.6903.rms_rad\"\nmax = 1\nwhy = \"y\"\nkind = \"predicted\"\n");
   write_file(scratch / "plain.md", "no markers\n");
   refused({"--bounds", (scratch / "broken.toml").string()}, "broken.toml:1");
   refused({"--bounds", (scratch / "none.toml").string()}, "can't be read");
+  refused({"--bounds", (scratch / "claim.toml").string()}, "calibrated on stiffness.0.6903.rms_rad");
   refused({"--markdown", (scratch / "plain.md").string()}, "vsa validate: tables");
   refused({"--preset", "nobody"}, "nobody");
+  refused({"--preset", "sea_example"}, "isn't in the unit of sea_example");
   refused({"--set", "shaft.friction_Nm"}, "--set");
+}
+
+TEST(Validate, RefusesRecordingsThatItCouldNotNameApart) {
+  const Scratch scratch;
+  const auto refused = [&](const std::string& directory, const std::string& part) {
+    const auto r = run_vsa({"validate", "--recordings", (scratch / directory).string()});
+    EXPECT_EQ(r.exit_code, 2) << r.err;
+    EXPECT_NE(r.err.find(part), std::string::npos) << r.err;
+  };
+  for (const char* name : {"empty", "again", "unit", "broken"}) std::filesystem::create_directories(scratch / name);
+  std::filesystem::copy_file(kRecordings / "stiffness_preset_0.6903rad_samples.csv",
+                             scratch / "again" / "stiffness_preset_0.69030rad_samples.csv");
+  std::filesystem::copy_file(kRecordings / "stiffness_preset_0.6903rad_samples.csv",
+                             scratch / "unit" / "stiffness_preset_0.4602mm_samples.csv");
+  write_file(scratch / "broken" / "stiffness_preset_0.4602rad.csv", "time_s,load_torque_Nm,deflection_rad\n0,1,x\n");
+  refused("none", "isn't a directory");
+  refused("empty", "holds no recording");
+  refused("again", "another recording has this preset: qbmove_maker_pro/stiffness_preset_0.6903rad_branches.csv");
+  refused("unit", "isn't in the unit of qbmove_maker_pro");
+  refused("broken", "stiffness_preset_0.4602rad.csv:2");
+}
+
+TEST(Validate, RefusesALeaveOneOutRecordThatIsNone) {
+  const Scratch scratch;
+  const auto refused = [&](const std::string& text, const std::string& part) {
+    write_file(scratch / "r.json", text);
+    const auto r = run_vsa({"validate", "--leave-one-out", (scratch / "r.json").string()});
+    EXPECT_EQ(r.exit_code, 2) << r.err;
+    EXPECT_NE(r.err.find(part), std::string::npos) << r.err;
+    EXPECT_NE(r.err.find("r.json"), std::string::npos) << r.err;
+  };
+  refused("{", "isn't JSON");
+  refused("[]", "isn't an object");
+  refused("{}", "command");
+  refused(R"({"command": "x", "parameters": []})", "holds no parameter");
+  refused(R"({"command": "x", "parameters": [{"name": 3}]})", "parameters.name");
+  refused(R"({"command": "x", "parameters": [{"name": "a"}], "identified_values": {}, "leave_one_preset_out": []})",
+          "no preset that was left out");
+  refused(R"({"command": "x", "parameters": [{"name": "a"}], "identified_values": {}, "leave_one_preset_out": [{"preset": "a"}]})",
+          "leave_one_preset_out.preset");
+  refused(R"({"command": "x", "parameters": [{"name": "a"}], "identified_values": {"drive.x": 3},
+    "leave_one_preset_out": [{"preset": 0, "rms_rad": null, "rms_rad_fitted_to_all": 1}]})",
+          "identified_values.drive.x");
+  const auto r = run_vsa({"validate", "--leave-one-out", (scratch / "none.json").string()});
+  EXPECT_EQ(r.exit_code, 2);
 }
 
 }  // namespace

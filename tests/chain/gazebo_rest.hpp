@@ -36,7 +36,7 @@ inline void expect_gazebo_quiet(const GazeboRun& run, bool every, const std::str
       }
       continue;
     }
-    for (const char* type : {"qbmove_maker_pro", "qbmove_advanced"}) {
+    for (const char* type : {"qbmove_maker_pro_6_1", "qbmove_advanced"}) {
       chain.type = type;
       for_every_rest_case(chain, {0.575, 0.785}, {1e-3, 4e-3}, [&](const RestCase& c) { table.expect_quiet(c); });
     }

@@ -68,7 +68,7 @@ TEST(Chain, MeetsTheCouplingCriterionInTheEmbeddedEngine) {
 TEST(Chain, ABareFlangeKickedFarStaysBoundedAtEveryStep) {
   for (const double step : {0.5e-3, 1e-3, 2e-3, 4e-3}) {
     for (const bool losses : {false, true}) {
-      for (const char* preset : {"qbmove_maker_pro", "qbmove_maker_pro_paper"}) {
+      for (const char* preset : {"qbmove_maker_pro_6_1", "qbmove_maker_pro_paper"}) {
         FlangeWorld f;
         f.preset = preset;
         f.inertia_kgm2 = 1e-4;
@@ -113,7 +113,7 @@ void keeps_its_energy(const char* preset) {
 }
 
 TEST(Chain, KeepsItsEnergyOverTenPeriodsAtHalfAMillisecond) {
-  keeps_its_energy("qbmove_maker_pro");
+  keeps_its_energy("qbmove_maker_pro_6_1");
   keeps_its_energy("qbmove_maker_pro_paper");
 }
 

@@ -52,7 +52,7 @@ double growth(const std::string& preset, int links, double inertia_kgm2, double 
 
 TEST(SerialChain, OfModulesKickedHardAtTheLargestPresetNeverGainsEnergy) {
   // 1e-3 kg·m², 0.2 kg: lighter than a qbmove. Half a radian at p = 0.785 rad is 11 J a joint.
-  for (const char* preset : {"qbmove_maker_pro", "qbmove_maker_pro_paper"}) {
+  for (const char* preset : {"qbmove_maker_pro_6_1", "qbmove_maker_pro_paper"}) {
     for (const int links : {2, 4, 8}) {
       EXPECT_LE(growth(preset, links, 1e-3, 1e-3, 0.5), 1.0) << preset << ' ' << links;
       EXPECT_LE(growth(preset, links, 1e-3, 2e-3, 0.2), 1.0) << preset << ' ' << links;
@@ -62,7 +62,7 @@ TEST(SerialChain, OfModulesKickedHardAtTheLargestPresetNeverGainsEnergy) {
 
 TEST(SerialChain, OfBareFlangesGainsNoMoreThanTheStepsInWhichItFolds) {
   // 0.02 kg: speeds of 100 rad/s fold the chain within few steps, and with it B.
-  for (const char* preset : {"qbmove_maker_pro", "qbmove_maker_pro_paper"}) {
+  for (const char* preset : {"qbmove_maker_pro_6_1", "qbmove_maker_pro_paper"}) {
     for (const int links : {2, 4, 8}) {
       for (const double step_s : {0.5e-3, 1e-3, 4e-3})
         EXPECT_LE(growth(preset, links, 1e-4, step_s, 0.2), 1.01) << preset << ' ' << links;

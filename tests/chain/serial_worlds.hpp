@@ -10,7 +10,7 @@ namespace vsa::test {
 
 struct SerialWorld {
   int joints = 2;
-  std::string type = "qbmove_maker_pro";
+  std::string type = "qbmove_maker_pro_6_1";
   double preset = 0.785;
   double step_s = 1e-3;
   bool gravity = false;

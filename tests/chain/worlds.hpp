@@ -13,7 +13,7 @@ struct FlangeWorld {
   double preset_rad = 0.611;
   double step_s = 1e-3;
   bool losses = true;
-  std::string preset = "qbmove_maker_pro";
+  std::string preset = "qbmove_maker_pro_6_1";
   bool gravity = false;
   double mass_kg = 0.05, arm_m = 0.0;  ///< centre of mass of the flange from the axis
   double friction_Nm = 0.8;

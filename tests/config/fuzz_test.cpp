@@ -100,7 +100,7 @@ TEST(Fuzz, MutatedPresetsAreReadOrRefused) {
   Mutator mutator(1);
   const config::PresetLibrary library = shipped();
   int read_well = 0;
-  for (const std::string name : {"qbmove_maker_pro", "sea_example"}) {
+  for (const std::string name : {"qbmove_maker_pro_6_1", "sea_example"}) {
     const std::string good = preset_text(name);
     for (int i = 0; i < kRounds; ++i) read_well += load_text(library, name, mutator.mutate(good)) ? 1 : 0;
   }
@@ -117,9 +117,9 @@ TEST(Fuzz, DeeplyNestedTomlIsRefused) { EXPECT_FALSE(load_text(shipped(), "x", "
 
 TEST(Fuzz, MutatedOverridesAreReadOrRefused) {
   Mutator mutator(3);
-  const std::string good = preset_text("qbmove_maker_pro");
+  const std::string good = preset_text("qbmove_maker_pro_6_1");
   for (int i = 0; i < kRounds / 4; ++i) {
-    (void)load_text(shipped(), "qbmove_maker_pro", good, {{mutator.mutate("drive.friction_Nm"), mutator.mutate("0.7")}});
+    (void)load_text(shipped(), "qbmove_maker_pro_6_1", good, {{mutator.mutate("drive.friction_Nm"), mutator.mutate("0.7")}});
   }
 }
 

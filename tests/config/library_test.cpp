@@ -58,14 +58,14 @@ TEST(Override, WorksForWordsSwitchesWholeNumbersAndAbsentOptionalKeys) {
 }
 
 TEST(Override, TurnsOnTheBridgeAsACircuitAndAnOlderLoop) {
-  const auto as_shipped = shipped().load("qbmove_maker_pro").unit;
+  const auto as_shipped = shipped().load("qbmove_maker_pro_6_1").unit;
   EXPECT_EQ(as_shipped.actuator.bridge.pin, drive::PwmPin::input);
   EXPECT_EQ(as_shipped.actuator.bridge.period_s, 50.5e-6);
   EXPECT_EQ(as_shipped.actuator.bridge.switch_Ohm, 0.0);
   EXPECT_FALSE(as_shipped.actuator.gearbox.back_loss.has_value());
   EXPECT_EQ(as_shipped.program.generation, firmware::Generation::v6);
   const auto u = shipped()
-                     .load("qbmove_maker_pro", {{"drive.pwm_pin", "enable"},
+                     .load("qbmove_maker_pro_6_1", {{"drive.pwm_pin", "enable"},
                                                 {"drive.pwm_period_s", "1e-5"},
                                                 {"drive.inductance_H", "2e-4"},
                                                 {"drive.switch_Ohm", "0.24"},
@@ -83,7 +83,7 @@ TEST(Override, TurnsOnTheBridgeAsACircuitAndAnOlderLoop) {
 
 TEST(Override, OfTheBridgeOrTheLoopThatDoNotGoTogetherAreRefused) {
   const auto told = [](std::vector<Override> o) {
-    return text_of(problems_of([&] { (void)shipped().load("qbmove_maker_pro", o); }));
+    return text_of(problems_of([&] { (void)shipped().load("qbmove_maker_pro_6_1", o); }));
   };
   expect_pieces(told({{"drive.pwm_pin", "enable"}}), {"drive.inductance_H", "needs the winding's inductance"});
   expect_pieces(told({{"firmware.model", "advanced"}, {"firmware.generation", "4"}}), {"firmware.generation", "maker pro"});
@@ -109,7 +109,7 @@ TEST(Override, ThatIsBadIsRefusedByNameOfTheOverride) {
       {{"sensor.encoder_bits", "12.0"}, "must be a whole number"},
   };
   for (const auto& [given, message] : table) {
-    const auto problems = problems_of([&, o = given] { (void)shipped().load("qbmove_maker_pro", {o}); });
+    const auto problems = problems_of([&, o = given] { (void)shipped().load("qbmove_maker_pro_6_1", {o}); });
     ASSERT_EQ(problems.size(), 1u) << given.key << " " << given.value << "\n" << text_of(problems);
     EXPECT_EQ(problems[0].key, "override " + given.key);
     EXPECT_EQ(problems[0].value, '"' + given.value + '"');

@@ -198,7 +198,7 @@ TEST(Migration, MotorValuesOfTheToolboxNeedAPresetWithoutAGearbox) {
 }
 
 TEST(Migration, TheShaftOf2015IsTakenAndItsMotorsAreAnswered) {
-  const std::string tail = "</joint><preset>qbmove_maker_pro</preset></actuator></plugin>";
+  const std::string tail = "</joint><preset>qbmove_maker_pro_6_1</preset></actuator></plugin>";
   const host::RobotConfig shaft = parse(kHead + "<actuator><joint>qbmove_1::output_shaft_joint" + tail);
   Problems none, left, motor;
   config::check_joints(shaft, {"qbmove_1::output_shaft_joint"}, "snake.sdf", none);
@@ -228,7 +228,7 @@ TEST(Migration, ElementsOf2015AreAnsweredWithAWholeElementThatWorks) {
     ASSERT_EQ(problems.size(), 1u) << text_of(problems);
     const host::RobotConfig robot = parse(problems[0].allowed.substr(0, problems[0].allowed.find("</plugin>") + 9));
     EXPECT_EQ(robot.actuators.at(0).joint, joint);
-    EXPECT_EQ(robot.actuators[0].preset, "qbmove_maker_pro");
+    EXPECT_EQ(robot.actuators[0].preset, "qbmove_maker_pro_6_1");
   }
 }
 

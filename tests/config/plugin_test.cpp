@@ -15,7 +15,7 @@ std::string plugin(const std::string& inside) { return kHead + inside + "</plugi
 
 /// An actuator of the maker pro on joint `joint` with more elements.
 std::string maker_pro(const std::string& joint, const std::string& more = "", const std::string& attributes = "") {
-  return "<actuator" + attributes + "><joint>" + joint + "</joint><preset>qbmove_maker_pro</preset>" + more + "</actuator>";
+  return "<actuator" + attributes + "><joint>" + joint + "</joint><preset>qbmove_maker_pro_6_1</preset>" + more + "</actuator>";
 }
 
 host::RobotConfig parse(const std::string& xml) { return config::parse_plugin(xml, "arm.sdf", shipped()); }
@@ -34,13 +34,13 @@ TEST(Plugin, TheFullExampleOfTheDocumentationIsRead) {
   const host::ActuatorConfig& shoulder = robot.actuators[0];
   EXPECT_EQ(shoulder.name, "shoulder");
   EXPECT_EQ(shoulder.joint, "module_1::shaft");
-  EXPECT_EQ(shoulder.preset, "qbmove_maker_pro");
+  EXPECT_EQ(shoulder.preset, "qbmove_maker_pro_6_1");
   EXPECT_EQ(shoulder.id, 1);
   EXPECT_EQ(shoulder.initial_preset, 0.2);
   EXPECT_EQ(shoulder.unit.actuator.gearbox.friction.coulomb_Nm, 0.7);
   EXPECT_EQ(robot.actuators[1].name, "module_2::shaft");
   EXPECT_EQ(robot.actuators[1].id, 2);
-  EXPECT_EQ(robot.actuators[1].unit.actuator.gearbox, shipped().load("qbmove_maker_pro").unit.actuator.gearbox);
+  EXPECT_EQ(robot.actuators[1].unit.actuator.gearbox, shipped().load("qbmove_maker_pro_6_1").unit.actuator.gearbox);
   EXPECT_EQ(robot.buses[0].name, "arm");
   EXPECT_EQ(robot.buses[0].baud_Hz, 2e6);
   EXPECT_FALSE(robot.buses[0].cycle_s.has_value());
@@ -69,7 +69,7 @@ TEST(Plugin, ReplacingValuesKeepThePresetAndWinOverTheElements) {
                                            "<override key='drive.friction_Nm' value='0.7'/>"
                                            "<override key='shaft.friction_Nm' value='0.02'/>"));
   const auto robot = config::parse_plugin(xml, "arm.sdf", shipped(), {std::nullopt, {{"drive.friction_Nm", "0.4"}}});
-  EXPECT_EQ(robot.actuators[0].preset, "qbmove_maker_pro");
+  EXPECT_EQ(robot.actuators[0].preset, "qbmove_maker_pro_6_1");
   EXPECT_EQ(robot.actuators[0].unit.actuator.gearbox.friction.coulomb_Nm, 0.4);
   EXPECT_EQ(robot.actuators[0].unit.actuator.shaft_friction.coulomb_Nm, 0.02);
 }
@@ -80,8 +80,8 @@ TEST(Plugin, AnInitialPresetThatTheReplacementCannotHaveIsFitted) {
     return config::parse_plugin(xml, "arm.sdf", shipped(), r).actuators[0].initial_preset;
   };
   EXPECT_EQ(initial({"sea_example", {}}), 0) << "it has none";
-  EXPECT_EQ(initial({"qbmove_maker_pro", {{"limits.preset_max", "0.3"}}}), 0.3);
-  EXPECT_EQ(initial({"qbmove_maker_pro", {}}), 0.5);
+  EXPECT_EQ(initial({"qbmove_maker_pro_6_1", {{"limits.preset_max", "0.3"}}}), 0.3);
+  EXPECT_EQ(initial({"qbmove_maker_pro_6_1", {}}), 0.5);
 }
 
 TEST(Plugin, AReplacementsProblemsAreTold) {
@@ -154,6 +154,21 @@ TEST(Plugin, AllProblemsComeTogetherAndLeadWithWhere) {
                          "<state_rate_Hz>fast</state_rate_Hz>"));
   EXPECT_EQ(problems.size(), 5u) << text_of(problems);
   for (const Problem& p : problems) EXPECT_EQ(p.file, "arm.sdf");
+}
+
+TEST(Plugin, ChildrenGivenAsAttributesAreToldOnceEachAndNothingElse) {
+  EXPECT_EQ(problems_in(plugin("<actuator joint='elbow' preset='qbmove_maker_pro'/>")).size(), 2u);
+  EXPECT_EQ(problems_in("<plugin name='vsa::Robot' substeps='2' state_rate_Hz='50'>" + maker_pro("a") + "</plugin>").size(), 2u);
+}
+
+TEST(Plugin, ABusMayHearClientsAtAnyRate) {
+  const auto robot =
+      parse(plugin("<bus name='a'><serial_port any_rate='true'>p</serial_port></bus>"
+                   "<bus name='b'><serial_port>q</serial_port></bus>" +
+                   maker_pro("x", "<bus>a</bus>") + maker_pro("y", "<bus>b</bus>")));
+  EXPECT_TRUE(robot.buses[0].any_rate);
+  EXPECT_FALSE(robot.buses[1].any_rate);
+  EXPECT_EQ(robot.buses[0].serial_port, "p");
 }
 
 TEST(Plugin, SubstepsAreKnownOrLeftToTheHost) {
@@ -279,6 +294,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadPlugin{"cycle_short",
                   plugin("<bus name='b' cycle_s='0.00013'/>" + maker_pro("a")),
                   {"is shorter than the time on the wire of 1 units", "at least 0.00014 s"}},
+        BadPlugin{"children_as_attributes",
+                  kHead + "<actuator joint='elbow' preset='qbmove_maker_pro' bus='arm'/><bus name='arm' serial_port='p'/></plugin>",
+                  {"actuator[1]@joint = \"elbow\": is an element, not an attribute (allowed: <joint>elbow</joint>)",
+                   "<preset>qbmove_maker_pro</preset>", "<bus>arm</bus>", "<serial_port>p</serial_port>"},
+                  4},
+        BadPlugin{"port_any_rate_not_a_switch",
+                  plugin("<bus name='b'><serial_port any_rate='yes'>p</serial_port></bus>" + maker_pro("a")),
+                  {"bus[b]/serial_port@any_rate = \"yes\"", "true, false"}},
         BadPlugin{"port_empty", plugin("<bus name='b'><serial_port></serial_port></bus>" + maker_pro("a")), {"bus[b]/serial_port"}},
         BadPlugin{"port_name",
                   plugin("<bus name='b'><serial_port>my port</serial_port></bus>" + maker_pro("a")),

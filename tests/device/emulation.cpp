@@ -86,6 +86,59 @@ TEST(Emulation, AClientPingsActivatesMovesAndReadsAnyUnitOfTheChain) {
   EXPECT_EQ(bench.emulation.read(0).motor_rad[0], 0.0);
 }
 
+TEST(Emulation, AClientAtAnotherRateIsNotHeardAndThatIsCounted) {
+  Bench bench(2);
+  bench.run(10ms);
+  BenchChannel channel(bench);
+  bus::Client client(channel, {});
+  EXPECT_TRUE(client.ping(1)) << "who says nothing of rates has the line's";
+  for (const std::int64_t rate : {460'800, 1'000'000, 38'400, 1, 0}) {
+    bench.emulation.line().set_rate(rate);
+    const auto before = bench.emulation.line().wrong_rate().bytes;
+    EXPECT_FALSE(client.ping(1)) << rate;
+    EXPECT_GE(bench.emulation.line().wrong_rate().bytes, before + 6) << rate;
+    EXPECT_EQ(bench.emulation.line().wrong_rate().client_Hz, rate);
+  }
+  const auto text = bench.emulation.line().wrong_rate().text();
+  EXPECT_NE(text.find("the units listen at 2000000"), std::string::npos) << text;
+  for (const std::int64_t rate : {1'980'000, 2'000'000}) {
+    const auto before = bench.emulation.line().wrong_rate().bytes;
+    bench.emulation.line().set_rate(rate);
+    EXPECT_TRUE(client.ping(2)) << rate;
+    EXPECT_EQ(bench.emulation.line().wrong_rate().bytes, before);
+  }
+}
+
+TEST(Emulation, AClientFollowsAUnitToTheRateItTellsItToTake) {
+  Bench bench(2);
+  bench.run(10ms);
+  bench.emulation.line().set_rate(2'000'000);
+  BenchChannel channel(bench);
+  bus::Client client(channel, {});
+  std::vector<std::uint8_t> answer;
+  bench.emulation.line().exchange(bus::encode_request({}, 1, bus::SetBaudRate{13}).view(), answer);
+  bench.run(5ms);
+  EXPECT_FALSE(client.ping(1));
+  EXPECT_TRUE(client.ping(2)) << "the other one stays";
+  bench.emulation.line().set_rate(460'800);
+  EXPECT_TRUE(client.ping(1));
+  EXPECT_FALSE(client.ping(2));
+  EXPECT_EQ(bench.emulation.line().wrong_rate().bytes, 0U) << "one of the units hears it";
+}
+
+TEST(Emulation, WhereAnyRateIsTakenAllAreHeard) {
+  Bench bench(1);
+  bench.run(10ms);
+  bench.emulation.line().take_any_rate();
+  BenchChannel channel(bench);
+  bus::Client client(channel, {});
+  for (const std::int64_t rate : {0, 38'400, 460'800, 2'000'000}) {
+    bench.emulation.line().set_rate(rate);
+    EXPECT_TRUE(client.ping(1)) << rate;
+  }
+  EXPECT_EQ(bench.emulation.line().wrong_rate().bytes, 0U);
+}
+
 TEST(Emulation, InfoListAndStoreGoThroughThePort) {
   Bench bench(2);
   bench.run(10ms);

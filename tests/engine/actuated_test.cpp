@@ -17,7 +17,7 @@ WorldOptions options() {
 }
 
 std::string actuator(const std::string& joint, int id, const std::string& more = {}) {
-  return "<actuator><joint>" + joint + "</joint><preset>qbmove_maker_pro</preset><bus id='" + std::to_string(id) + "'>arm</bus>" +
+  return "<actuator><joint>" + joint + "</joint><preset>qbmove_maker_pro_6_1</preset><bus id='" + std::to_string(id) + "'>arm</bus>" +
          more + "</actuator>";
 }
 

@@ -100,7 +100,7 @@ TEST(Clone, SnapshotsCrossBetweenWorldsOfTheSameFileBitForBit) {
 TEST(Placed, EveryShippedActuatorStaysWhereItIsPutWithoutGravity) {
   const config::PresetLibrary presets({std::filesystem::path(VSA_SOURCE_DIR) / "presets"});
   constexpr double kResolution_rad = 2 * kPi / 4096;
-  ASSERT_GE(presets.names().size(), 5U);
+  ASSERT_GE(presets.names().size(), 6U);
   for (const std::string& name : presets.names()) {
     const double preset = presets.load(name).unit.preset_max > 0 ? 0.6 : 0.0;
     World w = World::load_string(arm(name, "0 0 0"));
@@ -113,7 +113,7 @@ TEST(Placed, EveryShippedActuatorStaysWhereItIsPutWithoutGravity) {
       furthest = std::max(furthest, std::abs(w.joint_angle("arm::shoulder") - 1.0));
       fastest = std::max(fastest, std::abs(w.joint_speed("arm::shoulder")));
     }
-    EXPECT_LT(furthest, kResolution_rad) << name;
+    EXPECT_LT(furthest, 2 * kResolution_rad) << name;  // a loop without derivative corrects by counts
     EXPECT_LT(fastest, 0.1) << name;
   }
 }
@@ -147,7 +147,7 @@ TEST(Placed, WithTheEquilibriumThatTheLawAsksForItHoldsAgainstGravity) {
 }
 
 TEST(Placed, AResetReturnsThereAfterMakeInitial) {
-  World w = World::load_string(arm("qbmove_maker_pro", "0 0 0"));
+  World w = World::load_string(arm("qbmove_maker_pro_6_1", "0 0 0"));
   w.place("shoulder", 0.8, 0.4);
   w.make_initial();
   w.command("shoulder", -0.5, 0.4);

@@ -192,7 +192,7 @@ TEST(RobotFiles, AnActuatedJointThatStartsElsewhereStartsAtRest) {
                   inertial(1, 1e-3) +
                   "</link><joint name='j' type='revolute'><parent>base</parent><child>a</child><axis><xyz>0 0 1</xyz>"
                   "<initial_position>0.5</initial_position></axis></joint><plugin name='vsa::Robot' "
-                  "filename='libvsa-robot.so'><actuator><joint>j</joint><preset>qbmove_maker_pro</preset>" +
+                  "filename='libvsa-robot.so'><actuator><joint>j</joint><preset>qbmove_maker_pro_6_1</preset>" +
                   initial + "</actuator></plugin></model>",
               "0 0 0"));
   };
@@ -258,7 +258,7 @@ std::string chain(int n) {
     model += "<link name='l" + k + "'><pose>0 0 " + std::to_string(-0.1 * i) + " 0 0 0</pose>" +
              inertial(0.1, 1e-4, "0 0 -0.05 0 0 0") + "</link><joint name='j" + k + "' type='revolute'><parent>l" + before +
              "</parent><child>l" + k + "</child><axis><xyz>0 1 0</xyz></axis></joint>";
-    plugin += "<actuator><joint>j" + k + "</joint><preset>qbmove_maker_pro</preset><bus id='" +
+    plugin += "<actuator><joint>j" + k + "</joint><preset>qbmove_maker_pro_6_1</preset><bus id='" +
               std::to_string(1 + (i - 1) % kUnits) + "'>bus_" + std::to_string((i - 1) / kUnits) + "</bus></actuator>";
   }
   return world(model + plugin + "</plugin></model>");

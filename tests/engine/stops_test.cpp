@@ -23,7 +23,7 @@ std::string pressed(double inertia_kgm2, double step_s) {
     << "</izz></inertia></inertial></link><joint name='j' type='revolute'><parent>base</parent><child>finger</child><axis><xyz>0 1 "
        "0"
     << "</xyz><limit><lower>-0.3</lower><upper>0.3</upper></limit></axis></joint>"
-    << "<plugin name='vsa::Robot' filename='libvsa-robot.so'><actuator name='a'><joint>j</joint><preset>qbmove_maker_pro</preset>"
+    << "<plugin name='vsa::Robot' filename='libvsa-robot.so'><actuator name='a'><joint>j</joint><preset>qbmove_maker_pro_6_1</preset>"
     << "<bus id='1'>b</bus><initial equilibrium_rad='0' preset_rad='0.3'/></actuator><bus "
        "name='b'/></plugin></model></world></sdf>";
   return s.str();

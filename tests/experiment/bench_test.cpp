@@ -102,20 +102,6 @@ TEST(Bench, TheAmplitudeBringsTheShaftWhereTheRecordingsShaftWas) {
   EXPECT_NEAR(found.reached_rad, found.target_rad, 0.3 * kPi / 180);
 }
 
-TEST(Bench, APresetBeyondTheUnitsMaxStiffnessIsSentAsTheRecordingsSenderDid) {
-  const double limit = 3000 * 2 * 2 * kPi / 65536;  // 3000 ticks of 32768 a turn, the firmware's default
-  EXPECT_NEAR(sent_preset(specimen(), 0.6903), limit, 1e-12);
-  EXPECT_EQ(sent_preset(specimen(), 0.4602), 0.4602);
-  StiffnessOptions o = short_sweep(0.6903);
-  const BenchRun limited = run_stiffness(specimen(), o);
-  o.limit_preset = false;
-  const BenchRun full = run_stiffness(specimen(), o);
-  EXPECT_NEAR(limited.samples.front().preset_command, limit, 1e-12);
-  EXPECT_EQ(full.samples.front().preset_command, 0.6903);
-  ASSERT_EQ(limited.notices.size(), full.notices.size() + 1);
-  EXPECT_NE(limited.notices.front().find("max_stiffness"), std::string::npos);
-}
-
 TEST(Bench, AWeakUnitIsReportedAndNotPretended) {
   const BenchRun run = run_stiffness(specimen("qbmove_maker_pro", {{"drive.supply_V", "4"}}), short_sweep(0.4602));
   ASSERT_FALSE(run.notices.empty());

@@ -172,7 +172,7 @@ TEST_P(SecondOrder, EveryMeasureIsTheClosedForm) {
   const double damped = omega * root;
   const auto unit = [&](double t) { return second_order(t, omega, zeta); };
   const Response r = sampled([&](double t) { return from + (to - from) * unit(t); }, 12 / (zeta * omega));
-  const StepMeasures m = step_measures(r.time_s, r.y, from, to, 0.02);
+  const StepMeasures m = step_measures(r.time_s, r.y, from, to, 3e-4);
   const double start = first_time(unit, 0.1, kPi / damped), rise = first_time(unit, 0.9, kPi / damped) - start;
   EXPECT_NEAR(m.rise_start_s, start, 1e-4);
   EXPECT_NEAR(m.rise_s, rise, 1e-3 * rise);
@@ -185,7 +185,7 @@ TEST_P(SecondOrder, EveryMeasureIsTheClosedForm) {
   EXPECT_NEAR(m.steady_error, 0, 1e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Damping, SecondOrder, testing::Values(0.02, 0.1, 0.3, 0.5));
+INSTANTIATE_TEST_SUITE_P(Damping, SecondOrder, testing::Values(0.02, 0.1, 0.3, 0.4));
 
 TEST(StepMeasures, AFirstOrderLagRisesInLn9TimeConstantsAndDoesNotRing) {
   constexpr double kLag_s = 0.07;
@@ -194,7 +194,7 @@ TEST(StepMeasures, AFirstOrderLagRisesInLn9TimeConstantsAndDoesNotRing) {
   EXPECT_NEAR(m.rise_s, kLag_s * std::log(9), 1e-5);
   EXPECT_NEAR(m.peak_slope, 1 / kLag_s, 0.01 / kLag_s);
   EXPECT_LT(m.overshoot_pct, 1e-6);
-  EXPECT_EQ(m.ringing_Hz, 0);
+  EXPECT_TRUE(std::isnan(m.ringing_Hz));
   EXPECT_TRUE(std::isnan(m.damping_ratio));
 }
 
@@ -225,12 +225,65 @@ TEST(StepMeasures, ARestBesideTheMiddleOfTheRingingDoesNotBiasItsDamping) {
   EXPECT_NEAR(m.ringing_Hz, 30 / (2 * kPi), 0.02);
 }
 
-TEST(StepMeasures, NoiseBelowTheFloorDoesNotRing) {
+constexpr double kCount_rad = 2 * kPi / 4096;
+
+/// A step of 1.57 rad that rings at `ring_Hz` with `swing_rad` at first, seen through an encoder that flickers by a count.
+Response through_encoder(double ring_Hz, double swing_rad, double decay_s) {
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> noise(-0.002, 0.002);
-  Response r = sampled([](double t) { return 1 - std::exp(-t / 0.05); }, 2);
-  for (double& y : r.y) y += noise(random);
-  EXPECT_EQ(step_measures(r.time_s, r.y, 0, 1).ringing_Hz, 0);
+  std::uniform_real_distribution<double> noise(-1, 1);
+  Response r = sampled(
+      [&](double t) {
+        const double past_s = t - 0.4;
+        const double rise = 1.57 * std::min(1.0, t / 0.4);
+        return past_s < 0 ? rise : rise + swing_rad * std::exp(-past_s / decay_s) * std::sin(2 * kPi * ring_Hz * past_s);
+      },
+      3);
+  for (double& y : r.y) y = kCount_rad * std::round(y / kCount_rad + 0.5 * noise(random));
+  return r;
+}
+
+TEST(Ringing, OfADampedOscillationIsItsFrequency) {
+  const Response r = through_encoder(3, 0.05, 0.5);
+  EXPECT_NEAR(step_measures(r.time_s, r.y, 0, 1.57).ringing_Hz, 3, 0.1);
+}
+
+TEST(Ringing, IsNoneWhereAnEncoderFlickersByACount) {
+  const Response r = through_encoder(3, 0, 1);
+  EXPECT_TRUE(std::isnan(step_measures(r.time_s, r.y, 0, 1.57).ringing_Hz));
+  EXPECT_GT(step_measures(r.time_s, r.y, 0, 1.57, 0.4 * kCount_rad).ringing_Hz, 20) << "the flicker is there";
+}
+
+TEST(Ringing, BelowACountIsNone) {
+  const Response r = through_encoder(3, 0.4 * kCount_rad, 5);
+  EXPECT_TRUE(std::isnan(step_measures(r.time_s, r.y, 0, 1.57).ringing_Hz));
+}
+
+TEST(Ringing, IsThatOfTheDominantSwingAndNotOfARippleOnIt) {
+  Response r = sampled(
+      [](double t) {
+        const double past_s = std::max(0.0, t - 0.4);
+        return 1.57 * std::min(1.0, t / 0.4) + 0.2 * std::exp(-past_s) * std::sin(2 * kPi * 3 * past_s) +
+               0.005 * std::exp(-past_s) * std::sin(2 * kPi * 46 * past_s);
+      },
+      3);
+  EXPECT_NEAR(step_measures(r.time_s, r.y, 0, 1.57).ringing_Hz, 3, 0.1);
+}
+
+TEST(Ringing, OfOneSwingIsNone) {
+  const auto swing = [](double t) {
+    const double past_s = t - 0.4;
+    return 1.57 * std::min(1.0, t / 0.4) + (past_s > 0 && past_s < 0.2 ? 0.1 * std::sin(2 * kPi * 5 * past_s) : 0);
+  };
+  const Response r = sampled(swing, 3);
+  EXPECT_TRUE(std::isnan(step_measures(r.time_s, r.y, 0, 1.57).ringing_Hz)) << "up, down, at rest: its period isn't seen";
+}
+
+TEST(Ringing, OfOneOvershootIsNone) {
+  const auto once = [](double t) { return t < 0.5 ? 1.7 * std::sin(kPi * t) : 1.57 + 0.13 * std::exp(-(t - 0.5) / 0.1); };
+  const Response r = sampled(once, 3);
+  const StepMeasures m = step_measures(r.time_s, r.y, 0, 1.57);
+  EXPECT_GT(m.overshoot_pct, 8);
+  EXPECT_TRUE(std::isnan(m.ringing_Hz)) << "half a swing is no frequency";
 }
 
 TEST(StepMeasures, WhatNeverMovesHasNothingToMeasure) {
@@ -239,7 +292,7 @@ TEST(StepMeasures, WhatNeverMovesHasNothingToMeasure) {
   EXPECT_TRUE(std::isnan(m.rise_s));
   EXPECT_TRUE(std::isnan(m.mean_speed));
   EXPECT_TRUE(std::isnan(m.overshoot_pct));
-  EXPECT_EQ(m.ringing_Hz, 0);
+  EXPECT_TRUE(std::isnan(m.ringing_Hz));
   EXPECT_NEAR(m.steady_error, -1, 1e-12);
 }
 

@@ -34,7 +34,7 @@ std::string flange(const std::string& preset, bool stiffest = true) {
           replaced(replaced(model.substr(at), "1.16666667e-05</ixx>", "6e-5</ixx>"), "1.16666667e-05</iyy>", "6e-5</iyy>");
   const bool has_presets = read_file(VSA_SOURCE_DIR "/presets/" + preset + ".toml").find("preset_max") != std::string::npos;
   model = replaced(model, "preset_rad=\"0.2\"", !has_presets ? "" : stiffest ? "preset_rad=\"0.785\"" : "preset_rad=\"0\"");
-  return replaced(model, "<preset>qbmove_maker_pro</preset>", "<preset>" + preset + "</preset>");
+  return replaced(model, "<preset>qbmove_maker_pro_6_1</preset>", "<preset>" + preset + "</preset>");
 }
 
 /// Follows a flange through the run: the most that its speed and its spring have held, less what the supply has given since.

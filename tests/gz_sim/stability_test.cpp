@@ -16,7 +16,7 @@ std::string flange(const std::string& preset) {
   const bool has_preset = preset != "sea_example";
   std::string model = model_text("qbmove_bench_free", "flange");
   model = replaced(model, "preset_rad=\"0.2\"", has_preset ? "preset_rad=\"0.785\"" : "");
-  return replaced(model, "<preset>qbmove_maker_pro<", "<preset>" + preset + "<");
+  return replaced(model, "<preset>qbmove_maker_pro_6_1<", "<preset>" + preset + "<");
 }
 
 /// Of 1e-4 kg·m².
@@ -66,7 +66,7 @@ TEST_P(Presets, ABareFlangeThrownAtItsStiffestStaysBounded) {
 INSTANTIATE_TEST_SUITE_P(All, Presets, testing::ValuesIn(config::PresetLibrary().names()), [](const auto& c) { return c.param; });
 
 TEST(GzSimStability, AFlangeThrownAgainstItsJointsLimitStaysBounded) {
-  std::string model = light(flange("qbmove_maker_pro"));
+  std::string model = light(flange("qbmove_maker_pro_6_1"));
   model = replaced(model, "preset_rad=\"0.785\"", "preset_rad=\"0\"");
   model = replaced(model, "<lower>-1e16</lower>", "<lower>-0.2</lower>");
   model = replaced(model, "<upper>1e16</upper>", "<upper>0.2</upper>");

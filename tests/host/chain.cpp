@@ -3,11 +3,16 @@
 // A robot's bus as the units meet it: when frames arrive, who answers, what faults do.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <future>
+#include <new>
 
 #include "host/free_flanges.hpp"
 #include "vsa/bus/client.hpp"
 #include "vsa/errors.hpp"
+
+void fail_allocation(long nth);  // allocation_count.cpp
 
 namespace {
 
@@ -240,6 +245,59 @@ TEST(RobotPort, AClientMovesTheUnitsAndCommandsAreNotTaken) {
   const auto reply = bus::decode_reply<bus::MeasurementsReply>({}, bus::Command::get_measurements, frame);
   ASSERT_TRUE(reply);
   EXPECT_EQ(reply->positions, bench.robot.read(1).measured);
+}
+
+TEST(RobotPort, AClientAtAnotherRateIsToldOnce) {
+  Flanges bench(with_port(2));
+  bench.run(20);
+  bench.robot.serial_line(0)->set_rate(460'800);
+  std::vector<std::uint8_t> answer;
+  std::vector<std::string> said;
+  for (int n = 0; n < 3; ++n) {
+    bench.robot.serial_line(0)->exchange(bus::encode_request({}, 1, bus::Ping{}).view(), answer);
+    bench.run(200);
+    for (const auto& notice : bench.robot.take_notices()) said.push_back(notice.text);
+  }
+  EXPECT_TRUE(answer.empty());
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said[0].find("bus spine: the client's serial port is set to 460800 bit/s, the units listen at 2000000"),
+            std::string::npos)
+      << said[0];
+  auto config = with_port(1);
+  config.buses[0].any_rate = true;
+  Flanges lenient(config);
+  lenient.run(20);
+  lenient.robot.serial_line(0)->set_rate(460'800);
+  lenient.robot.serial_line(0)->exchange(bus::encode_request({}, 1, bus::Ping{}).view(), answer);
+  EXPECT_FALSE(answer.empty());
+}
+
+TEST(RobotPort, ASnapshotThatMemoryDoesNotSufficeForLeavesTheBusesToTheirClients) {
+  auto config = with_port(2);
+  config.buses.push_back({"other", 2e6, std::nullopt, "vsa-other"});
+  config.actuators[1].bus = 1;
+  Robot robot(config);
+  const auto client_gets_in = [&robot](std::size_t bus) {
+    auto exchange = std::async(std::launch::async, [&robot, bus] {
+      std::vector<std::uint8_t> answer;
+      robot.serial_line(bus)->exchange({}, answer);
+    });
+    const bool got_in = exchange.wait_for(std::chrono::seconds(10)) == std::future_status::ready;
+    if (!got_in) robot.serial_line(bus)->unlock();  // we hold it
+    return got_in;
+  };
+  int failures = 0;
+  for (bool whole = false; !whole; ++failures) {
+    ASSERT_LT(failures, 1000);
+    fail_allocation(failures + 1);
+    try {
+      whole = robot.snapshot() != nullptr;
+    } catch (const std::bad_alloc&) {
+    }
+    fail_allocation(0);
+    for (const std::size_t bus : {0U, 1U}) ASSERT_TRUE(client_gets_in(bus)) << "bus " << bus << ", allocation " << failures + 1;
+  }
+  EXPECT_GT(failures, 3);
 }
 
 TEST(RobotPort, WithoutAClientARunRepeatsBitForBit) {

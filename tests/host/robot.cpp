@@ -72,6 +72,8 @@ TEST(Robot, RefusesWhatIsNotANumber) {
   EXPECT_FALSE(bench.robot.follow(0, Robot::Channel::equilibrium, {}));
   EXPECT_FALSE(bench.robot.follow(0, Robot::Channel::equilibrium, {{1.0, 0.1}, {1.0, 0.2}}));
   EXPECT_FALSE(bench.robot.follow(0, Robot::Channel::equilibrium, {{0.0, nan}}));
+  EXPECT_FALSE(bench.robot.follow({{0, Robot::Channel::equilibrium, {{0.0, 0.1}}}, {0, Robot::Channel::preset, {{0.0, nan}}}}));
+  EXPECT_FALSE(bench.robot.follow({{0, Robot::Channel::equilibrium, {{0.0, 0.1}}}, {7, Robot::Channel::preset, {{0.0, 0.1}}}}));
   bench.step();
   EXPECT_EQ(bench.robot.read(0).equilibrium_command_rad, 0.0);
 }
@@ -170,6 +172,36 @@ TEST(Robot, TakesCommandsFromManyThreadsWhileItSteps) {
   for (std::thread& t : threads) t.join();
   bench.run(1500);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(bench.robot.read(i).equilibrium_command_rad, 0.3);
+}
+
+TEST(Robot, NoStepFallsBetweenThePathsOfOneCall) {
+  constexpr std::size_t kUnits = 4;
+  Bench bench(chain(kUnits));
+  const auto send = [&bench](double value) {
+    std::vector<Robot::Path> paths;
+    for (std::size_t i = 0; i < kUnits; ++i) {
+      paths.push_back({i, Robot::Channel::equilibrium, {{0.0, value}}});
+      paths.push_back({i, Robot::Channel::preset, {{0.0, value}}});
+    }
+    bench.robot.follow(std::move(paths));
+  };
+  send(0.1);
+  std::atomic<bool> stop{false};
+  std::thread sender([&] {
+    for (int n = 0; !stop; ++n) send(0.001 * (n % 400));
+  });
+  int torn = 0;
+  for (int k = 0; k < 2000; ++k) {
+    bench.step();
+    const double first = bench.robot.read(0).equilibrium_command_rad;
+    for (std::size_t i = 0; i < kUnits; ++i) {
+      const auto now = bench.robot.read(i);
+      torn += now.equilibrium_command_rad != first || now.preset_command != first ? 1 : 0;
+    }
+  }
+  stop = true;
+  sender.join();
+  EXPECT_EQ(torn, 0);
 }
 
 TEST(Robot, LedgerOfAWholeRobotBalances) {

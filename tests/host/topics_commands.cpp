@@ -1,9 +1,12 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "topics_fixture.hpp"
 #include "vsa/errors.hpp"
+
+void fail_allocation(long nth);  // allocation_count.cpp
 
 namespace {
 
@@ -74,6 +77,26 @@ TEST_F(HostTopics, ATrajectoryIsLinearInSimulatedTimeAndHoldsItsLastPoint) {
   EXPECT_NEAR(commanded(0)[1], 0.3, 1e-12);
   step(500);
   EXPECT_EQ(commanded(0), (Pair{0.3, 0.2}));
+}
+
+TEST_F(HostTopics, ATrajectoryOfSeveralPointsIsTakenWholeOrNotAtAllWhereverMemoryRunsOut) {
+  const Trajectory message{{"shoulder", "shoulder_preset", "arm::elbow"}, {{{0.1, 0.4, 0.5}, 0.0}, {{0.3, 0.6, 0.7}, 1e-3}}};
+  int failures = 0;
+  for (bool whole = false; !whole; ++failures) {
+    ASSERT_LT(failures, 1000);
+    fail_allocation(failures + 1);
+    try {
+      send(message);
+      whole = true;
+    } catch (const std::bad_alloc&) {
+    }
+    fail_allocation(0);
+    if (!whole) expect_untouched();
+  }
+  EXPECT_GT(failures, 5);
+  step(2);
+  EXPECT_EQ(commanded(0), (Pair{0.3, 0.6}));
+  EXPECT_EQ(commanded(1), (Pair{0.7, 0.3}));
 }
 
 TEST_F(HostTopics, ACommandReplacesATrajectoryOnItsOwnChannelOnly) {

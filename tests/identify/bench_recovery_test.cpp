@@ -14,7 +14,7 @@
 namespace vsa::identify {
 namespace {
 
-constexpr const char* kPreset = "qbmove_maker_pro";
+constexpr const char* kPreset = "qbmove_maker_pro_6_1";
 constexpr const char* kKeys = "tendon.friction,sensor.shaft_zero_rad";
 
 SweepOptions fast() {

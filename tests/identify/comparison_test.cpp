@@ -31,7 +31,8 @@ amplitude_rad = 2.0
 constexpr const char* kStiff = R"([[hypothesis]]
 name = "stiff"
 base = "qbmove_maker_pro"
-set = { "firmware.max_stiffness_raw" = 32767, "drive.off_mode" = "coast", "firmware.limits_on" = true }
+set = { "firmware.max_stiffness_raw" = 32000, "drive.off_mode" = "coast", "firmware.limits_on" = true }
+start = { "tendon.friction" = 0.05 }
 free = ["tendon.friction"]
 )";
 constexpr const char* kFixed = R"([[hypothesis]]
@@ -78,7 +79,7 @@ TEST_F(ComparisonFile, GivesItsSettingsAndItsHypotheses) {
   ASSERT_EQ(c.recordings.size(), 2u);
   EXPECT_GT(c.recordings[1].weight, 100) << "by its scatter";
   ASSERT_EQ(c.hypotheses.size(), 2u);
-  EXPECT_EQ(c.hypotheses[0].preset.unit.memory.max_stiffness, 32767);
+  EXPECT_EQ(c.hypotheses[0].preset.unit.memory.max_stiffness, 32000);
   EXPECT_FALSE(c.hypotheses[0].preset.unit.actuator.bridge.brake_when_off);
   EXPECT_EQ(c.hypotheses[0].free.size(), 1u);
   EXPECT_EQ(c.hypotheses[1].title, "nothing free");
@@ -183,7 +184,7 @@ TEST_F(ComparisonFile, AFitJudgesTheRecordingThatItDidntSeeAndIsTheSameOnAnyThre
   EXPECT_EQ(one.estimates[0].value, two.estimates[0].value);
   // The prediction is what a hypothesis that holds the estimate gives.
   std::string held = kFixed;
-  held += "set = { \"firmware.max_stiffness_raw\" = 32767, \"drive.off_mode\" = \"coast\", \"tendon.friction\" = " +
+  held += "set = { \"firmware.max_stiffness_raw\" = 32000, \"drive.off_mode\" = \"coast\", \"tendon.friction\" = " +
           config::number_text(one.estimates[0].value) + " }\n";
   Comparison fixed = read(std::string(kSettings) + held);
   fixed.sweep.period_s = 6;

@@ -21,7 +21,7 @@ inline const std::vector<double> kCoverageTruth{0.00075, 0.13, 0.03, 0.004};  //
 /// `quasi_static`: the model is the surrogate, which costs a hundredth.
 inline identify::Task coverage_task(bool quasi_static) {
   experiment::Specimen unit;
-  unit.preset = "qbmove_maker_pro";
+  unit.preset = "qbmove_maker_pro_6_1";
   unit.library = shipped();
   identify::SweepOptions sweep;
   sweep.period_s = 9.5;

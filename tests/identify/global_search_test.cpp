@@ -74,7 +74,7 @@ TEST(GlobalSearch, SaysWhyThereIsNone) {
 /// A task on the bench's surrogate, with recordings that the surrogate itself made.
 Task bench_task(const std::vector<double>& truth) {
   experiment::Specimen unit;
-  unit.preset = "qbmove_maker_pro";
+  unit.preset = "qbmove_maker_pro_6_1";
   unit.library = test::shipped();
   Task task;
   task.parameters = parse_parameters(
@@ -111,7 +111,7 @@ TEST(GlobalSearch, FindsAUnitsParametersFromFarAwayWithAnyNumberOfThreads) {
 
 TEST(GlobalSearch, EndsWhenItsWatchIsStopped) {
   experiment::Specimen unit;
-  unit.preset = "qbmove_maker_pro";
+  unit.preset = "qbmove_maker_pro_6_1";
   unit.library = test::shipped();
   Task task;
   task.parameters = parse_parameters("tendon.friction", test::shipped().load(unit.preset));

@@ -76,13 +76,31 @@ TEST(Rounding, KeepsSignificantDigits) {
 
 TEST(ScatterWeight, IsTheInverseOfTheScatter) { EXPECT_NEAR(scatter_weight(test::closed_form(test::kTruth, 0)), 1 / 0.003, 1e-6); }
 
+const config::Evidence kFitted{{"stiffness.0.6903", "stiffness.0.4602"}, "vsa identify \"a.csv\""};
+
+TEST(PresetFile, SaysWhatItWasFittedToBesideWhatThePresetHadBeen) {
+  const config::PresetLibrary library = shipped();
+  const auto written = [&](const config::Preset& before) {
+    return library.load_text(preset_text(before, "new_one", {}, kFitted, library), "new_one.toml").evidence.value();
+  };
+  config::Preset before = library.load("sea_example");
+  before.evidence = config::Evidence{{"speed.0.7500", "stiffness.0.6903"}, "by hand"};
+  EXPECT_EQ(written(before).calibrated_on, (std::vector<std::string>{"speed.0.7500", "stiffness.0.6903", "stiffness.0.4602"}));
+  EXPECT_EQ(written(before).source, "by hand; vsa identify \"a.csv\"");
+  before.evidence = written(before);
+  EXPECT_EQ(written(before).source, "by hand; vsa identify \"a.csv\"") << "the same command again adds nothing";
+  before.evidence.reset();
+  EXPECT_EQ(written(before).calibrated_on, kFitted.calibrated_on);
+  EXPECT_NE(written(before).source.find("doesn't say"), std::string::npos);
+}
+
 /// Every shipped preset can be written with a changed value and reads back equal in all else.
 TEST(PresetFile, KeepsWhatWasntIdentified) {
   const config::PresetLibrary library = shipped();
   for (const std::string& name : library.names()) {
     const config::Preset before = library.load(name);
     const std::string text =
-        preset_text(before, "new_one", {{"shaft.friction_Nm", 0.0123, "identified: vsa \"identify\" \\ x"}}, library);
+        preset_text(before, "new_one", {{"shaft.friction_Nm", 0.0123, "identified: vsa \"identify\" \\ x"}}, kFitted, library);
     const config::Preset after = library.load_text(text, "new_one.toml");
     ASSERT_EQ(after.entries.size(), before.entries.size()) << name;
     EXPECT_EQ(after.law, before.law);
@@ -101,7 +119,7 @@ TEST(PresetFile, KeepsWhatWasntIdentified) {
 }
 
 TEST(PresetFile, OfAValueBeyondItsBoundsIsRefused) {
-  EXPECT_THROW((void)preset_text(paper_preset(), "new_one", {{"shaft.friction_Nm", -1.0, "x"}}, shipped()), InputError);
+  EXPECT_THROW((void)preset_text(paper_preset(), "new_one", {{"shaft.friction_Nm", -1.0, "x"}}, kFitted, shipped()), InputError);
 }
 
 }  // namespace

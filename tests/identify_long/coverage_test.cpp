@@ -20,8 +20,8 @@ void expect_coverage(const identify::Task& task, int recordings, double correlat
   }
 }
 
-// Of 100 a 95 % interval holds 95 ± 2.2.
-TEST(Coverage, IsThatOfA95PercentIntervalOnTheSimulatedBench) { expect_coverage(test::coverage_task(false), 100, 0.7, 88, 99); }
+// Of 100 a 95 % interval holds 95 ± 2.2; 90 to 98 are asked for.
+TEST(Coverage, IsThatOfA95PercentIntervalOnTheSimulatedBench) { expect_coverage(test::coverage_task(false), 100, 0.7, 90, 98); }
 
 // Of 500, 475 ± 4.9.
 TEST(Coverage, IsThatOfA95PercentIntervalWithoutDynamicsWithIndependentErrors) {

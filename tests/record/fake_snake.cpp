@@ -76,7 +76,7 @@ RunInfo snake() {
   for (int i = 0; i < kModules; ++i) info.links.push_back(module(i));
   for (int i = 0; i < kModules; ++i) {
     const std::string joint = "module_" + std::to_string(i + 1) + "::shaft";
-    ActuatorInfo a{"joint_" + std::to_string(i + 1), joint, "qbmove_maker_pro", "rad", 2, {}};
+    ActuatorInfo a{"joint_" + std::to_string(i + 1), joint, "qbmove_maker_pro_6_1", "rad", 2, {}};
     a.links = links_of_joint("snake", joint, static_cast<std::size_t>(i), info.links);
     info.robots[0].actuators.push_back(a);
   }
@@ -131,7 +131,7 @@ Sample snake_at(std::int64_t time_ns) {
 }
 
 RunInfo tiny() {
-  RunInfo info{"bench", 1e-3, {{"arm", {{"elbow", "elbow", "qbmove_maker_pro", "rad", 2, {1}}}}}, {}};
+  RunInfo info{"bench", 1e-3, {{"arm", {{"elbow", "elbow", "qbmove_maker_pro_6_1", "rad", 2, {1}}}}}, {}};
   info.links.push_back({"wall::link", "wall", 0, true, {shape(Kind::box, {1, 1, 1}, {0.5f, 0.5f, 0.5f, 1})}});
   info.links.push_back({"arm::lever", "arm", 0.2, false, {shape(Kind::sphere, {0.1, 0, 0}, {1, 0, 0, 1})}});
   return info;

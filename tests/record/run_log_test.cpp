@@ -153,7 +153,7 @@ TEST_F(RunLogTest, TellsHowTheRunWasMade) {
   EXPECT_EQ(run.at("rate_Hz"), "100");
   EXPECT_EQ(run.at("faults"), "elbow noise_rad=0.01 seed=3");
   EXPECT_FALSE(run.at("version").empty());
-  EXPECT_EQ(file().channels.at(1).metadata.at("elbow"), "qbmove_maker_pro");
+  EXPECT_EQ(file().channels.at(1).metadata.at("elbow"), "qbmove_maker_pro_6_1");
 }
 
 TEST_F(RunLogTest, GivesEachRobotATopicOfItsOwnWhateverTheNames) {

@@ -53,7 +53,7 @@ inline Report full() {
                          {"preset 0.6903 rad", "0.0146 rad", "bound 0.009 rad", Figure::Verdict::bad},
                          {"recordings", "2", "qbmove maker pro", Figure::Verdict::none}}};
   Report r;
-  r.title = "Validation of qbmove_maker_pro";
+  r.title = "Validation of qbmove_maker_pro_6_1";
   r.subtitle = "simulation against every recording";
   r.sections = {{"Summary", {Text{"What agrees, by how much, and what doesn't."}, figures, table}},
                 {"Curves", {loop, log}},

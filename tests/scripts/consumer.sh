@@ -25,7 +25,7 @@ grep -q '^back at 0.000 s' "$work/output"
 
 # The serial client against units on a virtual port of the installed command, which is ready when it has said how to end it.
 mkfifo "$work/emulated"
-VSA_DATA_DIR="$work/prefix/share/vsa" "$work/prefix/bin/vsa" emulate qbmove_maker_pro --port "$work/port" > "$work/emulated" &
+VSA_DATA_DIR="$work/prefix/share/vsa" "$work/prefix/bin/vsa" emulate qbmove_maker_pro_6_1 --port "$work/port" > "$work/emulated" &
 emulate=$!
 trap 'kill $emulate 2> /dev/null || true' EXIT
 exec 3< "$work/emulated"

@@ -76,6 +76,21 @@ test('the page of a snake', { timeout: 600_000 }, async (t) => {
     assert.equal(await time(tab), stopped, 'paused means paused');
   });
 
+  await t.test('a clock that goes back takes the replay nowhere, least of all before its start', async () => {
+    const times = await tab.evaluate(() => {
+      const { playback } = window.vsaReplay;
+      const after = (start) => {
+        playback.seek(start);
+        playback.playing = true;
+        playback.advance(-5.63);
+        playback.pause();
+        return playback.time;
+      };
+      return [after(0), after(3)];
+    });
+    assert.deepEqual(times, [0, 3]);
+  });
+
   await t.test('scrubbing sets pose and picture, between frames by interpolation', async () => {
     await tab.fill('#scrub', '3');
     const at3 = await picture(tab);

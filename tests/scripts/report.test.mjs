@@ -27,10 +27,10 @@ test('a report', { timeout: 600_000 }, async (t) => {
   const { tab, wrong, close } = await open('report');
 
   await t.test('has one heading a section, in order', async () => {
-    assert.equal(await tab.locator('h1').textContent(), 'Validation of qbmove_maker_pro');
+    assert.equal(await tab.locator('h1').textContent(), 'Validation of qbmove_maker_pro_6_1');
     assert.deepEqual(await tab.locator('h2').allTextContents(), ['Summary', 'Curves', 'Notes']);
     assert.deepEqual(await tab.locator('nav a').allTextContents(), ['Summary', 'Curves', 'Notes']);
-    assert.equal(await tab.title(), 'Validation of qbmove_maker_pro – vsasim');
+    assert.equal(await tab.title(), 'Validation of qbmove_maker_pro_6_1 – vsasim');
   });
 
   await t.test('has the table with heads and numbers to the right', async () => {

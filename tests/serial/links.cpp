@@ -31,14 +31,38 @@ std::string port_refusal(const std::string& path) {
   return refusal([&] { VirtualPort port(line, {path}); });
 }
 
+std::set<std::string> names_in(const std::string& directory) {
+  std::set<std::string> names;
+  for (const auto& each : fs::directory_iterator(directory)) names.insert(each.path().filename().string());
+  return names;
+}
+
 TEST(Link, IsThereWhileThePortIsAndNothingStaysBehind) {
   const Scratch scratch;
   Echo line;
   {
     const VirtualPort port(line, {scratch / "arm"});
     EXPECT_EQ(fs::read_symlink(scratch / "arm").string().rfind("/dev/pts/", 0), 0U);
+    EXPECT_EQ(names_in(scratch / ""), std::set<std::string>{"arm"}) << "nothing else, where it may be /dev";
+    EXPECT_TRUE(fs::exists(lock_path(scratch / "arm")));
   }
   EXPECT_TRUE(scratch.empty());
+  EXPECT_FALSE(fs::exists(lock_path(scratch / "arm")));
+}
+
+TEST(Link, HasOneLockWhateverItsPlaceIsCalled) {
+  const Scratch scratch;
+  fs::create_directory(scratch / "dev");
+  fs::create_directory_symlink(scratch / "dev", scratch / "alias");
+  Echo line;
+  const VirtualPort port(line, {scratch / "dev/ttyUSB0"});
+  const fs::path before = fs::current_path();
+  fs::current_path(scratch / "dev");
+  for (const std::string& name : {std::string("ttyUSB0"), std::string("../dev/ttyUSB0"), scratch / "alias/ttyUSB0"})
+    EXPECT_NE(port_refusal(name).find("another program serves"), std::string::npos) << name;
+  fs::current_path(before);
+  EXPECT_NE(lock_path(scratch / "dev/ttyUSB0"), lock_path(scratch / "ttyUSB0")) << "another directory, another port";
+  EXPECT_EQ(names_in(scratch / "dev"), std::set<std::string>{"ttyUSB0"});
 }
 
 TEST(Link, OfALivingOwnerIsRefused) {

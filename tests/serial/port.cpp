@@ -49,6 +49,21 @@ TEST(VirtualPort, EveryByteComesThroughUnchangedBothWays) {
   EXPECT_TRUE(eventually([&p] { return p.port.counters().bytes_out == 256U; }));
 }
 
+TEST(VirtualPort, TheLineIsToldWhatRateTheClientSetItsPortTo) {
+  EchoPort p;
+  for (const std::int64_t rate : {2'000'000, 460'800, 9'600, 1'234'567}) {
+    SerialChannel client(p.port.path(), rate);
+    ASSERT_TRUE(client.write(Bytes{1}));
+    Bytes answer(1);
+    ASSERT_EQ(client.read(answer, kPatience), 1U);
+    EXPECT_EQ(p.line.rate_Hz, rate);
+  }
+  const RawClient as_it_was_left(p.port.path());
+  as_it_was_left.write({1});
+  ASSERT_EQ(as_it_was_left.read(1), Bytes{1});
+  EXPECT_EQ(p.line.rate_Hz, 1'234'567) << "a port keeps its rate for a shell's stty, as a real one does";
+}
+
 TEST(VirtualPort, TheClientOfTheBusRoomTalksToAUnit) {
   UnitPort p(3);
   SerialChannel channel(p.port.path());

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -42,6 +43,8 @@ class Echo final : public bus::SerialLine {
   void exchange(std::span<const std::uint8_t> bytes, std::vector<std::uint8_t>& answer) override {
     answer.insert(answer.end(), bytes.begin(), bytes.end());
   }
+  void set_rate(std::int64_t baud_Hz) override { rate_Hz = baud_Hz; }
+  std::atomic<std::int64_t> rate_Hz{0};  ///< the client's, at its last bytes
   [[nodiscard]] std::optional<Clock::time_point> wake() const override { return std::nullopt; }
 };
 

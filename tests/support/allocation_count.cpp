@@ -1,19 +1,26 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Counts every allocation of this test program. Apart from the tests: a compiler that sees both warns of the mismatch.
+// Counts every allocation of this test program, and lets one fail. Apart from the tests: a compiler that sees both warns of the
+// mismatch.
 #include <atomic>
 #include <cstdlib>
 #include <new>
 
 namespace {
 std::atomic<long> count{0};
-}
+thread_local long until_failure = 0;  // 0: none fails
+}  // namespace
 
 long allocation_count();
 long allocation_count() { return count.load(); }
 
+/// The nth allocation of this thread from now on fails; 0: none.
+void fail_allocation(long nth);
+void fail_allocation(long nth) { until_failure = nth; }
+
 void* operator new(std::size_t size) {
   count.fetch_add(1, std::memory_order_relaxed);
+  if (until_failure > 0 && --until_failure == 0) throw std::bad_alloc();
   if (void* p = std::malloc(size)) return p;
   throw std::bad_alloc();
 }

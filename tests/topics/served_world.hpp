@@ -25,7 +25,7 @@ inline constexpr const char* kBenchSdf = R"(<sdf version="1.8"><world name="benc
     <link name="lever"><inertial><mass>0.1</mass><inertia><ixx>1e-4</ixx><iyy>1e-4</iyy><izz>1e-4</izz></inertia></inertial></link>
     <joint name="shaft" type="revolute"><parent>base</parent><child>lever</child><axis><xyz>0 0 1</xyz></axis></joint>
     <plugin name="vsa::Robot" filename="libvsa-robot.so">
-      <actuator name="joint_1"><joint>shaft</joint><preset>qbmove_maker_pro</preset><bus id="1">arm</bus>
+      <actuator name="joint_1"><joint>shaft</joint><preset>qbmove_maker_pro_6_1</preset><bus id="1">arm</bus>
         <initial equilibrium_rad="0" preset_rad="0.2"/></actuator>
       <bus name="arm" baud="2000000" cycle_s="auto"/>
       <state_rate_Hz>100</state_rate_Hz>

@@ -47,10 +47,10 @@ export class Playback {
     else this.play();
   }
 
-  /** Wall time that has passed, s. */
+  /** Wall time that has passed, s. A browser's clock may be set back (a picture's time lies before its frame's, too): no time, then. */
   advance(seconds) {
     if (!this.playing) return;
-    this.time += seconds * this.speed;
+    this.time += Math.max(0, seconds) * this.speed;
     if (this.time >= this.end) {
       if (this.loop) {
         this.time = this.start + ((this.time - this.start) % this.duration);

@@ -7,8 +7,8 @@
 //          command's number (so that "refused" looks like a ping's answer); setting a parameter isn't answered; info text and
 //          parameter list are longer than LEN can say: the text comes raw, the list with LEN = 1201 mod 256.
 //   seven  as the public client qbdevice-api 7.2.8 expects it: PING answers a serial number, an acknowledgement is
-//   [command][v][CHK],
-//          setting a parameter is acknowledged, SET_INPUTS_ACK and GET_CYCLE_TIME exist, long answers have LEN = bytes/32.
+//          [command][v][CHK], setting a parameter is acknowledged, SET_INPUTS_ACK and GET_CYCLE_TIME exist, long answers have
+//          LEN = bytes/32.
 // A request's payload is read as the unit reads it: at fixed offsets, whatever LEN said. `complete` tells whether LEN covered it.
 //
 // Sources: NMMI/qbmove-maker-pro 6.1 (command_processing.c), NMMI/qbAPI, qbdevice-api 7.2.8 in revyos-ros/qbdevice-ros2-release.

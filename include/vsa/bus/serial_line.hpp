@@ -23,6 +23,10 @@ class SerialLine {
   /// The client's bytes, heard now, in order; may be empty. What the line says by now is appended to `answer`. Any bytes are fine.
   virtual void exchange(std::span<const std::uint8_t> from_client, std::vector<std::uint8_t>& answer) = 0;
 
+  /// What the client's own serial port is set to, bit/s, 0: hung up; told before each exchange. A line without a rate of its own
+  /// takes any.
+  virtual void set_rate(std::int64_t baud_Hz) { static_cast<void>(baud_Hz); }
+
   /// When the line will have something to say unasked: call `exchange` again then. None: nothing waits.
   [[nodiscard]] virtual std::optional<Clock::time_point> wake() const = 0;
 

@@ -10,6 +10,8 @@
 //   k1_Nm = { value = 0.022, unit = "N·m", bounds = [1e-6, 10.0], source = "Table I" }
 //   [drive]
 //   friction_Nm = { value = 0.8, unit = "N·m", bounds = [0.0, 100.0], source = "Table I" }
+//   [evidence]
+//   calibrated_on = { value = ["stiffness.0.6903"], source = "vsa identify" }      optional, see config/evidence.hpp
 //
 // The unit must be the schema's (config/schema.hpp), the bounds must lie within the schema's, the value within the bounds; words
 // and switches have value and source only. An override ("drive.friction_Nm" = "0.7") replaces a value and passes the same checks.
@@ -25,6 +27,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vsa/config/evidence.hpp"
 #include "vsa/device/unit.hpp"
 #include "vsa/errors.hpp"
 
@@ -46,6 +49,7 @@ struct Preset {
   std::string description;  ///< may be empty
   std::filesystem::path file;
   std::string law;
+  std::optional<Evidence> evidence;  ///< none: the preset doesn't say
   std::vector<Entry> entries;
   device::UnitConfig unit;
 };

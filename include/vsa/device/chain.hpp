@@ -8,7 +8,8 @@
 //   several      the wired-AND of bus/timing.hpp, bit by bit; so also when rates differ. A byte with a framing error is heard as
 //                it was sampled: the unit's serial port stores it, and the checksum refuses the frame
 //   answers      start at the request's end + the program's delay + turn-around (+ Wiring::late_ns); one unit's own answers never
-//   overlap a dead unit  neither hears nor speaks; what it was saying stops
+//                overlap
+//   a dead unit  neither hears nor speaks; what it was saying stops
 //
 // Time only moves forward, by run_to. A byte that ends exactly at a tick is heard before it; the host's bytes that set out exactly
 // then are asked for by the next run_to.

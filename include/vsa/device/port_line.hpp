@@ -12,6 +12,9 @@
 // its bytes, and long answers, wait for their time, and `wake` tells when. Of more than kMaxWaiting bytes the rest is lost, as in
 // a serial port that overruns.
 //
+// THE RATE. A client whose port is set to another rate than every unit's (by more than kRateSlack, half a bit in ten) sends them
+// noise: its bytes are dropped and counted. Where some units have another rate than others, the line is simulated bit by bit.
+//
 // Threads: `exchange`, `wake` and `set_rate` from the port's; `ticks` from the one that steps, which holds the lock for one tick's
 // programs and never for physics.
 #pragma once
@@ -21,6 +24,8 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "vsa/bus/line_host.hpp"
@@ -34,13 +39,16 @@ class PortLine final : public bus::SerialLine, private bus::LineHost {
   static constexpr std::int64_t kAheadNs = 500'000;
   static constexpr std::int64_t kMaxLeadNs = 50'000'000;
   static constexpr std::size_t kMaxWaiting = 4096;
+  static constexpr double kRateSlack = 0.05;
 
   explicit PortLine(Chain& chain, std::function<Clock::time_point()> now = Clock::now) : chain_(chain), wall_(std::move(now)) {}
 
   void exchange(std::span<const std::uint8_t> from_client, std::vector<std::uint8_t>& answer) override;
   [[nodiscard]] std::optional<Clock::time_point> wake() const override;
-  /// The client set its serial port to this.
-  void set_rate(std::int64_t baud_Hz);
+  /// The client's serial port is set to this, from the next exchange on; before the first call: to the units' own rate.
+  void set_rate(std::int64_t baud_Hz) override { client_Hz_ = baud_Hz; }
+  /// Before the port is opened: for clients that can't set a rate, any counts as the line's.
+  void take_any_rate() noexcept { any_rate_ = true; }
 
   /// Does `work(line time in ns)` under the lock, with the line heard up to a tick of simulated time.
   template <class Work>
@@ -61,6 +69,13 @@ class PortLine final : public bus::SerialLine, private bus::LineHost {
   void forget();
   /// Bytes of the client that were lost because too many waited.
   [[nodiscard]] std::uint64_t lost() const;
+  /// What was dropped because of its rate, and the rates when that happened last.
+  struct WrongRate {
+    std::uint64_t bytes = 0;
+    std::int64_t client_Hz = 0, units_Hz = 0;
+    [[nodiscard]] std::string text() const;  ///< for a user
+  };
+  [[nodiscard]] WrongRate wrong_rate() const;
 
  private:
   std::int64_t next_ps() const noexcept override;
@@ -71,6 +86,7 @@ class PortLine final : public bus::SerialLine, private bus::LineHost {
   std::int64_t move_to_tick(std::int64_t sim_ns);
   std::int64_t line_now_ns();
   std::int64_t wall_ns() const;
+  [[nodiscard]] bool heard_at_clients_rate();
 
   mutable std::mutex mutex_;
   std::atomic<bool> client_waits_{false};
@@ -85,6 +101,9 @@ class PortLine final : public bus::SerialLine, private bus::LineHost {
   std::vector<std::uint8_t> heard_;
   std::int64_t heard_ps_ = 0;
   std::uint64_t lost_ = 0;
+  std::optional<std::int64_t> client_Hz_;  // the port's thread alone
+  bool any_rate_ = false;
+  WrongRate wrong_rate_;
 };
 
 }  // namespace vsa::device

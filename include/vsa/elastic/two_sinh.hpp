@@ -10,8 +10,8 @@
 // Symmetric pair, x = θ_eq ± p, c = 0: τ = −2k cosh(a p) sinh(a (q − θ_eq)): the equilibrium doesn't depend on the preset p, the
 // stiffness at rest is 2 (a k cosh(a p) + c). The linear part c is none of the paper's: the recordings of the hardware ask for it
 // (docs/validation.md); the data sheet's extra 0.5 N·m/rad near zero points the same way. Beyond |δ_i| = d each spring goes on
-// along its tangent, T(d) + T'(d)(|δ_i| − d): nobody measured there, and tendons and mounts in series end the hardening. Range: |a
-// δ| < 700 (beyond it cosh overflows; a real spring breaks long before).
+// along its tangent, T(d) + T'(d)(|δ_i| − d): nobody measured there, and tendons and mounts in series end the hardening.
+// Range: |a δ| < 700 (beyond it cosh overflows; a real spring breaks long before).
 //
 // Source: the paper's eq. (1), which writes the external torque that balances the spring, the opposite sign of τ here. The
 // paper calls the preset "the difference q1 − q2"; its own references and the hardware data say half the difference.

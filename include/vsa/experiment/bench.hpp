@@ -76,21 +76,12 @@ void check_preset(const Specimen& specimen, double preset);
 
 struct StiffnessOptions {
   double preset = 0;
-  /// The preset is sent as the recordings' sender sent it: no larger than the unit's own max_stiffness (see sent_preset()).
-  bool limit_preset = true;
   double period_s = 38.0;               ///< the recordings' period isn't published: a nuisance parameter, common to all presets
   std::optional<double> amplitude_rad;  ///< none: by sweep_amplitude()
   double lead_in_cycles = 1;            ///< simulated and left out of the samples
   double cycles = 4;                    ///< in the samples
   double sample_s = 0.01;
 };
-/// The preset that the stiffness experiment sends for a commanded one: min(preset, max_stiffness), 3000 ticks or 0.5752 rad for the
-/// maker pro; the same where the law's preset isn't in rad. The makers' Simulink block clamped it there when the recordings were
-/// made (NMMI/qbmove-simulink, November 2013; 4000 ticks from March 2014), as 3000 ticks is the firmware's default. Evidence: a
-/// free limit is identified as 0.579 ± 0.004 rad from the recordings (docs/validation.md).
-[[nodiscard]] double sent_preset(const Specimen& specimen, double preset);
-[[nodiscard]] double sent_preset(const device::UnitConfig& unit, double preset);
-
 /// M g r of the load bench with this specimen on it, N·m.
 [[nodiscard]] double bench_load_peak_Nm(const Specimen& specimen);
 
@@ -101,7 +92,7 @@ struct StiffnessOptions {
 struct SweepAmplitude {
   double amplitude_rad = 0, target_rad = 0, reached_rad = 0;
 };
-[[nodiscard]] SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s, bool limit_preset = true);
+[[nodiscard]] SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s);
 [[nodiscard]] BenchRun run_stiffness(const Specimen& specimen, const StiffnessOptions& options, Watch* watch = nullptr);
 /// As the hardware recorded it: torque from the measured shaft angle, measured deflection.
 [[nodiscard]] LoadRecording as_recording(const BenchRun& run, double preset);

@@ -37,13 +37,16 @@ struct StepMeasures {
   double mean_speed = 0;     ///< Δy/Δt over the rise, eq. (9): rad/s
   double peak_slope = 0;     ///< largest dy/dt between neighbouring samples, towards the final value
   double overshoot_pct = 0;  ///< of the attained change
-  double ringing_Hz = 0;     ///< by the extrema after the rise; 0: none to measure
+  double ringing_Hz = 0;     ///< dominant, by the extrema after 90 %; NaN: fewer than two swings (one period) beyond the floor
   double damping_ratio = 0;  ///< by the logarithmic decrement of successive swings; NaN where fewer than two can be measured
   double final_value = 0;    ///< mean of the last tenth
   double steady_error = 0;   ///< final value − commanded
 };
-/// Swings smaller than `ringing_floor_pct` of the attained change count as noise.
+/// Twice a count of the qbmove's 12-bit encoder: what flickers by one count swings by less.
+inline constexpr double kRingingFloor_rad = 2 * 6.283185307179586 / 4096;
+
+/// Swings (peak to peak) up to `ringing_floor`, in y's unit, are noise; so are those below a twentieth of the largest.
 [[nodiscard]] StepMeasures step_measures(const std::vector<double>& time_s, const std::vector<double>& y, double from, double to,
-                                         double ringing_floor_pct = 0.5);
+                                         double ringing_floor = kRingingFloor_rad);
 
 }  // namespace vsa::experiment

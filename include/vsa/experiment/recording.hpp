@@ -58,12 +58,44 @@ void write_load_recording(const LoadRecording& recording, const std::filesystem:
 /// An empty cell is a branch without samples there.
 [[nodiscard]] Branches read_branches(const std::filesystem::path& csv);
 
+/// a − b on the torques that both have; NaN where one has no value. Without scatter.
+[[nodiscard]] Branches subtract(const Branches& a, const Branches& b);
+
 /// Root mean square of (a − b) over both branches, on the points that both have. Throws InputError where the grids share none.
 struct Difference {
   double both_rad = 0, rising_rad = 0, falling_rad = 0;  ///< NaN for a branch without a common point
   std::size_t points = 0;
 };
 [[nodiscard]] Difference difference(const Branches& a, const Branches& b);
+
+/// The same in torque: at each recorded deflection, the simulated branch's torque there less the recorded one. For a stiff joint
+/// this is the larger error, for a soft one the smaller: RMS in deflection alone counts a soft preset many times over.
+///
+/// The simulated branch δ(τ) is first made monotone: neighbours that fall back (an encoder's count, the turn of a loop) are pooled
+/// to their means (isotonic regression), each pool one knot; τ(δ) is linear between the knots. A recorded deflection beyond the
+/// last knot is followed along the line through that knot and the farthest one within 0.5 N·m of it, and counted as `extrapolated`.
+struct TorqueDifference {
+  double both_Nm = 0, rising_Nm = 0, falling_Nm = 0;  ///< root mean squares; NaN for a branch without points
+  std::size_t points = 0, extrapolated = 0;
+};
+/// All NaN, no points, where neither simulated branch has two knots.
+[[nodiscard]] TorqueDifference torque_difference(const Branches& simulated, const Branches& recorded);
+
+/// Torque of a simulated branch at a deflection, as above; `beyond` tells that it is extrapolated. NaN with fewer than two knots.
+struct BranchTorque {
+  double torque_Nm = 0;
+  bool beyond = false;
+};
+class BranchInverse {
+ public:
+  /// What isn't finite is left out.
+  BranchInverse(const std::vector<double>& torque_Nm, const std::vector<double>& deflection_rad);
+  [[nodiscard]] BranchTorque at(double deflection_rad) const;
+  [[nodiscard]] std::size_t knots() const noexcept { return deflection_.size(); }
+
+ private:
+  std::vector<double> deflection_, torque_;  ///< strictly increasing, increasing
+};
 
 /// A quantity over time: columns time_s (strictly increasing) and `column`.
 struct TimeSeries {

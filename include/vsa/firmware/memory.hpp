@@ -7,10 +7,11 @@
 //   user      the EEPROM's first page: what a power-up loads
 //   factory   the EEPROM's page of defaults
 //
-//   store(page)  current := stored, page := stored. So STORE_DEFAULT, too, makes everything current, and leaves the user page as it
-//   was. restore      stored := factory, then store(user); an empty factory page: initialise initialise   stored := the values
-//   below, then store(user), store(factory); max steps and baud rate stay what they are recall       (power-up) stored := user,
-//   current := stored; an empty user page: restore
+//   store(page)  current := stored, page := stored. So STORE_DEFAULT, too, makes everything current, and leaves the user page as
+//                it was.
+//   restore      stored := factory, then store(user); an empty factory page: initialise
+//   initialise   stored := the values below, then store(user), store(factory); max steps and baud rate stay what they are
+//   recall       (power-up) stored := user, current := stored; an empty user page: restore
 //
 // At once act: resolutions (in all conversions) and offsets, which the program reads from `stored`, the max_stiffness that info
 // text and calibration use, and which control mode ACTIVATE and SET_INPUTS look at. Everything else acts after a store. The ID that

@@ -62,6 +62,8 @@ struct BusConfig {
   /// The bus belongs to an external client on this virtual serial port: no master, commands to its actuators are not taken, units
   /// hold their initial references until the client tells them otherwise. The port itself is opened by the host's program.
   std::optional<std::string> serial_port = std::nullopt;
+  /// For clients that can't set a rate: whatever theirs is, they are heard. Else one at another rate than the units' sends noise.
+  bool any_rate = false;
 };
 
 inline constexpr int kMostSubsteps = 64;
@@ -174,6 +176,14 @@ class Robot {
   enum class Channel { equilibrium, preset };
   bool follow(std::size_t actuator, Channel channel, std::vector<Knot> knots);
 
+  /// Several at once: all begin with the same step, or none where one is refused (false).
+  struct Path {
+    std::size_t actuator = 0;
+    Channel channel = Channel::equilibrium;
+    std::vector<Knot> knots;
+  };
+  bool follow(std::vector<Path> paths);
+
   // An actuator that isn't there: InputError.
   [[nodiscard]] ActuatorReading read(std::size_t actuator) const;
   /// The references that the unit received last, as they came over its bus.
@@ -182,7 +192,7 @@ class Robot {
   [[nodiscard]] actuator::Ledger ledger() const;                      ///< summed over all actuators
   [[nodiscard]] std::vector<Notice> take_notices();                   ///< since the last call
 
-  /// Cuts or restores the supply of every unit (0 V: the motors short through the bridge).
+  /// Cuts or restores the supply of every unit (0 V: the motors short through the bridge), at once. The stepping thread's.
   void set_supply(bool on);
 
   /// Puts an actuator somewhere as if it had been there for long, so that there is no kick: shaft at q with q̇, pulleys on the law's

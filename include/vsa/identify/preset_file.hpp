@@ -17,9 +17,12 @@ struct Identified {
   std::string source;
 };
 
-/// TOML text of a preset called `name`. `settings` are the overrides that the identification ran with. The text has been read back
-/// by `library` before it is returned: throws InputError if it isn't a valid preset.
+/// TOML text of a preset called `name`. Its [evidence] is the preset's with what the identification was
+/// `fitted` to. The text has been read back by `library` before it is returned: throws InputError if it isn't a valid preset.
 [[nodiscard]] std::string preset_text(const config::Preset& preset, const std::string& name, const std::vector<Identified>& changes,
-                                      const config::PresetLibrary& library);
+                                      const config::Evidence& fitted, const config::PresetLibrary& library);
+
+/// The preset's evidence, and what it was now fitted to.
+[[nodiscard]] config::Evidence evidence_with(const std::optional<config::Evidence>& before, const config::Evidence& fitted);
 
 }  // namespace vsa::identify

@@ -51,7 +51,6 @@ class QuasiStatic {
   QuasiStatic(const device::UnitConfig& unit, double load_peak_Nm);
 
   /// The deflection that the unit's encoders read at this torque, as its shaft encoder tells it; NaN where there is no equilibrium.
-  /// `preset` as sent.
   [[nodiscard]] double deflection_rad(double preset, double torque_Nm, bool rising) const;
   /// Both branches on a grid, NaN where there is no equilibrium; scatter 0.
   [[nodiscard]] experiment::Branches branches(double preset, const std::vector<double>& torques_Nm) const;

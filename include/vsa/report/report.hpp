@@ -66,6 +66,9 @@ struct Report {
 /// The page's data. Throws std::invalid_argument where a curve's x, y and error differ in length.
 [[nodiscard]] std::string to_json(const Report& report);
 
+/// One chart as a picture without a page, for documents. Throws as to_json() does.
+[[nodiscard]] std::string to_svg(const Chart& chart);
+
 /// Beside it first, then renamed, so that there is never half a page. Throws record::RecordError / InputError as write_page does.
 void write_report(const Report& report, const std::filesystem::path& file);
 

@@ -11,6 +11,11 @@ namespace vsa::serial {
 /// where there is none, and starts with "vsa-" ("arm" and "vsa-arm" are the same port).
 [[nodiscard]] std::string port_path(std::string_view name);
 
+/// The file whose lock (flock) says that the port at this path is served: in /run/lock, or where that can't be written in the place
+/// above. All names of one place have the same: "vsa-", the port's name, and a hash of its directory. Never beside the link:
+/// programs for the hardware list what lies in /dev.
+[[nodiscard]] std::string lock_path(std::string_view port);
+
 struct PortList {
   std::vector<std::string> virtual_ports;  ///< "vsa-…" in the place above; those whose owner was killed are left out
   std::vector<std::string> left_behind;    ///< links of such ports whose owner was killed

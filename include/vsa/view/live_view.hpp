@@ -7,9 +7,11 @@
 //
 // Texts to pages are JSON objects by "type":
 //   hello  once, first: what tells this run from others, limits of every actuator, the gait's groups and bounds, and all that
-//   `state` has state  whenever it changes: speed, gait (playing, values, what is commanded by hand), recording, recordings error
-//   what a page asked for was refused; it alone hears of it note   something all should know end    the run is over, with the
-//   reason
+//          `state` has
+//   state  whenever it changes: speed, gait (playing, values, what is commanded by hand), recording, recordings
+//   error  what a page asked for was refused; it alone hears of it
+//   note   something all should know
+//   end    the run is over, with the reason
 #pragma once
 
 #include <filesystem>

@@ -1,0 +1,103 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "validate_record.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "vsa/errors.hpp"
+
+namespace vsa::app {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kWhatItIs = "results.json of vsa identify, with cross-validation";
+
+/// One object's members, each problem with the file and the key.
+class Fields {
+ public:
+  Fields(const Json& object, std::string at, const std::string& file) : object_(object), at_(std::move(at)), file_(file) {
+    if (!object.is_object()) fail("", "isn't an object");
+  }
+  [[nodiscard]] const Json& member(const char* key) const {
+    const auto it = object_.find(key);
+    if (it == object_.end()) fail(key, "is missing");
+    return *it;
+  }
+  [[nodiscard]] std::string text(const char* key) const {
+    const Json& value = member(key);
+    if (!value.is_string()) fail(key, "isn't a text");
+    return value.get<std::string>();
+  }
+  /// null: it isn't determined.
+  [[nodiscard]] double number(const char* key) const {
+    const Json& value = member(key);
+    if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
+    if (!value.is_number()) fail(key, "isn't a number");
+    return value.get<double>();
+  }
+  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
+    throw InputError({file_, at_ + key, "", what, kWhatItIs});
+  }
+
+ private:
+  const Json& object_;
+  std::string at_, file_;
+};
+
+Json parse(const std::filesystem::path& file) {
+  std::error_code error;
+  std::ifstream in;
+  if (std::filesystem::is_regular_file(file, error)) in.open(file, std::ios::binary);
+  if (!in.is_open()) throw InputError({file.string(), "", "", "can't be read", kWhatItIs});
+  Json out = Json::parse(in, nullptr, false);
+  if (out.is_discarded()) throw InputError({file.string(), "", "", "isn't JSON", kWhatItIs});
+  return out;
+}
+
+}  // namespace
+
+std::filesystem::path record_name(const std::string& preset) {
+  return std::filesystem::path("data") / preset / "leave_one_out.json";
+}
+
+LeaveOneOut read_leave_one_out(const std::filesystem::path& file) {
+  const Json root = parse(file);
+  LeaveOneOut out;
+  out.file = file.string();
+  const Fields all(root, "", out.file);
+  out.command = all.text("command");
+  const Json& parameters = all.member("parameters");
+  if (!parameters.is_array() || parameters.empty()) all.fail("parameters", "holds no parameter");
+  for (const Json& p : parameters) out.fitted.push_back(Fields(p, "parameters.", out.file).text("name"));
+  const Json& rows = all.member("leave_one_preset_out");
+  if (!rows.is_array() || rows.empty()) all.fail("leave_one_preset_out", "holds no preset that was left out");
+  for (const Json& row : rows) {
+    const Fields f(row, "leave_one_preset_out.", out.file);
+    out.rows.push_back({f.number("preset"), f.number("rms_rad"), f.number("rms_rad_fitted_to_all")});
+  }
+  const Json& values = all.member("identified_values");
+  if (!values.is_object()) all.fail("identified_values", "isn't an object");
+  const Fields f(values, "identified_values.", out.file);
+  for (const auto& [key, value] : values.items()) out.values.push_back({key, f.text(key.c_str())});
+  return out;
+}
+
+std::vector<std::string> differences(const LeaveOneOut& record, const config::Preset& preset) {
+  std::vector<std::string> changed, unknown;
+  for (const config::Entry& e : preset.entries) {
+    const auto same = [&](const LeaveOneOut::Value& v) { return v.key == e.key; };
+    const auto it = std::find_if(record.values.begin(), record.values.end(), same);
+    if (it == record.values.end()) {
+      unknown.push_back(e.key + " isn't in the record");
+    } else if (it->text != e.value) {
+      changed.push_back(e.key + " was " + it->text + " and is " + e.value);
+    }
+  }
+  changed.insert(changed.end(), unknown.begin(), unknown.end());
+  return changed;
+}
+
+}  // namespace vsa::app
