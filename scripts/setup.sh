@@ -6,7 +6,7 @@ set -eu
 packages="
   build-essential cmake ninja-build pkg-config git ca-certificates
   libmujoco-dev libqhull-dev libgl-dev libopengl-dev libsdformat-dev libassimp-dev libbullet-extras-dev libignition-transport-dev libignition-msgs-dev ignition-transport-cli
-  libtomlplusplus-dev libtinyxml2-dev libcli11-dev libfmt-dev nlohmann-json3-dev libboost-dev libceres-dev
+  libtomlplusplus-dev libtinyxml2-dev libcli11-dev libfmt-dev nlohmann-json3-dev libboost-dev libceres-dev libnlopt-cxx-dev
   libgtest-dev libbenchmark-dev python3-yaml
 "
 # The page tests drive Debian's Chromium, the man page's groff; a developer's tools are asked for by name: setup.sh test tidy

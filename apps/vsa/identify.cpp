@@ -11,6 +11,7 @@
 #include <iostream>
 #include <memory>
 
+#include "compare.hpp"
 #include "console.hpp"
 #include "exit_codes.hpp"
 #include "identify_output.hpp"
@@ -36,26 +37,14 @@ or branch means (…_branches.csv). Period and amplitude of the sweep are common
 Writes report.html, results.json and identified.toml, a preset for vsa. Where the data don't determine a parameter it
 says which, writes no preset and ends with 1.
 
-Example:
+--compare FILE fits each hypothesis of a TOML file to the recordings that it names, and with each of them left out, and
+writes comparison.md, comparison.json and every fit into --out; begun again it goes on. docs/11-identify.md tells the
+file's keys.
+
+Examples:
   vsa identify data/qbmove_maker_pro/*_samples.csv --preset qbmove_maker_pro \
-    --parameters elastic.k1_Nm=elastic.k2_Nm,drive.dead_band,shaft.friction_Nm,sensor.encoder_zero_rad)";
-
-bool holds_branches(const std::string& file) {
-  constexpr std::string_view kEnd = "_branches.csv";
-  return file.size() >= kEnd.size() && file.compare(file.size() - kEnd.size(), kEnd.size(), kEnd) == 0;
-}
-
-identify::Observation read_observation(const std::string& file, const config::Preset& preset) {
-  const experiment::NamedPreset named = experiment::preset_of_name(file);
-  const std::string unit(preset.unit.actuator.transmission->preset_unit());
-  if (named.unit != unit) {
-    throw InputError({file, "file name", named.unit, "the preset isn't in the unit of " + preset.name,
-                      unit.empty() ? "an actuator with a preset" : unit});
-  }
-  experiment::Branches data =
-      holds_branches(file) ? experiment::read_branches(file) : experiment::branches(experiment::read_load_recording(file));
-  return {file, named.value, std::move(data), 1.0};
-}
+    --parameters elastic.k1_Nm=elastic.k2_Nm,drive.dead_band,shaft.friction_Nm,sensor.encoder_zero_rad
+  vsa identify --compare data/qbmove_maker_pro/hypotheses.toml)";
 
 identify::Task read_task(const IdentifyOptions& o, const config::Preset& preset) {
   Problems problems;
@@ -70,7 +59,7 @@ identify::Task read_task(const IdentifyOptions& o, const config::Preset& preset)
   collect([&] { task.parameters = identify::parse_parameters(o.parameters, preset); });
   for (const std::string& file : o.recordings) {
     collect([&] {
-      task.observations.push_back(read_observation(file, preset));
+      task.observations.push_back(identify::read_observation(file, preset));
       identify::Observation& last = task.observations.back();
       if (o.weights == "scatter") last.weight = identify::scatter_weight(last.data);
     });
@@ -89,11 +78,34 @@ void check_numbers(const IdentifyOptions& o) {
   if (o.amplitude_rad) require(*o.amplitude_rad, "--amplitude-rad", 0.01, 3, "rad");
   require(o.cycles, "--cycles", 1.5, 100, "cycles");
   require(o.starts, "--starts", 1, 100, "starts");
+  require(o.seed, "--seed", 0, 1e9, "");
   require(o.iterations, "--iterations", 1, 1000, "iterations");
   require(o.profile, "--profile", 0, 101, "points");
   if (o.name.empty() ||
       o.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos) {
     problems.add({"", "--name", o.name, "isn't a preset's name", "letters, digits, _ and -"});
+  }
+  problems.throw_if_any();
+}
+
+/// What has no default, where there is no file of hypotheses that says it.
+void check_given(const IdentifyOptions& o) {
+  Problems problems;
+  if (o.recordings.empty()) problems.add({"", "RECORDING", "", "is missing", "CSV files, or --compare FILE"});
+  if (o.preset.empty()) problems.add({"", "--preset", "", "is missing", "an actuator preset, see vsa actuators"});
+  if (o.parameters.empty()) problems.add({"", "--parameters", "", "is missing", "keys, see vsa actuators NAME"});
+  problems.throw_if_any();
+}
+
+/// A file of hypotheses says all but where to write and how many fits at once.
+void refuse_mixed(const CLI::App& sub, bool comparing) {
+  Problems problems;
+  for (const CLI::Option* option : sub.get_options()) {
+    const std::string name = option->get_name();
+    const bool either = name == "--help" || name == "--out" || name == "--compare";
+    if (option->count() == 0 || either || (name == "--jobs") == comparing) continue;
+    problems.add({"", name, "", comparing ? "isn't for --compare: its file says it" : "is for --compare only",
+                  comparing ? "--out, --jobs" : "--compare FILE --jobs N"});
   }
   problems.throw_if_any();
 }
@@ -107,6 +119,8 @@ std::string command_of(const IdentifyOptions& o) {
   if (o.amplitude_rad) out += fmt::format(" --amplitude-rad {}", *o.amplitude_rad);
   if (o.cycles != usual.cycles) out += fmt::format(" --cycles {}", o.cycles);
   if (o.starts != usual.starts) out += fmt::format(" --starts {}", o.starts);
+  if (o.seed != usual.seed) out += fmt::format(" --seed {}", o.seed);
+  if (o.no_global) out += " --no-global";
   if (o.iterations != usual.iterations) out += fmt::format(" --iterations {}", o.iterations);
   if (o.profile != usual.profile) out += fmt::format(" --profile {}", o.profile);
   if (o.weights != usual.weights) out += " --weights " + o.weights;
@@ -129,6 +143,8 @@ void identify_all(Identification& r, const IdentifyOptions& o, Console& console)
   identify::FitOptions fit;
   fit.starts = o.starts;
   fit.iterations = o.iterations;
+  fit.global = !o.no_global;
+  fit.seed = static_cast<unsigned>(o.seed);
   fit.progress = [&](const std::string& text) { console.line(text); };
   std::vector<double> start;
   for (const identify::Parameter& p : r.task.parameters) start.push_back(p.start);
@@ -164,6 +180,7 @@ bool wait_for(std::future<void>& work, experiment::Watch& watch) {
 }  // namespace
 
 int run_identify(const IdentifyOptions& o) {
+  check_given(o);
   check_numbers(o);
   Identification r;
   experiment::Specimen specimen;
@@ -203,11 +220,11 @@ int run_identify(const IdentifyOptions& o) {
 void setup_identify(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<IdentifyOptions>();
   CLI::App* sub = app.add_subcommand("identify", "Find parameters of a preset from load-test recordings");
-  sub->add_option("RECORDING", o->recordings, "CSV files")->required();
-  sub->add_option("--preset", o->preset, "Actuator preset: start values, bounds and all that isn't identified")->required();
-  sub->add_option("--parameters", o->parameters, "Keys to identify, comma-separated; key=key gives both one value")->required();
-  sub->add_option("--set", o->set, "Hold a parameter at another value: key=value");
-  sub->add_option("--out", o->out, "Directory for the files; default: identify_PRESET");
+  sub->add_option("RECORDING", o->recordings, "CSV files");
+  sub->add_option("--preset", o->preset, "Actuator preset: start values, bounds and all that isn't identified");
+  sub->add_option("--parameters", o->parameters, "Keys to identify, comma-separated; key=key gives both one value");
+  sub->add_option("--set", o->set, "Hold a parameter at another value, or start there if it is identified: key=value");
+  sub->add_option("--out", o->out, "Directory for the files; default: identify_PRESET, compare_FILE");
   sub->add_option("--name", o->name, "Name of the preset that is written")->capture_default_str();
   sub->add_option("--period-s", o->period_s, "Period of the sweep")->check(number_given())->capture_default_str();
   sub->add_option("--amplitude-rad", o->amplitude_rad,
@@ -216,7 +233,12 @@ void setup_identify(CLI::App& app, int& exit_code) {
   sub->add_option("--cycles", o->cycles, "Cycles to simulate; the first half is left out")
       ->check(number_given())
       ->capture_default_str();
-  sub->add_option("--starts", o->starts, "Local solutions from different values")->check(number_given())->capture_default_str();
+  sub->add_option("--starts", o->starts,
+                  "Local solutions: from the preset's values, and from the places that a global search finds")
+      ->check(number_given())
+      ->capture_default_str();
+  sub->add_option("--seed", o->seed, "Of the global search")->check(number_given())->capture_default_str();
+  sub->add_flag("--no-global", o->no_global, "Take the other starts about the preset's values instead");
   sub->add_option("--iterations", o->iterations, "Most iterations of each")->check(number_given())->capture_default_str();
   sub->add_option("--profile", o->profile, "Points of each parameter's profile; 0: none")
       ->check(number_given())
@@ -225,8 +247,16 @@ void setup_identify(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"scatter", "equal"}))
       ->capture_default_str();
   sub->add_flag("--no-cross-validation", o->no_cross_validation, "Don't fit again without each preset in turn");
+  auto c = std::make_shared<CompareOptions>();
+  CLI::Option* compare = sub->add_option("--compare", c->file, "Compare the hypotheses of this TOML file instead");
+  sub->add_option("--jobs", c->jobs, "With --compare: fits side by side, 0 as many as the machine runs; default: as the file says")
+      ->check(number_given());
   sub->footer(kNotes);
-  sub->callback([o, &exit_code] { exit_code = run_identify(*o); });
+  sub->callback([o, c, sub, compare, &exit_code] {
+    refuse_mixed(*sub, compare->count() > 0);
+    c->out = o->out;
+    exit_code = compare->count() > 0 ? run_compare(*c) : run_identify(*o);
+  });
 }
 
 }  // namespace vsa::app

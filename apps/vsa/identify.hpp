@@ -19,13 +19,16 @@ struct IdentifyOptions {
   std::optional<double> amplitude_rad;  ///< of the sweep; none: by the rule in experiment/bench.hpp
   double cycles = 1.5;                  ///< simulated; the first half is left out
   int starts = 3;
+  int seed = 1;  ///< of the global search
+  bool no_global = false;
   int iterations = 20;
   int profile = 0;                  ///< points of each parameter's profile; 0: none
   std::string weights = "scatter";  ///< or "equal"
   bool no_cross_validation = false;
 };
 
-/// `vsa identify RECORDING.csv… --preset NAME --parameters …`. Sets the exit code when it was the subcommand.
+/// `vsa identify RECORDING.csv… --preset NAME --parameters …`, and `vsa identify --compare FILE` (compare.hpp). Sets the exit code
+/// when it was the subcommand.
 void setup_identify(CLI::App& app, int& exit_code);
 /// Writes its files only when all is done; no preset file, and exit code 1, where the data don't determine every parameter.
 int run_identify(const IdentifyOptions& options);

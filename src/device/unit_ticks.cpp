@@ -5,13 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "vsa/device/duty.hpp"
 #include "vsa/device/unit.hpp"
 #include "vsa/firmware/exchange.hpp"
 
 namespace vsa::device {
 namespace {
 
-constexpr double kDutyScale = 101.0;  // the PWM counter's period
 constexpr int kFull = 100;
 
 std::int16_t to_ticks(double rad, int resolution) noexcept {

@@ -153,6 +153,8 @@ double law_deflection(const elastic::Transmission& law, double preset, double lo
   return sign * high;
 }
 
+double bench_load_peak_Nm(const Specimen& specimen) { return Bench(specimen, kLoadBench, nullptr).load_peak_Nm(); }
+
 SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s) {
   StiffnessOptions options;
   options.preset = preset;

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <set>
 
 #include "vsa/errors.hpp"
 #include "vsa/experiment/parallel.hpp"
+#include "vsa/identify/quasi_static.hpp"
 
 namespace vsa::identify {
 namespace {
@@ -26,7 +29,7 @@ struct Shared {
 
   [[nodiscard]] experiment::Specimen with(const std::vector<double>& values) const {
     experiment::Specimen out = specimen;
-    for (config::Override& o : overrides(parameters, values)) out.overrides.push_back(std::move(o));
+    out.overrides = overrides(parameters, values, specimen.overrides);
     return out;
   }
 };
@@ -51,6 +54,74 @@ experiment::BranchOptions grid_of(const experiment::Branches& data) {
   return out;
 }
 
+/// A surrogate and what all its calls share: the units of the values asked for last, as building one costs as much as using it.
+class Surrogate {
+ public:
+  Surrogate(const Task& task, const experiment::Specimen& specimen, experiment::Watch* watch)
+      : specimen_(specimen), parameters_(task.parameters), watch_(watch), load_peak_Nm_(experiment::bench_load_peak_Nm(specimen)) {
+    for (const Observation& o : task.observations) {
+      presets_.push_back(o.preset);
+      torques_.push_back(every_other(o.data.torque_Nm));
+    }
+  }
+
+  experiment::Branches branches(const std::vector<double>& values, std::size_t observation) {
+    if (watch_ != nullptr && watch_->stop) throw experiment::Stopped();
+    const std::shared_ptr<const Known> known = at(values);
+    return known->model.branches(presets_[observation], torques_[observation]);
+  }
+
+ private:
+  struct Known {
+    std::vector<double> values;
+    QuasiStatic model;
+  };
+
+  /// The grid needn't be finer than the model is good: every second point, and the last.
+  static std::vector<double> every_other(const std::vector<double>& grid) {
+    std::vector<double> out;
+    for (std::size_t i = 0; i < grid.size(); i += 2) out.push_back(grid[i]);
+    if (grid.size() % 2 == 0) out.push_back(grid.back());
+    return out;
+  }
+
+  std::shared_ptr<const Known> at(const std::vector<double>& values) {
+    constexpr std::size_t kKept = 8;  // more than threads that are likely
+    {
+      const std::lock_guard lock(mutex_);
+      for (const auto& k : known_) {
+        if (k->values == values) return k;
+      }
+    }
+    const device::UnitConfig unit =
+        specimen_.library.load(specimen_.preset, overrides(parameters_, values, specimen_.overrides)).unit;
+    if (const auto why = unsupported(unit)) throw std::runtime_error(*why);
+    auto made = std::make_shared<const Known>(Known{values, QuasiStatic(unit, load_peak_Nm_)});
+    const std::lock_guard lock(mutex_);
+    if (known_.size() == kKept) known_.erase(known_.begin());
+    known_.push_back(made);
+    return made;
+  }
+
+  experiment::Specimen specimen_;
+  std::vector<Parameter> parameters_;
+  experiment::Watch* watch_;
+  double load_peak_Nm_;
+  std::vector<double> presets_;
+  std::vector<std::vector<double>> torques_;  ///< of each observation
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<const Known>> known_;
+};
+
+void use_quasi_static(Task& task, const experiment::Specimen& specimen, experiment::Watch* watch) {
+  const auto why = unsupported(specimen.library.load(specimen.preset, specimen.overrides).unit);
+  task.no_surrogate = why.value_or("");
+  task.surrogate = nullptr;
+  if (why) return;
+  auto surrogate = std::make_shared<Surrogate>(task, specimen, watch);
+  task.surrogate = [surrogate](const std::vector<double>& values, std::size_t o) { return surrogate->branches(values, o); };
+}
+
 }  // namespace
 
 experiment::LoadRecording simulated_recording(const experiment::Specimen& specimen, double preset, const SweepOptions& sweep,
@@ -58,7 +129,8 @@ experiment::LoadRecording simulated_recording(const experiment::Specimen& specim
   return run(specimen, preset, sweep, sweep.amplitude_rad, watch);
 }
 
-void use_bench(Task& task, const experiment::Specimen& specimen, const SweepOptions& sweep, experiment::Watch* watch) {
+void use_bench(Task& task, const experiment::Specimen& specimen, const SweepOptions& sweep, experiment::Watch* watch,
+               unsigned threads) {
   if (!(sweep.cycles >= 1.5)) {
     throw InputError({"", "cycles", fmt::format("{}", sweep.cycles), "out of range", "1.5 or more: the first half is left out"});
   }
@@ -68,13 +140,13 @@ void use_bench(Task& task, const experiment::Specimen& specimen, const SweepOpti
     shared->grids.push_back(grid_of(o.data));
     experiment::check_preset(specimen, o.preset);
   }
-  task.prepare = [shared](const std::vector<double>& values) {
+  task.prepare = [shared, threads](const std::vector<double>& values) {
     if (shared->sweep.amplitude_rad) return;
     const std::set<double> distinct(shared->presets.begin(), shared->presets.end());
     const std::vector<double> presets(distinct.begin(), distinct.end());
     std::vector<double> found(presets.size());
     const experiment::Specimen unit = shared->with(values);
-    experiment::run_in_parallel(presets.size(), 0, [&](std::size_t i) {
+    experiment::run_in_parallel(presets.size(), threads, [&](std::size_t i) {
       found[i] = experiment::sweep_amplitude(unit, presets[i], shared->sweep.period_s).amplitude_rad;
     });
     for (std::size_t i = 0; i < presets.size(); ++i) shared->amplitude_rad[presets[i]] = found[i];
@@ -86,6 +158,7 @@ void use_bench(Task& task, const experiment::Specimen& specimen, const SweepOpti
         found == shared->amplitude_rad.end() ? shared->sweep.amplitude_rad : std::optional<double>(found->second);
     return experiment::branches(run(shared->with(values), preset, shared->sweep, amplitude, shared->watch), shared->grids[o]);
   };
+  use_quasi_static(task, specimen, watch);
 }
 
 }  // namespace vsa::identify

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "vsa/errors.hpp"
+#include "vsa/identify/global_search.hpp"
 
 namespace vsa::identify {
 namespace {
@@ -150,13 +151,13 @@ std::vector<std::vector<double>> candidates(const Task& task, int count) {
   return out;
 }
 
-std::vector<std::vector<double>> starting_points(const Residuals& residuals, const FitOptions& o) {
-  const Task& task = residuals.task();
-  std::vector<double> first;
-  for (const Parameter& p : task.parameters) first.push_back(p.start);
-  std::vector<std::vector<double>> out{first};
-  if (o.starts <= 1) return out;
-  const auto trials = candidates(task, 4 * (o.starts - 1));
+void tell(const FitOptions& o, const std::string& text) {
+  if (o.progress) o.progress(text);
+}
+
+/// The best of the trials about the preset's values.
+void add_trials(std::vector<std::vector<double>>& to, const Residuals& residuals, std::size_t starts) {
+  const auto trials = candidates(residuals.task(), 4 * (static_cast<int>(starts) - 1));
   const auto found = residuals.at_all(trials);
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < trials.size(); ++i) {
@@ -165,8 +166,33 @@ std::vector<std::vector<double>> starting_points(const Residuals& residuals, con
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return residuals.cost(found[a]) < residuals.cost(found[b]); });
   for (std::size_t i : order) {
-    if (out.size() < static_cast<std::size_t>(o.starts)) out.push_back(trials[i]);
+    if (to.size() < starts) to.push_back(trials[i]);
   }
+}
+
+/// False: the surrogate sees nothing, or there is none.
+bool add_global(std::vector<std::vector<double>>& to, const Residuals& residuals, const FitOptions& o) {
+  const Task& task = residuals.task();
+  if (!task.surrogate) {
+    if (!task.no_surrogate.empty()) tell(o, "no global search: " + task.no_surrogate);
+    return false;
+  }
+  GlobalOptions options;
+  options.searches = o.starts - 1;
+  options.seed = o.seed;
+  options.threads = residuals.threads();
+  const GlobalSearch search = search_globally(task, options);
+  for (const GlobalPoint& p : search.points) to.push_back(p.values);
+  tell(o, fmt::format("global search: {} place{}", search.points.size(), search.points.size() == 1 ? "" : "s"));
+  return !search.points.empty();
+}
+
+std::vector<std::vector<double>> starting_points(const Residuals& residuals, const FitOptions& o) {
+  std::vector<double> first;
+  for (const Parameter& p : residuals.task().parameters) first.push_back(p.start);
+  std::vector<std::vector<double>> out{first};
+  if (o.starts <= 1 || first.empty()) return out;
+  if (!o.global || !add_global(out, residuals, o)) add_trials(out, residuals, static_cast<std::size_t>(o.starts));
   return out;
 }
 
@@ -182,10 +208,6 @@ ceres::Solver::Options solver_options(const FitOptions& o) {
   return s;
 }
 
-void tell(const FitOptions& o, const std::string& text) {
-  if (o.progress) o.progress(text);
-}
-
 }  // namespace
 
 StartResult solve(const Residuals& residuals, const std::vector<double>& from, const std::vector<bool>& fixed,
@@ -193,7 +215,7 @@ StartResult solve(const Residuals& residuals, const std::vector<double>& from, c
   const Task& task = residuals.task();
   if (task.prepare) task.prepare(from);
   const std::vector<double> here = residuals.at(from);
-  StartResult out{from, from, {}, rms(here), 0, true};
+  StartResult out{from, from, {}, rms(here), residuals.cost(here), 0, true};
   std::vector<std::size_t> free;
   for (std::size_t k = 0; k < from.size(); ++k) {
     if (!fixed[k]) free.push_back(k);
@@ -220,7 +242,9 @@ StartResult solve(const Residuals& residuals, const std::vector<double>& from, c
   cost.throw_failure();
   out.steps = step;
   out.to = cost.values(u.data());
-  out.rms_rad = rms(residuals.at(out.to));
+  const std::vector<double> there = residuals.at(out.to);
+  out.rms_rad = rms(there);
+  out.cost = residuals.cost(there);
   out.iterations = static_cast<int>(summary.iterations.size()) - 1;
   out.converged = summary.termination_type == ceres::CONVERGENCE;
   return out;
@@ -236,7 +260,7 @@ void evaluate_at(Fit& fit, const Residuals& residuals, double effect_rad) {
   std::vector<std::size_t> all(fit.values.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   fit.jacobian = residuals.jacobian(fit.values, fit.residuals, fit.steps, all);
-  if (fit.jacobian.empty()) throw std::runtime_error("the model can't be evaluated beside the solution");
+  if (fit.jacobian.empty() && !all.empty()) throw std::runtime_error("the model can't be evaluated beside the solution");
   fit.at_bound.clear();
   for (std::size_t k = 0; k < fit.values.size(); ++k) {
     const Parameter& p = task.parameters[k];
@@ -265,9 +289,9 @@ Fit fit(const Residuals& residuals, const FitOptions& o) {
   }
   // Costs, not RMS, decide: the recordings have weights. Each is judged with what the model held constant on its way.
   std::vector<double> costs;
-  for (const StartResult& s : out.starts) {
+  for (StartResult& s : out.starts) {
     if (task.prepare) task.prepare(s.to);
-    costs.push_back(residuals.cost(residuals.at(s.to)));
+    costs.push_back(s.cost = residuals.cost(residuals.at(s.to)));
   }
   std::vector<std::size_t> order(costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

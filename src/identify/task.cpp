@@ -105,12 +105,31 @@ std::vector<Parameter> parse_parameters(const std::string& text, const config::P
   return out;
 }
 
-std::vector<config::Override> overrides(const std::vector<Parameter>& parameters, const std::vector<double>& values) {
+std::vector<config::Override> overrides(const std::vector<Parameter>& parameters, const std::vector<double>& values,
+                                        const std::vector<config::Override>& also) {
   std::vector<config::Override> out;
+  for (const config::Override& o : also) {
+    const auto named = [&](const Parameter& p) { return std::find(p.keys.begin(), p.keys.end(), o.key) != p.keys.end(); };
+    if (std::none_of(parameters.begin(), parameters.end(), named)) out.push_back(o);
+  }
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     for (const std::string& key : parameters[k].keys) out.push_back({key, config::number_text(values[k])});
   }
   return out;
+}
+
+Observation read_observation(const std::filesystem::path& file, const config::Preset& preset) {
+  constexpr std::string_view kBranches = "_branches.csv";
+  const std::string path = file.string();
+  const experiment::NamedPreset named = experiment::preset_of_name(file);
+  const std::string unit(preset.unit.actuator.transmission->preset_unit());
+  if (named.unit != unit) {
+    throw InputError({path, "file name", named.unit, "the preset isn't in the unit of " + preset.name,
+                      unit.empty() ? "an actuator with a preset" : unit});
+  }
+  const bool means = path.size() >= kBranches.size() && path.substr(path.size() - kBranches.size()) == kBranches;
+  return {path, named.value, means ? experiment::read_branches(file) : experiment::branches(experiment::read_load_recording(file)),
+          1.0};
 }
 
 double scatter_weight(const experiment::Branches& data) {

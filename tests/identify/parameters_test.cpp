@@ -59,6 +59,15 @@ TEST(Parameters, BecomeOverridesOfEveryTiedKey) {
   EXPECT_EQ(o[2].value, "0.02");
 }
 
+TEST(Parameters, TakeThePlaceOfOverridesOfTheirKeys) {
+  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm", paper_preset());
+  const auto o = overrides(p, {0.03}, {{"elastic.k2_Nm", "0.5"}, {"shaft.friction_Nm", "0.1"}});
+  ASSERT_EQ(o.size(), 3u);
+  EXPECT_EQ(o[0].key, "shaft.friction_Nm");
+  EXPECT_EQ(o[2].key, "elastic.k2_Nm");
+  EXPECT_EQ(o[2].value, "0.03");
+}
+
 TEST(Rounding, KeepsSignificantDigits) {
   EXPECT_EQ(rounded(0.0123456, 3), 0.0123);
   EXPECT_EQ(rounded(-98765.0, 2), -99000.0);

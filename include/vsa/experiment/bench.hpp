@@ -82,6 +82,8 @@ struct StiffnessOptions {
   double cycles = 4;                    ///< in the samples
   double sample_s = 0.01;
 };
+/// M g r of the load bench with this specimen on it, N·m.
+[[nodiscard]] double bench_load_peak_Nm(const Specimen& specimen);
 
 /// The amplitude for any preset by one rule, as an experimenter would find it: with it, the first quarter of the sweep at this
 /// period brings the shaft to the angle that data/README.md tells for the recordings (94° at preset 0, 90° at 0.46, 81° at 0.6903

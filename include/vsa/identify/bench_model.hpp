@@ -19,8 +19,10 @@ struct SweepOptions {
   double sample_s = 0.01;
 };
 
-/// Puts `model` and `prepare` into a task whose parameters and observations are there. `watch` ends it from another thread.
-void use_bench(Task& task, const experiment::Specimen& specimen, const SweepOptions& sweep, experiment::Watch* watch = nullptr);
+/// Puts `model`, `prepare` and, where the unit has one (quasi_static.hpp), `surrogate` into a task whose parameters and
+/// observations are there. `watch` ends it from another thread; `threads` are those of `prepare`, 0: all that the machine has.
+void use_bench(Task& task, const experiment::Specimen& specimen, const SweepOptions& sweep, experiment::Watch* watch = nullptr,
+               unsigned threads = 0);
 
 /// One run of it, as the model sees it; for plots and for making recordings to try the identification on.
 [[nodiscard]] experiment::LoadRecording simulated_recording(const experiment::Specimen& specimen, double preset,

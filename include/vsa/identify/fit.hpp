@@ -3,7 +3,7 @@
 // Bounded least squares with Ceres' trust region (Levenberg–Marquardt, steps ended at the bounds), from several deterministic
 // starts. Why Ceres and not NLopt: the problem is a sum of squares whose Jacobian costs 2n + 1 simulations that run side by side; a
 // trust region on it needs about ten of them, NLopt's derivative-free methods hundreds of simulations, and its gradient methods
-// don't see the squares.
+// don't see the squares. Where a task has a surrogate, NLopt finds the starts on it (global_search.hpp).
 #pragma once
 
 #include <functional>
@@ -15,7 +15,11 @@
 namespace vsa::identify {
 
 struct FitOptions {
-  int starts = 3;            ///< local solutions: one from the preset's values, the others from the best of 4 × as many trials
+  /// Local solutions at most: one from the preset's values, the others from a global search on the surrogate, which may find fewer
+  /// places; without a surrogate from the best of 4 × as many trials about the preset's values.
+  int starts = 3;
+  bool global = true;        ///< false: as without a surrogate
+  unsigned seed = 1;         ///< of the global search
   int iterations = 20;       ///< of each
   double effect_rad = 2e-3;  ///< of a difference step
   double tolerance = 1e-3;   ///< relative decrease of the cost at which a solution ends
@@ -26,6 +30,7 @@ struct StartResult {
   std::vector<double> from, to;
   std::vector<double> steps;  ///< of the differences
   double rms_rad = 0;
+  double cost = 0;  ///< at `to`, ½ Σ w² r²; by fit(), with what the model held constant on the way there
   int iterations = 0;
   bool converged = false;
 };

@@ -46,6 +46,7 @@ class Residuals {
   [[nodiscard]] double cost(const std::vector<double>& residuals) const;  ///< ½ Σ w² r²
   [[nodiscard]] std::size_t evaluations() const noexcept { return evaluations_; }
   [[nodiscard]] const Task& task() const noexcept { return task_; }
+  [[nodiscard]] unsigned threads() const noexcept { return threads_; }
 
  private:
   const Task& task_;

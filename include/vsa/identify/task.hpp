@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -42,14 +43,23 @@ struct Task {
   /// Called, from one thread, before each local solution with its start: what the model holds constant on the way (the sweep's
   /// amplitude). May be empty.
   std::function<void(const std::vector<double>& values)> prepare;
+  /// A cheap model of the same kind for the global search, called from several threads; its branches may lie on another grid.
+  /// Empty: there is none, and `no_surrogate` says why.
+  Model surrogate;
+  std::string no_surrogate;
 };
 
 /// "a.x,b.y=c.z" → parameters with unit, start and bounds of the preset. Tied keys: the bounds' intersection, the first key's
 /// start. Throws InputError for every key that is unknown, twice, no real number, or tied to one of another unit.
 [[nodiscard]] std::vector<Parameter> parse_parameters(const std::string& text, const config::Preset& preset);
 
-/// The overrides that give a preset these values.
-[[nodiscard]] std::vector<config::Override> overrides(const std::vector<Parameter>& parameters, const std::vector<double>& values);
+/// The overrides that give a preset these values, after those of `also` that are about other keys.
+[[nodiscard]] std::vector<config::Override> overrides(const std::vector<Parameter>& parameters, const std::vector<double>& values,
+                                                      const std::vector<config::Override>& also = {});
+
+/// A recording for a preset: branch means (…_branches.csv) or samples, the commanded preset in its name; weight 1. Throws
+/// InputError where it can't be read, or where that preset isn't in the unit of this actuator's.
+[[nodiscard]] Observation read_observation(const std::filesystem::path& file, const config::Preset& preset);
 
 /// 1 / root mean square of the recording's own scatter about its branches, so that a curve counts as much as it is known.
 [[nodiscard]] double scatter_weight(const experiment::Branches& data);

@@ -1,0 +1,101 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// `vsa identify --compare`: what it keeps, what it goes on from, what it refuses. The fits are short and coarse.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "subprocess.hpp"
+
+namespace {
+
+using vsa::test::read_file;
+using vsa::test::Result;
+using vsa::test::run_vsa;
+using vsa::test::Scratch;
+using vsa::test::Subprocess;
+using vsa::test::write_file;
+
+const std::string kData = std::string(VSA_SOURCE_DIR) + "/data/qbmove_maker_pro/";
+
+std::string hypothesis(const std::string& name, const std::string& set) {
+  return "[[hypothesis]]\nname = \"" + name + "\"\nbase = \"qbmove_maker_pro\"\nset = {" + set + "}\nfree = []\n";
+}
+
+std::string comparison(const std::string& hypotheses, const std::string& period_s = "2") {
+  return "[compare]\ntitle = \"Two\"\nstarts = 1\niterations = 1\nrecordings = [\"" + kData +
+         "stiffness_preset_0.0000rad_branches.csv\", \"" + kData +
+         "stiffness_preset_0.6903rad_branches.csv\"]\n[bench]\namplitude_rad = 2\nperiod_s = " + period_s + "\n" + hypotheses;
+}
+
+Result compare(const Scratch& scratch, std::vector<std::string> more = {}) {
+  std::vector<std::string> all{"identify", "--compare", (scratch / "two.toml").string(), "--out", (scratch / "out").string()};
+  all.insert(all.end(), more.begin(), more.end());
+  return run_vsa(all);
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST(Compare, PrintsATableAndGoesOnFromTheFitsThatAreThere) {
+  const Scratch scratch;
+  write_file(scratch / "two.toml", comparison(hypothesis("one", "") + hypothesis("other", "\"tendon.friction\" = 0.05")));
+  const Result first = compare(scratch, {"--jobs", "2"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(count(first.err, "kept:"), 0u);
+  EXPECT_NE(first.out.find("predicted 0.6903"), std::string::npos) << first.out;
+  const std::string json = read_file(scratch / "out" / "comparison.json"), table = read_file(scratch / "out" / "comparison.md");
+  EXPECT_NE(table.find("| other |"), std::string::npos) << table;
+
+  const std::filesystem::path fits = scratch / "out" / "fits";
+  write_file(fits / "one.json", "{\"asked\": \"half of a file");
+  const Result second = compare(scratch, {"--jobs", "1"});
+  EXPECT_EQ(count(second.err, "kept:"), 5u) << "all but the one that is spoilt:\n" << second.err;
+  EXPECT_EQ(count(second.err, "kept: one\n"), 0u);
+
+  write_file(scratch / "two.toml", comparison(hypothesis("one", "") + hypothesis("other", "\"tendon.friction\" = 0.06")));
+  const Result third = compare(scratch);
+  EXPECT_EQ(count(third.err, "kept: one"), 3u) << third.err;
+  EXPECT_EQ(count(third.err, "kept: other"), 0u) << "it is another hypothesis now:\n" << third.err;
+}
+
+TEST(Compare, KeepsWhatWasDoneWhenItIsInterrupted) {
+  const Scratch scratch;
+  write_file(scratch / "two.toml", comparison(hypothesis("one", "") + hypothesis("other", "\"tendon.friction\" = 0.05"), "19"));
+  Subprocess running(
+      {"identify", "--compare", (scratch / "two.toml").string(), "--out", (scratch / "out").string(), "--jobs", "1"});
+  ASSERT_TRUE(running.read_until([](const Result& r) { return r.err.find("1 of 6: one in") != std::string::npos; }));
+  running.send(SIGINT);
+  const Result stopped = running.wait();
+  EXPECT_EQ(stopped.exit_code, 128 + SIGINT) << stopped.err;
+  EXPECT_NE(stopped.err.find("goes on from"), std::string::npos) << stopped.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out" / "comparison.json"));
+  const Result second = compare(scratch);
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_GE(count(second.err, "kept:"), 1u);
+}
+
+TEST(Compare, RefusesWhatDoesntGoTogetherAndWritesNothing) {
+  const Scratch scratch;
+  const auto refused = [&](const Result& r, const std::string& part) {
+    EXPECT_EQ(r.exit_code, 2) << r.err;
+    EXPECT_NE(r.err.find(part), std::string::npos) << "no '" << part << "' in:\n" << r.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+  };
+  refused(compare(scratch), "can't be read");
+  write_file(scratch / "two.toml", comparison(hypothesis("one", "\"tendon.friction\" = 5")));
+  refused(compare(scratch), "tendon.friction");
+  write_file(scratch / "two.toml", comparison(hypothesis("one", "")));
+  refused(compare(scratch, {"--preset", "qbmove_maker_pro"}), "--preset");
+  refused(compare(scratch, {"--jobs", "-1"}), "--jobs");
+  refused(compare(scratch, {"--jobs", ""}), "--jobs");
+  refused(run_vsa({"identify", kData + "stiffness_preset_0.0000rad_branches.csv", "--jobs", "2", "--preset", "qbmove_maker_pro",
+                   "--parameters", "tendon.friction", "--out", (scratch / "out").string()}),
+          "--jobs");
+}
+
+}  // namespace

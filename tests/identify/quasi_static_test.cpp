@@ -1,0 +1,110 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The load test without dynamics, against closed forms and against the simulated bench.
+#include "vsa/identify/quasi_static.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "closed_form.hpp"
+#include "vsa/experiment/bench.hpp"
+#include "vsa/units.hpp"
+
+namespace vsa::identify {
+namespace {
+
+device::UnitConfig unit(const std::string& preset, const std::vector<config::Override>& overrides = {}) {
+  return test::shipped().load(preset, overrides).unit;
+}
+
+const std::vector<config::Override> kWithoutFriction{
+    {"drive.friction_Nm", "0"}, {"drive.load_loss", "0"}, {"shaft.friction_Nm", "0"}, {"sensor.shaft_zero_rad", "0"}};
+
+TEST(StaticDrive, IsTheProgramsGainTimesTheBridgesStallTorque) {
+  // 0.1 % a raw tick; 61 % of the duty at 12 V, in counts of 101: between the ends a straight line, at the ends the stall torque.
+  const device::UnitConfig u = unit("qbmove_maker_pro_6_1");
+  const StaticDrive drive(u);
+  const double stall = 0.61 * 100 / 101 * 12.0 / u.actuator.motor.resistance_Ohm * u.actuator.motor.torque_constant_Nm_per_A;
+  EXPECT_NEAR(drive.torque_Nm(3.0), stall, 1e-9);
+  EXPECT_NEAR(drive.torque_Nm(-3.0), -stall, 1e-9);
+  const double half_rad = 500 * 2 * kPi / 65536;  // 500 raw ticks: half of the output
+  EXPECT_NEAR(drive.torque_Nm(half_rad), 0.5 * stall, 0.02 * stall);
+  EXPECT_NEAR(drive.torque_Nm(-half_rad), -0.5 * stall, 0.02 * stall);
+}
+
+TEST(StaticDrive, GivesNothingWithinADeadBandAndLittleBelowHalfADutyOfAModulatedEnablePin) {
+  const double fifth_rad = 200 * 2 * kPi / 65536, most_rad = 900 * 2 * kPi / 65536;  // 20 % and 90 % of the output
+  EXPECT_EQ(StaticDrive(unit("qbmove_maker_pro_6_1", {{"drive.dead_band", "0.3"}})).torque_Nm(fifth_rad), 0.0);
+  EXPECT_GT(StaticDrive(unit("qbmove_maker_pro_6_1")).torque_Nm(fifth_rad), 0.1);
+  const std::vector<config::Override> enable{
+      {"drive.pwm_pin", "enable"}, {"drive.pwm_period_s", "0"}, {"firmware.generation", "2"}};
+  EXPECT_EQ(StaticDrive(unit("qbmove_maker_pro_6_1", enable)).torque_Nm(fifth_rad), 0.0);
+  const StaticDrive modulated(unit("qbmove_maker_pro_6_1", enable));
+  EXPECT_GT(modulated.torque_Nm(most_rad), 0.7 * modulated.torque_Nm(3.0));
+  EXPECT_LT(modulated.torque_Nm(most_rad), 0.85 * modulated.torque_Nm(3.0)) << "2d − 1, and not d";
+}
+
+TEST(StaticDrive, IsRefusedWhereTheLoopIsntProportional) {
+  EXPECT_FALSE(unsupported(unit("qbmove_maker_pro_6_1")));
+  EXPECT_FALSE(unsupported(unit("qbmove_advanced")));
+  EXPECT_TRUE(unsupported(unit("qbmove_maker_pro_6_1", {{"firmware.ki_pct_per_tick", "0.001"}})));
+  EXPECT_TRUE(unsupported(unit("qbmove_maker_pro_6_1", {{"firmware.kp_pct_per_tick", "-0.1"}})));
+  EXPECT_TRUE(unsupported(unit("qbmove_maker_pro_6_1", {{"drive.polarity", "-1"}})));
+  device::UnitConfig other = unit("qbmove_maker_pro_6_1");
+  other.memory.control_mode = 4;
+  EXPECT_TRUE(unsupported(other));
+}
+
+TEST(QuasiStatic, WithoutFrictionShowsTheLawItself) {
+  // One spring of stiffness k: τ = k δ, whatever the motor's loop gives way.
+  const device::UnitConfig u = unit("sea_example", kWithoutFriction);
+  const QuasiStatic model(u, 2.0);
+  const double k = u.actuator.transmission->evaluate({}).curvature.qq;
+  for (const bool rising : {true, false}) EXPECT_NEAR(model.deflection_rad(0, 0.8, rising), 0.8 / k, 1e-6);
+}
+
+TEST(QuasiStatic, TheLoopOfShaftAndTendonsIsAsWideAsTheirFriction) {
+  std::vector<config::Override> o = kWithoutFriction;
+  o[2].value = "0.03";
+  o.push_back({"tendon.friction", "0.1"});
+  const device::UnitConfig u = unit("sea_example", o);
+  const QuasiStatic model(u, 2.0);
+  const double k = u.actuator.transmission->evaluate({}).curvature.qq;
+  // rising: τ + f = kδ(1 + μ); falling: τ − f = kδ(1 − μ)
+  EXPECT_NEAR(model.deflection_rad(0, 0.8, true), 0.83 / 1.1 / k, 1e-6);
+  EXPECT_NEAR(model.deflection_rad(0, 0.8, false), 0.77 / 0.9 / k, 1e-6);
+}
+
+TEST(QuasiStatic, AMotorThatIsDrivenBackSpreadsLessAndSoTheJointIsSofter) {
+  // With a preset both springs pull their motors together; what friction takes is what the loop needn't give.
+  const auto deflection = [](const char* loss) {
+    const device::UnitConfig u = unit("qbmove_maker_pro_6_1", {{"drive.back_loss", loss}, {"sensor.shaft_zero_rad", "0"}});
+    const QuasiStatic model(u, 1.47);
+    return model.deflection_rad(0.55, 1.0, true) - model.deflection_rad(0.55, -1.0, true);
+  };
+  EXPECT_GT(deflection("0"), deflection("0.6") + 1e-3);
+}
+
+TEST(QuasiStatic, IsWithinFiveMilliradiansOfTheSimulatedBench) {
+  experiment::Specimen specimen;
+  specimen.preset = "qbmove_maker_pro_6_1";
+  specimen.library = test::shipped();
+  const device::UnitConfig u = unit(specimen.preset);
+  const QuasiStatic model(u, experiment::bench_load_peak_Nm(specimen));
+  for (const double preset : {0.0, 0.6903}) {
+    experiment::StiffnessOptions o;
+    o.preset = preset;
+    o.amplitude_rad = preset == 0.0 ? 2.23 : 1.55;
+    o.lead_in_cycles = 0;
+    o.cycles = 1.5;
+    const auto simulated = experiment::branches(experiment::as_recording(experiment::run_stiffness(specimen, o), preset));
+    const auto found = model.branches(preset, simulated.torque_Nm);
+    const experiment::Difference d = experiment::difference(found, simulated);
+    EXPECT_GT(d.points, 100u);
+    EXPECT_LT(d.both_rad, 0.005) << preset;
+  }
+}
+
+}  // namespace
+}  // namespace vsa::identify
