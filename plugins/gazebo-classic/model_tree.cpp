@@ -71,7 +71,7 @@ bool ModelTree::build(const std::vector<LinkPtr>& links, std::vector<TreeBody>& 
         }
         body.parent = static_cast<std::size_t>(at - items_.begin());
       }
-      items_.push_back({*it, joint});
+      items_.push_back({*it, joint, {}, {}, {}, {}});
       bodies.push_back(body);
       it = waiting.erase(it);
     }
@@ -80,19 +80,46 @@ bool ModelTree::build(const std::vector<LinkPtr>& links, std::vector<TreeBody>& 
   return true;
 }
 
+/// An axis keeps its place in its link, so what it is there is asked for once, when the model stands.
+void ModelTree::read_joint(Item& item, const TreeBody& body) {
+  if (body.joint != TreeBody::Joint::revolute && body.joint != TreeBody::Joint::prismatic) return;
+  const auto& pose = item.link->WorldPose();
+  item.axis = pose.Rot().RotateVectorReverse(item.joint->GlobalAxis(0));
+  item.anchor = pose.Rot().RotateVectorReverse(item.joint->WorldPose().Pos() - pose.Pos());
+}
+
+void ModelTree::read_inertia(Item& item, TreeBody& body) {
+  const auto inertial = item.link->GetInertial();
+  body.mass_kg = inertial->Mass();
+  item.center = inertial->CoG();
+  item.inertia = inertial->MOI({item.center, ignition::math::Quaterniond::Identity});
+}
+
 void ModelTree::mobility(std::span<double> out) {
+  std::vector<TreeBody>& bodies = tree_.bodies();
+  for (std::size_t i = 0; i < items_.size() && !read_; ++i) {
+    read_joint(items_[i], bodies[i]);
+    read_inertia(items_[i], bodies[i]);
+  }
+  read_ = true;
+  // Somebody may give a link another mass while it runs: one of them is looked at each time.
+  if (!items_.empty()) {
+    next_ = (next_ + 1) % items_.size();
+    read_inertia(items_[next_], bodies[next_]);
+  }
   for (std::size_t i = 0; i < items_.size(); ++i) {
-    const LinkPtr& link = items_[i].link;
-    TreeBody& body = tree_.bodies()[i];
-    const auto inertia = link->WorldInertiaMatrix();
+    const Item& item = items_[i];
+    TreeBody& body = bodies[i];
+    const auto& pose = item.link->WorldPose();
+    const ignition::math::Matrix3d turned(pose.Rot());
+    const auto inertia = turned * item.inertia * turned.Transposed();
     for (unsigned r = 0; r < 3; ++r) {
       for (unsigned c = 0; c < 3; ++c) body.inertia_kgm2[3 * r + c] = inertia(r, c);
     }
-    body.mass_kg = link->GetInertial()->Mass();
-    body.center_of_mass = array(link->WorldInertialPose().Pos());
+    body.center_of_mass = array(pose.Pos() + turned * item.center);
     if (body.joint != TreeBody::Joint::revolute && body.joint != TreeBody::Joint::prismatic) continue;
-    body.axis = array(items_[i].joint->GlobalAxis(0));
-    body.anchor = array(items_[i].joint->WorldPose().Pos());
+    body.axis = array(turned * item.axis);
+    body.anchor = array(pose.Pos() + turned * item.anchor);
   }
   tree_.mobility(out);
 }

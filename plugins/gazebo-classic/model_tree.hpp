@@ -4,6 +4,8 @@
 #pragma once
 
 #include <gazebo/physics/PhysicsTypes.hh>
+#include <ignition/math/Matrix3.hh>
+#include <ignition/math/Vector3.hh>
 #include <span>
 #include <vector>
 
@@ -25,11 +27,19 @@ class ModelTree {
   struct Item {
     gazebo::physics::LinkPtr link;
     gazebo::physics::JointPtr joint;  ///< that it hangs on; null: free
+    // in the link's own frame
+    ignition::math::Vector3d center, axis, anchor;
+    ignition::math::Matrix3d inertia;
   };
+
+  void read_joint(Item& item, const host::TreeBody& body);
+  void read_inertia(Item& item, host::TreeBody& body);
 
   bool build(const std::vector<gazebo::physics::LinkPtr>& links, std::vector<host::TreeBody>& bodies);
 
   std::vector<Item> items_;
+  std::size_t next_ = 0;  ///< whose inertia is read again
+  bool read_ = false;
   DrivenTree tree_;
 };
 

@@ -98,7 +98,8 @@ std::vector<Notice> Robot::take_notices() {
         text += ": commands aren't taken: its bus belongs to the serial port " + *impl_->config.buses[a.bus].serial_port;
         break;
     }
-    out.push_back({n.actuator, std::move(text)});
+    const bool whole = n.kind == NoticeKind::unsettled || n.kind == NoticeKind::energy;
+    out.push_back({whole ? std::nullopt : std::optional(n.actuator), std::move(text)});
   }
   return out;
 }

@@ -31,6 +31,22 @@ Vector times(const Matrix& m, const Vector& v) {
   return out;
 }
 
+using Lanes = std::array<double, TreeInertia::kBlock>;
+
+/// sᵀ m, column by column.
+Lanes product(const Vector& s, const std::array<Lanes, 6>& m) noexcept {
+  Lanes out{};
+  for (std::size_t k = 0; k < 6; ++k)
+    for (std::size_t c = 0; c < out.size(); ++c) out[c] += s[k] * m[k][c];
+  return out;
+}
+
+Lanes less(const Lanes& a, const Lanes& b) noexcept {
+  Lanes out{};
+  for (std::size_t c = 0; c < out.size(); ++c) out[c] = a[c] - b[c];
+  return out;
+}
+
 /// Of one body about `origin`: momentum = matrix · velocity.
 Matrix spatial_inertia(const TreeBody& body, const Vector3& origin) {
   const Vector3 c = minus(body.center_of_mass, origin);
@@ -110,32 +126,48 @@ void TreeInertia::update(const std::vector<TreeBody>& bodies) noexcept {
   }
 }
 
-/// Everything's acceleration for a unit torque at this body's joint.
-void TreeInertia::pull(const std::vector<TreeBody>& bodies, std::size_t joint) noexcept {
-  for (Node& n : nodes_) {
-    n.bias = {};
-    n.drive = 0;
+/// Towards the roots: what unit torques at the joints of `block` ask of every body, p and u.
+void TreeInertia::push(const std::vector<TreeBody>& bodies, std::span<const std::size_t> block, std::size_t last) noexcept {
+  for (std::size_t i = 0; i <= last; ++i) {
+    nodes_[i].bias = {};
+    nodes_[i].drive = {};
   }
-  nodes_[joint].drive = 1;
-  for (std::size_t i = joint;;) {
+  for (std::size_t c = 0; c < block.size(); ++c) nodes_[block[c]].drive[c] = 1;
+  for (std::size_t i = last + 1; i-- > 0;) {
     Node& n = nodes_[i];
-    if (i != joint) n.drive = -dot(n.axis, n.bias) * (n.reciprocal != 0 ? 1.0 : 0.0);
-    const std::size_t parent = bodies[i].parent;
-    if (parent == TreeBody::kGround) break;
-    for (std::size_t k = 0; k < 6; ++k) nodes_[parent].bias[k] += n.bias[k] + n.momentum[k] * n.drive * n.reciprocal;
-    i = parent;
-  }
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    Node& n = nodes_[i];
-    if (bodies[i].joint == TreeBody::Joint::free) {
-      n.acceleration = times(n.response, n.bias);
-      for (double& a : n.acceleration) a = -a;
-      n.answer = 0;
+    if (bodies[i].parent == TreeBody::kGround) {
+      if (n.reciprocal != 0) n.drive = less(n.drive, product(n.axis, n.bias));
       continue;
     }
-    n.acceleration = bodies[i].parent == TreeBody::kGround ? Vector{} : nodes_[bodies[i].parent].acceleration;
-    n.answer = n.reciprocal * (n.drive - dot(n.momentum, n.acceleration));
-    for (std::size_t k = 0; k < 6; ++k) n.acceleration[k] += n.axis[k] * n.answer;
+    Columns& parent = nodes_[bodies[i].parent].bias;
+    if (n.reciprocal == 0) {
+      for (std::size_t k = 0; k < 6; ++k)
+        for (std::size_t c = 0; c < kBlock; ++c) parent[k][c] += n.bias[k][c];
+      continue;
+    }
+    n.drive = less(n.drive, product(n.axis, n.bias));
+    for (std::size_t k = 0; k < 6; ++k) {
+      const double share = n.momentum[k] * n.reciprocal;
+      for (std::size_t c = 0; c < kBlock; ++c) parent[k][c] += n.bias[k][c] + share * n.drive[c];
+    }
+  }
+}
+
+/// Towards the leaves: how every joint answers, into `drive`.
+void TreeInertia::pull(const std::vector<TreeBody>& bodies, std::size_t last) noexcept {
+  for (std::size_t i = 0; i <= last; ++i) {
+    Node& n = nodes_[i];
+    if (bodies[i].joint == TreeBody::Joint::free) {
+      for (std::size_t k = 0; k < 6; ++k) n.acceleration[k] = less({}, product(n.response[k], n.bias));
+      n.drive = {};
+      continue;
+    }
+    const bool grounded = bodies[i].parent == TreeBody::kGround;
+    n.acceleration = grounded ? Columns{} : nodes_[bodies[i].parent].acceleration;
+    n.drive = less(n.drive, product(n.momentum, n.acceleration));
+    for (double& answer : n.drive) answer *= n.reciprocal;
+    for (std::size_t k = 0; k < 6; ++k)
+      for (std::size_t c = 0; c < kBlock; ++c) n.acceleration[k][c] += n.axis[k] * n.drive[c];
   }
 }
 
@@ -144,9 +176,15 @@ void TreeInertia::mobility(const std::vector<TreeBody>& bodies, std::span<const 
   const std::size_t n = of.size();
   require(bodies.size() == nodes_.size() && out.size() == n * n, kHere, "bodies and out need their sizes");
   for (const std::size_t body : of) require(body < nodes_.size(), kHere, "no such body");
-  for (std::size_t j = 0; j < n; ++j) {
-    pull(bodies, of[j]);
-    for (std::size_t i = j; i < n; ++i) out[i * n + j] = out[j * n + i] = nodes_[of[i]].answer;
+  for (std::size_t j = 0; j < n; j += kBlock) {
+    const auto block = of.subspan(j, std::min(kBlock, n - j));
+    const std::size_t last = *std::max_element(block.begin(), block.end());
+    push(bodies, block, last);
+    pull(bodies, last);
+    // What lies behind a joint in the list has that joint in its own block, or in this.
+    for (std::size_t c = 0; c < block.size(); ++c)
+      for (std::size_t i = 0; i < n; ++i)
+        if (of[i] <= block[c]) out[i * n + j + c] = out[(j + c) * n + i] = nodes_[of[i]].drive[c];
   }
 }
 

@@ -24,6 +24,22 @@ using vsa::host::RobotConfig;
 using vsa::test::chain;
 using Bench = vsa::test::Flanges;
 
+TEST(Robot, WhatIsTheWholeRobotsIsToldOfNoActuator) {
+  // The host throws its flanges to and fro without telling, each step against what was foreseen.
+  Bench bench(chain(2));
+  for (int n = 0; n < 256; ++n) {
+    for (JointIn& joint : bench.in) joint = {n % 2 == 0 ? 0.2 : -0.2, 0, 1e3};
+    bench.step();
+  }
+  bool told = false;
+  for (const vsa::host::Notice& n : bench.robot.take_notices()) {
+    if (n.text.find("out of nothing") == std::string::npos) continue;
+    told = true;
+    EXPECT_FALSE(n.actuator.has_value()) << n.text;
+  }
+  EXPECT_TRUE(told);
+}
+
 TEST(Robot, UnitTwelveMovesLaterThanUnitOneByTheTimeTheFramesTake) {
   // At 115200 baud a unit's slot is 28 bytes = 2.43 ms: unit 12 is 26.7 ms behind unit 1.
   RobotConfig config = chain(12);
@@ -99,6 +115,7 @@ TEST(Robot, OutOfRangeCommandsAreClampedAndReportedOnce) {
   const auto notices = bench.robot.take_notices();
   ASSERT_EQ(notices.size(), 1u);
   EXPECT_NE(notices[0].text.find("a1"), std::string::npos);
+  EXPECT_EQ(notices[0].actuator, 0u);
   bench.run(500);
   EXPECT_LT(bench.robot.read(0).preset, 0.8);
   EXPECT_TRUE(bench.robot.take_notices().empty());

@@ -101,6 +101,30 @@ TEST(TreeInertia, ABranchedTreeDoesNotDependOnTheOrderOfItsBranches) {
   EXPECT_NEAR(a[2], b[1], 1e-9 * a[2]);
 }
 
+TEST(TreeInertia, WhatTwoJointsDoToEachOtherDoesNotDependOnWhichOthersAreAskedFor) {
+  // Two arms of five joints on a body that flies, so several blocks of columns; in an order that isn't the bodies'.
+  std::vector<TreeBody> bodies{body(TreeBody::kGround, Joint::free, {}, {}, 1.0, {0, 0, 0}, 0.05)};
+  for (std::size_t i = 1; i <= 10; ++i) {
+    const double x = 0.1 * static_cast<double>(i), y = 0.03 * static_cast<double>(i * i);
+    const std::array<double, 3> axis = i % 3 == 0 ? std::array<double, 3>{1, 0, 0} : std::array<double, 3>{0, 0.6, 0.8};
+    bodies.push_back(body(i < 3 ? 0 : i - 2, Joint::revolute, axis, {x, y, 0}, 0.3 + 0.02 * x, {x + 0.05, y, 0.02}, 0.001));
+  }
+  const std::vector<std::size_t> all{7, 2, 10, 1, 9, 4, 3, 8, 6, 5};
+  std::vector<double> whole(100), pair(4);
+  TreeInertia tree(bodies.size());
+  tree.update(bodies);
+  tree.mobility(bodies, all, whole);
+  for (std::size_t i = 0; i < 10; ++i) {
+    for (std::size_t j = 0; j < 10; ++j) {
+      if (i == j) continue;
+      const std::array<std::size_t, 2> two{all[i], all[j]};
+      tree.mobility(bodies, two, pair);
+      EXPECT_NEAR(whole[10 * i + j], pair[1], 1e-9 * std::abs(pair[0])) << all[i] << ", " << all[j];
+      EXPECT_NEAR(whole[10 * i + i], pair[0], 1e-9 * pair[0]);
+    }
+  }
+}
+
 TEST(TreeInertia, ABodyWithoutMassGivesNoAnswerAndNoCrash) {
   const auto a = inverse({body(TreeBody::kGround, Joint::revolute, kZ, {0, 0, 0}, 0, {0, 0, 0}, 0)});
   EXPECT_FALSE(std::isfinite(a[0]));

@@ -118,7 +118,7 @@ struct Placement {
 
 /// A command that was out of range is clamped as the device does and reported once per actuator.
 struct Notice {
-  std::size_t actuator = 0;
+  std::optional<std::size_t> actuator;  ///< none: of the robot as a whole
   std::string text;
 };
 

@@ -8,6 +8,7 @@
 //     U = I S,   D = Sᵀ U,   I_parent += I − U Uᵀ/D                                          from the leaves to the roots, once
 //     u = τ − Sᵀ p,   p_parent += p + U u/D                                                  from joint j to its root
 //     q̈ = (u − Uᵀ a_parent)/D,   a = a_parent + S q̈                                         from the roots to the leaves
+// four columns at a time, and only as far out as their joints: B is symmetric.
 // with a = 0 for the ground and a = −I⁻¹ p for a body that flies free. Contacts aren't in it. Reference: R. Featherstone, Rigid
 // Body Dynamics Algorithms, ch. 7.
 #pragma once
@@ -35,6 +36,8 @@ struct TreeBody {
 
 class TreeInertia {
  public:
+  static constexpr std::size_t kBlock = 4;  ///< columns that are worked out together
+
   /// Resizes only; update() and column() then allocate nothing.
   explicit TreeInertia(std::size_t bodies);
 
@@ -47,15 +50,18 @@ class TreeInertia {
  private:
   using Vector = std::array<double, 6>;
   using Matrix = std::array<Vector, 6>;
+  using Lanes = std::array<double, kBlock>;
+  using Columns = std::array<Lanes, 6>;
   struct Node {
     Matrix inertia, response;  ///< response: I⁻¹ of a body that flies free
-    Vector axis, momentum, bias, acceleration;
-    double reciprocal = 0;  ///< 1/D
-    double drive = 0;       ///< u
-    double answer = 0;      ///< q̈
+    Vector axis, momentum;
+    double reciprocal = 0;       ///< 1/D
+    Columns bias, acceleration;  ///< p, a
+    Lanes drive{};               ///< u, then q̈
   };
 
-  void pull(const std::vector<TreeBody>& bodies, std::size_t joint) noexcept;
+  void push(const std::vector<TreeBody>& bodies, std::span<const std::size_t> block, std::size_t last) noexcept;
+  void pull(const std::vector<TreeBody>& bodies, std::size_t last) noexcept;
   std::vector<Node> nodes_;
 };
 
