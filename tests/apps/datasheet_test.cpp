@@ -49,8 +49,8 @@ TEST(Datasheet, HasTheNumbersOfLawAndDrive) {
 TEST(Datasheet, AgreesWithCharacterize) {
   const Scratch scratch;
   const auto sheet = run_vsa({"datasheet", "qbmove_maker_pro_6_1", "--out", scratch / "sheet.html"});
-  const auto measured = run_vsa(
-      {"characterize", "qbmove_maker_pro_6_1", "--experiment", "speed", "--experiment", "preset-step", "--out", scratch / "measured"});
+  const auto measured = run_vsa({"characterize", "qbmove_maker_pro_6_1", "--experiment", "speed", "--experiment", "preset-step",
+                                 "--out", scratch / "measured"});
   ASSERT_EQ(sheet.exit_code, 0) << sheet.err;
   ASSERT_EQ(measured.exit_code, 0) << measured.err;
   const auto speeds = words_after(sheet.out, "mean speed 10–90 %, preset 0 / 0.75");  // "4.38 / 3.72 rad/s …"

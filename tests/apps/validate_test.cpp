@@ -41,7 +41,7 @@ void has(const std::string& text, const std::vector<std::string>& parts) {
 
 /// A record as `vsa identify` writes one, of a preset with another motor friction.
 std::string foreign_record() {
-  return R"({"program": "vsa", "command": "vsa identify here", "more": [1], "parameters": [{"name": "drive.load_loss"}], "identified_values": {"drive.friction_Nm": "9"},
+  return R"({"program": "vsa", "command": "vsa identify here", "more": [1], "parameters": [{"name": "drive.load_loss", "keys": ["drive.load_loss"], "interval_95": [0, 1]}], "identified_values": {"drive.friction_Nm": "9"},
     "leave_one_preset_out": [{"preset": 0.6903, "values": [], "rms_rad": 0.0412, "rms_rad_fitted_to_all": 0.0123}]})";
 }
 
@@ -182,7 +182,7 @@ TEST(Validate, TakesARecordForStaleWhereAHeldValueOrAFittedOneBeyondItsIntervalD
     write_file(scratch / "r.json", text);
     const auto r = run_vsa({"validate", "--leave-one-out", (scratch / "r.json").string(), "--out", (scratch / "out").string()});
     EXPECT_EQ(r.exit_code, 0) << r.err;
-    return r.out.find("stale") != std::string::npos;
+    return r.out.find("STALE") != std::string::npos;
   };
   EXPECT_FALSE(stale("\"drive.supply_V\": \"8", "\"drive.supply_V\": \"8"));
   EXPECT_TRUE(stale("\"drive.supply_V\": \"8", "\"drive.supply_V\": \"9"));

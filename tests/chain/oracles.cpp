@@ -153,17 +153,18 @@ TEST(Chain, EquilibriumDoesNotDependOnThePreset) {
 TEST(Chain, MotorReachesItsSteadySpeed) {
   FlangeWorld f;
   f.inertia_kgm2 = 4e-4;
+  f.preset = "qbmove_maker_pro_paper";
   World w = World::load_string(flange_world(f));
   w.run(0.05);
   w.command("a", 2.0, 0.611);
-  w.run(0.25);
+  w.run(0.15);
   double speed = 0;
   for (int n = 0; n < 100; ++n) {
     w.step();
     speed += 0.005 * (w.read("a").motor_speed_rad_per_s[0] + w.read("a").motor_speed_rad_per_s[1]);
   }
   const double volts = 61.0 / 101.0 * 12.0;
-  const double expected = (0.8 * volts / 2.3 - 0.8) / (0.01 + 0.8 * 1.3 / 2.3);
+  const double expected = (1.02 * volts / 2.3 - 0.8) / (0.01 + 1.02 * 1.02 / 2.3);
   EXPECT_NEAR(speed, expected, 0.05 * expected);
 }
 

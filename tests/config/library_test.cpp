@@ -66,12 +66,12 @@ TEST(Override, TurnsOnTheBridgeAsACircuitAndAnOlderLoop) {
   EXPECT_EQ(as_shipped.program.generation, firmware::Generation::v6);
   const auto u = shipped()
                      .load("qbmove_maker_pro_6_1", {{"drive.pwm_pin", "enable"},
-                                                {"drive.pwm_period_s", "1e-5"},
-                                                {"drive.inductance_H", "2e-4"},
-                                                {"drive.switch_Ohm", "0.24"},
-                                                {"drive.diode_V", "0.7"},
-                                                {"drive.back_loss", "0.1"},
-                                                {"firmware.generation", "3"}})
+                                                    {"drive.pwm_period_s", "1e-5"},
+                                                    {"drive.inductance_H", "2e-4"},
+                                                    {"drive.switch_Ohm", "0.24"},
+                                                    {"drive.diode_V", "0.7"},
+                                                    {"drive.back_loss", "0.1"},
+                                                    {"firmware.generation", "3"}})
                      .unit;
   EXPECT_EQ(u.actuator.bridge.pin, drive::PwmPin::enable);
   EXPECT_EQ(u.actuator.bridge.period_s, 1e-5);

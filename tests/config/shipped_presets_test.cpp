@@ -116,8 +116,8 @@ TEST(ShippedPresets, TheBackEmfConstantsSourceExplainsTheErratum) {
 
 TEST(ShippedPresets, TheRecordedMakerProAndTheUsersDifferInBridgeSupplyAndLoopAndInNothingElse) {
   const Preset recorded = shipped().load("qbmove_maker_pro"), users = shipped().load("qbmove_maker_pro_6_1");
-  const std::set<std::string> electronics{"drive.supply_V",      "drive.pwm_pin",       "drive.diode_V",
-                                          "drive.inductance_H",  "firmware.generation", "firmware.kp_pct_per_tick",
+  const std::set<std::string> electronics{"drive.supply_V",          "drive.pwm_pin",       "drive.diode_V",
+                                          "drive.inductance_H",      "firmware.generation", "firmware.kp_pct_per_tick",
                                           "firmware.kd_pct_per_tick"};
   std::map<std::string, std::string> values;
   for (const config::Entry& e : users.entries) values[e.key] = e.value;

@@ -17,8 +17,8 @@ WorldOptions options() {
 }
 
 std::string actuator(const std::string& joint, int id, const std::string& more = {}) {
-  return "<actuator><joint>" + joint + "</joint><preset>qbmove_maker_pro_6_1</preset><bus id='" + std::to_string(id) + "'>arm</bus>" +
-         more + "</actuator>";
+  return "<actuator><joint>" + joint + "</joint><preset>qbmove_maker_pro_6_1</preset><bus id='" + std::to_string(id) +
+         "'>arm</bus>" + more + "</actuator>";
 }
 
 std::string plugin(const std::string& content) {

@@ -23,7 +23,8 @@ std::string pressed(double inertia_kgm2, double step_s) {
     << "</izz></inertia></inertial></link><joint name='j' type='revolute'><parent>base</parent><child>finger</child><axis><xyz>0 1 "
        "0"
     << "</xyz><limit><lower>-0.3</lower><upper>0.3</upper></limit></axis></joint>"
-    << "<plugin name='vsa::Robot' filename='libvsa-robot.so'><actuator name='a'><joint>j</joint><preset>qbmove_maker_pro_6_1</preset>"
+    << "<plugin name='vsa::Robot' filename='libvsa-robot.so'><actuator "
+       "name='a'><joint>j</joint><preset>qbmove_maker_pro_6_1</preset>"
     << "<bus id='1'>b</bus><initial equilibrium_rad='0' preset_rad='0.3'/></actuator><bus "
        "name='b'/></plugin></model></world></sdf>";
   return s.str();
@@ -39,7 +40,7 @@ TEST(Stops, HoldALightFingerThatAnActuatorPressesAgainstThem) {
       EXPECT_GT(reading.mean_torque_Nm, 0.8) << inertia << " kg·m², " << step_s << " s: it presses";
       EXPECT_LT(world.joint_angle("m::j"), 0.3 + (step_s > 2e-3 ? 8e-3 : 5e-3)) << inertia << " kg·m², " << step_s << " s";
       EXPECT_GT(world.joint_angle("m::j"), 0.3 - 1e-3) << inertia << " kg·m², " << step_s << " s";
-      EXPECT_LT(std::abs(world.joint_speed("m::j")), step_s > 2e-3 ? 0.15 : 0.02) << inertia << " kg·m², " << step_s << " s";
+      EXPECT_LT(std::abs(world.joint_speed("m::j")), step_s > 2e-3 ? 0.25 : 0.02) << inertia << " kg·m², " << step_s << " s";
     }
   }
 }

@@ -86,23 +86,30 @@ TEST(QuasiStatic, AMotorThatIsDrivenBackSpreadsLessAndSoTheJointIsSofter) {
   EXPECT_GT(deflection("0"), deflection("0.6") + 1e-3);
 }
 
-TEST(QuasiStatic, IsWithinFiveMilliradiansOfTheSimulatedBench) {
-  experiment::Specimen specimen;
-  specimen.preset = "qbmove_maker_pro_6_1";
-  specimen.library = test::shipped();
-  const device::UnitConfig u = unit(specimen.preset);
-  const QuasiStatic model(u, experiment::bench_load_peak_Nm(specimen));
-  for (const double preset : {0.0, 0.6903}) {
-    experiment::StiffnessOptions o;
-    o.preset = preset;
-    o.amplitude_rad = preset == 0.0 ? 2.23 : 1.55;
-    o.lead_in_cycles = 0;
-    o.cycles = 1.5;
-    const auto simulated = experiment::branches(experiment::as_recording(experiment::run_stiffness(specimen, o), preset));
-    const auto found = model.branches(preset, simulated.torque_Nm);
-    const experiment::Difference d = experiment::difference(found, simulated);
-    EXPECT_GT(d.points, 100u);
-    EXPECT_LT(d.both_rad, 0.005) << preset;
+TEST(QuasiStatic, IsWithinSomeMilliradiansOfTheSimulatedBench) {
+  struct Case {
+    std::string type;
+    std::vector<config::Override> overrides;
+    double within_rad;
+  };
+  // With 12 V the users' motors stall under the whole load. A motor within the dead zone of an open bridge creeps: less exact.
+  const Case cases[] = {{"qbmove_maker_pro_6_1", {{"drive.supply_V", "24"}}, 0.006}, {"qbmove_maker_pro", {}, 0.010}};
+  for (const Case& c : cases) {
+    experiment::Specimen specimen;
+    specimen.preset = c.type;
+    specimen.overrides = c.overrides;
+    specimen.library = test::shipped();
+    const QuasiStatic model(unit(c.type, c.overrides), experiment::bench_load_peak_Nm(specimen));
+    for (const double preset : {0.0, 0.4602, 0.6903}) {
+      experiment::StiffnessOptions o;
+      o.preset = preset;
+      o.lead_in_cycles = 0;
+      o.cycles = 1.5;
+      const auto simulated = experiment::branches(experiment::as_recording(experiment::run_stiffness(specimen, o), preset));
+      const experiment::Difference d = experiment::difference(model.branches(preset, simulated.torque_Nm), simulated);
+      EXPECT_GT(d.points, 100u);
+      EXPECT_LT(d.both_rad, c.within_rad) << c.type << ", preset " << preset;
+    }
   }
 }
 
