@@ -15,8 +15,6 @@ constexpr double kReach_rad = 0.25;
 /// ends to slide Newton can go to and fro, so after some rounds less is allowed.
 constexpr double kOvershoot = 0.9, kOvershootLater = 0.3;
 constexpr int kEarly = 8;
-/// A direction whose slopes are wrong by less than this part needs no new factor.
-constexpr double kStale = 0.01;
 /// The torque that may be left over where no round settles.
 constexpr double kLeft = 1e-3, kLeft_Nm = 1e-4;
 
@@ -74,9 +72,7 @@ JointSolver::JointSolver(std::size_t joints)
       gradient_(joints),
       torque_(joints),
       slope_(joints),
-      factored_(joints),
-      column_(joints),
-      carried_(joints) {}
+      column_(joints) {}
 
 void JointSolver::set(std::span<const double> mobility, std::int64_t dt_ns) noexcept {
   if (dt_ns == dt_ns_ && std::equal(mobility.begin(), mobility.end(), mobility_.begin())) return;
@@ -120,20 +116,8 @@ void JointSolver::gradient(std::span<const JointInStep> joints) noexcept {
 template <std::size_t N>
 bool JointSolver::factor_slopes() noexcept {
   std::copy(inertia_.begin(), inertia_.end(), work_.begin());
-  for (std::size_t i = 0; i < count<N>(n_); ++i) {
-    work_[i * n_ + i] += slope_[i];
-    factored_[i] = slope_[i];
-  }
+  for (std::size_t i = 0; i < count<N>(n_); ++i) work_[i * n_ + i] += slope_[i];
   return factor<N>(work_, n_, column_.data());
-}
-
-/// Whether the slopes are others than those of the factor.
-template <std::size_t N>
-bool JointSolver::stale() const noexcept {
-  if (N == 1) return true;
-  for (std::size_t i = 0; i < count<N>(n_); ++i)
-    if (std::abs(slope_[i] - factored_[i]) > kStale * (inertia_[i * n_ + i] + slope_[i])) return true;
-  return false;
 }
 
 /// move_ := −(C⁻¹ + S)⁻¹ g
@@ -145,30 +129,15 @@ void JointSolver::newton() noexcept {
 
 /// Whether every unit takes move_ for the last one; the torques that it leads to.
 template <std::size_t N>
-bool JointSolver::near(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
+bool JointSolver::near(std::span<const JointInStep> joints, std::span<double> torques) const noexcept {
   bool all = true;
   for (std::size_t i = 0; i < count<N>(n_); ++i) {
-    carried_[i] = joints[i].unit->carried(*joints[i].state, *joints[i].plan, since(joints, i) + move_[i]);
-    torques[i] = carried_[i].torque;
-    all = all && carried_[i].settled;
+    const ShaftTorque t = joints[i].unit->carried(*joints[i].state, *joints[i].plan, move_[i]);
+    torques[i] = t.torque;
+    all = all && t.settled;
   }
   return all;
 }
-
-/// After a whole move_: who took it for the last keeps what that foretold, the others try it.
-template <std::size_t N>
-void JointSolver::go_on(std::span<const JointInStep> joints) noexcept {
-  for (std::size_t i = 0; i < count<N>(n_); ++i) {
-    const JointInStep& j = joints[i];
-    const ShaftTorque t = carried_[i].settled ? carried_[i] : j.unit->attempt(*j.state, *j.plan, dy_[i], false);
-    torque_[i] = t.torque;
-    slope_[i] = t.slope;
-  }
-  gradient<N>(joints);
-}
-
-/// How far joint i has come since its unit's last attempt.
-double JointSolver::since(std::span<const JointInStep> joints, std::size_t i) const noexcept { return dy_[i] - joints[i].plan->dy; }
 
 template <std::size_t N>
 double JointSolver::along() const noexcept {
@@ -236,14 +205,11 @@ bool JointSolver::search(std::span<const JointInStep> joints, std::span<double> 
   attempt<N>(joints, true);
   newton<N>();
   if (near<N>(joints, torques)) return true;
-  if (stale<N>()) {
-    if (!factor_slopes<N>()) return false;
-    newton<N>();
-    near<N>(joints, torques);
-  }
+  if (!factor_slopes<N>()) return false;
+  newton<N>();
   double part = 1, descent = set_out<N>(part);  // of move_; the slope along it where it began
   for (int iteration = 1; iteration < kMaxIterations; ++iteration) {
-    part == 1 ? go_on<N>(joints) : attempt<N>(joints, false);
+    attempt<N>(joints, false);
     const double now = along<N>();
     if (!(now <= -(iteration < kEarly ? kOvershoot : kOvershootLater) * descent)) {
       const double shorter = part * std::clamp(descent / (descent - now), 0.1, 0.9);
@@ -252,7 +218,7 @@ bool JointSolver::search(std::span<const JointInStep> joints, std::span<double> 
       part += back;
       continue;
     }
-    if (stale<N>() && !factor_slopes<N>()) return false;
+    if (!factor_slopes<N>()) return false;
     newton<N>();
     if (near<N>(joints, torques)) return true;
     descent = set_out<N>(part);
@@ -289,8 +255,7 @@ bool JointSolver::solve_all(std::span<const JointInStep> joints, std::span<doubl
     for (std::size_t i = 0; i < count<N>(n_); ++i)
       settled = settled && std::abs(gradient_[i]) <= kLeft * std::abs(torque_[i]) + kLeft_Nm;
   }
-  for (std::size_t i = 0; i < count<N>(n_); ++i)
-    joints[i].unit->finish(*joints[i].state, *joints[i].plan, since(joints, i) + move_[i], torques[i]);
+  for (std::size_t i = 0; i < count<N>(n_); ++i) joints[i].unit->finish(*joints[i].state, *joints[i].plan, move_[i], torques[i]);
   return settled;
 }
 
