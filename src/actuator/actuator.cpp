@@ -117,6 +117,7 @@ void Actuator::begin(ActuatorState& s, Segment& seg, double h_s, const SegmentIn
   }
   seg.tried = false;
   seg.rub = {};
+  seg.straight.fill(std::numeric_limits<double>::infinity());
   seg.damping = params_.tendon.damping_s / h_s;
   seg.own = in.lead.share + 3.0 * in.lead.spring;
   seg.whole = seg.own + 2.0 * in.lead.before;
@@ -194,7 +195,8 @@ bool Actuator::correction(Segment& seg, std::array<double, 2>& step) const noexc
     const double target = (seg.free[i] + c * (seg.mean.load[i] + kappa * seg.dx[i])) * yield;
     seg.friction[i] = drive::solve_friction(seg.gear[i], seg.gear_u[i], target, c * yield);
     step[i] = seg.friction[i].displacement - seg.dx[i];
-    accepted = accepted && std::abs(kappa * step[i]) <= kRelativeTolerance * std::abs(seg.mean.load[i]) + kAbsoluteTolerance_Nm;
+    const bool near = std::abs(kappa * step[i]) <= kRelativeTolerance * std::abs(seg.mean.load[i]) + kAbsoluteTolerance_Nm;
+    accepted = accepted && (near || (seg.pwm[i].cycle == nullptr && std::abs(step[i]) <= straight(seg, i)));
     const double bristle = seg.friction[i].anchor_travel != 0.0 ? 0.0 : 0.5 * seg.gear[i].stiffness;
     seg.gain[i] = c * yield / (1.0 + c * yield * bristle);
   }
@@ -210,6 +212,7 @@ SegmentResult Actuator::attempt(const ActuatorState& s, Segment& seg, double dq,
   double last_residual = std::numeric_limits<double>::infinity();
   std::array<double, 2> last_dx = seg.dx;
   bool settled = false;
+  double straight_rad = springs_ == motors_ ? std::numeric_limits<double>::infinity() : 0.0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const elastic::Positions to{from.q + dq, {from.x[0] + seg.dx[0], from.x[1] + seg.dx[1]}};
     seg.mean = params_.transmission->mean_from(s.origin, to, seg.shift(dq));
@@ -218,6 +221,7 @@ SegmentResult Actuator::attempt(const ActuatorState& s, Segment& seg, double dq,
     settled = correction(seg, step);
     const double residual = std::max(std::abs(step[0]), std::abs(step[1]));
     if (settled || (rough && residual < kRough_rad) || iteration + 1 == kMaxIterations) {
+      for (int i = 0; i < springs_; ++i) straight_rad = std::min(straight_rad, straight(seg, i) - std::abs(step[i]));
       for (int i = 0; i < 2; ++i) seg.dx[i] += step[i];
       seg.mean = carried(seg.mean, 0.0, step);
       break;
@@ -231,7 +235,7 @@ SegmentResult Actuator::attempt(const ActuatorState& s, Segment& seg, double dq,
     }
     if (!worse) last_residual = residual;
   }
-  return {seg.mean.torque, seg.slope, settled || !rough};
+  return {seg.mean.torque, seg.slope, settled || !rough, straight_rad};
 }
 
 void Actuator::drive_motors(ActuatorState& s, const Segment& seg) const noexcept {

@@ -15,6 +15,8 @@ constexpr double kReach_rad = 0.25;
 /// ends to slide Newton can go to and fro, so after some rounds less is allowed.
 constexpr double kOvershoot = 0.9, kOvershootLater = 0.3;
 constexpr int kEarly = 8;
+/// A direction whose slopes are wrong by less than this part needs no new factor.
+constexpr double kStale = 0.01;
 /// The torque that may be left over where no round settles.
 constexpr double kLeft = 1e-3, kLeft_Nm = 1e-4;
 
@@ -59,6 +61,9 @@ void substitute(std::span<const double> a, std::size_t size, std::span<double> x
   }
 }
 
+/// How far a joint has come since its unit's last attempt.
+double beyond(const JointInStep& j, double dy) noexcept { return dy - j.plan->dy; }
+
 }  // namespace
 
 JointSolver::JointSolver(std::size_t joints)
@@ -72,7 +77,9 @@ JointSolver::JointSolver(std::size_t joints)
       gradient_(joints),
       torque_(joints),
       slope_(joints),
-      column_(joints) {}
+      factored_(joints),
+      column_(joints),
+      carried_(joints) {}
 
 void JointSolver::set(std::span<const double> mobility, std::int64_t dt_ns) noexcept {
   if (dt_ns == dt_ns_ && std::equal(mobility.begin(), mobility.end(), mobility_.begin())) return;
@@ -116,8 +123,20 @@ void JointSolver::gradient(std::span<const JointInStep> joints) noexcept {
 template <std::size_t N>
 bool JointSolver::factor_slopes() noexcept {
   std::copy(inertia_.begin(), inertia_.end(), work_.begin());
-  for (std::size_t i = 0; i < count<N>(n_); ++i) work_[i * n_ + i] += slope_[i];
+  for (std::size_t i = 0; i < count<N>(n_); ++i) {
+    work_[i * n_ + i] += slope_[i];
+    factored_[i] = slope_[i];
+  }
   return factor<N>(work_, n_, column_.data());
+}
+
+/// Whether the slopes are others than those of the factor.
+template <std::size_t N>
+bool JointSolver::stale() const noexcept {
+  if (N == 1) return true;
+  for (std::size_t i = 0; i < count<N>(n_); ++i)
+    if (std::abs(slope_[i] - factored_[i]) > kStale * (inertia_[i * n_ + i] + slope_[i])) return true;
+  return false;
 }
 
 /// move_ := −(C⁻¹ + S)⁻¹ g
@@ -129,14 +148,26 @@ void JointSolver::newton() noexcept {
 
 /// Whether every unit takes move_ for the last one; the torques that it leads to.
 template <std::size_t N>
-bool JointSolver::near(std::span<const JointInStep> joints, std::span<double> torques) const noexcept {
+bool JointSolver::near(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
   bool all = true;
   for (std::size_t i = 0; i < count<N>(n_); ++i) {
-    const ShaftTorque t = joints[i].unit->carried(*joints[i].state, *joints[i].plan, move_[i]);
-    torques[i] = t.torque;
-    all = all && t.settled;
+    carried_[i] = joints[i].unit->carried(*joints[i].state, *joints[i].plan, beyond(joints[i], dy_[i]) + move_[i]);
+    torques[i] = carried_[i].torque;
+    all = all && carried_[i].settled;
   }
   return all;
+}
+
+/// After a whole move_: who took it for the last keeps what that foretold, the others try it.
+template <std::size_t N>
+void JointSolver::go_on(std::span<const JointInStep> joints) noexcept {
+  for (std::size_t i = 0; i < count<N>(n_); ++i) {
+    const JointInStep& j = joints[i];
+    const ShaftTorque t = carried_[i].settled ? carried_[i] : j.unit->attempt(*j.state, *j.plan, dy_[i], false);
+    torque_[i] = t.torque;
+    slope_[i] = t.slope;
+  }
+  gradient<N>(joints);
 }
 
 template <std::size_t N>
@@ -205,23 +236,33 @@ bool JointSolver::search(std::span<const JointInStep> joints, std::span<double> 
   attempt<N>(joints, true);
   newton<N>();
   if (near<N>(joints, torques)) return true;
-  if (!factor_slopes<N>()) return false;
-  newton<N>();
+  if (stale<N>()) {
+    if (!factor_slopes<N>()) return false;
+    newton<N>();
+    near<N>(joints, torques);
+  }
   double part = 1, descent = set_out<N>(part);  // of move_; the slope along it where it began
+  bool some = true;                             // tries only the units that aren't settled
   for (int iteration = 1; iteration < kMaxIterations; ++iteration) {
-    attempt<N>(joints, false);
+    some ? go_on<N>(joints) : attempt<N>(joints, false);
     const double now = along<N>();
-    if (!(now <= -(iteration < kEarly ? kOvershoot : kOvershootLater) * descent)) {
+    const bool too_far = !(now <= -(iteration < kEarly ? kOvershoot : kOvershootLater) * descent);
+    if (too_far && some) {
+      // A friction's edge may lie between what a unit foretold and what it finds there: from here on with all that they find.
+      some = false;
+      attempt<N>(joints, false);
+    } else if (too_far) {
       const double shorter = part * std::clamp(descent / (descent - now), 0.1, 0.9);
       const double back = std::isfinite(shorter) ? shorter - part : -0.75 * part;
       for (std::size_t i = 0; i < count<N>(n_); ++i) dy_[i] += back * move_[i];
       part += back;
       continue;
     }
-    if (!factor_slopes<N>()) return false;
+    if ((!some || stale<N>()) && !factor_slopes<N>()) return false;
     newton<N>();
     if (near<N>(joints, torques)) return true;
     descent = set_out<N>(part);
+    some = some && part == 1;
   }
   return false;
 }
@@ -255,7 +296,8 @@ bool JointSolver::solve_all(std::span<const JointInStep> joints, std::span<doubl
     for (std::size_t i = 0; i < count<N>(n_); ++i)
       settled = settled && std::abs(gradient_[i]) <= kLeft * std::abs(torque_[i]) + kLeft_Nm;
   }
-  for (std::size_t i = 0; i < count<N>(n_); ++i) joints[i].unit->finish(*joints[i].state, *joints[i].plan, move_[i], torques[i]);
+  for (std::size_t i = 0; i < count<N>(n_); ++i)
+    joints[i].unit->finish(*joints[i].state, *joints[i].plan, beyond(joints[i], dy_[i]) + move_[i], torques[i]);
   return settled;
 }
 

@@ -164,14 +164,15 @@ ShaftTorque Unit::attempt(UnitState& s, StepPlan& plan, double dy, bool rough) n
 }
 
 ShaftTorque Unit::carried(const UnitState& s, const StepPlan& plan, double move) const noexcept {
+  if (!plan.path.settled) return {0, 0, false};
   const drive::FrictionTorque &before = plan.rub, after = shaft_rub(s, plan, plan.dy + move);
   const double c = 0.5 * seconds(plan.dt_ns) * seconds(plan.dt_ns) * plan.in.inverse_inertia;
   const double change = plan.path.slope * move, yield = std::max(kLeastYield, 1.0 / (1.0 + c * std::max(plan.path.slope, 0.0)));
   const double slack = kRelativeTolerance * std::abs(plan.path.torque) + kAbsoluteTolerance_Nm;
   // The linear correction leaves an error of second order; the stiffer the step (c·slope), the more of it reaches the shaft.
-  const bool near =
-      std::abs(change) <= yield * yield * slack && std::abs(after.torque - before.torque + before.slope * move) <= slack;
-  return {plan.path.torque - change + after.torque, std::max(plan.path.slope, 0.0) + after.slope, near && plan.path.settled};
+  const bool straight = std::abs(move) <= yield * plan.path.straight || std::abs(change) <= yield * yield * slack;
+  const bool near = straight && std::abs(after.torque - before.torque + before.slope * move) <= slack;
+  return {plan.path.torque - change + after.torque, std::max(plan.path.slope, 0.0) + after.slope, near};
 }
 
 void Unit::finish(UnitState& s, StepPlan& plan, double move, double torque) noexcept {

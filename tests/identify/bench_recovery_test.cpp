@@ -43,7 +43,7 @@ Observation noisy_recording(const std::vector<double>& truth, double preset, uns
   return out;
 }
 
-TEST(BenchRecovery, FindsKnownParametersWithinItsOwnIntervals) {
+TEST(BenchRecovery, FindsKnownParametersWithinFourOfItsStandardErrors) {
   const std::vector<double> truth{0.10, 0.004};
   Task task;
   task.parameters = parse_parameters(kKeys, test::shipped().load(kPreset));
@@ -58,8 +58,8 @@ TEST(BenchRecovery, FindsKnownParametersWithinItsOwnIntervals) {
   const Uncertainty u = uncertainty(residuals, f);
   EXPECT_FALSE(u.deficient());
   for (std::size_t k = 0; k < truth.size(); ++k) {
-    EXPECT_GE(truth[k], u.low[k]) << task.parameters[k].name << " = " << f.values[k];
-    EXPECT_LE(truth[k], u.high[k]) << task.parameters[k].name << " = " << f.values[k];
+    // One recording is no statistics (coverage_test.cpp has those), and a unit that quantises makes the sum of squares rough.
+    EXPECT_NEAR(f.values[k], truth[k], 4 * u.standard_error[k]) << task.parameters[k].name;
   }
   EXPECT_LT(u.standard_error[0], 0.02);
   EXPECT_LT(u.standard_error[1], 0.001);

@@ -110,6 +110,8 @@ struct SegmentResult {
   double torque = 0;    ///< mean torque of the transmission on the shaft
   double slope = 0;     ///< −dτ̄/d(Δy) of the step's displacement, the motors' yielding included; ≥ 0 for a convex law
   bool settled = true;  ///< the motors' displacements are found; else they are one Newton round nearer
+  /// Δy may be this far from here, rad, and the slope still tells the torque to 5e-6 of the springs' loads; 0: not known
+  double straight = 0;
 };
 
 /// A segment while it is solved: begun once, tried for as many shaft displacements as its owner needs, finished once.
@@ -139,7 +141,8 @@ class Segment {
   std::array<double, 2> gain{};  // ∂dx/∂dq
   std::array<drive::FrictionStep, 2> friction{};
   elastic::SegmentMean mean;
-  Rub rub;  // of the tendons: their part of mean.slope, and what they give for the step's Δy
+  Rub rub;                           // of the tendons: their part of mean.slope, and what they give for the step's Δy
+  std::array<double, 2> straight{};  // change of a spring's deflection until its tendon's bristle begins or ends to slide
   double slope = 0;
 
   /// w·(q' − middle of the path): by how much the springs look ahead.
@@ -211,6 +214,7 @@ class Actuator {
   void move_tendons(ActuatorState& state, const Segment& segment) const noexcept;
   /// One Newton correction of the pulleys from the mean at segment.dx; returns whether it was small enough to be the last.
   bool correction(Segment& segment, std::array<double, 2>& step) const noexcept;
+  [[nodiscard]] double straight(const Segment& segment, int i) const noexcept;
   void drive_motors(ActuatorState& state, const Segment& segment) const noexcept;
   /// −dτ̄/d(Δy) and the pulleys' gains from a mean's slopes; seg.gain comes as each pulley's own give, ∂x_i/∂load_i.
   void slopes(Segment& segment, const elastic::SegmentMean& mean, const Rub& rub) const noexcept;

@@ -7,6 +7,7 @@
 //
 // g is a gradient: of the kinetic part and the springs' energies over the path, convex where the laws are. Newton with C⁻¹ + S,
 // S = −∂τ/∂Δy of each joint, by LDLᵀ; a step that overshoots is shortened until the slope along it no longer grows.
+// A unit that takes a step for its last isn't tried again: its torque goes on linearly while that is near enough.
 //
 // States: none. Matrices are kept until the mobility or the step length changes.
 #pragma once
@@ -21,6 +22,13 @@ namespace vsa::device {
 class Unit;
 struct UnitState;
 struct StepPlan;
+
+/// The whole torque on a shaft for a displacement Δy of its step.
+struct ShaftTorque {
+  double torque = 0;  ///< N·m
+  double slope = 0;   ///< −dτ/d(Δy), N·m/rad
+  bool settled = true;
+};
 
 struct JointInStep {
   Unit* unit = nullptr;
@@ -61,11 +69,15 @@ class JointSolver {
   template <std::size_t N>
   bool factor_slopes() noexcept;
   template <std::size_t N>
+  [[nodiscard]] bool stale() const noexcept;
+  template <std::size_t N>
   void newton() noexcept;
   template <std::size_t N>
-  bool near(std::span<const JointInStep> joints, std::span<double> torques) const noexcept;
+  bool near(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
   template <std::size_t N>
   void attempt(std::span<const JointInStep> joints, bool rough) noexcept;
+  template <std::size_t N>
+  void go_on(std::span<const JointInStep> joints) noexcept;
   template <std::size_t N>
   double set_out(double& part) noexcept;
   template <std::size_t N>
@@ -81,7 +93,8 @@ class JointSolver {
   std::vector<double> mobility_;  // as set
   std::vector<double> inertia_;   // C⁻¹
   std::vector<double> work_;      // the factor of C⁻¹ + S
-  std::vector<double> dy_, off_, move_, gradient_, torque_, slope_, column_;
+  std::vector<double> dy_, off_, move_, gradient_, torque_, slope_, factored_, column_;
+  std::vector<ShaftTorque> carried_;  // what the last move_ foretold
 };
 
 }  // namespace vsa::device

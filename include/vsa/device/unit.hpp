@@ -117,13 +117,6 @@ struct StepPlan {
   drive::FrictionTorque rub;      ///< and for the shaft's friction
 };
 
-/// The whole torque on a shaft for a displacement Δy of its step.
-struct ShaftTorque {
-  double torque = 0;  ///< N·m
-  double slope = 0;   ///< −dτ/d(Δy), N·m/rad
-  bool settled = true;
-};
-
 /// Where a unit is put; see Unit::place.
 struct UnitPlace {
   double shaft_rad = 0;    ///< q
