@@ -45,19 +45,19 @@ bool factor(std::span<double> a, std::size_t size, double* column) noexcept {
   return true;
 }
 
-/// Solves with that factor, in place.
+/// Solves with that factor, in place, for x[first] and what follows; what comes before is 0 in the right-hand side and left alone.
 template <std::size_t N>
-void substitute(std::span<const double> a, std::size_t size, std::span<double> x) noexcept {
+void substitute(std::span<const double> a, std::size_t size, std::span<double> x, std::size_t first = 0) noexcept {
   const std::size_t n = count<N>(size);
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = first; i < n; ++i) {
     double sum = x[i];
-    for (std::size_t k = 0; k < i; ++k) sum -= a[i * n + k] * x[k];
+    for (std::size_t k = first; k < i; ++k) sum -= a[i * n + k] * x[k];
     x[i] = sum;
   }
-  for (std::size_t i = 0; i < n; ++i) x[i] *= a[i * n + i];
-  for (std::size_t i = n; i-- > 1;) {
+  for (std::size_t i = first; i < n; ++i) x[i] *= a[i * n + i];
+  for (std::size_t i = n; i-- > first + 1;) {
     const double xi = x[i];
-    for (std::size_t k = 0; k < i; ++k) x[k] -= a[i * n + k] * xi;
+    for (std::size_t k = first; k < i; ++k) x[k] -= a[i * n + k] * xi;
   }
 }
 
@@ -91,20 +91,15 @@ void JointSolver::set(std::span<const double> mobility, std::int64_t dt_ns) noex
 void JointSolver::factor_mobility() noexcept {
   const double dt = static_cast<double>(dt_ns_) * 1e-9, scale = 2.0 / (dt * dt);
   std::fill(inertia_.begin(), inertia_.end(), 0.0);
-  coupled_ = false;
-  if (n_ > 1) {
-    std::copy(mobility_.begin(), mobility_.end(), work_.begin());
-    coupled_ = factor<0>(work_, n_, column_.data());
-  }
+  std::copy(mobility_.begin(), mobility_.end(), work_.begin());
+  const bool coupled = n_ > 1 && factor<0>(work_, n_, column_.data());
   for (std::size_t j = 0; j < n_; ++j) {
-    if (!coupled_) {
-      const double b = mobility_[j * n_ + j];
-      inertia_[j * n_ + j] = b > 0 && std::isfinite(b) ? scale / b : 0.0;
-      continue;
-    }
     std::span<double> row(&inertia_[j * n_], n_);
-    row[j] = scale;
-    substitute<0>(work_, n_, row);
+    const double b = mobility_[j * n_ + j];
+    row[j] = coupled ? scale : b > 0 && std::isfinite(b) ? scale / b : 0.0;
+    if (!coupled) continue;
+    substitute<0>(work_, n_, row, j);
+    for (std::size_t i = j + 1; i < n_; ++i) inertia_[i * n_ + j] = row[i];
   }
 }
 

@@ -89,7 +89,6 @@ class JointSolver {
 
   std::size_t n_;
   std::int64_t dt_ns_ = 0;
-  bool coupled_ = false;
   std::vector<double> mobility_;  // as set
   std::vector<double> inertia_;   // C⁻¹
   std::vector<double> work_;      // the factor of C⁻¹ + S
