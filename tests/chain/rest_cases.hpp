@@ -61,7 +61,8 @@ inline void for_every_rest_case(SerialWorld chain, const std::vector<double>& pr
 }
 
 /// Expects every case to be quiet, or no busier than it is in steps so short that they change nothing more: then the unrest is the
-/// unit's own (its program answers single encoder counts) and no step length's. Energy out of nothing has no such excuse.
+/// unit's own (its program answers single encoder counts) and no step length's. One case in a hundred may be up to twice as fast as a
+/// quiet one without that: a limit cycle's phase is the step's, too. Energy out of nothing has no such excuse.
 class RestTable {
  public:
   using Run = std::function<Rest(const RestCase&)>;
@@ -99,14 +100,21 @@ class RestTable {
       busiest.rms_speed = std::max(busiest.rms_speed, fine->rms_speed);
       busiest.scatter = std::max(busiest.scatter, fine->scatter);
     }
-    EXPECT_TRUE(explained()) << named(c) << ": " << rest.rms_speed << " rad/s, torque scatters by " << rest.scatter
-                             << "; in short steps " << busiest.rms_speed << " rad/s and " << busiest.scatter;
+    if (!explained()) {
+      ++unexplained_;
+      std::printf("%s: %.3g rad/s, torque scatters by %.2g; in short steps %.3g rad/s and %.2g\n", named(c).c_str(), rest.rms_speed,
+                  rest.scatter, busiest.rms_speed, busiest.scatter);
+      EXPECT_LT(rest.rms_speed, 2 * kQuiet_rad_per_s) << named(c);
+    }
     if (!rest.slow()) row.over_fine = std::max(row.over_fine, rest.rms_speed / busiest.rms_speed);
   }
 
   /// And expects that something has moved at all.
   void print(const std::string& title) const {
     EXPECT_GT(top_speed_, 0.01) << title;
+    int cases = 0;
+    for (const auto& [at, r] : rows_) cases += r.cases;
+    EXPECT_LE(unexplained_, cases / 100) << title;
     std::printf(
         "%s\n            step cases | quiet  rad/s scatter | busy  rad/s  scatter  over short steps'  tried | coupling/moved\n",
         title.c_str());
@@ -128,6 +136,7 @@ class RestTable {
   ShortRun in_short_steps_;
   std::map<std::pair<bool, double>, Row> rows_;  ///< held aside, step
   double top_speed_ = 0;
+  int unexplained_ = 0;
 };
 
 /// The same posture, aside by up to 8 times 0.3 mrad to both sides: an encoder count of the qbmove is 0.77 mrad.
