@@ -1,23 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "characterize_output.hpp"
+#include "json_text.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::app {
 namespace {
-
-// Keys in the order in which they are written.
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json numbers(const std::vector<double>& values) {
-  Json out = Json::array();
-  for (const double v : values) out.push_back(number(v));
-  return out;
-}
 
 Json range(const Range& r) { return {r.least, r.most}; }
 
@@ -138,15 +125,13 @@ double step_of(const Characterization& c) {
 }  // namespace
 
 std::string results_json(const Characterization& c, const std::string& command) {
-  Json out;
-  out["program"] = "vsa " VSA_VERSION;
-  out["command"] = command;
+  Json out = json_head(command);
   out["actuator"] = actuator_json(c);
   out["engine_step_s"] = step_of(c);
   for (const StiffnessResult& r : c.stiffness) out["stiffness"].push_back(stiffness_json(c, r));
   for (const SpeedResult& r : c.speed) out["speed"].push_back(speed_json(c, r));
   for (const PresetStepResult& r : c.preset_step) out["preset_step"].push_back(preset_step_json(c, r));
-  return out.dump(2) + '\n';
+  return json_text(out);
 }
 
 }  // namespace vsa::app

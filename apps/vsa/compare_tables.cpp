@@ -42,16 +42,6 @@ std::vector<const identify::FitRecord*> wholes(const Compared& c) {
   return out;
 }
 
-std::string row(const std::vector<std::string>& cells) { return "| " + config::join(cells, " | ") + " |\n"; }
-
-std::string markdown(const report::Table& t) {
-  return row(t.head) + row(std::vector<std::string>(t.head.size(), "---")) + [&] {
-    std::string out;
-    for (const auto& cells : t.rows) out += row(cells);
-    return out + '\n';
-  }();
-}
-
 report::Table estimates_table(const Compared& c) {
   report::Table out{"Estimates", {"hypothesis", "parameter", "unit", "estimate", "95 % interval"}, {}, ""};
   const auto whole = wholes(c);
@@ -99,8 +89,8 @@ report::Table comparison_table(const Compared& c) {
 
 std::string comparison_markdown(const Compared& c) {
   const report::Table table = comparison_table(c), estimates = estimates_table(c);
-  return fmt::format("# {}\n\nWritten by `{}`.\n\n{}{}\n\n## {}\n\n{}", table.title, c.command, markdown(table), table.caption,
-                     estimates.title, markdown(estimates));
+  return fmt::format("# {}\n\nWritten by `{}`.\n\n{}## {}\n\n{}", table.title, c.command, report::to_markdown(table),
+                     estimates.title, report::to_markdown(estimates));
 }
 
 }  // namespace vsa::app

@@ -156,7 +156,7 @@ void identify_all(Identification& r, const IdentifyOptions& o, Console& console)
     const identify::Parameter& p = r.task.parameters[k];
     r.fit.values[k] = std::clamp(identify::rounded(r.fit.values[k], kDigits), p.min, p.max);
   }
-  identify::evaluate_at(r.fit, residuals, fit.effect_rad);
+  identify::evaluate_at(r.fit, residuals, fit.interval_effect_rad);
   r.misfits = identify::misfits(residuals, r.fit.residuals);
   r.uncertainty = identify::uncertainty(residuals, r.fit);
   if (!o.no_cross_validation) r.left_out = identify::leave_one_preset_out(r.task, r.fit, fit, 0);

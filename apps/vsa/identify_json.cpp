@@ -1,22 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "identify_output.hpp"
+#include "json_text.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json numbers(const std::vector<double>& values) {
-  Json out = Json::array();
-  for (const double v : values) out.push_back(number(v));
-  return out;
-}
 
 Json parameters_json(const Identification& r) {
   Json out = Json::array();
@@ -123,9 +111,7 @@ Json values_json(const Identification& r) {
 
 std::string results_json(const Identification& r) {
   const identify::Uncertainty& u = r.uncertainty;
-  Json out;
-  out["program"] = "vsa " VSA_VERSION;
-  out["command"] = r.command;
+  Json out = json_head(r.command);
   out["preset"] = r.preset.name;
   out["sweep_period_s"] = r.period_s;
   out["rms_rad"] = {{"before", identify::rms(r.residuals_before)}, {"after", r.fit.rms_rad}};
@@ -145,7 +131,7 @@ std::string results_json(const Identification& r) {
   out["profiles"] = profiles_json(r);
   out["residuals"] = residuals_json(r);
   out["simulations"] = r.evaluations;
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(out);
 }
 
 }  // namespace vsa::app

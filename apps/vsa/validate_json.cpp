@@ -1,26 +1,15 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
 #include "validate_output.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json numbers(const std::vector<double>& values) {
-  Json out = Json::array();
-  for (const double v : values) out.push_back(number(v));
-  return out;
-}
 
 Json branches_json(const experiment::Branches& b) {
   return {{"load_torque_Nm", numbers(b.torque_Nm)},
@@ -62,9 +51,7 @@ std::size_t once(const std::string& text, const std::string& marker, const std::
 }  // namespace
 
 std::string results_json(const Validation& v) {
-  Json out;
-  out["program"] = "vsa " VSA_VERSION;
-  out["command"] = v.command;
+  Json out = json_head(v.command);
   out["preset"] = v.actuator.name;
   Json& overrides = out["overrides"] = Json::object();
   for (const config::Override& o : v.overrides) overrides[o.key] = o.value;
@@ -108,7 +95,7 @@ std::string results_json(const Validation& v) {
                           {"simulated", branches_json(r.ours)}});
   }
   out["wall_s"] = v.wall_s;
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(out);
 }
 
 std::string with_tables(const std::filesystem::path& file, const std::string& tables) {

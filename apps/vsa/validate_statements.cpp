@@ -53,8 +53,8 @@ std::string record_text(const Validation& v) {
   }
   const std::vector<std::string> apart = differences(*v.left_out, v.actuator);
   const std::string how =
-      fmt::format("Without each recording in turn {} {} fitted again and every other value held, by `{}`.",
-                  config::join(v.left_out->fitted), v.left_out->fitted.size() == 1 ? "was" : "were", v.left_out->command);
+      fmt::format("Without each recording in turn {} {} fitted again and every other value held, by the command that it holds.",
+                  config::join(v.left_out->fitted), v.left_out->fitted.size() == 1 ? "was" : "were");
   if (apart.empty()) return fmt::format("Leave-one-out figures: {}. {}", v.left_out->file, how);
   std::vector<std::string> first(apart.begin(), apart.begin() + static_cast<std::ptrdiff_t>(std::min(kToldOf, apart.size())));
   if (apart.size() > kToldOf) first.push_back(fmt::format("and {} more", apart.size() - kToldOf));

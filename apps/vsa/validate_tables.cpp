@@ -12,6 +12,7 @@ namespace {
 
 using report::Table;
 
+constexpr std::size_t kMarkdownWidth = 132;  // as the documents' own lines
 constexpr const char* kRmsTitle = "Simulated − recorded over |τ| ≤ 1.4 N·m, root mean square";
 
 std::string number(double value, int decimals) {
@@ -149,20 +150,11 @@ Table preset_step_table(const Validation& v) {
   return out;
 }
 
-std::string markdown(const Table& t) {
-  std::string out = "**" + t.title + "**\n\n|", rule = "\n|";
-  for (const std::string& cell : t.head) {
-    out += ' ' + cell + " |";
-    rule += "---|";
-  }
-  out += rule + '\n';
-  for (const auto& row : t.rows) {
-    out += '|';
-    for (const std::string& cell : row) out += ' ' + cell + " |";
-    out += '\n';
-  }
-  if (!t.caption.empty()) out += '\n' + t.caption + '\n';
-  return out + '\n';
+/// Lines of a Markdown document.
+std::string paragraph(const std::string& text) {
+  std::string out;
+  for (const std::string& line : wrap(text, kMarkdownWidth)) out += line + '\n';
+  return out;
 }
 
 }  // namespace
@@ -197,13 +189,14 @@ std::string validation_text(const Validation& v) {
 
 std::string markdown_tables(const Validation& v, const std::vector<Picture>& pictures) {
   std::string out;
-  for (const std::string& s : statements(v)) out += s + "\n\n";
-  for (const Table& t : validation_tables(v).shown()) {
-    out += markdown(t);
+  for (const std::string& s : statements(v)) out += paragraph(s) + '\n';
+  for (Table t : validation_tables(v).shown()) {
+    if (!t.caption.empty()) t.caption = paragraph(t.caption);
+    out += "**" + t.title + "**\n\n" + report::to_markdown(t);
     if (t.title != kRmsTitle) continue;
     for (const Picture& p : pictures) out += fmt::format("![{}]({})\n\n", p.title, p.file);
   }
-  return out + counts_text(v) + " Written by `" + v.command + "`.\n\n";
+  return out + paragraph(counts_text(v) + " Written by `" + v.command + "`.") + '\n';
 }
 
 }  // namespace vsa::app

@@ -63,18 +63,6 @@ void check(const Specimen& specimen, const PresetStepOptions& o) {
   check_preset(specimen, o.preset);
 }
 
-/// The parabola through the three angles that the recordings' shaft reached, in Lagrange's form.
-double target_angle_rad(double preset_rad) {
-  constexpr double kPreset[] = {0.0, 0.46, 0.6903}, kAngle_deg[] = {94, 90, 81};
-  const double p = std::min(std::abs(preset_rad), kPreset[2]);
-  double deg = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double a = kPreset[(i + 1) % 3], b = kPreset[(i + 2) % 3];
-    deg += kAngle_deg[i] * (p - a) * (p - b) / ((kPreset[i] - a) * (kPreset[i] - b));
-  }
-  return deg * kPi / 180;
-}
-
 void settle(Bench& bench, const elastic::EquilibriumPreset& command) {
   bench.run(kSettle_s, [&](double) { return command; });
 }
@@ -89,7 +77,7 @@ SweepAmplitude amplitude_on(Bench& bench, double preset, double period_s) {
   constexpr double kClose_rad = 0.25 * kPi / 180;
   constexpr int kTrials = 8;
   SweepAmplitude out;
-  out.target_rad = target_angle_rad(bench.law().preset_unit() == "rad" ? preset : 0.0);
+  out.target_rad = sweep_target_rad(preset, bench.law().preset_unit());
   const double by_law = out.target_rad + law_deflection(bench.law(), preset, bench.load_peak_Nm() * std::sin(out.target_rad));
   out.amplitude_rad = by_law;
   for (int trial = 1;; ++trial) {
@@ -151,6 +139,18 @@ double law_deflection(const elastic::Transmission& law, double preset, double lo
   }
   for (double mid = 0.5 * (low + high); mid > low && mid < high; mid = 0.5 * (low + high)) (excess(mid) < 0 ? low : high) = mid;
   return sign * high;
+}
+
+/// The parabola through the three angles that the recordings' shaft reached, in Lagrange's form.
+double sweep_target_rad(double preset, std::string_view preset_unit) {
+  constexpr double kPreset[] = {0.0, 0.46, 0.6903}, kAngle_deg[] = {94, 90, 81};
+  const double p = preset_unit == "rad" ? std::min(std::abs(preset), kPreset[2]) : 0.0;
+  double deg = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double a = kPreset[(i + 1) % 3], b = kPreset[(i + 2) % 3];
+    deg += kAngle_deg[i] * (p - a) * (p - b) / ((kPreset[i] - a) * (kPreset[i] - b));
+  }
+  return deg * kPi / 180;
 }
 
 double bench_load_peak_Nm(const Specimen& specimen) { return Bench(specimen, kLoadBench, nullptr).load_peak_Nm(); }

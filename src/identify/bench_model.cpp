@@ -13,6 +13,7 @@
 #include "vsa/errors.hpp"
 #include "vsa/experiment/parallel.hpp"
 #include "vsa/identify/quasi_static.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::identify {
 namespace {
@@ -57,10 +58,13 @@ experiment::BranchOptions grid_of(const experiment::Branches& data) {
 /// A surrogate and what all its calls share: the units of the values asked for last, as building one costs as much as using it.
 class Surrogate {
  public:
-  Surrogate(const Task& task, const experiment::Specimen& specimen, experiment::Watch* watch)
+  Surrogate(const Task& task, const experiment::Specimen& specimen, const SweepOptions& sweep, experiment::Watch* watch)
       : specimen_(specimen), parameters_(task.parameters), watch_(watch), load_peak_Nm_(experiment::bench_load_peak_Nm(specimen)) {
+    const device::UnitConfig unit = specimen.library.load(specimen.preset, specimen.overrides).unit;
+    const std::string_view preset_unit = unit.actuator.transmission->preset_unit();
     for (const Observation& o : task.observations) {
       presets_.push_back(o.preset);
+      turns_.push_back({sweep.amplitude_rad ? kPi : experiment::sweep_target_rad(o.preset, preset_unit), sweep.amplitude_rad});
       torques_.push_back(every_other(o.data.torque_Nm));
     }
   }
@@ -68,7 +72,7 @@ class Surrogate {
   experiment::Branches branches(const std::vector<double>& values, std::size_t observation) {
     if (watch_ != nullptr && watch_->stop) throw experiment::Stopped();
     const std::shared_ptr<const Known> known = at(values);
-    return known->model.branches(presets_[observation], torques_[observation]);
+    return known->model.branches(presets_[observation], torques_[observation], turns_[observation]);
   }
 
  private:
@@ -108,17 +112,18 @@ class Surrogate {
   experiment::Watch* watch_;
   double load_peak_Nm_;
   std::vector<double> presets_;
+  std::vector<Turn> turns_;
   std::vector<std::vector<double>> torques_;  ///< of each observation
   std::mutex mutex_;
   std::vector<std::shared_ptr<const Known>> known_;
 };
 
-void use_quasi_static(Task& task, const experiment::Specimen& specimen, experiment::Watch* watch) {
+void use_quasi_static(Task& task, const experiment::Specimen& specimen, const SweepOptions& sweep, experiment::Watch* watch) {
   const auto why = unsupported(specimen.library.load(specimen.preset, specimen.overrides).unit);
   task.no_surrogate = why.value_or("");
   task.surrogate = nullptr;
   if (why) return;
-  auto surrogate = std::make_shared<Surrogate>(task, specimen, watch);
+  auto surrogate = std::make_shared<Surrogate>(task, specimen, sweep, watch);
   task.surrogate = [surrogate](const std::vector<double>& values, std::size_t o) { return surrogate->branches(values, o); };
 }
 
@@ -158,7 +163,7 @@ void use_bench(Task& task, const experiment::Specimen& specimen, const SweepOpti
         found == shared->amplitude_rad.end() ? shared->sweep.amplitude_rad : std::optional<double>(found->second);
     return experiment::branches(run(shared->with(values), preset, shared->sweep, amplitude, shared->watch), shared->grids[o]);
   };
-  use_quasi_static(task, specimen, watch);
+  use_quasi_static(task, specimen, sweep, watch);
 }
 
 }  // namespace vsa::identify

@@ -37,13 +37,13 @@ std::string text_of(const Observation& o) {
 
 /// What is the same for all fits of a hypothesis.
 std::string text_of(const Comparison& c, const Hypothesis& h) {
-  std::string out = "fit 1\nlaw " + h.preset.law + '\n';
+  std::string out = "fit 2\nlaw " + h.preset.law + '\n';
   for (const config::Entry& e : h.preset.entries) out += e.key + " = " + e.value + '\n';
   for (const Parameter& p : h.free) out += fmt::format("free {} {} {} {}\n", p.name, p.start, p.min, p.max);
   out +=
       fmt::format("sweep {} {} {} {}\n", c.sweep.period_s, c.sweep.amplitude_rad.value_or(0.0), c.sweep.cycles, c.sweep.sample_s);
-  out += fmt::format("fit {} {} {} {} {} {}\n", c.fit.starts, c.fit.seed, c.fit.global, c.fit.iterations, c.fit.effect_rad,
-                     c.fit.tolerance);
+  out += fmt::format("fit {} {} {} {} {} {} {}\n", c.fit.starts, c.fit.seed, c.fit.global, c.fit.iterations, c.fit.effect_rad,
+                     c.fit.interval_effect_rad, c.fit.tolerance);
   return out;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "vsa/actuator/actuator.hpp"
+
 namespace vsa::identify {
 namespace {
 
@@ -39,39 +41,64 @@ double root(const Function& f, double guess) {
   return 0.5 * (found.first + found.second);
 }
 
+/// A bristle's bend after friction let go of what it can't hold.
+double bent(const drive::Friction& p, double u) { return std::clamp(u, -p.presliding_rad, p.presliding_rad); }
+
+/// Torque against a motion that bends the bristle to `u`; without one, against its sense.
+double friction_at(const drive::Friction& p, double u, double sense) {
+  return p.stiffness > 0 ? p.stiffness * bent(p, u) : sense * p.coulomb_Nm;
+}
+
 }  // namespace
 
 QuasiStatic::QuasiStatic(const device::UnitConfig& unit, double load_peak_Nm)
     : unit_(unit),
       drive_(unit),
       load_peak_Nm_(load_peak_Nm),
-      gear_friction_Nm_(drive::at_pulley(unit.actuator.gearbox.friction, unit.actuator.gearbox.ratio).coulomb_Nm),
+      gear_(drive::at_pulley(unit.actuator.gearbox.friction, unit.actuator.gearbox.ratio)),
+      shaft_(actuator::shaft_friction(unit.actuator)),
+      tendon_(drive::FrictionParams{unit.actuator.tendon.friction, unit.actuator.tendon.presliding_J}),
       back_loss_(unit.actuator.gearbox.back_loss.value_or(unit.actuator.gearbox.load_loss)),
       shaft_zero_rad_(unit.actuator.shaft_zero_rad),
       motors_(unit.actuator.transmission->motor_count()),
       springs_(unit.actuator.transmission->spring_count()) {}
 
-/// −(M + l + s F) of motor i with its pulley at xi: grows with xi.
-double QuasiStatic::pulley_residual(const Branch& b, const std::array<double, 2>& ref, std::array<double, 2> x, int i,
-                                    double xi) const {
-  const auto n = static_cast<std::size_t>(i);
-  x[n] = xi;
-  double load = unit_.actuator.transmission->evaluate({0.0, x}).load[n];
-  if (i < springs_) load += unit_.actuator.tendon.friction * b.sense * std::abs(load);
-  const bool drives_back = load * -b.sense > 0;
-  const double loss = drives_back ? back_loss_ : unit_.actuator.gearbox.load_loss;
-  return -(drive_.torque_Nm(ref[n] - xi) + load + b.sense * (gear_friction_Nm_ + loss * std::abs(load)));
+QuasiStatic::Place QuasiStatic::at_rest(double preset) const {
+  Place out;
+  out.x = unit_.actuator.transmission->references({0.0, preset});
+  out.w = unit_.actuator.transmission->signed_energies({0.0, out.x});
+  return out;
 }
 
-bool QuasiStatic::solve_pulleys(const Branch& b, double equilibrium, std::array<double, 2>& x) const {
+double QuasiStatic::rub(const Step& s, int spring, double w) const {
+  const auto n = static_cast<std::size_t>(spring);
+  return friction_at(tendon_, s.from.tendon_u[n] + w - s.from.w[n], -s.sense);
+}
+
+drive::Friction QuasiStatic::gear(double load, double sense) const {
+  return drive::at_load(gear_, load * sense > 0 ? back_loss_ : unit_.actuator.gearbox.load_loss, load);
+}
+
+/// −(M + l − F) of motor i with its pulley at xi: grows with xi.
+double QuasiStatic::pulley_residual(const Step& s, std::array<double, 2> x, int i, double xi) const {
+  const auto n = static_cast<std::size_t>(i);
+  x[n] = xi;
+  const elastic::Transmission& law = *unit_.actuator.transmission;
+  double load = law.evaluate({0.0, x}).load[n];
+  if (i < springs_ && tendon_.coulomb_Nm > 0) load += rub(s, i, law.signed_energies({0.0, x})[n]) * std::abs(load);
+  const double moved = xi - s.from.x[n] + s.q - s.from.q;
+  return friction_at(gear(load, s.sense), s.from.gear_u[n] + moved, s.sense) - load - drive_.torque_Nm(s.ref[n] - xi);
+}
+
+bool QuasiStatic::solve_pulleys(Step& s, double equilibrium, std::array<double, 2>& x) const {
   constexpr int kRounds = 20;  // of a law whose inputs act on each other
-  const std::array<double, 2> ref = unit_.actuator.transmission->references({equilibrium, b.preset});
-  if (motors_ < 2) x[1] = ref[1];
+  s.ref = unit_.actuator.transmission->references({equilibrium, s.preset});
+  if (motors_ < 2) x[1] = s.ref[1];
   for (int round = 0; round < kRounds; ++round) {
     double moved = 0;
     for (int i = 0; i < motors_; ++i) {
       const auto n = static_cast<std::size_t>(i);
-      const double found = root([&](double xi) { return pulley_residual(b, ref, x, i, xi); }, x[n]);
+      const double found = root([&](double xi) { return pulley_residual(s, x, i, xi); }, x[n]);
       if (std::isnan(found)) return false;
       moved = std::max(moved, std::abs(found - x[n]));
       x[n] = found;
@@ -82,50 +109,85 @@ bool QuasiStatic::solve_pulleys(const Branch& b, double equilibrium, std::array<
   return true;
 }
 
-double QuasiStatic::shaft_residual(const Branch& b, double torque_Nm, const std::array<double, 2>& x) const {
-  const elastic::Response r = unit_.actuator.transmission->evaluate({0.0, x});
-  double out = torque_Nm + r.torque + b.sense * unit_.actuator.shaft_friction.coulomb_Nm;
-  for (int i = 0; i < springs_; ++i)
-    out -= unit_.actuator.tendon.friction * b.sense * std::abs(r.load[static_cast<std::size_t>(i)]);
+double QuasiStatic::shaft_residual(const Step& s, const std::array<double, 2>& x) const {
+  const elastic::Transmission& law = *unit_.actuator.transmission;
+  const elastic::Response r = law.evaluate({0.0, x});
+  double out = r.torque - load_peak_Nm_ * std::sin(s.q) - friction_at(shaft_, s.from.shaft_u + s.q - s.from.q, s.sense);
+  if (tendon_.coulomb_Nm <= 0) return out;
+  const std::array<double, 2> w = law.signed_energies({0.0, x});
+  for (int i = 0; i < springs_; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    out -= rub(s, i, w[n]) * std::abs(r.load[n]);
+  }
   return out;
 }
 
-double QuasiStatic::solve(const Branch& b, double measured_torque_Nm, std::optional<Place>& place) const {
-  // The recorded torque is that of the lever where the shaft's encoder sees it.
-  const double measured = std::asin(std::clamp(-measured_torque_Nm / load_peak_Nm_, -1.0, 1.0));
-  const double torque = -load_peak_Nm_ * std::sin(measured - shaft_zero_rad_);
-  Place at = place.value_or(Place{0.0, unit_.actuator.transmission->references({0.0, b.preset})});
+bool QuasiStatic::go(Place& place, double preset, double q) const {
+  if (q == place.q) return true;
+  Step s{place, q, preset, q > place.q ? 1.0 : -1.0, {}};
+  std::array<double, 2> x = place.x;
+  double at = place.equilibrium;
   bool found = true;
   const auto residual = [&](double equilibrium) {
-    std::array<double, 2> x = at.x;
-    for (double& v : x) v += equilibrium - at.equilibrium;
-    if (!solve_pulleys(b, equilibrium, x)) {
-      found = false;
-      return kNaN;
-    }
-    at = {equilibrium, x};
-    return shaft_residual(b, torque, x);
+    for (double& v : x) v += equilibrium - at;
+    at = equilibrium;
+    if (found) found = solve_pulleys(s, equilibrium, x);
+    return found ? shaft_residual(s, x) : kNaN;
   };
-  const double equilibrium = root(residual, at.equilibrium);
-  if (!found || std::isnan(equilibrium)) return kNaN;
-  (void)residual(equilibrium);
-  place = at;
-  return shaft_zero_rad_ - unit_.actuator.transmission->attained(at.x).equilibrium;
+  const double equilibrium = root(residual, at);
+  if (!found || std::isnan(equilibrium) || std::isnan(residual(equilibrium))) return false;
+  Place to{q,  equilibrium, x, unit_.actuator.transmission->signed_energies({0.0, x}), bent(shaft_, place.shaft_u + q - place.q),
+           {}, {}};
+  const elastic::Response r = unit_.actuator.transmission->evaluate({0.0, x});
+  for (std::size_t n = 0; n < 2; ++n) {
+    to.tendon_u[n] = bent(tendon_, place.tendon_u[n] + to.w[n] - place.w[n]);
+    const double load =
+        r.load[n] + (static_cast<int>(n) < springs_ ? rub(s, static_cast<int>(n), to.w[n]) * std::abs(r.load[n]) : 0);
+    to.gear_u[n] = bent(gear(load, s.sense), place.gear_u[n] + x[n] - place.x[n] + q - place.q);
+  }
+  place = to;
+  return true;
 }
 
-double QuasiStatic::deflection_rad(double preset, double torque_Nm, bool rising) const {
-  std::optional<Place> place;
-  return solve({preset, rising ? 1.0 : -1.0}, torque_Nm, place);
+double QuasiStatic::go_to_turn(Place& place, double preset, const Turn& turn) const {
+  constexpr int kSteps = 8;
+  const double most = std::abs(turn.shaft_rad);
+  for (int i = 1; i <= kSteps; ++i) {
+    const Place before = place;
+    const double q = most * i / kSteps;
+    if (!go(place, preset, q)) break;
+    if (!turn.amplitude_rad || place.q + place.equilibrium < *turn.amplitude_rad) continue;
+    const double command = before.q + before.equilibrium;
+    const double share = (*turn.amplitude_rad - command) / (place.q + place.equilibrium - command);
+    place = before;
+    (void)go(place, preset, before.q + share * (q - before.q));
+    break;
+  }
+  return place.q;
 }
 
-experiment::Branches QuasiStatic::branches(double preset, const std::vector<double>& torques_Nm) const {
+std::vector<double> QuasiStatic::follow(Place& place, double preset, const std::vector<double>& torques_Nm, double turn) const {
+  // The recorded torque is that of the lever where the shaft's encoder sees it.
+  const double most = std::abs(turn);
+  std::vector<double> out;
+  for (const double torque : torques_Nm) {
+    const double q = std::asin(std::clamp(-torque / load_peak_Nm_, -1.0, 1.0)) - shaft_zero_rad_;
+    const bool there = std::abs(q) <= most && go(place, preset, q);
+    out.push_back(there ? shaft_zero_rad_ - unit_.actuator.transmission->attained(place.x).equilibrium : kNaN);
+  }
+  (void)go(place, preset, turn);
+  return out;
+}
+
+experiment::Branches QuasiStatic::branches(double preset, const std::vector<double>& torques_Nm, const Turn& turn) const {
   experiment::Branches out;
   out.torque_Nm = torques_Nm;
-  for (const bool rising : {true, false}) {
-    std::optional<Place> place;
-    std::vector<double>& branch = rising ? out.rising_rad : out.falling_rad;
-    for (const double torque : torques_Nm) branch.push_back(solve({preset, rising ? 1.0 : -1.0}, torque, place));
-  }
+  Place place = at_rest(preset);
+  const double most = go_to_turn(place, preset, turn);
+  out.rising_rad = follow(place, preset, torques_Nm, -most);
+  std::vector<double> falling(torques_Nm.rbegin(), torques_Nm.rend());
+  falling = follow(place, preset, falling, most);
+  out.falling_rad.assign(falling.rbegin(), falling.rend());
   out.sd_rising_rad = out.sd_falling_rad = std::vector<double>(torques_Nm.size(), 0.0);
   return out;
 }

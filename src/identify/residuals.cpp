@@ -100,7 +100,8 @@ std::vector<std::vector<double>> Residuals::jacobian(const std::vector<double>& 
   for (const std::size_t k : which) {
     for (const double side : {1.0, -1.0}) {
       trials.push_back(values);
-      trials.back()[k] = std::clamp(values[k] + side * step[k], task_.parameters[k].min, task_.parameters[k].max);
+      const Parameter& p = task_.parameters[k];
+      trials.back()[k] = p.value_at(p.coordinate(values[k]) + side * step[k]);
     }
   }
   const std::vector<std::vector<double>> found = at_all(trials);
@@ -109,8 +110,9 @@ std::vector<std::vector<double>> Residuals::jacobian(const std::vector<double>& 
     const std::size_t k = which[j];
     const std::vector<double>& up = found[2 * j].empty() ? here : found[2 * j];
     const std::vector<double>& down = found[2 * j + 1].empty() ? here : found[2 * j + 1];
-    const double x_up = found[2 * j].empty() ? values[k] : trials[2 * j][k];
-    const double x_down = found[2 * j + 1].empty() ? values[k] : trials[2 * j + 1][k];
+    const Parameter& p = task_.parameters[k];
+    const double x_up = p.coordinate(found[2 * j].empty() ? values[k] : trials[2 * j][k]);
+    const double x_down = p.coordinate(found[2 * j + 1].empty() ? values[k] : trials[2 * j + 1][k]);
     if (x_up == x_down) return {};
     for (std::size_t i = 0; i < here.size(); ++i) columns[j].push_back((up[i] - down[i]) / (x_up - x_down));
   }
@@ -124,7 +126,7 @@ std::vector<double> Residuals::steps(const std::vector<double>& values, const st
   std::vector<double> step = std::move(first);
   for (std::size_t k = step.size(); k < values.size(); ++k) {
     const Parameter& p = task_.parameters[k];
-    step.push_back(0.02 * std::max(std::abs(values[k]), 1e-2 * (p.max - p.min)));
+    step.push_back(p.logarithmic() ? 0.02 : 0.02 * std::max(std::abs(values[k]), 1e-2 * p.span()));
   }
   std::vector<std::size_t> open(values.size());
   std::iota(open.begin(), open.end(), std::size_t{0});
@@ -132,8 +134,9 @@ std::vector<double> Residuals::steps(const std::vector<double>& values, const st
     std::vector<std::vector<double>> trials;
     for (std::size_t k : open) {
       trials.push_back(values);
-      const bool up = values[k] + step[k] <= task_.parameters[k].max;
-      trials.back()[k] = std::max(values[k] + (up ? step[k] : -step[k]), task_.parameters[k].min);
+      const Parameter& p = task_.parameters[k];
+      const double at = p.coordinate(values[k]);
+      trials.back()[k] = p.value_at(at + step[k] <= p.coordinate(p.max) ? at + step[k] : at - step[k]);
     }
     const auto found = at_all(trials);
     std::vector<std::size_t> still;
@@ -142,7 +145,7 @@ std::vector<double> Residuals::steps(const std::vector<double>& values, const st
       for (std::size_t j = 0; j < found[i].size(); ++j) change.push_back(found[i][j] - here[j]);
       const double ratio = found[i].empty() ? 0.1 : std::clamp(effect_rad / std::max(rms(change), 1e-12), 0.05, 20.0);
       const Parameter& p = task_.parameters[open[i]];
-      const double next = std::clamp(step[open[i]] * ratio, 1e-9 * (p.max - p.min), 0.1 * (p.max - p.min));
+      const double next = std::clamp(step[open[i]] * ratio, 1e-9 * p.span(), 0.1 * p.span());
       if (next > kNear * step[open[i]] || next < step[open[i]] / kNear) {
         step[open[i]] = next;
         still.push_back(open[i]);

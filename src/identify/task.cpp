@@ -75,6 +75,15 @@ void add_key(Parameter& parameter, const std::string& key, const config::Preset&
 
 }  // namespace
 
+double Parameter::coordinate(double value) const { return logarithmic() ? std::log(value) : value; }
+
+double Parameter::value_at(double coordinate) const {
+  const double near = 1e-12 * span(), low = this->coordinate(min), high = this->coordinate(max);
+  if (coordinate <= low + near) return min;
+  if (coordinate >= high - near) return max;
+  return std::clamp(logarithmic() ? std::exp(coordinate) : coordinate, min, max);
+}
+
 std::vector<Parameter> parse_parameters(const std::string& text, const config::Preset& preset) {
   Problems problems;
   std::vector<Parameter> out;

@@ -31,7 +31,7 @@ Scaled scaled(const Residuals& residuals, const Fit& fit, Uncertainty& out) {
   const std::size_t n = fit.residuals.size();
   for (std::size_t k = 0; k < fit.values.size(); ++k) {
     const Parameter& p = residuals.task().parameters[k];
-    const bool effect = rms(fit.jacobian[k]) * (p.max - p.min) > kNoEffect_rad;
+    const bool effect = rms(fit.jacobian[k]) * p.span() > kNoEffect_rad;
     if (!effect) out.without_effect.push_back(k);
     if (effect && !fit.at_bound[k]) s.free.push_back(k);
   }
@@ -71,15 +71,20 @@ bool undetermined(const Uncertainty& u, std::size_t parameter) {
   });
 }
 
-void fill(Uncertainty& out, const Scaled& s, const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& white, const Fit& fit) {
+void fill(Uncertainty& out, const Scaled& s, const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& white, const Fit& fit,
+          const std::vector<Parameter>& parameters) {
   const double t = student_quantile(0.975, out.degrees_of_freedom);
   for (std::size_t j = 0; j < s.free.size(); ++j) {
     const std::size_t k = s.free[j];
     const bool none = undetermined(out, k);
-    out.standard_error[k] = none ? kInfinite : std::sqrt(covariance(index(j), index(j))) / s.length[index(j)];
-    out.white_standard_error[k] = none ? kInfinite : std::sqrt(white(index(j), index(j))) / s.length[index(j)];
-    out.low[k] = fit.values[k] - t * out.standard_error[k];
-    out.high[k] = fit.values[k] + t * out.standard_error[k];
+    const double error = none ? kInfinite : std::sqrt(covariance(index(j), index(j))) / s.length[index(j)];
+    const double white_error = none ? kInfinite : std::sqrt(white(index(j), index(j))) / s.length[index(j)];
+    const bool logarithmic = parameters[k].logarithmic();
+    const double value = fit.values[k], unit = logarithmic ? value : 1.0;  // dθ of dln θ
+    out.standard_error[k] = unit * error;
+    out.white_standard_error[k] = unit * white_error;
+    out.low[k] = logarithmic ? value * std::exp(-t * error) : value - t * error;
+    out.high[k] = logarithmic ? value * std::exp(t * error) : value + t * error;
     for (std::size_t i = 0; i < s.free.size(); ++i) {
       const double scale = std::sqrt(covariance(index(i), index(i)) * covariance(index(j), index(j)));
       out.correlation[s.free[i]][k] = none || undetermined(out, s.free[i]) ? kNaN : covariance(index(i), index(j)) / scale;
@@ -112,7 +117,7 @@ Uncertainty uncertainty(const Residuals& residuals, const Fit& fit) {
   if (!any) return out;
   const Eigen::MatrixXd covariance = g * (s.columns.transpose() * e.apply(residuals.points(), s.columns)) * g;
   const double freedom = std::max(1.0, static_cast<double>(r.size()) - static_cast<double>(s.free.size()));
-  fill(out, s, covariance, g * (r.squaredNorm() / freedom), fit);
+  fill(out, s, covariance, g * (r.squaredNorm() / freedom), fit, residuals.task().parameters);
   return out;
 }
 

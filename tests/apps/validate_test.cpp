@@ -95,6 +95,8 @@ TEST(Validate, CountsAnUnseenRecordingAsPredictedAndEndsWithOneWhereABoundIsBrok
   has(read_file(scratch / "out" / "results.json"),
       {"\"passed\": false", "\"kind\": \"predicted\"", "\"rms_predicted_rad\": 0.0412"});
   const std::string doc = read_file(scratch / "doc.md");
+  std::istringstream lines(doc);
+  for (std::string line; std::getline(lines, line);) EXPECT_TRUE(line.size() <= 140 || line[0] == '|' || line[0] == '!') << line;
   EXPECT_EQ(doc.rfind("# Kept\n", 0), 0u);
   EXPECT_NE(doc.find("\nkept too\n"), std::string::npos);
   EXPECT_EQ(doc.find("\nold\n"), std::string::npos);

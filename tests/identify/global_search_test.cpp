@@ -5,10 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <cmath>
+
 #include "closed_form.hpp"
 #include "vsa/experiment/bench.hpp"
 #include "vsa/identify/bench_model.hpp"
 #include "vsa/identify/fit.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::identify {
 namespace {
@@ -57,6 +61,67 @@ TEST(GlobalSearch, GivesStartsThatLocalSolutionsGoOnFrom) {
   EXPECT_NE(told.find("global search: 1 place"), std::string::npos) << told;
   o.starts = 1;
   EXPECT_LT(fit(residuals, o).values[0], kBarrier) << "one start alone stays where it is";
+}
+
+/// Seven parameters, in each of them a shallow well at every tenth and the lowest point at kWell: a new best is often a little
+/// better than the one before, long before the place is found.
+Task rippled() {
+  Task task = two_wells(0.2);
+  task.parameters.assign(7, {"x", {}, "1", 0.15, 0.0, 1.0});
+  const experiment::Branches zero = task.observations[0].data;
+  task.model = task.surrogate = [zero](const std::vector<double>& v, std::size_t) {
+    double height = 0;
+    for (const double x : v) height += 10 * (x - kWell) * (x - kWell) + 0.07 * (1 - std::cos(20 * kPi * (x - kWell)));
+    experiment::Branches b = zero;
+    for (auto* branch : {&b.rising_rad, &b.falling_rad}) std::fill(branch->begin(), branch->end(), height);
+    return b;
+  };
+  return task;
+}
+
+TEST(GlobalSearch, GoesOnWhereANewBestIsOnlyALittleBetterThanTheOneBefore) {
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+    GlobalOptions o;
+    o.searches = 1;
+    o.seed = seed;
+    const GlobalSearch found = search_globally(rippled(), o);
+    ASSERT_FALSE(found.points.empty());
+    for (const double x : found.points[0].values) EXPECT_NEAR(x, kWell, 0.03) << "seed " << seed;
+  }
+}
+
+TEST(Fit, GoesDownTheSurrogateBeforeItPaysForASimulationsSlopes) {
+  // The surrogate is the truth with other zeros: how far they are apart is the same everywhere, so it leads all the way.
+  const std::vector<double> presets{0.0, 0.45, 0.69};
+  Task task = test::task_of(
+      parse_parameters(test::kFour, test::paper_preset()), presets,
+      {test::closed_form(test::kTruth, 0.0), test::closed_form(test::kTruth, 0.45), test::closed_form(test::kTruth, 0.69)});
+  task.parameters[0].start = 0.9;
+  task.parameters[1].start = 0.5;
+  std::atomic<int> simulations{0};
+  const Model truth = task.model;
+  task.model = [truth, &simulations](const std::vector<double>& v, std::size_t o) {
+    ++simulations;
+    return truth(v, o);
+  };
+  const auto simulations_of = [&](bool with_surrogate) {
+    task.surrogate = nullptr;
+    if (with_surrogate) {
+      task.surrogate = [truth](const std::vector<double>& v, std::size_t o) {
+        std::vector<double> other = v;
+        other[3] += 0.01;
+        return truth(other, o);
+      };
+    }
+    simulations = 0;
+    FitOptions o;
+    o.starts = 1;
+    const Fit found = fit(Residuals(task, 1), o);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(found.values[k], test::kTruth[k], 2e-3 * test::kTruth[k]) << k;
+    return simulations.load();
+  };
+  const int alone = simulations_of(false), led = simulations_of(true);
+  EXPECT_LT(led, 0.9 * alone);
 }
 
 TEST(GlobalSearch, SaysWhyThereIsNone) {

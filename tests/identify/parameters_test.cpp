@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "closed_form.hpp"
 #include "vsa/errors.hpp"
@@ -48,6 +49,16 @@ TEST(Parameters, ThatAreWrongAreAllToldAtOnce) {
   EXPECT_TRUE(has(told("elastic.k1_Nm=elastic.a1_per_rad").at(0), "another unit"));
   EXPECT_TRUE(has(told("elastic.k1_Nm,,shaft.friction_Nm").at(0), "a key is missing"));
   EXPECT_TRUE(has(told("").at(0), "a key is missing"));
+}
+
+TEST(Parameters, AreCountedInTheirLogarithmWhereTheirBoundsSpanDecades) {
+  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm,shaft.friction_Nm", paper_preset());
+  ASSERT_TRUE(p[0].logarithmic());
+  EXPECT_FALSE(p[1].logarithmic()) << "its bound is 0";
+  EXPECT_NEAR(p[0].value_at(p[0].coordinate(1e-3) + std::log(2.0)), 2e-3, 1e-12);
+  EXPECT_EQ(p[0].value_at(p[0].coordinate(p[0].min) - 1), p[0].min);
+  EXPECT_EQ(p[0].value_at(p[0].coordinate(p[0].max)), p[0].max) << "the bound itself, and not what exp(ln) makes of it";
+  EXPECT_EQ(p[1].coordinate(0.03), 0.03);
 }
 
 TEST(Parameters, BecomeOverridesOfEveryTiedKey) {

@@ -18,6 +18,13 @@ device::UnitConfig unit(const std::string& preset, const std::vector<config::Ove
   return test::shipped().load(preset, overrides).unit;
 }
 
+constexpr double kTurn_rad = 1.6;
+
+double deflection(const QuasiStatic& model, double preset, double torque_Nm, bool rising) {
+  const experiment::Branches b = model.branches(preset, {torque_Nm}, {kTurn_rad, std::nullopt});
+  return rising ? b.rising_rad[0] : b.falling_rad[0];
+}
+
 const std::vector<config::Override> kWithoutFriction{
     {"drive.friction_Nm", "0"}, {"drive.load_loss", "0"}, {"shaft.friction_Nm", "0"}, {"sensor.shaft_zero_rad", "0"}};
 
@@ -61,7 +68,7 @@ TEST(QuasiStatic, WithoutFrictionShowsTheLawItself) {
   const device::UnitConfig u = unit("sea_example", kWithoutFriction);
   const QuasiStatic model(u, 2.0);
   const double k = u.actuator.transmission->evaluate({}).curvature.qq;
-  for (const bool rising : {true, false}) EXPECT_NEAR(model.deflection_rad(0, 0.8, rising), 0.8 / k, 1e-6);
+  for (const bool rising : {true, false}) EXPECT_NEAR(deflection(model, 0, 0.8, rising), 0.8 / k, 1e-6);
 }
 
 TEST(QuasiStatic, TheLoopOfShaftAndTendonsIsAsWideAsTheirFriction) {
@@ -72,18 +79,44 @@ TEST(QuasiStatic, TheLoopOfShaftAndTendonsIsAsWideAsTheirFriction) {
   const QuasiStatic model(u, 2.0);
   const double k = u.actuator.transmission->evaluate({}).curvature.qq;
   // rising: τ + f = kδ(1 + μ); falling: τ − f = kδ(1 − μ)
-  EXPECT_NEAR(model.deflection_rad(0, 0.8, true), 0.83 / 1.1 / k, 1e-6);
-  EXPECT_NEAR(model.deflection_rad(0, 0.8, false), 0.77 / 0.9 / k, 1e-6);
+  EXPECT_NEAR(deflection(model, 0, 0.8, true), 0.83 / 1.1 / k, 1e-6);
+  EXPECT_NEAR(deflection(model, 0, 0.8, false), 0.77 / 0.9 / k, 1e-6);
+}
+
+TEST(QuasiStatic, AfterATurnABristleBendsBackBeforeItSlides) {
+  std::vector<config::Override> o = kWithoutFriction;
+  o[2].value = "0.05";
+  o.push_back({"shaft.presliding_rad", "0.4"});
+  const device::UnitConfig u = unit("sea_example", o);
+  const QuasiStatic model(u, 2.0);
+  const double k = u.actuator.transmission->evaluate({}).curvature.qq;
+  // The falling branch begins with the shaft at −1.6 rad and the bristle bent fully: kδ = τ − 0.05 u/0.4, u = −0.4 + (q + 1.6).
+  for (const double torque : {1.95, 1.9, 0.5}) {
+    const double bend = std::min(-0.4 + kTurn_rad - std::asin(torque / 2.0), 0.4);
+    EXPECT_NEAR(deflection(model, 0, torque, false), (torque - 0.05 * bend / 0.4) / k, 1e-6) << torque;
+  }
+}
+
+TEST(QuasiStatic, TurnsWhereTheCommandsAmplitudeSays) {
+  const device::UnitConfig u = unit("sea_example", kWithoutFriction);
+  const QuasiStatic model(u, 2.0);
+  const double k = u.actuator.transmission->evaluate({}).curvature.qq, amplitude = 0.5;
+  // The lever at q takes 2 sin q of the spring: the command that holds it there is q + 2 sin q/k, and the motor's own error more.
+  const auto reached = [&](double torque) { return std::isfinite(model.branches(0, {torque}, {1.6, amplitude}).rising_rad[0]); };
+  double most = 0;
+  for (double q = 0; q + 2 * std::sin(q) / k < amplitude; q += 1e-3) most = 2 * std::sin(q);
+  EXPECT_TRUE(reached(0.7 * most));
+  EXPECT_FALSE(reached(1.05 * most));
 }
 
 TEST(QuasiStatic, AMotorThatIsDrivenBackSpreadsLessAndSoTheJointIsSofter) {
   // With a preset both springs pull their motors together; what friction takes is what the loop needn't give.
-  const auto deflection = [](const char* loss) {
+  const auto swing = [](const char* loss) {
     const device::UnitConfig u = unit("qbmove_maker_pro_6_1", {{"drive.back_loss", loss}, {"sensor.shaft_zero_rad", "0"}});
     const QuasiStatic model(u, 1.47);
-    return model.deflection_rad(0.55, 1.0, true) - model.deflection_rad(0.55, -1.0, true);
+    return deflection(model, 0.55, 1.0, true) - deflection(model, 0.55, -1.0, true);
   };
-  EXPECT_GT(deflection("0"), deflection("0.6") + 1e-3);
+  EXPECT_GT(swing("0"), swing("0.6") + 1e-3);
 }
 
 TEST(QuasiStatic, IsWithinSomeMilliradiansOfTheSimulatedBench) {
@@ -106,7 +139,8 @@ TEST(QuasiStatic, IsWithinSomeMilliradiansOfTheSimulatedBench) {
       o.lead_in_cycles = 0;
       o.cycles = 1.5;
       const auto simulated = experiment::branches(experiment::as_recording(experiment::run_stiffness(specimen, o), preset));
-      const experiment::Difference d = experiment::difference(model.branches(preset, simulated.torque_Nm), simulated);
+      const Turn turn{experiment::sweep_target_rad(preset, "rad"), std::nullopt};
+      const experiment::Difference d = experiment::difference(model.branches(preset, simulated.torque_Nm, turn), simulated);
       EXPECT_GT(d.points, 100u);
       EXPECT_LT(d.both_rad, c.within_rad) << c.type << ", preset " << preset;
     }

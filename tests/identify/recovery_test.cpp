@@ -152,6 +152,21 @@ TEST(Intervals, HoldTheTruthAsOftenAsTheySayWithCorrelatedErrorsWhereWhiteOnesDo
   EXPECT_LT(c.white, 0.75);
 }
 
+TEST(Intervals, OfAParameterCountedInItsLogarithmAreFactors) {
+  std::mt19937 random(6);
+  std::vector<experiment::Branches> data = exact();
+  for (experiment::Branches& b : data) test::add_errors(b.rising_rad, 0.05, 0, random);
+  const Task task = task_of(parse_parameters(kFour, paper_preset()), kPresets, data);
+  const Residuals residuals(task, 2);
+  const Fit f = fit(residuals, quick());
+  const Uncertainty u = uncertainty(residuals, f);
+  ASSERT_TRUE(task.parameters[0].logarithmic());
+  EXPECT_GT(u.low[0], 0);
+  EXPECT_NEAR(u.low[0] * u.high[0], f.values[0] * f.values[0], 1e-9 * f.values[0]);
+  EXPECT_GT(u.high[0] - f.values[0], 1.01 * (f.values[0] - u.low[0]));
+  EXPECT_NEAR(u.high[2] - f.values[2], f.values[2] - u.low[2], 1e-9) << "the others are symmetric";
+}
+
 TEST(Intervals, TellTheErrorsCorrelationAndSize) {
   std::mt19937 random(5);
   std::vector<experiment::Branches> data = exact();

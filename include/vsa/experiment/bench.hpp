@@ -16,6 +16,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vsa/config/preset.hpp"
@@ -92,6 +93,8 @@ struct StiffnessOptions {
 struct SweepAmplitude {
   double amplitude_rad = 0, target_rad = 0, reached_rad = 0;
 };
+/// That angle of the shaft, rad; `preset_unit` is the law's, "" where it has no preset.
+[[nodiscard]] double sweep_target_rad(double preset, std::string_view preset_unit);
 [[nodiscard]] SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s);
 [[nodiscard]] BenchRun run_stiffness(const Specimen& specimen, const StiffnessOptions& options, Watch* watch = nullptr);
 /// As the hardware recorded it: torque from the measured shaft angle, measured deflection.

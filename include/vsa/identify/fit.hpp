@@ -15,20 +15,24 @@
 namespace vsa::identify {
 
 struct FitOptions {
-  /// Local solutions at most: one from the preset's values, the others from a global search on the surrogate, which may find fewer
-  /// places; without a surrogate from the best of 4 × as many trials about the preset's values.
+  /// Local solutions at most: one from the preset's values (or where the surrogate leads from there, if that is better), the others
+  /// from a global search on the surrogate, which may find fewer places; without a surrogate from the best of 4 × as many trials
+  /// about the preset's values.
   int starts = 3;
   bool global = true;        ///< false: as without a surrogate
   unsigned seed = 1;         ///< of the global search
   int iterations = 20;       ///< of each
   double effect_rad = 2e-3;  ///< of a difference step
-  double tolerance = 1e-3;   ///< relative decrease of the cost at which a solution ends
+  /// The same of the Jacobian that the intervals come from. A simulated unit is rough (encoders' steps, motors that stick and slip:
+  /// 0.1 … 0.2 mrad however small the step); that noise in the columns hides how alike two of them are, and with it an interval.
+  double interval_effect_rad = 8e-3;
+  double tolerance = 1e-3;  ///< relative decrease of the cost at which a solution ends
   std::function<void(const std::string&)> progress;
 };
 
 struct StartResult {
   std::vector<double> from, to;
-  std::vector<double> steps;  ///< of the differences
+  std::vector<double> steps;  ///< of the differences, in Parameter::coordinate()
   double rms_rad = 0;
   double cost = 0;  ///< at `to`, ½ Σ w² r²; by fit(), with what the model held constant on the way there
   int iterations = 0;
@@ -39,7 +43,7 @@ struct Fit {
   std::vector<double> values;
   std::vector<bool> at_bound;
   std::vector<double> residuals;              ///< unweighted
-  std::vector<std::vector<double>> jacobian;  ///< columns, unweighted
+  std::vector<std::vector<double>> jacobian;  ///< columns, unweighted, by Parameter::coordinate()
   std::vector<double> steps;
   double cost = 0, rms_rad = 0;
   std::vector<StartResult> starts;  ///< the best is first
@@ -49,7 +53,8 @@ struct Fit {
 [[nodiscard]] Fit fit(const Residuals& residuals, const FitOptions& options);
 /// Residuals, Jacobian and bounds at `fit.values`, with `fit.steps` as the first guess of the steps.
 void evaluate_at(Fit& fit, const Residuals& residuals, double effect_rad);
-/// One local solution. `fixed[k]`: parameter k keeps its value.
+/// One local solution. `fixed[k]`: parameter k keeps its value. Where it ends the difference steps are found anew, and what the
+/// model holds constant, and it goes on as long as that lowers the cost by a percent.
 [[nodiscard]] StartResult solve(const Residuals& residuals, const std::vector<double>& from, const std::vector<bool>& fixed,
                                 const FitOptions& options);
 

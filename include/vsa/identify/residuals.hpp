@@ -31,8 +31,8 @@ class Residuals {
   [[nodiscard]] std::vector<double> at(const std::vector<double>& values) const;
   /// Several at once; an empty vector where the model threw.
   [[nodiscard]] std::vector<std::vector<double>> at_all(const std::vector<std::vector<double>>& many) const;
-  /// Columns dr/dθ_k of the parameters `which`, by central differences with the steps given, one-sided at a bound. A side that
-  /// fails is left out; no columns: both failed.
+  /// Columns dr/dθ_k of the parameters `which`, θ_k in Parameter::coordinate(), by central differences with the steps given,
+  /// one-sided at a bound. A side that fails is left out; no columns: both failed.
   [[nodiscard]] std::vector<std::vector<double>> jacobian(const std::vector<double>& values, const std::vector<double>& here,
                                                           const std::vector<double>& steps,
                                                           const std::vector<std::size_t>& which) const;

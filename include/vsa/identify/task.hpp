@@ -23,6 +23,14 @@ struct Parameter {
   std::vector<std::string> keys;  ///< "elastic.k1_Nm", "elastic.k2_Nm"
   std::string unit;
   double start = 0, min = 0, max = 0;
+
+  /// Counted in its logarithm: its bounds are positive and two decades apart or more, so that what is asked for is its order of
+  /// magnitude first. Searches, steps, Jacobians and intervals are then in ln(value).
+  [[nodiscard]] bool logarithmic() const { return min > 0 && max / min >= 100; }
+  [[nodiscard]] double coordinate(double value) const;
+  /// Within the bounds; at a bound exactly that.
+  [[nodiscard]] double value_at(double coordinate) const;
+  [[nodiscard]] double span() const { return coordinate(max) - coordinate(min); }
 };
 
 struct Observation {

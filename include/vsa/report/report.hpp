@@ -66,6 +66,9 @@ struct Report {
 /// The page's data. Throws std::invalid_argument where a curve's x, y and error differ in length.
 [[nodiscard]] std::string to_json(const Report& report);
 
+/// Head, rows and caption of a table for a Markdown document, and an empty line; its title is the document's to set.
+[[nodiscard]] std::string to_markdown(const Table& table);
+
 /// One chart as a picture without a page, for documents. Throws as to_json() does.
 [[nodiscard]] std::string to_svg(const Chart& chart);
 
