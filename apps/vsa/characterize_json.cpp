@@ -11,19 +11,19 @@ Json range(const Range& r) { return {r.least, r.most}; }
 /// `unit` is what y is measured in.
 Json step_json(const experiment::StepMeasures& m, const std::string& unit) {
   Json out;
-  out["rise_10_90_s"] = number(m.rise_s);
-  out["mean_speed_" + unit + "_per_s"] = number(m.mean_speed);
-  out["peak_slope_" + unit + "_per_s"] = number(m.peak_slope);
-  out["overshoot_pct"] = number(m.overshoot_pct);
-  out["ringing_Hz"] = number(m.ringing_Hz);
-  out["damping_ratio"] = number(m.damping_ratio);
-  out["steady_error_" + unit] = number(m.steady_error);
+  out["rise_10_90_s"] = json_number(m.rise_s);
+  out["mean_speed_" + unit + "_per_s"] = json_number(m.mean_speed);
+  out["peak_slope_" + unit + "_per_s"] = json_number(m.peak_slope);
+  out["overshoot_pct"] = json_number(m.overshoot_pct);
+  out["ringing_Hz"] = json_number(m.ringing_Hz);
+  out["damping_ratio"] = json_number(m.damping_ratio);
+  out["steady_error_" + unit] = json_number(m.steady_error);
   return out;
 }
 
 Json step_with_final(const experiment::StepMeasures& m, const std::string& unit) {
   Json out = step_json(m, unit);
-  out["final_" + unit] = number(m.final_value);
+  out["final_" + unit] = json_number(m.final_value);
   return out;
 }
 
@@ -47,18 +47,18 @@ Json stiffness_json(const Characterization& c, const StiffnessResult& r) {
   out["measured_deflection_range_rad"] = range(r.deflection_rad);
   if (!c.preset_unit().empty()) out["attained_preset_range_" + c.preset_unit()] = range(r.preset);
   const experiment::Loop& l = r.loop;
-  out["loop"] = {{"area_Nm_rad", number(l.area_Nm_rad)},
-                 {"mean_width_rad", number(l.mean_width_rad)},
-                 {"mean_abs_width_rad", number(l.mean_abs_width_rad)},
-                 {"largest_width_rad", number(l.largest_width_rad)},
-                 {"smallest_width_rad", number(l.smallest_width_rad)},
-                 {"peak_rising_rad", number(l.peak_rising_rad)},
-                 {"peak_falling_rad", number(l.peak_falling_rad)}};
+  out["loop"] = {{"area_Nm_rad", json_number(l.area_Nm_rad)},
+                 {"mean_width_rad", json_number(l.mean_width_rad)},
+                 {"mean_abs_width_rad", json_number(l.mean_abs_width_rad)},
+                 {"largest_width_rad", json_number(l.largest_width_rad)},
+                 {"smallest_width_rad", json_number(l.smallest_width_rad)},
+                 {"peak_rising_rad", json_number(l.peak_rising_rad)},
+                 {"peak_falling_rad", json_number(l.peak_falling_rad)}};
   out["branches"] = {{"load_torque_Nm", r.branches.torque_Nm},
-                     {"deflection_rising_rad", numbers(r.branches.rising_rad)},
-                     {"deflection_falling_rad", numbers(r.branches.falling_rad)},
-                     {"sd_rising_rad", numbers(r.branches.sd_rising_rad)},
-                     {"sd_falling_rad", numbers(r.branches.sd_falling_rad)}};
+                     {"deflection_rising_rad", json_numbers(r.branches.rising_rad)},
+                     {"deflection_falling_rad", json_numbers(r.branches.falling_rad)},
+                     {"sd_rising_rad", json_numbers(r.branches.sd_rising_rad)},
+                     {"sd_falling_rad", json_numbers(r.branches.sd_falling_rad)}};
   Json& curve = out["stiffness"] = Json::array();
   for (const experiment::StiffnessPoint& p : r.curve) {
     curve.push_back({{"load_torque_Nm", p.torque_Nm},
@@ -98,8 +98,8 @@ Json preset_step_json(const Characterization& c, const PresetStepResult& r) {
   out["equilibrium_command_rad"] = r.run.amplitude_rad;
   out["load_peak_Nm"] = r.run.load_peak_Nm;
   out["measured_load_range_Nm"] = range(r.load_Nm);
-  out["attained_preset_" + c.preset_unit()] = number(r.up.final_value);
-  out["resting_preset_" + c.preset_unit()] = number(r.down.final_value);
+  out["attained_preset_" + c.preset_unit()] = json_number(r.up.final_value);
+  out["resting_preset_" + c.preset_unit()] = json_number(r.down.final_value);
   out["up"] = step_json(r.up, c.preset_unit());
   out["down"] = step_json(r.down, c.preset_unit());
   return out;

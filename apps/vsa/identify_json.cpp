@@ -17,16 +17,18 @@ Json parameters_json(const Identification& r) {
                    {"start", p.start},
                    {"bounds", {p.min, p.max}},
                    {"value", r.fit.values[k]},
-                   {"standard_error", number(u.standard_error[k])},
-                   {"interval_95", {number(u.low[k]), number(u.high[k])}},
-                   {"standard_error_if_white", number(u.white_standard_error[k])},
+                   {"standard_error", json_number(u.standard_error[k])},
+                   {"interval_95", {json_number(u.low[k]), json_number(u.high[k])}},
+                   {"standard_error_if_white", json_number(u.white_standard_error[k])},
                    {"at_bound", static_cast<bool>(r.fit.at_bound[k])}});
   }
   return out;
 }
 
 Json difference_json(const experiment::Difference& d) {
-  return {{"rms_rad", number(d.both_rad)}, {"rms_rising_rad", number(d.rising_rad)}, {"rms_falling_rad", number(d.falling_rad)}};
+  return {{"rms_rad", json_number(d.both_rad)},
+          {"rms_rising_rad", json_number(d.rising_rad)},
+          {"rms_falling_rad", json_number(d.falling_rad)}};
 }
 
 Json recordings_json(const Identification& r) {
@@ -38,8 +40,8 @@ Json recordings_json(const Identification& r) {
                    {"points", r.misfits[o].rms.points},
                    {"before", difference_json(r.misfits_before[o].rms)},
                    {"after", difference_json(r.misfits[o].rms)},
-                   {"residual_autocorrelation", number(r.uncertainty.autocorrelation[o])},
-                   {"residual_sd_rad", number(r.uncertainty.sd_rad[o])}});
+                   {"residual_autocorrelation", json_number(r.uncertainty.autocorrelation[o])},
+                   {"residual_sd_rad", json_number(r.uncertainty.sd_rad[o])}});
   }
   return out;
 }
@@ -120,8 +122,8 @@ std::string results_json(const Identification& r) {
   out["parameters"] = parameters_json(r);
   out["identified_values"] = values_json(r);
   Json& correlation = out["correlation"] = Json::array();
-  for (const auto& row : u.correlation) correlation.push_back(numbers(row));
-  out["condition"] = number(u.condition);
+  for (const auto& row : u.correlation) correlation.push_back(json_numbers(row));
+  out["condition"] = json_number(u.condition);
   out["unseparated"] = groups_json(r);
   out["effective_samples"] = u.effective_samples;
   out["degrees_of_freedom"] = u.degrees_of_freedom;

@@ -13,8 +13,8 @@ namespace vsa::app {
 using Json = nlohmann::ordered_json;
 
 /// null: not finite.
-[[nodiscard]] Json number(double value);
-[[nodiscard]] Json numbers(const std::vector<double>& values);
+[[nodiscard]] Json json_number(double value);
+[[nodiscard]] Json json_numbers(const std::vector<double>& values);
 
 /// What a file begins with: who wrote it, and on which command.
 [[nodiscard]] Json json_head(const std::string& command);

@@ -12,9 +12,9 @@ namespace vsa::app {
 namespace {
 
 Json branches_json(const experiment::Branches& b) {
-  return {{"load_torque_Nm", numbers(b.torque_Nm)},
-          {"deflection_rising_rad", numbers(b.rising_rad)},
-          {"deflection_falling_rad", numbers(b.falling_rad)}};
+  return {{"load_torque_Nm", json_numbers(b.torque_Nm)},
+          {"deflection_rising_rad", json_numbers(b.rising_rad)},
+          {"deflection_falling_rad", json_numbers(b.falling_rad)}};
 }
 
 Json evidence_json(const Validation& v) {
@@ -26,8 +26,9 @@ Json left_out_json(const Validation& v) {
   if (!v.left_out) return nullptr;
   Json rows = Json::array();
   for (const LeaveOneOut::Row& r : v.left_out->rows) {
-    rows.push_back(
-        {{"preset", r.preset}, {"rms_predicted_rad", number(r.predicted_rad)}, {"rms_fitted_to_all_rad", number(r.fitted_rad)}});
+    rows.push_back({{"preset", r.preset},
+                    {"rms_predicted_rad", json_number(r.predicted_rad)},
+                    {"rms_fitted_to_all_rad", json_number(r.fitted_rad)}});
   }
   return {{"file", v.left_out->file},
           {"command", v.left_out->command},
@@ -63,7 +64,7 @@ std::string results_json(const Validation& v) {
   Json& bounds = out["bounds"] = Json::array();
   for (const experiment::Verdict& d : v.verdicts) {
     bounds.push_back({{"quantity", d.bound.quantity},
-                      {"value", number(d.value)},
+                      {"value", json_number(d.value)},
                       {"min", d.bound.min ? Json(*d.bound.min) : Json(nullptr)},
                       {"max", d.bound.max ? Json(*d.bound.max) : Json(nullptr)},
                       {"kind", experiment::kind_text(d.kind)},
@@ -71,14 +72,14 @@ std::string results_json(const Validation& v) {
                       {"why", d.bound.why}});
   }
   Json& all = out["quantities"] = Json::object();
-  for (const auto& [name, value] : quantities(v)) all[name] = number(value);
+  for (const auto& [name, value] : quantities(v)) all[name] = json_number(value);
   Json& periods = out["periods"] = Json::array();
   for (const PeriodCheck& p : v.periods) {
     periods.push_back({{"preset_rad", p.preset},
                        {"period_s", p.period_s},
-                       {"rms_rad", number(p.rms.both_rad)},
-                       {"loop_area_Nm_rad", number(p.loop.area_Nm_rad)},
-                       {"mean_width_rad", number(p.loop.mean_width_rad)}});
+                       {"rms_rad", json_number(p.rms.both_rad)},
+                       {"loop_area_Nm_rad", json_number(p.loop.area_Nm_rad)},
+                       {"mean_width_rad", json_number(p.loop.mean_width_rad)}});
   }
   Json& recordings = out["recordings"] = Json::array();
   for (const RecordingCheck& r : v.recordings) {
@@ -86,11 +87,11 @@ std::string results_json(const Validation& v) {
                           {"preset_rad", r.preset},
                           {"kind", recording_kind(v, r)},
                           {"origin", r.origin.empty() ? Json(nullptr) : Json(r.origin)},
-                          {"rms_rad", number(r.rms.both_rad)},
-                          {"rms_Nm", number(r.torque.both_Nm)},
+                          {"rms_rad", json_number(r.rms.both_rad)},
+                          {"rms_Nm", json_number(r.torque.both_Nm)},
                           {"extrapolated_points", r.torque.extrapolated},
-                          {"recorded_loop_area_Nm_rad", number(r.data_loop.area_Nm_rad)},
-                          {"recorded_mean_width_rad", number(r.data_loop.mean_width_rad)},
+                          {"recorded_loop_area_Nm_rad", json_number(r.data_loop.area_Nm_rad)},
+                          {"recorded_mean_width_rad", json_number(r.data_loop.mean_width_rad)},
                           {"recorded", branches_json(r.data)},
                           {"simulated", branches_json(r.ours)}});
   }
