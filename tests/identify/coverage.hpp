@@ -4,6 +4,9 @@
 // (correlated along a branch), and a fit from elsewhere, many times.
 #pragma once
 
+#include <functional>
+#include <mutex>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -35,32 +38,43 @@ inline identify::Task coverage_task(bool quasi_static) {
   return task;
 }
 
-/// Of `recordings` sets with errors of 3 mrad, how many intervals of each parameter hold the truth.
-inline std::vector<int> intervals_that_hold(const identify::Task& exact, int recordings, double correlation) {
+/// What one synthetic recording says: errors of 3 mrad on the exact branches, a fit, its intervals.
+struct Trial {
+  std::vector<double> value, low, high;
+  bool holds(std::size_t k) const { return kCoverageTruth[k] >= low[k] && kCoverageTruth[k] <= high[k]; }
+};
+
+inline Trial trial(const identify::Task& exact, std::size_t seed, double correlation) {
   constexpr double kError_rad = 0.003;
-  const std::size_t n = exact.parameters.size();
-  std::vector<std::vector<int>> held(static_cast<std::size_t>(recordings), std::vector<int>(n, 0));
-  experiment::run_in_parallel(held.size(), 0, [&](std::size_t i) {
-    identify::Task task = exact;
-    std::mt19937 random(static_cast<unsigned>(i) + 1);
-    for (identify::Observation& o : task.observations) {
-      add_errors(o.data.rising_rad, kError_rad, correlation, random);
-      add_errors(o.data.falling_rad, kError_rad, correlation, random);
-      o.weight = 1 / kError_rad;
-    }
-    const identify::Residuals residuals(task, 1);
-    identify::FitOptions options;
-    options.starts = 1;
-    options.iterations = 8;
-    const identify::Fit found = identify::fit(residuals, options);
-    const identify::Uncertainty u = identify::uncertainty(residuals, found);
-    for (std::size_t k = 0; k < n; ++k) held[i][k] = kCoverageTruth[k] >= u.low[k] && kCoverageTruth[k] <= u.high[k] ? 1 : 0;
-  });
-  std::vector<int> out(n, 0);
-  for (const auto& one : held) {
-    for (std::size_t k = 0; k < n; ++k) out[k] += one[k];
+  identify::Task task = exact;
+  std::mt19937 random(static_cast<unsigned>(seed));
+  for (identify::Observation& o : task.observations) {
+    add_errors(o.data.rising_rad, kError_rad, correlation, random);
+    add_errors(o.data.falling_rad, kError_rad, correlation, random);
+    o.weight = 1 / kError_rad;
   }
-  return out;
+  const identify::Residuals residuals(task, 1);
+  identify::FitOptions options;
+  options.starts = 1;
+  options.iterations = 8;
+  const identify::Fit found = identify::fit(residuals, options);
+  const identify::Uncertainty u = identify::uncertainty(residuals, found);
+  return {found.values, u.low, u.high};
+}
+
+/// Of `recordings` sets with errors, how many intervals of each parameter hold the truth. `tell` hears of each as it ends, by its
+/// number from 1, from one thread at a time.
+inline std::vector<int> intervals_that_hold(const identify::Task& exact, int recordings, double correlation,
+                                            const std::function<void(std::size_t, const Trial&)>& tell = {}) {
+  std::vector<int> held(exact.parameters.size(), 0);
+  std::mutex one_at_a_time;
+  experiment::run_in_parallel(static_cast<std::size_t>(recordings), 0, [&](std::size_t i) {
+    const Trial t = trial(exact, i + 1, correlation);
+    const std::lock_guard lock(one_at_a_time);
+    for (std::size_t k = 0; k < held.size(); ++k) held[k] += t.holds(k) ? 1 : 0;
+    if (tell) tell(i + 1, t);
+  });
+  return held;
 }
 
 }  // namespace vsa::test

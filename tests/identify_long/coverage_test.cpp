@@ -10,9 +10,16 @@
 namespace vsa {
 namespace {
 
-/// Each parameter's count, printed, is within least … most.
+/// Each parameter's count, printed, is within least … most. Each recording's distance from the truth is printed in half intervals as it
+/// ends: an hour without a word helps nobody.
 void expect_coverage(const identify::Task& task, int recordings, double correlation, int least, int most) {
-  const std::vector<int> held = test::intervals_that_hold(task, recordings, correlation);
+  const std::vector<int> held =
+      test::intervals_that_hold(task, recordings, correlation, [](std::size_t number, const test::Trial& t) {
+        std::cout << "recording " << number << ':';
+        for (std::size_t k = 0; k < t.value.size(); ++k)
+          std::cout << ' ' << (t.value[k] - test::kCoverageTruth[k]) / (0.5 * (t.high[k] - t.low[k]));
+        std::cout << std::endl;
+      });
   for (std::size_t k = 0; k < held.size(); ++k) {
     std::cout << task.parameters[k].name << ": " << held[k] << " of " << recordings << '\n';
     EXPECT_GE(held[k], least) << task.parameters[k].name;
