@@ -1,5 +1,5 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-"""Checks the manual: python3 docs.py ROOT [VSA]
+"""Checks the manual: python3 manual.py ROOT [VSA]
 
 links    every link and anchor of README, CONTRIBUTING, docs/, data/ and ros2/ resolves (those to the web aren't looked at)
 pages    every page below docs/ is reached from docs/README.md
@@ -13,10 +13,12 @@ import pathlib
 import re
 import subprocess
 import sys
+import unicodedata
 
 COLUMNS = 120
 # Flags in `…` without their program's name that belong to other programs than vsa.
 FOREIGN_FLAGS = {"--ros-args", "--use-angle"}
+CODE_SPAN = re.compile(r"`((?:[^`\n]|\n(?!\s*\n))+)`")  # `…`, over two lines too
 PLACEHOLDER = re.compile(r"[A-Z…<\[(\"'$-]")
 
 
@@ -50,11 +52,15 @@ class Page:
 
     def links(self):
         """(line number, target), pictures and links over two lines included."""
-        text = "\n".join(line for _, line in self.prose)
-        numbers = [number for number, _ in self.prose]
-        without_code = re.sub(r"`[^`\n]*`", lambda m: "x" * len(m.group()), text)
+        text, number_at = self._text()
+        without_code = CODE_SPAN.sub(lambda m: re.sub(r"[^\n]", "x", m.group()), text)
         for match in re.finditer(r"\]\(([^)\s]+)\)", without_code):
-            yield numbers[text.count("\n", 0, match.start())], text[match.start(1) : match.end(1)]
+            yield number_at(match.start()), text[match.start(1) : match.end(1)]
+
+    def _text(self):
+        """The prose in one piece, and what tells an index's line number."""
+        text = "\n".join(line for _, line in self.prose)
+        return text, lambda at: self.prose[text.count("\n", 0, at)][0]
 
     def commands(self):
         """(line number, text) of all that may hold a command: code lines, with \\ joined, and `…`."""
@@ -66,9 +72,9 @@ class Page:
                 continue
             yield number, held
             held = ""
-        for number, line in self.prose:
-            for span in re.findall(r"`([^`]+)`", line):
-                yield number, span
+        text, number_at = self._text()
+        for span in CODE_SPAN.finditer(text):
+            yield number_at(span.start()), span.group(1)
 
 
 def pages_of(root):
@@ -113,9 +119,10 @@ def check_reach(root, pages, arrows, complain):
 def check_lines(pages, complain):
     for page in pages:
         for number, line in page.prose:
-            shown = re.sub(r"https?://\S+|\]\([^)]*\)", "", line)
-            if len(shown) > COLUMNS and not line.lstrip().startswith("|"):
-                complain(page, number, f"{len(shown)} columns, at most {COLUMNS}")
+            shown = re.sub(r"https?://\S+", "", line)
+            columns = sum(1 for c in shown if not unicodedata.combining(c))
+            if columns > COLUMNS and not line.lstrip().startswith("|"):
+                complain(page, number, f"{columns} columns, at most {COLUMNS}")
 
 
 class Help:
