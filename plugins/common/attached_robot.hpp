@@ -63,7 +63,8 @@ class AttachedRobot {
   void step(std::int64_t dt_ns);
   void publish_step(std::int64_t time_ns);
   void publish_paused(std::int64_t time_ns);  ///< 10 times a wall second at most
-  /// As the service of faults does (docs/topics.md). False: refused and reported, nothing changed. `where` names the text.
+  /// As the service of faults does (docs/reference/topics.md). False: refused and reported, nothing changed. `where` names the
+  /// text.
   bool apply_faults(const std::string& words, const std::string& where);
   void reset();  ///< back to the first sample
 

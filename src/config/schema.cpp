@@ -96,7 +96,7 @@ constexpr Parameter kTable[] = {
      Need::defaulted, "6", "the published firmware is 6.1",
      [](Unit& u, double v) { u.program.dialect = v == 0 ? bus::Dialect::six : bus::Dialect::seven; }},
     {"firmware.generation", "", Kind::word, 0, 0, "6.1|4|3|2",
-     "maker pro: which years' control loop (docs/4-firmware.md); all else is 6.1", Need::defaulted, "6.1",
+     "maker pro: which years' control loop (docs/explanation/4-firmware.md); all else is 6.1", Need::defaulted, "6.1",
      "the program that users own", [](Unit& u, double v) { u.program.generation = static_cast<firmware::Generation>(v); }},
     {"firmware.kp_pct_per_tick", "%/tick", Kind::number, -100, 100, "", "proportional gain, % PWM per raw tick (65536 per turn)",
      Need::defaulted, "0.1", kFirmware, [](Unit& u, double v) { u.memory.position.p = fixed_16_16(v); }},
