@@ -1,7 +1,7 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 """Checks the manual: python3 manual.py ROOT [VSA]
 
-links    every link and anchor of README, CONTRIBUTING, docs/, data/ and ros2/ resolves (those to the web aren't looked at)
+links    every link and anchor of README, CONTRIBUTING, data/README, docs/ and ros2/ resolves (those to the web aren't looked at)
 pages    every page below docs/ is reached from docs/README.md
 lines    no line above 120 columns but in tables, code blocks and where an address makes it long
 commands every `vsa` subcommand and flag that a page names is in that command's --help, and the reference of the command line
@@ -78,8 +78,8 @@ class Page:
 
 
 def pages_of(root):
-    found = [root / name for name in ("README.md", "CONTRIBUTING.md") if (root / name).is_file()]
-    for folder in ("docs", "data", "ros2"):
+    found = [root / name for name in ("README.md", "CONTRIBUTING.md", "data/README.md") if (root / name).is_file()]
+    for folder in ("docs", "ros2"):
         found += sorted((root / folder).rglob("*.md"))
     return [Page(path) for path in found]
 
