@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "../../apps/vsa/pace.hpp"
-#include "../../apps/vsa/travel.hpp"
+#include "run/travel.hpp"
+#include "terminal/pace.hpp"
 
 namespace {
 
