@@ -14,27 +14,22 @@
 #include <string>
 #include <vector>
 
-#include "characterize/runs.hpp"
 #include "vsa/report/report.hpp"
+#include "vsa/study/characterization.hpp"
 
 namespace vsa::app {
 
-[[nodiscard]] std::string csv_text(const experiment::BenchRun& run);
-[[nodiscard]] std::string stiffness_file(const Characterization& c, const StiffnessResult& r);
-[[nodiscard]] std::string speed_file(const Characterization& c, const SpeedResult& r);
-[[nodiscard]] std::string preset_step_file(const PresetStepResult& r);
-[[nodiscard]] std::string results_json(const Characterization& c, const std::string& command);
-[[nodiscard]] report::Report characterization_report(const Characterization& c, const std::string& command);
+[[nodiscard]] report::Report characterization_report(const study::Characterization& c, const std::string& command);
 
 /// One table an experiment, units in the heads.
-[[nodiscard]] report::Table stiffness_table(const Characterization& c);
-[[nodiscard]] report::Table speed_table(const Characterization& c);
-[[nodiscard]] report::Table preset_step_table(const Characterization& c);
+[[nodiscard]] report::Table stiffness_table(const study::Characterization& c);
+[[nodiscard]] report::Table speed_table(const study::Characterization& c);
+[[nodiscard]] report::Table preset_step_table(const study::Characterization& c);
 /// The tables as text.
-[[nodiscard]] std::string characterization_text(const Characterization& c);
+[[nodiscard]] std::string characterization_text(const study::Characterization& c);
 
 /// Writes all of it; returns the names, the report first. Throws std::runtime_error.
-std::vector<std::string> write_characterization(const Characterization& c, const std::string& command,
+std::vector<std::string> write_characterization(const study::Characterization& c, const std::string& command,
                                                 const std::filesystem::path& directory);
 
 }  // namespace vsa::app

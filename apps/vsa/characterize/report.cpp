@@ -15,7 +15,7 @@ using report::Chart;
 using report::Curve;
 using Field = double BenchSample::*;
 
-std::string curve_name(const Characterization& c, double preset) {
+std::string curve_name(const study::Characterization& c, double preset) {
   return c.preset_unit().empty() ? c.actuator.name : fmt::format("preset {:.4g} {}", preset, c.preset_unit());
 }
 
@@ -45,13 +45,13 @@ Curve named(Curve curve, const std::string& name, int color, Curve::Style style)
 constexpr std::size_t kLoopPoints = 2000, kStepPoints = 2000;
 constexpr double kStepShown_s = 1.0;  // of the speed experiment: the rise and the ringing
 
-Chart loop_chart(const Characterization& c) {
+Chart loop_chart(const study::Characterization& c) {
   Chart out;
   out.title = "Torque–deflection loops";
   out.x_label = "deflection [rad]";
   out.y_label = "load torque [N·m]";
   int color = 0;
-  for (const StiffnessResult& r : c.stiffness) {
+  for (const study::StiffnessResult& r : c.stiffness) {
     const double end = r.run.samples.back().time_s;
     out.curves.push_back(named(sampled(r.run, &BenchSample::measured_deflection_rad, &BenchSample::measured_load_Nm,
                                        end - r.options.period_s, end, kLoopPoints),
@@ -61,14 +61,14 @@ Chart loop_chart(const Characterization& c) {
   return out;
 }
 
-Chart stiffness_chart(const Characterization& c) {
+Chart stiffness_chart(const study::Characterization& c) {
   Chart out;
   out.title = "Stiffness against deflection";
   out.x_label = "deflection [rad]";
   out.y_label = "stiffness [N·m/rad]";
   out.y_log = true;
   int color = 0;
-  for (const StiffnessResult& r : c.stiffness) {
+  for (const study::StiffnessResult& r : c.stiffness) {
     Curve curve;
     for (const experiment::StiffnessPoint& p : r.curve) {
       curve.x.push_back(p.deflection_rad);
@@ -81,13 +81,13 @@ Chart stiffness_chart(const Characterization& c) {
   return out;
 }
 
-Chart width_chart(const Characterization& c) {
+Chart width_chart(const study::Characterization& c) {
   Chart out;
   out.title = "Hysteresis";
   out.x_label = "load torque [N·m]";
   out.y_label = "falling − rising deflection [rad]";
   int color = 0;
-  for (const StiffnessResult& r : c.stiffness) {
+  for (const study::StiffnessResult& r : c.stiffness) {
     Curve curve;
     curve.x = r.branches.torque_Nm;
     for (std::size_t i = 0; i < curve.x.size(); ++i) curve.y.push_back(r.branches.falling_rad[i] - r.branches.rising_rad[i]);
@@ -97,16 +97,16 @@ Chart width_chart(const Characterization& c) {
   return out;
 }
 
-Chart step_chart(const Characterization& c) {
+Chart step_chart(const study::Characterization& c) {
   Chart out;
   out.title = "Step of the equilibrium";
   out.x_label = "time after the command [s]";
   out.y_label = "angle [rad]";
   int color = 0;
-  const auto first = [](const SpeedResult& r, Field y) {
+  const auto first = [](const study::SpeedResult& r, Field y) {
     return sampled(r.run, &BenchSample::time_s, y, 0, std::min(kStepShown_s, r.options.hold_s), kStepPoints);
   };
-  for (const SpeedResult& r : c.speed) {
+  for (const study::SpeedResult& r : c.speed) {
     const std::string name = curve_name(c, r.options.preset);
     out.curves.push_back(named(first(r, &BenchSample::shaft_rad), name, color, Curve::Style::line));
     Curve pulleys = named(first(r, &BenchSample::equilibrium_rad), name + ", pulleys", color++, Curve::Style::dotted);
@@ -122,13 +122,13 @@ Chart step_chart(const Characterization& c) {
   return out;
 }
 
-Chart preset_chart(const Characterization& c) {
+Chart preset_chart(const study::Characterization& c) {
   Chart out;
   out.title = "Attained preset";
   out.x_label = "time after the command [s]";
   out.y_label = "preset [" + c.preset_unit() + "]";
   int color = 0;
-  for (const PresetStepResult& r : c.preset_step) {
+  for (const study::PresetStepResult& r : c.preset_step) {
     out.curves.push_back(named(sampled(r.run, &BenchSample::time_s, &BenchSample::preset, 0, 2 * r.options.hold_s, kStepPoints),
                                r.options.loaded ? "with the lever" : "no load", color++, Curve::Style::line));
   }
@@ -140,13 +140,13 @@ Chart preset_chart(const Characterization& c) {
   return out;
 }
 
-Chart sag_chart(const Characterization& c) {
+Chart sag_chart(const study::Characterization& c) {
   Chart out;
   out.title = "The shaft meanwhile";
   out.x_label = "time after the command [s]";
   out.y_label = "shaft − its commanded equilibrium [rad]";
   int color = 0;
-  for (const PresetStepResult& r : c.preset_step) {
+  for (const study::PresetStepResult& r : c.preset_step) {
     Curve curve = sampled(r.run, &BenchSample::time_s, &BenchSample::shaft_rad, 0, 2 * r.options.hold_s, kStepPoints);
     for (double& y : curve.y) y -= r.run.amplitude_rad;
     out.curves.push_back(named(std::move(curve), r.options.loaded ? "with the lever" : "no load", color++, Curve::Style::line));
@@ -155,7 +155,7 @@ Chart sag_chart(const Characterization& c) {
   return out;
 }
 
-std::string sweep_text(const Characterization& c) {
+std::string sweep_text(const study::Characterization& c) {
   const experiment::StiffnessOptions& o = c.stiffness.front().options;
   return fmt::format(
       "A mass on a lever loads the shaft with at most {:.4f} N·m while the equilibrium sweeps sinusoidally with a period of {:g} "
@@ -166,7 +166,7 @@ std::string sweep_text(const Characterization& c) {
                       : "The amplitude is such that the shaft reaches the angle that the hardware's recordings reached.");
 }
 
-std::string overrides_text(const Characterization& c) {
+std::string overrides_text(const study::Characterization& c) {
   std::string out;
   for (const config::Override& o : c.specimen.overrides) out += (out.empty() ? " with " : ", ") + o.key + " = " + o.value;
   return out;
@@ -174,7 +174,7 @@ std::string overrides_text(const Characterization& c) {
 
 }  // namespace
 
-report::Report characterization_report(const Characterization& c, const std::string& command) {
+report::Report characterization_report(const study::Characterization& c, const std::string& command) {
   report::Report out;
   out.title = c.actuator.title;
   out.subtitle = "Characterised as the paper's section IV does it, in simulation: " + c.actuator.name + overrides_text(c);

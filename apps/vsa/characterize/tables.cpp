@@ -19,7 +19,7 @@ std::string text(double value, const char* format) {
 }
 
 /// σ ± standard error at the point whose torque is nearest.
-std::string stiffness_at(const StiffnessResult& r, double torque_Nm) {
+std::string stiffness_at(const study::StiffnessResult& r, double torque_Nm) {
   const auto distance = [torque_Nm](const auto& p) { return std::abs(p.torque_Nm - torque_Nm); };
   const auto at =
       std::min_element(r.curve.begin(), r.curve.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
@@ -29,11 +29,11 @@ std::string stiffness_at(const StiffnessResult& r, double torque_Nm) {
 }
 
 /// The preset's cells, left out where there is none.
-void put_preset(Row& row, const Characterization& c, const std::string& cell) {
+void put_preset(Row& row, const study::Characterization& c, const std::string& cell) {
   if (!c.preset_unit().empty()) row.push_back(cell);
 }
 
-Row head(const Characterization& c, const std::vector<std::string>& rest, bool attained) {
+Row head(const study::Characterization& c, const std::vector<std::string>& rest, bool attained) {
   Row out;
   put_preset(out, c, "preset [" + c.preset_unit() + "]");
   if (attained) put_preset(out, c, "attained");
@@ -43,14 +43,14 @@ Row head(const Characterization& c, const std::vector<std::string>& rest, bool a
 
 }  // namespace
 
-report::Table stiffness_table(const Characterization& c) {
+report::Table stiffness_table(const study::Characterization& c) {
   report::Table out;
   out.title = "Stiffness";
   out.head = head(
       c,
       {"shaft to [°]", "load to [N·m]", "δ to [rad]", "σ at 0 [N·m/rad]", "σ at 1 N·m", "loop [N·m·rad]", "width [rad]", "A [rad]"},
       true);
-  for (const StiffnessResult& r : c.stiffness) {
+  for (const study::StiffnessResult& r : c.stiffness) {
     Row row;
     put_preset(row, c, fmt::format("{:.4g}", r.options.preset));
     put_preset(row, c, fmt::format("{:.3f} … {:.3f}", r.preset.least, r.preset.most));
@@ -70,14 +70,14 @@ report::Table stiffness_table(const Characterization& c) {
   return out;
 }
 
-report::Table speed_table(const Characterization& c) {
+report::Table speed_table(const study::Characterization& c) {
   report::Table out;
   out.title = "Speed";
   out.head = head(c,
                   {"rise [s]", "ω shaft [rad/s]", "ω pulleys [rad/s]", "peak [rad/s]", "overshoot [%]", "ringing [Hz]",
                    "damping [1]", "steady error [rad]"},
                   false);
-  for (const SpeedResult& r : c.speed) {
+  for (const study::SpeedResult& r : c.speed) {
     const experiment::StepMeasures &s = r.mean.shaft, &p = r.mean.pulleys;
     Row row;
     put_preset(row, c, fmt::format("{:.4g}", r.options.preset));
@@ -97,12 +97,12 @@ report::Table speed_table(const Characterization& c) {
   return out;
 }
 
-report::Table preset_step_table(const Characterization& c) {
+report::Table preset_step_table(const study::Characterization& c) {
   report::Table out;
   out.title = "Preset step";
   const std::string unit = " [" + c.preset_unit() + "]";
   out.head = {"load", "load torque [N·m]", "commanded" + unit, "attained" + unit, "rise [s]", "resting" + unit, "fall [s]"};
-  for (const PresetStepResult& r : c.preset_step) {
+  for (const study::PresetStepResult& r : c.preset_step) {
     out.rows.push_back({r.options.loaded ? "lever" : "none",
                         r.options.loaded ? fmt::format("{:.2f} … {:.2f}", r.load_Nm.least, r.load_Nm.most) : "0",
                         fmt::format("0 → {:.4g} → 0", r.options.preset), text(r.up.final_value, "{:.4f}"),
@@ -112,7 +112,7 @@ report::Table preset_step_table(const Characterization& c) {
   return out;
 }
 
-std::string characterization_text(const Characterization& c) {
+std::string characterization_text(const study::Characterization& c) {
   std::string out = c.actuator.title + '\n';
   for (const report::Table& t : {stiffness_table(c), speed_table(c), preset_step_table(c)}) {
     if (t.rows.empty()) continue;

@@ -16,7 +16,7 @@ using report::Curve;
 
 constexpr std::size_t kPoints = 500;  // of a run, in a chart of half a page's width
 
-std::string name_of(const SheetData& d, double preset) {
+std::string name_of(const study::DataSheet& d, double preset) {
   return d.has_preset() ? fmt::format("{:.2g} {}", preset, d.preset_unit()) : "shaft";
 }
 
@@ -30,7 +30,7 @@ Curve started(std::string name, int color, Curve::Style style = Curve::Style::li
 
 /// One curve a preset; `add(curve, column)` fills it.
 template <class Add>
-void by_preset(const SheetData& d, Chart& chart, Add add) {
+void by_preset(const study::DataSheet& d, Chart& chart, Add add) {
   int color = 0;
   for (const PresetColumn& c : d.computed.columns) {
     // A chart's only curve is called as the chart is, and needs no legend.
@@ -38,7 +38,7 @@ void by_preset(const SheetData& d, Chart& chart, Add add) {
   }
 }
 
-Chart torque_speed(const SheetData& d) {
+Chart torque_speed(const study::DataSheet& d) {
   Chart out{"Torque and speed", "speed [rad/s]", "torque [N·m]", {}, "", false};
   by_preset(d, out, [](Curve& curve, const PresetColumn& c) {
     for (const auto& p : c.boundary) {
@@ -52,7 +52,7 @@ Chart torque_speed(const SheetData& d) {
   return out;
 }
 
-Chart torque_deflection(const SheetData& d) {
+Chart torque_deflection(const study::DataSheet& d) {
   Chart out{"Torque and deflection", "deflection [rad]", "load torque [N·m]", {}, "", false};
   by_preset(d, out, [](Curve& curve, const PresetColumn& c) {
     for (const auto& p : c.curve) {
@@ -64,7 +64,7 @@ Chart torque_deflection(const SheetData& d) {
   return out;
 }
 
-Chart stiffness_load(const SheetData& d) {
+Chart stiffness_load(const study::DataSheet& d) {
   Chart out{"Stiffness and load", "load torque [N·m]", "stiffness [N·m/rad]", {}, "", true};
   by_preset(d, out, [](Curve& curve, const PresetColumn& c) {
     for (const auto& p : c.curve) {
@@ -83,7 +83,7 @@ double round_down(double value) {
   return power * (value >= 5 * power ? 5 : value >= 2 * power ? 2 : 1);
 }
 
-Chart stiffness_preset(const SheetData& d) {
+Chart stiffness_preset(const study::DataSheet& d) {
   constexpr int kSteps = 60;
   Chart out{"Stiffness and preset", fmt::format("attained preset [{}]", d.preset_unit()), "stiffness [N·m/rad]", {}, "", true};
   const experiment::Workspace workspace(d.computed.preset.unit);
@@ -112,11 +112,11 @@ Curve sampled(const experiment::BenchRun& run, double BenchSample::*y, double un
   return out;
 }
 
-Chart step(const SheetData& d) {
+Chart step(const study::DataSheet& d) {
   constexpr double kUntil_s = 1.0;
   Chart out{"Step of the equilibrium", "time after the command [s]", "shaft [rad]", {}, "", false};
   int color = 0;
-  for (const SpeedResult& r : d.simulated.speed) {
+  for (const study::SpeedResult& r : d.simulated.speed) {
     out.curves.push_back(sampled(r.run, &BenchSample::shaft_rad, kUntil_s, started(name_of(d, r.options.preset), color++)));
   }
   Curve command = started("command", -1, Curve::Style::dotted);
@@ -127,11 +127,11 @@ Chart step(const SheetData& d) {
   return out;
 }
 
-Chart preset_step(const SheetData& d) {
+Chart preset_step(const study::DataSheet& d) {
   Chart out{
       "Step of the preset", "time after the command [s]", fmt::format("attained preset [{}]", d.preset_unit()), {}, "", false};
   int color = 0;
-  for (const PresetStepResult& r : d.simulated.preset_step) {
+  for (const study::PresetStepResult& r : d.simulated.preset_step) {
     const std::string name = r.options.loaded ? number(r.run.load_peak_Nm) + " N·m" : "no load";
     out.curves.push_back(sampled(r.run, &BenchSample::preset, r.run.samples.back().time_s, started(name, color++)));
   }
@@ -146,7 +146,7 @@ Chart preset_step(const SheetData& d) {
 
 }  // namespace
 
-std::vector<report::Block> sheet_charts(const SheetData& d) {
+std::vector<report::Block> sheet_charts(const study::DataSheet& d) {
   if (!d.has_preset()) return {torque_speed(d), torque_deflection(d), step(d)};
   std::vector<report::Block> out{torque_speed(d), torque_deflection(d), stiffness_load(d), stiffness_preset(d), step(d)};
   if (!d.simulated.preset_step.empty()) out.push_back(preset_step(d));

@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "datasheet/page.hpp"
+#include "terminal/console.hpp"
 #include "terminal/exit_codes.hpp"
+#include "terminal/follow.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/settings.hpp"
 #include "vsa/errors.hpp"
@@ -25,28 +26,6 @@ change of stiffness are, from the benches as vsa characterize runs them. Each nu
 Examples:
   vsa datasheet qbmove_maker_pro
   vsa datasheet qbmove_maker_pro --set drive.supply_V=24 --out at_24V.html)";
-
-constexpr double kPaperPreset = 0.75;  // section IV-B and IV-C: 100 %
-
-/// The speed and preset-step runs of `vsa characterize`.
-Characterization plan_of(const DatasheetOptions& options) {
-  Characterization plan;
-  plan.specimen.preset = options.preset;
-  plan.specimen.overrides = parse_settings(options.set, "--set");
-  plan.actuator = plan.specimen.library.load(options.preset, plan.specimen.overrides);
-  const bool has_preset = !plan.preset_unit().empty() && plan.actuator.unit.preset_max > 0;
-  const double full = std::min(kPaperPreset, plan.actuator.unit.preset_max);
-  for (const double share : {0.0, 0.15, 0.4, 1.0}) {
-    if (share == 0 || has_preset) plan.speed.emplace_back().options.preset = share * full;
-  }
-  for (const bool loaded : {false, true}) {
-    if (!has_preset) break;
-    experiment::PresetStepOptions& o = plan.preset_step.emplace_back().options;
-    o.preset = full;
-    o.loaded = loaded;
-  }
-  return plan;
-}
 
 /// Known before a minute's work, not after.
 void check_writable(const std::filesystem::path& file) {
@@ -75,13 +54,16 @@ void tell_notices(const Results& results, Console& console) {
 int run_datasheet(const DatasheetOptions& options) {
   Console console;
   const std::filesystem::path file = options.out.empty() ? "datasheet_" + options.preset + ".html" : options.out;
-  Characterization plan = plan_of(options);
+  experiment::Specimen specimen;
+  specimen.preset = options.preset;
+  specimen.overrides = parse_settings(options.set, "--set");
+  study::DataSheet plan = study::plan_data_sheet(specimen);
   check_writable(file);
-  experiment::DataSheet computed = experiment::data_sheet(plan.actuator);
   catch_interrupts();
-  auto simulated = run_plan(std::move(plan), console);
-  if (!simulated) return kSignalled + interrupted();
-  const SheetData data{std::move(computed), std::move(*simulated)};
+  const auto done = study::run(std::move(plan), follow(console));
+  console.wipe();
+  if (!done) return kSignalled + interrupted();
+  const study::DataSheet& data = *done;
   tell_notices(data.simulated.speed, console);
   tell_notices(data.simulated.preset_step, console);
   report::write_report(data_sheet_report(data, command_of(options)), file);

@@ -12,7 +12,7 @@
 namespace vsa::app {
 namespace {
 
-std::string overridden(const SheetData& d) {
+std::string overridden(const study::DataSheet& d) {
   std::string out;
   for (const config::Override& o : d.simulated.specimen.overrides) out += (out.empty() ? " with " : ", ") + o.key + " = " + o.value;
   return out;
@@ -44,7 +44,7 @@ std::string law_text(const config::Preset& preset) {
   return out + with + ".";
 }
 
-std::string how_text(const SheetData& d) {
+std::string how_text(const study::DataSheet& d) {
   return fmt::format(
       "law: from the spring's equation; drive: from the motors' parameters at {} V; simulation: from runs on the benches, as vsa "
       "characterize does them. Steady values at full voltage: no parameter tells what the motors may give for long, nor mass and "
@@ -56,14 +56,7 @@ std::string how_text(const SheetData& d) {
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
 
-std::optional<double> SheetData::nominal_load_Nm() const {
-  for (const PresetStepResult& r : simulated.preset_step) {
-    if (r.options.loaded) return r.run.load_peak_Nm;
-  }
-  return std::nullopt;
-}
-
-report::Report data_sheet_report(const SheetData& d, const std::string& command) {
+report::Report data_sheet_report(const study::DataSheet& d, const std::string& command) {
   const config::Preset& p = d.computed.preset;
   report::Report out;
   out.title = p.title;
@@ -82,7 +75,7 @@ report::Report data_sheet_report(const SheetData& d, const std::string& command)
   return out;
 }
 
-std::string data_sheet_text(const SheetData& d) {
+std::string data_sheet_text(const study::DataSheet& d) {
   std::string out = d.computed.preset.title + "\n\n";
   std::vector<report::Table> tables{mechanical_table(d), electrical_table(d)};
   if (d.has_preset()) tables.insert(tables.begin(), preset_table(d));

@@ -31,21 +31,21 @@ double speed_under(const PresetColumn& c, double load_Nm) {
   return std::nan("");
 }
 
-void add_preset_steps(const SheetData& d, report::Table& out) {
+void add_preset_steps(const study::DataSheet& d, report::Table& out) {
   const std::string unit = d.preset_unit();
-  for (const PresetStepResult& r : d.simulated.preset_step) {
+  for (const study::PresetStepResult& r : d.simulated.preset_step) {
     const std::string load = r.options.loaded ? fmt::format("{} N·m", number(r.run.load_peak_Nm)) : "no load";
     out.rows.push_back(
         {"stiffness variation time 10–90 %, " + load + ", up / down", pair(r.up.rise_s, r.down.rise_s), "s", kSimulation});
   }
-  for (const PresetStepResult& r : d.simulated.preset_step) {
+  for (const study::PresetStepResult& r : d.simulated.preset_step) {
     const std::string load = r.options.loaded ? fmt::format("{} N·m", number(r.run.load_peak_Nm)) : "no load";
     out.rows.push_back({fmt::format("preset attained of {} / left of 0, {}", number(r.options.preset), load),
                         pair(r.up.final_value, r.down.final_value), unit, kSimulation});
   }
 }
 
-void add_speeds(const SheetData& d, report::Table& out) {
+void add_speeds(const study::DataSheet& d, report::Table& out) {
   const auto& speeds = d.simulated.speed;
   const auto row = [&](const std::string& what, const std::string& unit, double experiment::StepMeasures::*field) {
     const double soft = speeds.front().mean.shaft.*field, stiff = speeds.back().mean.shaft.*field;
@@ -68,7 +68,7 @@ void add_columns(const PresetColumn& c, report::Table& out) {
 
 }  // namespace
 
-std::vector<report::Figure> key_figures(const SheetData& d) {
+std::vector<report::Figure> key_figures(const study::DataSheet& d) {
   const experiment::DataSheet& s = d.computed;
   const PresetColumn& soft = s.columns.front();
   std::vector<report::Figure> out{
@@ -93,7 +93,7 @@ std::vector<report::Figure> key_figures(const SheetData& d) {
   return out;
 }
 
-report::Table mechanical_table(const SheetData& d) {
+report::Table mechanical_table(const study::DataSheet& d) {
   const experiment::DataSheet& s = d.computed;
   const PresetColumn& c = s.columns.front();
   report::Table out{"Mechanics", {"quantity", "value", "unit", "from"}, {}, ""};
@@ -111,7 +111,7 @@ report::Table mechanical_table(const SheetData& d) {
   return out;
 }
 
-report::Table electrical_table(const SheetData& d) {
+report::Table electrical_table(const study::DataSheet& d) {
   const experiment::DataSheet& s = d.computed;
   const device::UnitConfig& u = s.preset.unit;
   const int motors = u.actuator.transmission->motor_count();
@@ -143,7 +143,7 @@ report::Table electrical_table(const SheetData& d) {
   return out;
 }
 
-report::Table preset_table(const SheetData& d) {
+report::Table preset_table(const study::DataSheet& d) {
   const auto& columns = d.computed.columns;
   report::Table out{"By stiffness preset", {fmt::format("attained preset [{}]", d.preset_unit())}, {}, ""};
   const auto row = [&](const char* what, auto value) {

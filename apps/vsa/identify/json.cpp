@@ -1,10 +1,15 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/study/json.hpp"
+
 #include "identify/output.hpp"
-#include "terminal/json_text.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::app {
 namespace {
+
+using study::Json;
+using study::json_number;
+using study::json_numbers;
 
 Json parameters_json(const Identification& r) {
   Json out = Json::array();
@@ -113,7 +118,7 @@ Json values_json(const Identification& r) {
 
 std::string results_json(const Identification& r) {
   const identify::Uncertainty& u = r.uncertainty;
-  Json out = json_head(r.command);
+  Json out = study::json_head(r.command);
   out["preset"] = r.preset.name;
   out["sweep_period_s"] = r.period_s;
   out["rms_rad"] = {{"before", identify::rms(r.residuals_before)}, {"after", r.fit.rms_rad}};
@@ -133,7 +138,7 @@ std::string results_json(const Identification& r) {
   out["profiles"] = profiles_json(r);
   out["residuals"] = residuals_json(r);
   out["simulations"] = r.evaluations;
-  return json_text(out);
+  return study::json_text(out);
 }
 
 }  // namespace vsa::app

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "run/run.hpp"
-#include "run/travel.hpp"
 #include "terminal/console.hpp"
 #include "terminal/pace.hpp"
 #include "vsa/engine/gait.hpp"
 #include "vsa/engine/world.hpp"
 #include "vsa/ports/robot_ports.hpp"
 #include "vsa/record/recorder.hpp"
+#include "vsa/study/travel.hpp"
 #include "vsa/topics/run_control.hpp"
 #include "vsa/topics/world_server.hpp"
 #include "vsa/view/live_view.hpp"
@@ -60,7 +60,7 @@ class RunSession {
   std::optional<record::Recorder> recorder_;
   std::optional<topics::WorldServer> server_;
   ports::RobotPorts ports_;
-  Travel travel_;
+  study::Travel travel_;
   record::Cadence travel_cadence_, notices_cadence_;
   std::optional<view::LiveView> view_;
   std::uint64_t speed_changes_ = 0;

@@ -11,7 +11,7 @@
 
 #include "terminal/exit_codes.hpp"
 #include "terminal/table.hpp"
-#include "unit/values.hpp"
+#include "vsa/config/unit_parameters.hpp"
 
 namespace vsa::app {
 namespace {
@@ -45,7 +45,7 @@ class Asked {
 
   void append(const std::string& what, Rows& rows) {
     if (what == "parameters") {
-      for (const auto& name : parameter_names(dialect_)) append(name, rows);
+      for (const auto& name : config::unit_parameter_names(dialect_)) append(name, rows);
     } else {
       rows.push_back({std::to_string(id_), what, text(what)});
     }
@@ -56,14 +56,14 @@ class Asked {
     if (what == "active") return port_.take(client_.active(id_), id_, what) ? "on" : "off";
     if (what == "info") return port_.take(client_.info(id_), id_, what);
     if (what == "inputs")
-      return angles_text(values_of(port_.take(client_.inputs(id_), id_, what).inputs), parameters().resolutions);
+      return config::angles_text(values_of(port_.take(client_.inputs(id_), id_, what).inputs), parameters().resolutions);
     if (what == "measurements")
-      return angles_text(values_of(port_.take(client_.measurements(id_), id_, what).positions), parameters().resolutions);
+      return config::angles_text(values_of(port_.take(client_.measurements(id_), id_, what).positions), parameters().resolutions);
     if (what == "currents") {
       const auto reply = port_.take(client_.currents(id_), id_, what);
       return fmt::format("motor 1 {} mA, motor 2 {} mA", reply.currents_mA[0], reply.currents_mA[1]);
     }
-    return parameter_text(parameters(), need_parameter(dialect_, what, kThings));
+    return config::unit_parameter_text(parameters(), config::need_unit_parameter(dialect_, what, kThings));
   }
 
   const bus::ParameterValues& parameters() {
@@ -84,7 +84,7 @@ int run_get(const GetOptions& options) {
   const std::vector<std::uint8_t> ids = parse_ids(options.port.ids);
   std::vector<std::string> wanted = options.what;
   if (wanted.empty()) wanted = {"active", "inputs", "measurements", "currents"};
-  for (const std::string& what : wanted) check_name(what, kThings);
+  for (const std::string& what : wanted) config::check_unit_word(what, kThings);
   UnitPort port(options.port);
   Rows rows{{"unit", "what", "value"}};
   for (const std::uint8_t id : ids) {

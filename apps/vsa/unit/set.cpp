@@ -14,7 +14,7 @@
 #include <tuple>
 
 #include "terminal/exit_codes.hpp"
-#include "unit/values.hpp"
+#include "vsa/config/unit_parameters.hpp"
 
 namespace vsa::app {
 namespace {
@@ -48,7 +48,7 @@ class Told {
 
   /// Reads the values, tells the unit, looks whether it did; says what it has now.
   std::string tell() {
-    ValueReader reader(options_.what, options_.values);
+    config::ValueReader reader(options_.what, options_.values);
     if (options_.what == "active") return activate(reader);
     if (options_.what == "inputs" || options_.what == "equilibrium") return references(reader);
     if (options_.what == "position_stiffness") return position_stiffness(reader);
@@ -62,12 +62,12 @@ class Told {
   }
 
  private:
-  std::string activate(ValueReader& reader);
-  std::string references(ValueReader& reader);
-  std::string position_stiffness(ValueReader& reader);
-  std::string parameter(ValueReader& reader);
+  std::string activate(config::ValueReader& reader);
+  std::string references(config::ValueReader& reader);
+  std::string position_stiffness(config::ValueReader& reader);
+  std::string parameter(config::ValueReader& reader);
   void store();
-  [[nodiscard]] std::int32_t motor_ticks(ValueReader& reader, std::size_t index, std::size_t motor) const {
+  [[nodiscard]] std::int32_t motor_ticks(config::ValueReader& reader, std::size_t index, std::size_t motor) const {
     return reader.ticks(index, now_.resolutions[motor], kLowest, kHighest);
   }
   [[nodiscard]] std::string shown(const bus::InputsReply& has) const;
@@ -81,10 +81,10 @@ class Told {
 };
 
 std::string Told::shown(const bus::InputsReply& has) const {
-  return "references " + angles_text({has.inputs[0].value, has.inputs[1].value}, now_.resolutions);
+  return "references " + config::angles_text({has.inputs[0].value, has.inputs[1].value}, now_.resolutions);
 }
 
-std::string Told::activate(ValueReader& reader) {
+std::string Told::activate(config::ValueReader& reader) {
   constexpr std::array<std::string_view, 2> kWords{"off", "on"};
   const bool on = reader.expect(1, "on") && reader.word(0, kWords) == 1;
   reader.throw_if_any();
@@ -98,7 +98,7 @@ std::string Told::activate(ValueReader& reader) {
   return on ? "motors on" : "motors off";
 }
 
-std::string Told::references(ValueReader& reader) {
+std::string Told::references(config::ValueReader& reader) {
   std::array<Ticks, 2> inputs{};
   if (reader.expect(2, options_.what + " 10 -10")) {
     std::int32_t a = motor_ticks(reader, 0, 0);
@@ -117,7 +117,7 @@ std::string Told::references(ValueReader& reader) {
   }
 }
 
-std::string Told::position_stiffness(ValueReader& reader) {
+std::string Told::position_stiffness(config::ValueReader& reader) {
   std::int32_t position = 0;
   double percent = 0;
   if (reader.expect(2, "position_stiffness 10 50")) {
@@ -129,12 +129,12 @@ std::string Told::position_stiffness(ValueReader& reader) {
   const auto sent =
       client_.set_position_stiffness(id_, Ticks{static_cast<std::int16_t>(position)}, static_cast<std::int16_t>(part));
   static_cast<void>(port_.take(sent, id_, options_.what));
-  return fmt::format("position {} with {} % of its max stiffness sent", angle_text(position, now_.resolutions[0]), percent);
+  return fmt::format("position {} with {} % of its max stiffness sent", config::angle_text(position, now_.resolutions[0]), percent);
 }
 
-std::string Told::parameter(ValueReader& reader) {
-  const bus::ParameterId parameter = need_parameter(dialect_, options_.what, kThings);
-  const bus::ParameterValue value = read_parameter(reader, parameter, now_.resolutions);
+std::string Told::parameter(config::ValueReader& reader) {
+  const bus::ParameterId parameter = config::need_unit_parameter(dialect_, options_.what, kThings);
+  const bus::ParameterValue value = config::read_unit_parameter(reader, parameter, now_.resolutions);
   reader.throw_if_any();
   static_cast<void>(port_.take(client_.set_parameter(id_, parameter, value), id_, options_.what));
   if (!options_.store) return options_.what + " sent; most parameters act, and are kept, once they are stored (vsa set PORT store)";
@@ -143,8 +143,8 @@ std::string Told::parameter(ValueReader& reader) {
   // too.
   if (parameter == bus::ParameterId::id) id_ = std::get<std::uint8_t>(value);
   now_ = port_.take(client_.parameters(id_), id_, "its parameters");
-  const std::string text = fmt::format("{} = {}", options_.what, parameter_text(now_, parameter));
-  if (!same_value(bus::get(now_, parameter), value))
+  const std::string text = fmt::format("{} = {}", options_.what, config::unit_parameter_text(now_, parameter));
+  if (!config::same_unit_value(bus::get(now_, parameter), value))
     throw NoAnswer(fmt::format("{}: unit {} didn't take it: {}", port_.path(), id_, text));
   return text + ", stored";
 }
@@ -158,7 +158,7 @@ int run_set(const SetOptions& options) {
   if (options.what == "id" && ids.size() > 1) {
     throw InputError({"", "--id", options.port.ids, "several units can't have the same id", "one unit"});
   }
-  check_name(options.what, kThings);
+  config::check_unit_word(options.what, kThings);
   const bool is_parameter = std::find(kThings.begin(), kThings.end(), options.what) == kThings.end();
   if (options.store && !is_parameter) throw InputError({"", "--store", options.what, "is no parameter", "with a parameter only"});
   UnitPort port(options.port);

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "validate/runs.hpp"
 #include "vsa/report/report.hpp"
+#include "vsa/study/validation.hpp"
 
 namespace vsa::app {
 
@@ -18,23 +18,20 @@ struct ValidationTables {
   /// In that order, without those that have no row.
   [[nodiscard]] std::vector<report::Table> shown() const;
 };
-[[nodiscard]] ValidationTables validation_tables(const Validation& v);
+[[nodiscard]] ValidationTables validation_tables(const study::Validation& v);
 
 /// Where the recordings come from; what the preset was calibrated on; where its leave-one-out figures are, and whether they are
 /// its.
-[[nodiscard]] std::vector<std::string> statements(const Validation& v);
+[[nodiscard]] std::vector<std::string> statements(const study::Validation& v);
 /// "Predictions held: 1 of 2; calibrated figures within their guard: 5 of 5."
-[[nodiscard]] std::string counts_text(const Validation& v);
-/// "predicted", "calibrated", "not told".
-[[nodiscard]] std::string recording_kind(const Validation& v, const RecordingCheck& r);
+[[nodiscard]] std::string counts_text(const study::Validation& v);
 
 /// Two of each recording: the loops over each other, and what is between them.
-[[nodiscard]] report::Chart loop_chart(const RecordingCheck& r, const std::string& kind);
-[[nodiscard]] report::Chart residual_chart(const RecordingCheck& r);
+[[nodiscard]] report::Chart loop_chart(const study::RecordingCheck& r, const std::string& kind);
+[[nodiscard]] report::Chart residual_chart(const study::RecordingCheck& r);
 
-[[nodiscard]] std::string validation_text(const Validation& v);
-[[nodiscard]] std::string results_json(const Validation& v);
-[[nodiscard]] report::Report validation_report(const Validation& v);
+[[nodiscard]] std::string validation_text(const study::Validation& v);
+[[nodiscard]] report::Report validation_report(const study::Validation& v, const std::string& command);
 
 /// The tables stand between these lines of the Markdown file.
 inline constexpr const char* kMarkdownBegin = "<!-- vsa validate: tables -->";
@@ -45,11 +42,12 @@ struct Picture {
   std::string title, file, svg;
 };
 /// Two a recording: figures/STEM-stiffness-P.PPPP.svg and …-residuals-… beside a Markdown file STEM.md.
-[[nodiscard]] std::vector<Picture> pictures(const Validation& v, const std::filesystem::path& markdown);
+[[nodiscard]] std::vector<Picture> pictures(const study::Validation& v, const std::filesystem::path& markdown);
 
 /// The file's text with new tables; a file that isn't there yet has nothing else. Throws InputError where the markers aren't there,
 /// each once, in order, or the file can't be read.
 [[nodiscard]] std::string with_tables(const std::filesystem::path& file, const std::string& tables);
-[[nodiscard]] std::string markdown_tables(const Validation& v, const std::vector<Picture>& pictures);
+[[nodiscard]] std::string markdown_tables(const study::Validation& v, const std::vector<Picture>& pictures,
+                                          const std::string& command);
 
 }  // namespace vsa::app

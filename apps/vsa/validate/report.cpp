@@ -27,7 +27,7 @@ std::vector<double> width(const experiment::Branches& b) {
   return out;
 }
 
-Chart width_chart(const RecordingCheck& r) {
+Chart width_chart(const study::RecordingCheck& r) {
   Chart out;
   out.title = fmt::format("Width of the loop, preset {:.4f} rad", r.preset);
   out.x_label = "load torque [N·m]";
@@ -37,7 +37,7 @@ Chart width_chart(const RecordingCheck& r) {
   return out;
 }
 
-Chart torque_chart(const RecordingCheck& r) {
+Chart torque_chart(const study::RecordingCheck& r) {
   Chart out;
   out.title = fmt::format("Residuals in torque, preset {:.4f} rad", r.preset);
   out.x_label = "recorded deflection [rad]";
@@ -63,7 +63,7 @@ Chart time_chart(std::string title, std::string y_label, const experiment::TimeS
 }
 
 /// The predictions' bounds as tiles; those of the fit are no result.
-report::Figures figures(const Validation& v) {
+report::Figures figures(const study::Validation& v) {
   report::Figures out;
   for (const experiment::Verdict& d : v.verdicts) {
     if (d.kind != experiment::Kind::predicted) continue;
@@ -79,7 +79,7 @@ void add(report::Section& section, const report::Table& table) {
 
 }  // namespace
 
-Chart loop_chart(const RecordingCheck& r, const std::string& kind) {
+Chart loop_chart(const study::RecordingCheck& r, const std::string& kind) {
   Chart out;
   out.title = fmt::format("Preset {:.4f} rad ({})", r.preset, kind);
   out.x_label = "deflection [rad]";
@@ -92,7 +92,7 @@ Chart loop_chart(const RecordingCheck& r, const std::string& kind) {
   return out;
 }
 
-Chart residual_chart(const RecordingCheck& r) {
+Chart residual_chart(const study::RecordingCheck& r) {
   Chart out;
   out.title = fmt::format("Residuals in deflection, preset {:.4f} rad", r.preset);
   out.x_label = "load torque [N·m]";
@@ -103,7 +103,7 @@ Chart residual_chart(const RecordingCheck& r) {
   return out;
 }
 
-report::Report validation_report(const Validation& v) {
+report::Report validation_report(const study::Validation& v, const std::string& command) {
   report::Report out;
   out.title = "Validation of " + v.actuator.name;
   out.subtitle = counts_text(v);
@@ -114,7 +114,7 @@ report::Report validation_report(const Validation& v) {
   if (!t.predictions.rows.empty()) predictions.blocks.emplace_back(figures(v));
   add(predictions, t.predictions);
   report::Section load{"Load test: recordings and simulation", {}};
-  for (const RecordingCheck& r : v.recordings) {
+  for (const study::RecordingCheck& r : v.recordings) {
     for (Chart chart : {loop_chart(r, recording_kind(v, r)), residual_chart(r), width_chart(r), torque_chart(r)})
       load.blocks.emplace_back(std::move(chart));
   }
@@ -122,24 +122,24 @@ report::Report validation_report(const Validation& v) {
   report::Section guards{"Guards on calibrated figures", {}};
   add(guards, t.guards);
   report::Section speed{"Figure 4: step of the equilibrium", {t.speeds}};
-  for (const SpeedCheck& s : v.speeds) {
+  for (const study::SpeedCheck& s : v.speeds) {
     speed.blocks.emplace_back(time_chart(fmt::format("Preset {} %", s.percent), "shaft [rad]", s.ours, s.theirs));
   }
   report::Section preset{"Figure 5: step of the preset", {t.preset_steps}};
-  for (const PresetStepCheck& p : v.preset_steps) {
+  for (const study::PresetStepCheck& p : v.preset_steps) {
     preset.blocks.emplace_back(time_chart(p.loaded ? "With load" : "No load", "attained preset [rad]", p.ours, p.theirs));
   }
   out.sections = {std::move(predictions), std::move(load)};
   if (!guards.blocks.empty()) out.sections.push_back(std::move(guards));
   out.sections.push_back(std::move(speed));
   out.sections.push_back(std::move(preset));
-  out.footer = v.command + " · vsa " VSA_VERSION;
+  out.footer = command + " · vsa " VSA_VERSION;
   return out;
 }
 
-std::vector<Picture> pictures(const Validation& v, const std::filesystem::path& markdown) {
+std::vector<Picture> pictures(const study::Validation& v, const std::filesystem::path& markdown) {
   std::vector<Picture> out;
-  for (const RecordingCheck& r : v.recordings) {
+  for (const study::RecordingCheck& r : v.recordings) {
     const auto add_picture = [&](const char* what, const Chart& chart) {
       out.push_back(
           {chart.title, fmt::format("figures/{}-{}-{:.4f}.svg", markdown.stem().string(), what, r.preset), report::to_svg(chart)});

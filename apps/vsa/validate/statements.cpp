@@ -13,27 +13,27 @@ namespace {
 
 constexpr std::size_t kToldOf = 3;  // values that differ; the others are counted
 
-std::string presets(const std::vector<const RecordingCheck*>& recordings) {
+std::string presets(const std::vector<const study::RecordingCheck*>& recordings) {
   std::vector<std::string> out;
-  for (const RecordingCheck* r : recordings) out.push_back(fmt::format("{:.4f}", r->preset));
+  for (const study::RecordingCheck* r : recordings) out.push_back(fmt::format("{:.4f}", r->preset));
   return (recordings.size() == 1 ? "The recording (preset " : "The recordings (presets ") + config::join(out) +
          (recordings.size() == 1 ? " rad) is " : " rad) are ");
 }
 
-void add_origins(const Validation& v, std::vector<std::string>& out) {
+void add_origins(const study::Validation& v, std::vector<std::string>& out) {
   std::vector<std::string> seen;
-  for (const RecordingCheck& r : v.recordings) {
+  for (const study::RecordingCheck& r : v.recordings) {
     if (std::find(seen.begin(), seen.end(), r.origin) != seen.end()) continue;
     seen.push_back(r.origin);
-    std::vector<const RecordingCheck*> same;
-    for (const RecordingCheck& s : v.recordings) {
+    std::vector<const study::RecordingCheck*> same;
+    for (const study::RecordingCheck& s : v.recordings) {
       if (s.origin == r.origin) same.push_back(&s);
     }
     out.push_back(presets(same) + (r.origin.empty() ? "of an origin that nobody states" : r.origin) + ".");
   }
 }
 
-std::string evidence_text(const Validation& v) {
+std::string evidence_text(const study::Validation& v) {
   if (!v.overrides.empty()) {
     return "Values were replaced by --set, so what the preset says of its calibration doesn't hold: nothing here counts as "
            "predicted.";
@@ -46,10 +46,10 @@ std::string evidence_text(const Validation& v) {
                      v.actuator.name, config::join(v.evidence->calibrated_on), v.evidence->source);
 }
 
-std::string record_text(const Validation& v) {
+std::string record_text(const study::Validation& v) {
   if (!v.left_out) {
     return fmt::format("There is no leave-one-out record of {}: `vsa identify` with cross-validation writes one, kept as {}.",
-                       v.actuator.name, record_name(v.actuator.name).generic_string());
+                       v.actuator.name, study::record_name(v.actuator.name).generic_string());
   }
   const std::vector<std::string> apart = differences(*v.left_out, v.actuator);
   const std::string how =
@@ -64,7 +64,7 @@ std::string record_text(const Validation& v) {
 
 }  // namespace
 
-std::vector<std::string> statements(const Validation& v) {
+std::vector<std::string> statements(const study::Validation& v) {
   std::vector<std::string> out;
   add_origins(v, out);
   out.push_back(evidence_text(v));
@@ -72,15 +72,11 @@ std::vector<std::string> statements(const Validation& v) {
   return out;
 }
 
-std::string counts_text(const Validation& v) {
+std::string counts_text(const study::Validation& v) {
   const experiment::Count predictions = experiment::count(v.verdicts, experiment::Kind::predicted);
   const experiment::Count guards = experiment::count(v.verdicts, experiment::Kind::calibrated);
   return fmt::format("Predictions held: {} of {}{}; calibrated figures within their guard: {} of {}.", predictions.held,
                      predictions.all, predictions.all == 0 ? " (no bound is on a predicted figure)" : "", guards.held, guards.all);
-}
-
-std::string recording_kind(const Validation& v, const RecordingCheck& r) {
-  return v.evidence ? experiment::kind_text(r.kind) : "not told";
 }
 
 }  // namespace vsa::app

@@ -24,7 +24,7 @@ std::string number(double value, int decimals) {
 std::string preset(double value) { return fmt::format("{:.4f}", value); }
 
 /// A guard on a preset that doesn't say what it was fitted to is one too: it may have been.
-Table bounds_table(const Validation& v, experiment::Kind kind) {
+Table bounds_table(const study::Validation& v, experiment::Kind kind) {
   const bool predicted = kind == experiment::Kind::predicted;
   Table out{predicted ? "Predictions held to a bound: nothing was fitted or set to meet them"
                       : "Guards on calibrated figures: no evidence, a broken one is a regression",
@@ -39,14 +39,14 @@ Table bounds_table(const Validation& v, experiment::Kind kind) {
   return out;
 }
 
-Table left_out_table(const Validation& v) {
+Table left_out_table(const study::Validation& v) {
   Table out{"Leave one recording out: fitted to the others, root mean square of deflection on it [rad]",
             {"left out, preset [rad]", "predicted", "fitted to all", "this run"},
             {},
             ""};
   if (!v.left_out) return out;
-  for (const LeaveOneOut::Row& row : v.left_out->rows) {
-    const auto same = [&](const RecordingCheck& r) { return preset(r.preset) == preset(row.preset); };
+  for (const study::LeaveOneOut::Row& row : v.left_out->rows) {
+    const auto same = [&](const study::RecordingCheck& r) { return preset(r.preset) == preset(row.preset); };
     const auto now = std::find_if(v.recordings.begin(), v.recordings.end(), same);
     out.rows.push_back({preset(row.preset), number(row.predicted_rad, 4), number(row.fitted_rad, 4),
                         now == v.recordings.end() ? "–" : number(now->rms.both_rad, 4)});
@@ -58,7 +58,7 @@ std::string extrapolated_text(const experiment::TorqueDifference& d) {
   return d.extrapolated == 0 ? "none" : fmt::format("{} of {}", d.extrapolated, d.points);
 }
 
-Table rms_table(const Validation& v) {
+Table rms_table(const study::Validation& v) {
   Table out{kRmsTitle,
             {"preset [rad]", "", "deflection [rad]", "rising", "falling", "hardware repeats to", "torque [N·m]", "rising",
              "falling", "extrapolated"},
@@ -66,7 +66,7 @@ Table rms_table(const Validation& v) {
             "Torque: at each recorded deflection, the simulated branch's torque less the recorded one; extrapolated: recorded "
             "deflections "
             "that the simulation doesn't reach."};
-  for (const RecordingCheck& r : v.recordings) {
+  for (const study::RecordingCheck& r : v.recordings) {
     out.rows.push_back({preset(r.preset), recording_kind(v, r), number(r.rms.both_rad, 4), number(r.rms.rising_rad, 4),
                         number(r.rms.falling_rad, 4), r.published ? number(r.published->repeatability_rad, 4) : "–",
                         number(r.torque.both_Nm, 3), number(r.torque.rising_Nm, 3), number(r.torque.falling_Nm, 3),
@@ -75,23 +75,37 @@ Table rms_table(const Validation& v) {
   return out;
 }
 
-Table rms_2015_table(const Validation& v) {
+Table rms_2015_table(const study::Validation& v) {
   Table out{
       "The same by the authors' plug-in of 2015, deflection [rad]", {"preset [rad]", "point by point", "branch means"}, {}, ""};
-  for (const RecordingCheck& r : v.recordings) {
+  for (const study::RecordingCheck& r : v.recordings) {
     if (!r.published) continue;
     out.rows.push_back({preset(r.preset), number(r.published->rms_2015_rad, 4), number(r.published->rms_2015_branches_rad, 4)});
   }
   return out;
 }
 
-Table loop_table(const Validation& v) {
+/// The torques at which the falling branch lies below the rising one, against the loop's usual sense: "−0.2 … 0.05"; "none".
+std::string reversed_text(const experiment::Branches& b) {
+  std::string out;
+  for (std::size_t i = 0; i < b.torque_Nm.size(); ++i) {
+    if (!(b.falling_rad[i] < b.rising_rad[i])) continue;
+    std::size_t last = i;
+    while (last + 1 < b.torque_Nm.size() && b.falling_rad[last + 1] < b.rising_rad[last + 1]) ++last;
+    out += out.empty() ? "" : ", ";
+    out += last == i ? fmt::format("{:.2f}", b.torque_Nm[i]) : fmt::format("{:.2f} … {:.2f}", b.torque_Nm[i], b.torque_Nm[last]);
+    i = last;
+  }
+  return out.empty() ? "none" : out;
+}
+
+Table loop_table(const study::Validation& v) {
   Table out{
       "Hysteresis, recorded and simulated",
       {"preset [rad]", "", "area [N·m·rad]", "mean width [rad]", "mean |width|", "largest", "smallest", "reversed at τ [N·m]"},
       {},
       ""};
-  for (const RecordingCheck& r : v.recordings) {
+  for (const study::RecordingCheck& r : v.recordings) {
     const auto row = [&](const char* who, const experiment::Loop& l, const experiment::Branches& b) {
       out.rows.push_back({preset(r.preset), who, number(l.area_Nm_rad, 4), number(l.mean_width_rad, 4),
                           number(l.mean_abs_width_rad, 4), number(l.largest_width_rad, 4), number(l.smallest_width_rad, 4),
@@ -104,17 +118,17 @@ Table loop_table(const Validation& v) {
   return out;
 }
 
-Table period_table(const Validation& v) {
+Table period_table(const study::Validation& v) {
   Table out{
       "Effect of the sweep's period", {"preset [rad]", "period [s]", "RMS [rad]", "area [N·m·rad]", "mean width [rad]"}, {}, ""};
-  for (const PeriodCheck& p : v.periods) {
+  for (const study::PeriodCheck& p : v.periods) {
     out.rows.push_back({preset(p.preset), number(p.period_s, 0), number(p.rms.both_rad, 4), number(p.loop.area_Nm_rad, 4),
                         number(p.loop.mean_width_rad, 4)});
   }
   return out;
 }
 
-Table speed_table(const Validation& v) {
+Table speed_table(const study::Validation& v) {
   Table out{
       "Step of the equilibrium, 1.57 rad, no load",
       {"preset [%]", "", "mean pulley speed [rad/s]", "mean shaft speed [rad/s]", "rise 10–90 % [s]", "overshoot [%]",
@@ -122,7 +136,7 @@ Table speed_table(const Validation& v) {
       {},
       "Ringing: of the shaft, one period or more beyond two encoder counts; –: none. 2015: the authors' program (figure 4), which "
       "carries defects; shapes, no truth."};
-  for (const SpeedCheck& s : v.speeds) {
+  for (const study::SpeedCheck& s : v.speeds) {
     const bool fitted = v.evidence && config::covers(*v.evidence, config::experiment_name("speed", s.preset));
     const auto row = [&](const char* who, const std::string& pulley, const experiment::StepMeasures& m) {
       out.rows.push_back({std::to_string(s.percent), who, pulley, number(m.mean_speed, 2), number(m.rise_s, 3),
@@ -134,12 +148,12 @@ Table speed_table(const Validation& v) {
   return out;
 }
 
-Table preset_step_table(const Validation& v) {
+Table preset_step_table(const study::Validation& v) {
   Table out{"Step of the preset, 0 → 0.75 → 0 rad",
             {"load", "", "rise 10–90 % [s]", "attained [rad]", "fall 10–90 % [s]", "resting [rad]"},
             {},
             "2015: the authors' program (figure 5)."};
-  for (const PresetStepCheck& p : v.preset_steps) {
+  for (const study::PresetStepCheck& p : v.preset_steps) {
     const auto row = [&](const char* who, const experiment::StepMeasures& up, const experiment::StepMeasures& down) {
       out.rows.push_back({p.loaded ? "1.47 N·m" : "none", who, number(up.rise_s, 3), number(up.final_value, 3),
                           number(down.rise_s, 3), number(down.final_value, 3)});
@@ -159,7 +173,7 @@ std::string paragraph(const std::string& text) {
 
 }  // namespace
 
-ValidationTables validation_tables(const Validation& v) {
+ValidationTables validation_tables(const study::Validation& v) {
   return {left_out_table(v),   bounds_table(v, experiment::Kind::predicted),  rms_table(v),    loop_table(v),
           rms_2015_table(v),   bounds_table(v, experiment::Kind::calibrated), period_table(v), speed_table(v),
           preset_step_table(v)};
@@ -173,7 +187,7 @@ std::vector<Table> ValidationTables::shown() const {
   return out;
 }
 
-std::string validation_text(const Validation& v) {
+std::string validation_text(const study::Validation& v) {
   std::string out;
   for (const std::string& s : statements(v)) {
     for (const std::string& line : wrap(s, terminal_width())) out += line + '\n';
@@ -187,7 +201,7 @@ std::string validation_text(const Validation& v) {
   return out + counts_text(v) + '\n';
 }
 
-std::string markdown_tables(const Validation& v, const std::vector<Picture>& pictures) {
+std::string markdown_tables(const study::Validation& v, const std::vector<Picture>& pictures, const std::string& command) {
   std::string out;
   for (const std::string& s : statements(v)) out += paragraph(s) + '\n';
   for (Table t : validation_tables(v).shown()) {
@@ -196,7 +210,7 @@ std::string markdown_tables(const Validation& v, const std::vector<Picture>& pic
     if (t.title != kRmsTitle) continue;
     for (const Picture& p : pictures) out += fmt::format("![{}]({})\n\n", p.title, p.file);
   }
-  return out + paragraph(counts_text(v) + " Written by `" + v.command + "`.") + '\n';
+  return out + paragraph(counts_text(v) + " Written by `" + command + "`.") + '\n';
 }
 
 }  // namespace vsa::app

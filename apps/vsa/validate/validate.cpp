@@ -7,13 +7,13 @@
 #include <iostream>
 #include <memory>
 
+#include "terminal/console.hpp"
 #include "terminal/exit_codes.hpp"
+#include "terminal/follow.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/output_files.hpp"
 #include "terminal/settings.hpp"
 #include "validate/output.hpp"
-#include "vsa/config/preset.hpp"
-#include "vsa/errors.hpp"
 
 namespace vsa::app {
 namespace {
@@ -29,13 +29,6 @@ Examples:
   vsa validate --recordings my_recordings        # stiffness_preset_0.4602rad_samples.csv in it is predicted
   vsa validate --markdown docs/validation.md)";
 
-std::filesystem::path bounds_file(const ValidateOptions& o) {
-  if (!o.bounds.empty()) return o.bounds;
-  const auto found = config::find_data("data/bounds.toml");
-  if (!found) throw InputError({"", "data/bounds.toml", "", "is in no data directory", "set VSA_DATA_DIR, or --bounds"});
-  return *found;
-}
-
 std::string command_of(const ValidateOptions& o) {
   std::string out = "vsa validate";
   if (o.preset != ValidateOptions{}.preset) out += " --preset " + o.preset;
@@ -46,53 +39,46 @@ std::string command_of(const ValidateOptions& o) {
   return out;
 }
 
-/// The record of the preset; none where none is kept and none was asked for.
-std::optional<LeaveOneOut> find_record(const ValidateOptions& o) {
-  if (!o.leave_one_out.empty()) return read_leave_one_out(o.leave_one_out);
-  const std::filesystem::path name = record_name(o.preset);
-  const auto file = config::find_data(name);
-  if (!file) return std::nullopt;
-  LeaveOneOut out = read_leave_one_out(*file);
-  out.file = name.generic_string();
+study::ValidationOptions study_of(const ValidateOptions& o) {
+  study::ValidationOptions out;
+  out.specimen.preset = o.preset;
+  out.specimen.overrides = parse_settings(o.set, "--set");
+  out.recordings.assign(o.recordings.begin(), o.recordings.end());
+  out.leave_one_out = o.leave_one_out;
+  out.bounds = o.bounds;
   return out;
 }
 
-void write_markdown(const Validation& v, const std::filesystem::path& file) {
+void write_markdown(const study::Validation& v, const std::filesystem::path& file, const std::string& command) {
   const std::vector<Picture> all = pictures(v, file);
   for (const Picture& p : all) {
     const std::filesystem::path to = file.parent_path() / p.file;
     make_directory(to.parent_path(), "--markdown");
     write_whole(to, p.svg);
   }
-  write_whole(file, with_tables(file, markdown_tables(v, all)));
+  write_whole(file, with_tables(file, markdown_tables(v, all, command)));
 }
 
 }  // namespace
 
 int run_validate(const ValidateOptions& o) {
-  const experiment::BoundsFile bounds = experiment::read_bounds(bounds_file(o));
-  experiment::Specimen specimen;
-  specimen.preset = o.preset;
-  specimen.overrides = parse_settings(o.set, "--set");
-  const std::optional<LeaveOneOut> left_out = find_record(o);
-  if (specimen.overrides.empty()) experiment::check_kinds(bounds.bounds, specimen.library.load(o.preset).evidence);
+  study::ValidationPlan plan = study::plan_validation(study_of(o));
   if (!o.markdown.empty()) (void)with_tables(o.markdown, "");  // told before the work, not after it
   const std::filesystem::path out = o.out.empty() ? "validate_" + o.preset : o.out;
   catch_interrupts();
   Console console;
-  auto found = validate(specimen, bounds, o.recordings, console);
+  const auto found = study::run(std::move(plan), follow(console));
+  console.wipe();
   if (!found) {
     console.line("stopped: nothing was written");
     return kSignalled + interrupted();
   }
-  Validation& v = *found;
-  v.command = command_of(o);
-  v.left_out = left_out;
-  v.verdicts = experiment::judge(bounds.bounds, quantities(v), v.evidence);
+  const study::Validation& v = *found;
+  const std::string command = command_of(o);
   make_directory(out, "--out");
-  write_whole(out / "results.json", results_json(v));
-  report::write_report(validation_report(v), out / "report.html");
-  if (!o.markdown.empty()) write_markdown(v, o.markdown);
+  write_whole(out / "results.json", study::to_json(v, command));
+  report::write_report(validation_report(v, command), out / "report.html");
+  if (!o.markdown.empty()) write_markdown(v, o.markdown, command);
   std::cout << validation_text(v)
             << fmt::format("written: {} and results.json, {:.0f} s\n", (out / "report.html").string(), v.wall_s);
   const bool held = experiment::all_held(v.verdicts);

@@ -1,5 +1,5 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "validate/recordings.hpp"
+#include "study/recordings.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "vsa/errors.hpp"
 
-namespace vsa::app {
+namespace vsa::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,10 +80,10 @@ Recording read(const Found& f, const fs::path& data) {
 
 }  // namespace
 
-std::vector<Recording> read_recordings(const fs::path& data, const std::vector<std::string>& more, const config::Preset& actuator) {
+std::vector<Recording> read_recordings(const fs::path& data, const std::vector<fs::path>& more, const config::Preset& actuator) {
   FoundFiles found;
   search(data, "data", found);
-  for (const std::string& directory : more) search(directory, "--recordings", found);
+  for (const fs::path& directory : more) search(directory, "--recordings", found);
   std::vector<Found> files;
   for (const auto& [key, f] : found) files.push_back(f);
   // Of two with one name the user's own is the one that is told.
@@ -116,4 +116,4 @@ std::vector<Recording> read_recordings(const fs::path& data, const std::vector<s
   return out;
 }
 
-}  // namespace vsa::app
+}  // namespace vsa::study

@@ -1,9 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "characterize/output.hpp"
-#include "terminal/json_text.hpp"
+#include "vsa/study/characterization.hpp"
+#include "vsa/study/json.hpp"
 #include "vsa/units.hpp"
 
-namespace vsa::app {
+namespace vsa::study {
 namespace {
 
 Json range(const Range& r) { return {r.least, r.most}; }
@@ -34,7 +34,7 @@ void put_preset(Json& out, const Characterization& c, double preset) {
 Json stiffness_json(const Characterization& c, const StiffnessResult& r) {
   Json out;
   put_preset(out, c, r.options.preset);
-  out["file"] = stiffness_file(c, r);
+  out["file"] = csv_name(c, r);
   out["period_s"] = r.options.period_s;
   out["amplitude_rad"] = r.run.amplitude_rad;
   out["amplitude_given"] = r.options.amplitude_rad.has_value();
@@ -72,7 +72,7 @@ Json stiffness_json(const Characterization& c, const StiffnessResult& r) {
 Json speed_json(const Characterization& c, const SpeedResult& r) {
   Json out;
   put_preset(out, c, r.options.preset);
-  out["file"] = speed_file(c, r);
+  out["file"] = csv_name(c, r);
   out["step_rad"] = r.options.step_rad;
   out["hold_s"] = r.options.hold_s;
   out["sample_s"] = r.options.sample_s;
@@ -91,7 +91,7 @@ Json speed_json(const Characterization& c, const SpeedResult& r) {
 Json preset_step_json(const Characterization& c, const PresetStepResult& r) {
   Json out;
   put_preset(out, c, r.options.preset);
-  out["file"] = preset_step_file(r);
+  out["file"] = csv_name(r);
   out["loaded"] = r.options.loaded;
   out["hold_s"] = r.options.hold_s;
   out["sample_s"] = r.options.sample_s;
@@ -124,7 +124,7 @@ double step_of(const Characterization& c) {
 
 }  // namespace
 
-std::string results_json(const Characterization& c, const std::string& command) {
+std::string to_json(const Characterization& c, const std::string& command) {
   Json out = json_head(command);
   out["actuator"] = actuator_json(c);
   out["engine_step_s"] = step_of(c);
@@ -134,4 +134,4 @@ std::string results_json(const Characterization& c, const std::string& command) 
   return json_text(out);
 }
 
-}  // namespace vsa::app
+}  // namespace vsa::study

@@ -12,7 +12,7 @@
 
 #include "vsa/config/preset.hpp"
 
-namespace vsa::app {
+namespace vsa::study {
 
 struct LeaveOneOut {
   struct Row {
@@ -45,4 +45,4 @@ struct LeaveOneOut {
 /// doesn't know. Empty: it is this preset's.
 [[nodiscard]] std::vector<std::string> differences(const LeaveOneOut& record, const config::Preset& preset);
 
-}  // namespace vsa::app
+}  // namespace vsa::study

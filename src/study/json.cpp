@@ -1,9 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "terminal/json_text.hpp"
+#include "vsa/study/json.hpp"
 
 #include <cmath>
 
-namespace vsa::app {
+namespace vsa::study {
 
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -17,4 +17,4 @@ Json json_head(const std::string& command) { return {{"program", "vsa " VSA_VERS
 
 std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
 
-}  // namespace vsa::app
+}  // namespace vsa::study

@@ -15,7 +15,7 @@
 #include "vsa/bus/parameters.hpp"
 #include "vsa/errors.hpp"
 
-namespace vsa::app {
+namespace vsa::config {
 
 using Resolutions = std::array<std::uint8_t, 3>;  ///< motor 1, motor 2, shaft
 
@@ -49,18 +49,18 @@ class ValueReader {
 };
 
 /// Names of parameters: "position_pid", "control_mode"…; in order of their numbers.
-[[nodiscard]] std::vector<std::string> parameter_names(bus::Dialect dialect);
+[[nodiscard]] std::vector<std::string> unit_parameter_names(bus::Dialect dialect);
 /// None: no such name in this dialect.
-[[nodiscard]] std::optional<bus::ParameterId> parameter_named(bus::Dialect dialect, std::string_view name);
+[[nodiscard]] std::optional<bus::ParameterId> unit_parameter_named(bus::Dialect dialect, std::string_view name);
 /// As above; throws InputError, which also names the other `things` that could be meant.
-[[nodiscard]] bus::ParameterId need_parameter(bus::Dialect dialect, const std::string& name,
-                                              std::span<const std::string_view> things);
+[[nodiscard]] bus::ParameterId need_unit_parameter(bus::Dialect dialect, const std::string& name,
+                                                   std::span<const std::string_view> things);
 /// Throws InputError: neither one of the things nor a parameter of any dialect.
-void check_name(const std::string& name, std::span<const std::string_view> things);
-[[nodiscard]] std::string parameter_text(const bus::ParameterValues& values, bus::ParameterId id);
+void check_unit_word(const std::string& name, std::span<const std::string_view> things);
+[[nodiscard]] std::string unit_parameter_text(const bus::ParameterValues& values, bus::ParameterId id);
 /// Problems are the reader's; then the value means nothing.
-[[nodiscard]] bus::ParameterValue read_parameter(ValueReader& reader, bus::ParameterId id, const Resolutions& resolutions);
+[[nodiscard]] bus::ParameterValue read_unit_parameter(ValueReader& reader, bus::ParameterId id, const Resolutions& resolutions);
 /// Equal, but for the unit's own rounding of gains to 16.16 fixed point.
-[[nodiscard]] bool same_value(const bus::ParameterValue& a, const bus::ParameterValue& b);
+[[nodiscard]] bool same_unit_value(const bus::ParameterValue& a, const bus::ParameterValue& b);
 
-}  // namespace vsa::app
+}  // namespace vsa::config

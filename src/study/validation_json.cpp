@@ -1,14 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
+#include "vsa/study/json.hpp"
+#include "vsa/study/validation.hpp"
 
-#include <fstream>
-#include <iterator>
-
-#include "terminal/json_text.hpp"
-#include "validate/output.hpp"
-#include "vsa/errors.hpp"
-
-namespace vsa::app {
+namespace vsa::study {
 namespace {
 
 Json branches_json(const experiment::Branches& b) {
@@ -41,18 +35,10 @@ Json count_json(const Validation& v, experiment::Kind kind) {
   return {{"held", c.held}, {"all", c.all}};
 }
 
-std::size_t once(const std::string& text, const std::string& marker, const std::filesystem::path& file) {
-  const std::size_t at = text.find(marker);
-  if (at == std::string::npos || text.find(marker, at + 1) != std::string::npos) {
-    throw InputError({file.string(), "--markdown", "", "this line isn't there exactly once", marker});
-  }
-  return at;
-}
-
 }  // namespace
 
-std::string results_json(const Validation& v) {
-  Json out = json_head(v.command);
+std::string to_json(const Validation& v, const std::string& command) {
+  Json out = json_head(command);
   out["preset"] = v.actuator.name;
   Json& overrides = out["overrides"] = Json::object();
   for (const config::Override& o : v.overrides) overrides[o.key] = o.value;
@@ -99,18 +85,4 @@ std::string results_json(const Validation& v) {
   return json_text(out);
 }
 
-std::string with_tables(const std::filesystem::path& file, const std::string& tables) {
-  const std::string block = std::string(kMarkdownBegin) + "\n\n" + tables + kMarkdownEnd;
-  std::error_code error;
-  if (!std::filesystem::exists(file, error) && !error) return block + '\n';
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw InputError({file.string(), "--markdown", "", "isn't a file that can be read", "a Markdown file, or a new name"});
-  }
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const std::size_t begin = once(text, kMarkdownBegin, file), end = once(text, kMarkdownEnd, file);
-  if (end < begin) throw InputError({file.string(), "--markdown", "", "the markers are in the wrong order", kMarkdownBegin});
-  return text.substr(0, begin) + block + text.substr(end + std::string_view(kMarkdownEnd).size());
-}
-
-}  // namespace vsa::app
+}  // namespace vsa::study

@@ -1,13 +1,13 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the commands' results.json have in common.
+// What all results.json have in common.
 #pragma once
 
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-namespace vsa::app {
+namespace vsa::study {
 
 /// Keys in the order in which they are written.
 using Json = nlohmann::ordered_json;
@@ -21,4 +21,4 @@ using Json = nlohmann::ordered_json;
 /// As it stands in a file; bytes that aren't UTF-8 (of a file's name) are replaced.
 [[nodiscard]] std::string json_text(const Json& json);
 
-}  // namespace vsa::app
+}  // namespace vsa::study

@@ -1,15 +1,15 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "validate/record.hpp"
+#include "vsa/study/leave_one_out.hpp"
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 
-namespace vsa::app {
+namespace vsa::study {
 namespace {
 
 using Json = nlohmann::json;
@@ -49,11 +49,9 @@ class Fields {
 };
 
 Json parse(const std::filesystem::path& file) {
-  std::error_code error;
-  std::ifstream in;
-  if (std::filesystem::is_regular_file(file, error)) in.open(file, std::ios::binary);
-  if (!in.is_open()) throw InputError({file.string(), "", "", "can't be read", kWhatItIs});
-  Json out = Json::parse(in, nullptr, false);
+  const auto text = read_file(file);
+  if (!text) throw InputError({file.string(), "", "", "can't be read", kWhatItIs});
+  Json out = Json::parse(*text, nullptr, false);
   if (out.is_discarded()) throw InputError({file.string(), "", "", "isn't JSON", kWhatItIs});
   return out;
 }
@@ -128,4 +126,4 @@ std::vector<std::string> differences(const LeaveOneOut& record, const config::Pr
   return changed;
 }
 
-}  // namespace vsa::app
+}  // namespace vsa::study

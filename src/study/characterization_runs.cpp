@@ -1,6 +1,4 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "characterize/runs.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -8,11 +6,10 @@
 #include <future>
 #include <limits>
 
-#include "terminal/interrupt.hpp"
-#include "terminal/pace.hpp"
 #include "vsa/experiment/parallel.hpp"
+#include "vsa/study/characterization.hpp"
 
-namespace vsa::app {
+namespace vsa::study {
 namespace {
 
 using experiment::BenchRun;
@@ -71,6 +68,33 @@ StepMeasures mean_of(const std::vector<Edge>& edges, StepMeasures Edge::*part) {
   return out;
 }
 
+/// Lets go of the runs whichever way the watcher leaves.
+struct StopAtEnd {
+  experiment::Watch& watch;
+  ~StopAtEnd() { watch.stop = true; }
+};
+
+/// False: stopped.
+bool run_watched(const std::vector<std::function<void()>>& jobs, experiment::Watch& watch, double total_s,
+                 const OnProgress& on_progress, unsigned threads) {
+  const auto begun = std::chrono::steady_clock::now();
+  auto done =
+      std::async(std::launch::async, [&] { experiment::run_in_parallel(jobs.size(), threads, [&](std::size_t i) { jobs[i](); }); });
+  {
+    const StopAtEnd stop{watch};
+    do {
+      const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begun;
+      if (on_progress && !on_progress({static_cast<double>(watch.simulated_ns.load()) * 1e-9, total_s, wall.count()})) break;
+    } while (done.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready);
+  }
+  try {
+    done.get();
+  } catch (const experiment::Stopped&) {
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 StiffnessResult measure(const experiment::StiffnessOptions& options, BenchRun run, const std::string& preset_unit) {
@@ -114,7 +138,7 @@ PresetStepResult measure(const experiment::PresetStepOptions& options, BenchRun 
   return out;
 }
 
-std::optional<Characterization> run_plan(Characterization plan, Console& console, unsigned threads) {
+std::optional<Characterization> run(Characterization plan, const OnProgress& on_progress, unsigned threads) {
   experiment::Watch watch;
   std::vector<std::function<void()>> jobs;
   double total_s = 0;
@@ -131,23 +155,7 @@ std::optional<Characterization> run_plan(Characterization plan, Console& console
   add(plan.preset_step,
       [&](const experiment::PresetStepOptions& o) { return measure(o, experiment::run_preset_step(plan.specimen, o, &watch)); });
   add(plan.speed, [&](const experiment::SpeedOptions& o) { return measure(o, experiment::run_speed(plan.specimen, o, &watch)); });
-
-  Stopwatch wall;
-  wall.run();
-  auto done =
-      std::async(std::launch::async, [&] { experiment::run_in_parallel(jobs.size(), threads, [&](std::size_t i) { jobs[i](); }); });
-  while (done.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-    if (interrupted() != 0) watch.stop = true;
-    const double now_s = static_cast<double>(watch.simulated_ns.load()) * 1e-9;
-    console.progress(std::min(now_s, total_s), total_s, now_s / std::max(1e-3, wall.seconds()));
-  }
-  console.wipe();
-  try {
-    done.get();
-  } catch (const experiment::Stopped&) {
-    return std::nullopt;
-  }
-  return plan;
+  return run_watched(jobs, watch, total_s, on_progress, threads) ? std::optional(std::move(plan)) : std::nullopt;
 }
 
-}  // namespace vsa::app
+}  // namespace vsa::study

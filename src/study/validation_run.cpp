@@ -1,17 +1,15 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "validate/runs.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 
-#include "terminal/pace.hpp"
-#include "validate/recordings.hpp"
-#include "vsa/errors.hpp"
+#include "study/series.hpp"
+#include "vsa/study/validation.hpp"
 
-namespace vsa::app {
+namespace vsa::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -19,48 +17,7 @@ using experiment::BenchSample;
 using experiment::StepMeasures;
 using experiment::TimeSeries;
 
-constexpr double kPeriods_s[] = {38, 19, 76};  // the first is the one that is judged
-constexpr double kFullPreset_rad = 0.75;       // 100 % in the paper's figures
-constexpr int kPercents[] = {0, 15, 40, 100};
 constexpr double kMaxTorque_Nm = 1.4;
-
-fs::path data_directory() {
-  const auto found = config::find_data("data");
-  if (!found) throw InputError({"", "data", "", "the recordings are in no data directory", "set VSA_DATA_DIR"});
-  return *found;
-}
-
-Characterization plan(Characterization out, const std::vector<Recording>& recordings) {
-  for (const double period : kPeriods_s) {
-    for (const Recording& r : recordings) {
-      experiment::StiffnessOptions o;
-      o.preset = r.preset;
-      o.period_s = period;
-      o.lead_in_cycles = 0.5;  // as the recordings' branches leave it out
-      o.cycles = period > 40 ? 1 : 2;
-      out.stiffness.emplace_back().options = o;
-    }
-  }
-  for (const int percent : kPercents) out.speed.emplace_back().options.preset = kFullPreset_rad * percent / 100;
-  for (const bool loaded : {false, true}) {
-    auto& o = out.preset_step.emplace_back().options;
-    o.preset = kFullPreset_rad;
-    o.loaded = loaded;
-  }
-  return out;
-}
-
-/// From `from_s` for `span_s`, time counted from `from_s`.
-TimeSeries cut(const TimeSeries& s, double from_s, double span_s) {
-  TimeSeries out;
-  for (std::size_t i = 0; i < s.time_s.size(); ++i) {
-    const double t = s.time_s[i] - from_s;
-    if (t < 0 || t > span_s || (!out.time_s.empty() && t <= out.time_s.back())) continue;
-    out.time_s.push_back(t);
-    out.value.push_back(s.value[i]);
-  }
-  return out;
-}
 
 TimeSeries ours(const experiment::BenchRun& run, double BenchSample::*field, double span_s) {
   TimeSeries all;
@@ -71,24 +28,15 @@ TimeSeries ours(const experiment::BenchRun& run, double BenchSample::*field, dou
   return cut(all, 0, span_s);
 }
 
-/// When a recorded reference steps: the middle of its n-th jump.
-double edge_s(const TimeSeries& reference, std::size_t n) {
-  constexpr double kJump = 0.3;
-  for (std::size_t i = 1; i < reference.value.size(); ++i) {
-    if (std::abs(reference.value[i] - reference.value[i - 1]) < kJump) continue;
-    if (n-- == 0) return 0.5 * (reference.time_s[i] + reference.time_s[i - 1]);
-  }
-  throw InputError({"data/plugin_2015", "reference", "", "has too few steps", "one, and two of the preset"});
-}
-
-SpeedCheck check_speed(const SpeedResult& r, int percent, const fs::path& plugin, double command_s) {
+SpeedCheck check_speed(const SpeedResult& r, int percent, const ValidationPlan& plan) {
   SpeedCheck out;
   out.preset = r.options.preset;
   out.percent = percent;
   out.shaft = r.mean.shaft;
   out.pulleys = r.mean.pulleys;
-  const TimeSeries all = experiment::read_series(plugin / fmt::format("step_preset_{:03d}pct.csv", percent), "shaft_angle_rad");
-  out.theirs = cut(all, command_s, all.time_s.back());
+  const TimeSeries all =
+      experiment::read_series(plan.plugin_2015 / fmt::format("step_preset_{:03d}pct.csv", percent), "shaft_angle_rad");
+  out.theirs = cut(all, plan.step_command_s, all.time_s.back());
   out.shaft_2015 = experiment::step_measures(out.theirs.time_s, out.theirs.value, 0, r.options.step_rad);
   out.ours = ours(r.run, &BenchSample::shaft_rad, out.theirs.time_s.back());
   return out;
@@ -197,43 +145,27 @@ std::map<std::string, double> quantities(const Validation& v) {
   return out;
 }
 
-std::string reversed_text(const experiment::Branches& b) {
-  std::string out;
-  for (std::size_t i = 0; i < b.torque_Nm.size(); ++i) {
-    if (!(b.falling_rad[i] < b.rising_rad[i])) continue;
-    std::size_t last = i;
-    while (last + 1 < b.torque_Nm.size() && b.falling_rad[last + 1] < b.rising_rad[last + 1]) ++last;
-    out += out.empty() ? "" : ", ";
-    out += last == i ? fmt::format("{:.2f}", b.torque_Nm[i]) : fmt::format("{:.2f} … {:.2f}", b.torque_Nm[i], b.torque_Nm[last]);
-    i = last;
-  }
-  return out.empty() ? "none" : out;
+std::string recording_kind(const Validation& v, const RecordingCheck& r) {
+  return v.evidence ? experiment::kind_text(r.kind) : "not told";
 }
 
-std::optional<Validation> validate(const experiment::Specimen& specimen, const experiment::BoundsFile& bounds,
-                                   const std::vector<std::string>& more_recordings, Console& console) {
-  Stopwatch wall;
-  wall.run();
-  const fs::path data = data_directory(), plugin = data / "plugin_2015";
-  Characterization all;
-  all.specimen = specimen;
-  all.actuator = specimen.library.load(specimen.preset, specimen.overrides);
-  const std::vector<Recording> recordings = read_recordings(data, more_recordings, all.actuator);
-  const double command_s = edge_s(experiment::read_series(plugin / "step_reference.csv", "shaft_angle_rad"), 0);
-  const auto done = run_plan(plan(std::move(all), recordings), console);
+std::optional<Validation> run(ValidationPlan plan, const OnProgress& on_progress, unsigned threads) {
+  const auto begun = std::chrono::steady_clock::now();
+  const auto done = run(std::move(plan.runs), on_progress, threads);
   if (!done) return std::nullopt;
   Validation v;
   v.actuator = done->actuator;
-  v.overrides = specimen.overrides;
+  v.overrides = done->specimen.overrides;
   if (v.overrides.empty()) v.evidence = v.actuator.evidence;
-  compare_stiffness(v, *done, recordings, bounds.published);
+  v.left_out = std::move(plan.left_out);
+  compare_stiffness(v, *done, plan.recordings, plan.bounds.published);
   const auto predicted = [](const RecordingCheck& r) { return r.kind == experiment::Kind::predicted; };
   std::stable_partition(v.recordings.begin(), v.recordings.end(), predicted);
-  for (std::size_t i = 0; i < done->speed.size(); ++i)
-    v.speeds.push_back(check_speed(done->speed[i], kPercents[i], plugin, command_s));
-  for (const PresetStepResult& r : done->preset_step) v.preset_steps.push_back(check_preset_step(r, plugin));
-  v.wall_s = wall.seconds();
+  for (std::size_t i = 0; i < done->speed.size(); ++i) v.speeds.push_back(check_speed(done->speed[i], kPercents[i], plan));
+  for (const PresetStepResult& r : done->preset_step) v.preset_steps.push_back(check_preset_step(r, plan.plugin_2015));
+  v.verdicts = experiment::judge(plan.bounds.bounds, quantities(v), v.evidence);
+  v.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return v;
 }
 
-}  // namespace vsa::app
+}  // namespace vsa::study

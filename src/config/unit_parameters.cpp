@@ -1,6 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // The unit's parameters by name: how each is written, read, and what it may be.
+#include "vsa/config/unit_parameters.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,9 +10,7 @@
 #include <cmath>
 #include <limits>
 
-#include "unit/values.hpp"
-
-namespace vsa::app {
+namespace vsa::config {
 namespace {
 
 using bus::ParameterId;
@@ -113,31 +113,31 @@ bus::ParameterValue read_limits(ValueReader& reader, const Resolutions& r) {
 
 }  // namespace
 
-std::vector<std::string> parameter_names(bus::Dialect dialect) {
+std::vector<std::string> unit_parameter_names(bus::Dialect dialect) {
   std::vector<std::string> names;
   for (const Name& n : kNames)
     if (bus::find_parameter(dialect, static_cast<std::uint16_t>(n.id)) != nullptr) names.emplace_back(n.name);
   return names;
 }
 
-std::optional<ParameterId> parameter_named(bus::Dialect dialect, std::string_view name) {
+std::optional<ParameterId> unit_parameter_named(bus::Dialect dialect, std::string_view name) {
   const auto at = std::find_if(kNames.begin(), kNames.end(), [name](const Name& n) { return n.name == name; });
   if (at == kNames.end() || bus::find_parameter(dialect, static_cast<std::uint16_t>(at->id)) == nullptr) return std::nullopt;
   return at->id;
 }
 
-ParameterId need_parameter(bus::Dialect dialect, const std::string& name, std::span<const std::string_view> things) {
-  if (const auto id = parameter_named(dialect, name)) return *id;
+ParameterId need_unit_parameter(bus::Dialect dialect, const std::string& name, std::span<const std::string_view> things) {
+  if (const auto id = unit_parameter_named(dialect, name)) return *id;
   throw InputError({"", "WHAT", name, "is nothing that this unit has",
-                    fmt::format("{}, {}", fmt::join(things, ", "), fmt::join(parameter_names(dialect), ", "))});
+                    fmt::format("{}, {}", fmt::join(things, ", "), fmt::join(unit_parameter_names(dialect), ", "))});
 }
 
-void check_name(const std::string& name, std::span<const std::string_view> things) {
+void check_unit_word(const std::string& name, std::span<const std::string_view> things) {
   if (std::find(things.begin(), things.end(), name) == things.end())
-    static_cast<void>(need_parameter(bus::Dialect::seven, name, things));
+    static_cast<void>(need_unit_parameter(bus::Dialect::seven, name, things));
 }
 
-bool same_value(const bus::ParameterValue& a, const bus::ParameterValue& b) {
+bool same_unit_value(const bus::ParameterValue& a, const bus::ParameterValue& b) {
   const auto* x = std::get_if<std::array<float, 3>>(&a);
   const auto* y = std::get_if<std::array<float, 3>>(&b);
   if (x == nullptr || y == nullptr) return a == b;
@@ -145,7 +145,7 @@ bool same_value(const bus::ParameterValue& a, const bus::ParameterValue& b) {
                     [](double u, double v) { return std::abs(u - v) <= 1 / 65536.0 + 1e-6 * std::abs(v); });
 }
 
-std::string parameter_text(const bus::ParameterValues& v, ParameterId id) {
+std::string unit_parameter_text(const bus::ParameterValues& v, ParameterId id) {
   switch (id) {
     case ParameterId::id:
       return std::to_string(v.id);
@@ -182,7 +182,7 @@ std::string parameter_text(const bus::ParameterValues& v, ParameterId id) {
   return "";
 }
 
-bus::ParameterValue read_parameter(ValueReader& reader, ParameterId id, const Resolutions& resolutions) {
+bus::ParameterValue read_unit_parameter(ValueReader& reader, ParameterId id, const Resolutions& resolutions) {
   constexpr int kMost_mA = std::numeric_limits<std::int16_t>::max();
   switch (id) {
     case ParameterId::id:
@@ -218,4 +218,4 @@ bus::ParameterValue read_parameter(ValueReader& reader, ParameterId id, const Re
   return std::uint8_t{0};
 }
 
-}  // namespace vsa::app
+}  // namespace vsa::config

@@ -3,10 +3,9 @@
 
 #include <iterator>
 
-#include "characterize/output.hpp"
-#include "terminal/output_files.hpp"
+#include "vsa/study/characterization.hpp"
 
-namespace vsa::app {
+namespace vsa::study {
 namespace {
 
 using experiment::BenchRun;
@@ -60,31 +59,14 @@ std::string csv_text(const BenchRun& run) {
   return fmt::to_string(out);
 }
 
-std::string stiffness_file(const Characterization& c, const StiffnessResult& r) {
+std::string csv_name(const Characterization& c, const StiffnessResult& r) {
   return "stiffness" + preset_part(c, r.options.preset) + ".csv";
 }
 
-std::string speed_file(const Characterization& c, const SpeedResult& r) {
+std::string csv_name(const Characterization& c, const SpeedResult& r) {
   return "speed" + preset_part(c, r.options.preset) + ".csv";
 }
 
-std::string preset_step_file(const PresetStepResult& r) {
-  return r.options.loaded ? "preset_step_loaded.csv" : "preset_step_unloaded.csv";
-}
+std::string csv_name(const PresetStepResult& r) { return r.options.loaded ? "preset_step_loaded.csv" : "preset_step_unloaded.csv"; }
 
-std::vector<std::string> write_characterization(const Characterization& c, const std::string& command,
-                                                const std::filesystem::path& directory) {
-  std::vector<std::string> files{"report.html", "results.json"};
-  const auto csv = [&](const std::string& name, const BenchRun& run) {
-    write_whole(directory / name, csv_text(run));
-    files.push_back(name);
-  };
-  for (const StiffnessResult& r : c.stiffness) csv(stiffness_file(c, r), r.run);
-  for (const SpeedResult& r : c.speed) csv(speed_file(c, r), r.run);
-  for (const PresetStepResult& r : c.preset_step) csv(preset_step_file(r), r.run);
-  write_whole(directory / files[1], results_json(c, command));
-  report::write_report(characterization_report(c, command), directory / files[0]);
-  return files;
-}
-
-}  // namespace vsa::app
+}  // namespace vsa::study

@@ -1,6 +1,4 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "unit/values.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,7 +7,9 @@
 #include <cmath>
 #include <limits>
 
-namespace vsa::app {
+#include "vsa/config/unit_parameters.hpp"
+
+namespace vsa::config {
 namespace {
 
 /// The number at the text's beginning, and what follows it.
@@ -93,4 +93,4 @@ std::size_t ValueReader::word(std::size_t index, std::span<const std::string_vie
   return refuse(index, "unknown", fmt::format("{}", fmt::join(words, ", "))), 0;
 }
 
-}  // namespace vsa::app
+}  // namespace vsa::config
