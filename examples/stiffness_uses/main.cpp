@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// vsa-experiments impact|gripper|throw|terrain [--out DIR]: what variable stiffness is good for, measured (docs/17). Each writes a
+// vsa-stiffness-uses impact|gripper|throw|terrain [--out DIR]: what variable stiffness is good for, measured (docs/17). Each writes a
 // page and prints its table. Exit codes: 0 done, 1 failed, 2 bad usage or input.
 #include <fmt/format.h>
 
@@ -14,12 +14,12 @@
 
 namespace {
 
-using namespace vsa::experiments;
+using namespace vsa::stiffness_uses;
 
 constexpr double kDegree = vsa::kPi / 180;
 
 struct Options {
-  std::string out = "out/experiments";
+  std::string out = "out/stiffness_uses";
   std::vector<double> presets_deg{5, 15, 25, 35, 44.9};
   std::vector<std::string> grounds{"flat", "rubble", "hills"};
   std::vector<std::string> gaits{"steered_soft", "steered", "steered_stiff"};
@@ -29,7 +29,7 @@ struct Options {
 
 void publish(const Options& o, const std::string& name, Page page) {
   std::filesystem::create_directories(o.out);
-  page.report.footer = "vsa-experiments " + name;
+  page.report.footer = "vsa-stiffness-uses " + name;
   const auto file = std::filesystem::path(o.out) / (name + ".html");
   vsa::report::write_report(page.report, file);
   fmt::print("{}\n{}\n", page.markdown, file.string());
@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "vsa-experiments: {}\n", error.what());
+    fmt::print(stderr, "vsa-stiffness-uses: {}\n", error.what());
     return 1;
   }
   return 0;

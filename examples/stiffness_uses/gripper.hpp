@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace vsa::experiments {
+namespace vsa::stiffness_uses {
 
 struct GripPoint {
   double command_deg = 0;  ///< closing equilibrium; the pads touch the object at 0
@@ -31,4 +31,4 @@ struct GripRun {
 
 [[nodiscard]] GripRun run_gripper(const std::string& object, double preset_rad, const std::vector<double>& commands_deg);
 
-}  // namespace vsa::experiments
+}  // namespace vsa::stiffness_uses

@@ -11,7 +11,7 @@
 #include "vsa/engine/gait.hpp"
 #include "vsa/units.hpp"
 
-namespace vsa::experiments {
+namespace vsa::stiffness_uses {
 namespace {
 
 using engine::World;
@@ -107,4 +107,4 @@ std::vector<TerrainRun> run_terrains(const std::vector<TerrainPlan>& plans, int 
   return runs;
 }
 
-}  // namespace vsa::experiments
+}  // namespace vsa::stiffness_uses

@@ -7,7 +7,7 @@
 #include "vsa/engine/world.hpp"
 #include "vsa/units.hpp"
 
-namespace vsa::experiments {
+namespace vsa::stiffness_uses {
 namespace {
 
 using engine::World;
@@ -73,4 +73,4 @@ GripRun run_gripper(const std::string& object, double preset_rad, const std::vec
   return run;
 }
 
-}  // namespace vsa::experiments
+}  // namespace vsa::stiffness_uses

@@ -6,7 +6,7 @@
 
 #include "vsa/engine/world.hpp"
 
-namespace vsa::experiments {
+namespace vsa::stiffness_uses {
 namespace {
 
 constexpr double kSettle_s = 2.5, kAfter_s = 1.5;
@@ -76,4 +76,4 @@ const ThrowRun& best_of(const std::vector<ThrowRun>& runs) {
                            [](const auto& a, const auto& b) { return a.link_rad_per_s < b.link_rad_per_s; });
 }
 
-}  // namespace vsa::experiments
+}  // namespace vsa::stiffness_uses

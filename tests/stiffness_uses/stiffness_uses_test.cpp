@@ -5,13 +5,13 @@
 
 #include <cmath>
 
-#include "experiments/gripper.hpp"
-#include "experiments/impact.hpp"
-#include "experiments/terrain.hpp"
-#include "experiments/throwing.hpp"
+#include "stiffness_uses/gripper.hpp"
+#include "stiffness_uses/impact.hpp"
+#include "stiffness_uses/terrain.hpp"
+#include "stiffness_uses/throwing.hpp"
 #include "vsa/units.hpp"
 
-namespace vsa::experiments {
+namespace vsa::stiffness_uses {
 namespace {
 
 constexpr double kDegree = kPi / 180;
@@ -110,4 +110,4 @@ TEST(Terrain, MeasuresSpeedCostAndContactForce) {
 }
 
 }  // namespace
-}  // namespace vsa::experiments
+}  // namespace vsa::stiffness_uses

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace vsa::experiments {
+namespace vsa::stiffness_uses {
 
 struct ThrowTrace {
   std::vector<double> time_s, equilibrium_rad, link_rad, link_rad_per_s, motor_rad_per_s;
@@ -43,4 +43,4 @@ struct ThrowPlan {
 [[nodiscard]] std::vector<ThrowRun> sweep_throw(ThrowPlan plan, const std::vector<double>& swing_back_s);
 [[nodiscard]] const ThrowRun& best_of(const std::vector<ThrowRun>& runs);
 
-}  // namespace vsa::experiments
+}  // namespace vsa::stiffness_uses

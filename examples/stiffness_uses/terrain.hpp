@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace vsa::experiments {
+namespace vsa::stiffness_uses {
 
 struct TerrainRun {
   std::string ground, gait;
@@ -33,4 +33,4 @@ struct TerrainPlan {
 /// As many at a time as there are jobs; results in the plans' order.
 [[nodiscard]] std::vector<TerrainRun> run_terrains(const std::vector<TerrainPlan>& plans, int jobs);
 
-}  // namespace vsa::experiments
+}  // namespace vsa::stiffness_uses

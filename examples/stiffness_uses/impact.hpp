@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace vsa::experiments {
+namespace vsa::stiffness_uses {
 
 struct ImpactTrace {
   std::vector<double> time_s, force_N, shoulder_deg;  ///< from the release on
@@ -35,4 +35,4 @@ struct ImpactRun {
 
 [[nodiscard]] ImpactRun run_impact(double preset_rad, double duration_s = 10.0);
 
-}  // namespace vsa::experiments
+}  // namespace vsa::stiffness_uses

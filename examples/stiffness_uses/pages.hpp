@@ -12,7 +12,7 @@
 #include "throwing.hpp"
 #include "vsa/report/report.hpp"
 
-namespace vsa::experiments {
+namespace vsa::stiffness_uses {
 
 struct Page {
   report::Report report;
@@ -25,4 +25,4 @@ struct Page {
 [[nodiscard]] Page throw_page(const std::vector<std::vector<ThrowRun>>& sweeps, const std::vector<ThrowRun>& traces);
 [[nodiscard]] Page terrain_page(const std::vector<TerrainRun>& runs, double duration_s);
 
-}  // namespace vsa::experiments
+}  // namespace vsa::stiffness_uses

@@ -8,7 +8,7 @@
 #include "vsa/engine/world.hpp"
 #include "vsa/units.hpp"
 
-namespace vsa::experiments {
+namespace vsa::stiffness_uses {
 namespace {
 
 using engine::Contact;
@@ -196,4 +196,4 @@ ImpactRun run_impact(double preset_rad, double duration_s) {
   return run;
 }
 
-}  // namespace vsa::experiments
+}  // namespace vsa::stiffness_uses

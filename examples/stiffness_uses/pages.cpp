@@ -10,7 +10,7 @@
 
 #include "vsa/units.hpp"
 
-namespace vsa::experiments {
+namespace vsa::stiffness_uses {
 namespace {
 
 using report::Chart;
@@ -213,4 +213,4 @@ Page terrain_page(const std::vector<TerrainRun>& runs, double duration_s) {
               "The same gait at a soft, Table II's and a stiff preset.", table, {std::move(speed), std::move(cost)});
 }
 
-}  // namespace vsa::experiments
+}  // namespace vsa::stiffness_uses
