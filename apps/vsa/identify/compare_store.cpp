@@ -2,12 +2,11 @@
 //
 // Fits and comparisons as JSON.
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "identify/compare_output.hpp"
+#include "vsa/files.hpp"
 
 namespace vsa::app {
 namespace {
@@ -85,10 +84,8 @@ identify::FitRecord record_in(const Json& j) {
 std::string fit_json(const identify::FitRecord& record) { return record_json(record).dump(2) + '\n'; }
 
 std::optional<identify::FitRecord> stored_fit(const std::filesystem::path& file, const std::string& asked) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
   try {
-    identify::FitRecord r = record_in(Json::parse(text));
+    identify::FitRecord r = record_in(Json::parse(read_file(file).value_or("")));
     if (r.asked == asked) return r;
   } catch (const Json::exception&) {  // nothing there, or nothing of ours: it is fitted again
   }
