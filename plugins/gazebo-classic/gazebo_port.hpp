@@ -27,6 +27,7 @@ class GazeboPort final : public host::TopicPort {
   host::Outcome on_actuators(const std::string&, std::function<void(const host::ActuatorsCmd&)>) override {
     return host::Outcome::unsupported;
   }
+  host::Outcome serve_text(const std::string&, Answer) override { return host::Outcome::unsupported; }
   std::unique_ptr<host::Publisher<double>> advertise_double(const std::string& topic) override;
   std::unique_ptr<host::Publisher<host::JointStates>> advertise_states(const std::string&) override { return nullptr; }
 

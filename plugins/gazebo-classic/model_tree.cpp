@@ -46,7 +46,7 @@ ModelTree::ModelTree(const ModelPtr& model, const std::vector<JointPtr>& driven)
     if (at == items_.end()) return;
     body_of.push_back(static_cast<std::size_t>(at - items_.begin()));
   }
-  tree_ = DrivenTree(std::move(bodies), std::move(body_of));
+  tree_ = seat::DrivenTree(std::move(bodies), std::move(body_of));
 }
 
 /// Parents first. False: no tree.

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "driven_tree.hpp"
+#include "vsa/seat/driven_tree.hpp"
 
 namespace vsa::plugins {
 
@@ -40,7 +40,7 @@ class ModelTree {
   std::vector<Item> items_;
   std::size_t next_ = 0;  ///< whose inertia is read again
   bool read_ = false;
-  DrivenTree tree_;
+  seat::DrivenTree tree_;
 };
 
 }  // namespace vsa::plugins

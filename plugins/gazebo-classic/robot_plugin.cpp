@@ -1,7 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "robot_plugin.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <gazebo/common/Console.hh>
 #include <gazebo/common/Events.hh>
@@ -11,7 +10,9 @@
 #include <gazebo/physics/World.hh>
 #include <utility>
 
+#include "gazebo_port.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/topics/ignition_port.hpp"
 
 namespace vsa::plugins {
 namespace {
@@ -44,8 +45,7 @@ void ClassicRobot::Load(ModelPtr model, sdf::ElementPtr element) {
   try {
     attach(element);
   } catch (const InputError& error) {
-    own_port_.reset();
-    robot_.reset();
+    seat_.reset();
     gzerr << "vsa::Robot: " << model_->GetScopedName() << " stays without torques:\n" << error.what() << std::endl;
   }
 }
@@ -53,20 +53,17 @@ void ClassicRobot::Load(ModelPtr model, sdf::ElementPtr element) {
 void ClassicRobot::attach(const sdf::ElementPtr& element) {
   std::vector<NamedJoint> known;
   collect_joints(model_, "", known);
-  Attachment attachment{element->ToString(""), world_ + ": " + model_->GetScopedName(), model_->GetScopedName(), {}};
-  for (const NamedJoint& k : known) {
-    attachment.joints.push_back(k.name);
-    attachment.keys.push_back({model_->GetWorld().get(), k.joint->GetId()});
-  }
-  const auto report = [](const std::string& line) { gzwarn << "vsa::Robot: " << line << std::endl; };
-  robot_ = std::make_unique<AttachedRobot>(attachment, report);
-  own_port_ = std::make_unique<GazeboPort>(world_, attachment.model);
-  own_topics_.emplace(robot_->robot(), attachment.model, *own_port_, report);
-  for (const host::ActuatorConfig& a : robot_->config().actuators) {
-    joints_.push_back(std::find_if(known.begin(), known.end(), [&](const NamedJoint& k) { return k.name == a.joint; })->joint);
-  }
+  seat::Model model{element->ToString(""), world_ + ": " + model_->GetScopedName(), model_->GetScopedName(), {}};
+  for (const NamedJoint& k : known) model.joints.push_back({k.name, {model_->GetWorld().get(), k.joint->GetId()}});
+  seat::Options options;
+  options.report = [](const std::string& line) { gzwarn << "vsa::Robot: " << line << std::endl; };
+  seat_ = std::make_unique<seat::Seat>(model, options);
+  seat_->open_ports();
+  seat_->connect(std::make_shared<topics::IgnitionPort>());
+  seat_->connect(std::make_shared<GazeboPort>(world_, model.name));
+  for (const std::size_t j : seat_->joints()) joints_.push_back(known[j].joint);
   tree_ = std::make_unique<ModelTree>(model_, joints_);
-  robot_->join(tree_->trees());
+  seat_->join(tree_->trees());
   using gazebo::event::Events;
   connection_ = Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo& info) { update(info); });
   time_reset_ = Events::ConnectTimeReset([this] {  // of any world
@@ -82,31 +79,27 @@ void ClassicRobot::update(const gazebo::common::UpdateInfo& info) {
   stepped_ = true;
   now_ns_ = nanoseconds(info.simTime);  // Gazebo has counted this step already
   step();
-  robot_->publish_step(now_ns_);
-  own_topics_->update(now_ns_);
+  seat_->publish_step(now_ns_);
 }
 
 void ClassicRobot::step() {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    robot_->in()[i].angle_rad = joints_[i]->Position(0);
-    robot_->in()[i].speed_rad_per_s = joints_[i]->GetVelocity(0);
+    seat_->in()[i].angle_rad = joints_[i]->Position(0);
+    seat_->in()[i].speed_rad_per_s = joints_[i]->GetVelocity(0);
   }
-  if (robot_->wants_mobility()) tree_->mobility(robot_->mobility());
-  robot_->step(std::llround(model_->GetWorld()->Physics()->GetMaxStepSize() * 1e9));
-  for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i]->SetForce(0, robot_->torques()[i]);
+  if (seat_->wants_mobility()) tree_->mobility(seat_->mobility());
+  seat_->step(std::llround(model_->GetWorld()->Physics()->GetMaxStepSize() * 1e9));
+  for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i]->SetForce(0, seat_->torques()[i]);
 }
 
 void ClassicRobot::publish_where_it_stands() {
   const std::lock_guard lock(mutex_);
-  if (!std::exchange(stepped_, false)) {
-    robot_->publish_paused(now_ns_);
-    own_topics_->publish(now_ns_);
-  }
+  if (!std::exchange(stepped_, false)) seat_->publish_paused(now_ns_);
 }
 
 void ClassicRobot::Reset() {
   const std::lock_guard lock(mutex_);
-  if (robot_) robot_->reset();
+  if (seat_) seat_->reset();
 }
 
 GZ_REGISTER_MODEL_PLUGIN(ClassicRobot)

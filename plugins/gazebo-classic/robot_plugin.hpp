@@ -18,9 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "attached_robot.hpp"
-#include "gazebo_port.hpp"
 #include "model_tree.hpp"
+#include "vsa/seat/seat.hpp"
 #include "wall_timer.hpp"
 
 namespace vsa::plugins {
@@ -31,7 +30,7 @@ class ClassicRobot : public gazebo::ModelPlugin {
   void Reset() override;
 
   /// Null where loading failed. For tests.
-  [[nodiscard]] AttachedRobot* robot() noexcept { return robot_.get(); }
+  [[nodiscard]] seat::Seat* seat() noexcept { return seat_.get(); }
 
  private:
   void attach(const sdf::ElementPtr& element);
@@ -42,13 +41,11 @@ class ClassicRobot : public gazebo::ModelPlugin {
   gazebo::physics::ModelPtr model_;
   std::string world_;                              ///< its name
   std::vector<gazebo::physics::JointPtr> joints_;  ///< of the actuators
-  std::unique_ptr<AttachedRobot> robot_;
+  std::unique_ptr<seat::Seat> seat_;
   std::unique_ptr<ModelTree> tree_;
-  std::mutex mutex_;                             ///< guards what is below, and the robot
-  std::int64_t now_ns_ = 0;                      ///< simulated
-  bool stepped_ = false;                         ///< since the timer looked
-  std::optional<host::RobotTopics> own_topics_;  ///< on Gazebo's own transport; before the port, which must go first
-  std::unique_ptr<GazeboPort> own_port_;
+  std::mutex mutex_;                                      ///< guards what is below, and the robot
+  std::int64_t now_ns_ = 0;                               ///< simulated
+  bool stepped_ = false;                                  ///< since the timer looked
   gazebo::event::ConnectionPtr connection_, time_reset_;  ///< gone before the robot is, as is the timer
   std::optional<WallTimer> timer_;
 };

@@ -48,7 +48,7 @@ EntityTree::EntityTree(sim::Entity model, const std::vector<sim::Entity>& driven
     if (at == items_.end()) return;
     body_of.push_back(static_cast<std::size_t>(at - items_.begin()));
   }
-  tree_ = DrivenTree(std::move(bodies), std::move(body_of));
+  tree_ = seat::DrivenTree(std::move(bodies), std::move(body_of));
 }
 
 /// Parents first. False: no tree.

@@ -1,52 +1,16 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "robot_system.hpp"
 
-#include <algorithm>
-#include <utility>
+#include <chrono>
 
 #include "entities.hpp"
+#include "joint_components.hpp"
 #include "vsa/errors.hpp"
-#ifdef VSA_HAS_PARAMETERS
-#include <gz/msgs/stringmsg.pb.h>
-#endif
+#include "vsa/topics/ignition_port.hpp"
 
 namespace vsa::plugins {
-namespace {
 
 namespace components = sim::components;
-#ifdef VSA_HAS_PARAMETERS
-using gz::msgs::StringMsg;
-#endif
-
-constexpr int kParameterRounds = 50;
-constexpr int kPhysicsSteps = 10;  // by then any physics has filled the joints' components
-
-bool has_one_axis(sim::Entity joint, const sim::EntityComponentManager& ecm) {
-  const auto type = ecm.ComponentData<components::JointType>(joint);
-  return type == sdf::JointType::REVOLUTE || type == sdf::JointType::CONTINUOUS || type == sdf::JointType::PRISMATIC;
-}
-
-/// The first of a component's numbers; 0 where the physics hasn't filled it yet. Creates the component where it is missing.
-template <class Component>
-double first_number(sim::Entity joint, sim::EntityComponentManager& ecm) {
-  const auto* component = ecm.Component<Component>(joint);
-  if (component == nullptr) {
-    ecm.CreateComponent(joint, Component());
-    return 0.0;
-  }
-  return component->Data().empty() ? 0.0 : component->Data().front();
-}
-
-void set_force(sim::Entity joint, double torque, sim::EntityComponentManager& ecm) {
-  auto* command = ecm.Component<components::JointForceCmd>(joint);
-  if (command == nullptr) {
-    ecm.CreateComponent(joint, components::JointForceCmd({torque}));
-  } else {
-    command->Data().assign(1, torque);
-  }
-}
-
-}  // namespace
 
 void SimRobot::Configure(const sim::Entity& entity, const std::shared_ptr<const sdf::Element>& element,
                          sim::EntityComponentManager& ecm, sim::EventManager&) {
@@ -58,7 +22,7 @@ void SimRobot::Configure(const sim::Entity& entity, const std::shared_ptr<const 
   try {
     attach(*element, ecm);
   } catch (const InputError& error) {
-    robot_.reset();
+    seat_.reset();
     const std::string text = name_ + " stays without torques:\n" + error.what();
     VSA_ERROR << "vsa::Robot: " << text << std::endl;
   }
@@ -66,62 +30,62 @@ void SimRobot::Configure(const sim::Entity& entity, const std::shared_ptr<const 
 
 void SimRobot::attach(const sdf::Element& element, sim::EntityComponentManager& ecm) {
   std::vector<NamedEntity> known;
-  Attachment attachment{element.ToString(""), name_, name_, {}};
+  seat::Model model{element.ToString(""), name_, name_, {}};
   for (const NamedEntity& joint : entities_below<components::Joint>(model_, ecm)) {
     if (!has_one_axis(joint.entity, ecm)) continue;
     known.push_back(joint);
-    attachment.joints.push_back(joint.name);
-    attachment.keys.push_back({&ecm, joint.entity});
+    model.joints.push_back({joint.name, {&ecm, joint.entity}});
   }
-  robot_ = std::make_unique<AttachedRobot>(attachment,
-                                           [](const std::string& line) { VSA_WARNING << "vsa::Robot: " << line << std::endl; });
-  for (const host::ActuatorConfig& a : robot_->config().actuators) {
-    joints_.push_back(std::find_if(known.begin(), known.end(), [&](const NamedEntity& k) { return k.name == a.joint; })->entity);
-  }
+  seat::Options options;
+  options.report = [](const std::string& line) { VSA_WARNING << "vsa::Robot: " << line << std::endl; };
+  seat_ = std::make_unique<seat::Seat>(model, options);
+  seat_->open_ports();
+  seat_->connect(std::make_shared<topics::IgnitionPort>());
+  for (const std::size_t j : seat_->joints()) joints_.push_back(known[j].entity);
   for (const sim::Entity joint : joints_) {
     first_number<components::JointPosition>(joint, ecm);
     first_number<components::JointVelocity>(joint, ecm);
   }
   tree_ = std::make_unique<EntityTree>(model_, joints_, ecm);
-  robot_->join(tree_->trees());
+  seat_->join(tree_->trees());
 }
 
 void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) {
-  if (!robot_) return;
+  if (!seat_) return;
   if (!ecm.HasEntity(model_)) {  // removed: Fortress keeps the system
-    robot_.reset();
+    seat_.reset();
     tree_.reset();
     return;
   }
 #ifdef VSA_HAS_PARAMETERS
-  if (registry_ != nullptr && rounds_to_look_-- <= 0) look_at_parameters();
+  faults_.look(*seat_);
 #endif
   const auto time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(info.simTime).count();
   if (info.paused) {
-    robot_->publish_paused(time_ns);
+    seat_->publish_paused(time_ns);
     return;
   }
   const auto dt_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(info.dt).count();
   if (dt_ns > 0) last_dt_ns_ = dt_ns;
   if (last_dt_ns_ == 0) return;
   step(last_dt_ns_, ecm);
-  robot_->publish_step(time_ns);
+  seat_->publish_step(time_ns);
 }
 
 void SimRobot::step(std::int64_t dt_ns, sim::EntityComponentManager& ecm) {
   if (steps_ <= kPhysicsSteps && steps_++ == kPhysicsSteps) look_for_physics(ecm);
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    robot_->in()[i].angle_rad = first_number<components::JointPosition>(joints_[i], ecm);
-    robot_->in()[i].speed_rad_per_s = first_number<components::JointVelocity>(joints_[i], ecm);
+    seat_->in()[i].angle_rad = first_number<components::JointPosition>(joints_[i], ecm);
+    seat_->in()[i].speed_rad_per_s = first_number<components::JointVelocity>(joints_[i], ecm);
   }
-  if (robot_->wants_mobility()) tree_->mobility(ecm, robot_->mobility());
-  const bool stopped = robot_->stopped();
-  robot_->step(dt_ns);
-  if (robot_->stopped() && !stopped) {  // the reason is a warning, which gz-sim doesn't show unasked
+  if (seat_->wants_mobility()) tree_->mobility(ecm, seat_->mobility());
+  const bool stopped = seat_->stopped();
+  seat_->step(dt_ns);
+  if (seat_->stopped() && !stopped) {  // the reason is a warning, which gz-sim doesn't show unasked
     const std::string text = name_ + ": its actuators have stopped and give no torque; -v 2 shows why";
     VSA_ERROR << "vsa::Robot: " << text << std::endl;
   }
-  for (std::size_t i = 0; i < joints_.size(); ++i) set_force(joints_[i], robot_->torques()[i], ecm);
+  for (std::size_t i = 0; i < joints_.size(); ++i) set_force(joints_[i], seat_->torques()[i], ecm);
 }
 
 void SimRobot::look_for_physics(const sim::EntityComponentManager& ecm) {
@@ -139,32 +103,14 @@ void SimRobot::look_for_physics(const sim::EntityComponentManager& ecm) {
 
 #ifdef VSA_HAS_PARAMETERS
 void SimRobot::ConfigureParameters(gz::transport::parameters::ParametersRegistry& registry, sim::EntityComponentManager&) {
-  if (!robot_) return;
-  parameter_ = "model." + name_ + ".vsa.faults";
-  for (auto at = parameter_.find("::"); at != std::string::npos; at = parameter_.find("::")) parameter_.replace(at, 2, ".");
-  // Of a model that was removed and is back, the parameter is there already.
-  if (!registry.DeclareParameter(parameter_, StringMsg()) && !registry.SetParameter(parameter_, StringMsg())) return;
-  registry_ = &registry;
-}
-
-void SimRobot::look_at_parameters() {
-  rounds_to_look_ = kParameterRounds - 1;
-  StringMsg value;
-  if (!registry_->Parameter(parameter_, value) || value.data() == faults_) return;
-  if (robot_->apply_faults(value.data().empty() ? "all none" : value.data(), parameter_)) {
-    faults_ = value.data();
-  } else {
-    value.set_data(faults_);
-    registry_->SetParameter(parameter_, value);
-  }
+  if (seat_) faults_.declare(registry, name_);
 }
 #endif
 
 #ifdef VSA_HAS_RESET
 void SimRobot::Reset(const sim::UpdateInfo&, sim::EntityComponentManager&) {
-  if (robot_) robot_->reset();
-  if (registry_ != nullptr) registry_->SetParameter(parameter_, StringMsg());
-  faults_.clear();  // a reset ends them
+  if (seat_) seat_->reset();
+  faults_.reset();
   steps_ = 0;
 }
 #endif

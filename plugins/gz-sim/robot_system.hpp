@@ -17,9 +17,12 @@
 #include <string>
 #include <vector>
 
-#include "attached_robot.hpp"
 #include "compat.hpp"
-#include "driven_tree.hpp"
+#include "vsa/seat/driven_tree.hpp"
+#include "vsa/seat/seat.hpp"
+#ifdef VSA_HAS_PARAMETERS
+#include "fault_parameter.hpp"
+#endif
 
 namespace vsa::plugins {
 
@@ -43,7 +46,7 @@ class EntityTree {
              std::vector<host::TreeBody>& bodies);
 
   std::vector<Item> items_;
-  DrivenTree tree_;
+  seat::DrivenTree tree_;
 };
 
 class SimRobot : public sim::System,
@@ -60,7 +63,6 @@ class SimRobot : public sim::System,
                  sim::EventManager& events) override;
   void PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) override;
 #ifdef VSA_HAS_PARAMETERS
-  /// The world's parameter "model.M.vsa.faults", a StringMsg of the words that the service of faults takes.
   void ConfigureParameters(gz::transport::parameters::ParametersRegistry& registry, sim::EntityComponentManager& ecm) override;
 #endif
 #ifdef VSA_HAS_RESET
@@ -68,7 +70,7 @@ class SimRobot : public sim::System,
 #endif
 
   /// Null where loading failed. For tests.
-  [[nodiscard]] AttachedRobot* robot() noexcept { return robot_.get(); }
+  [[nodiscard]] seat::Seat* seat() noexcept { return seat_.get(); }
 
  private:
   void attach(const sdf::Element& element, sim::EntityComponentManager& ecm);
@@ -78,15 +80,13 @@ class SimRobot : public sim::System,
   sim::Entity model_ = sim::kNullEntity;
   std::string name_;                 ///< scoped, without the world's
   std::vector<sim::Entity> joints_;  ///< of the actuators
-  std::unique_ptr<AttachedRobot> robot_;
+  std::unique_ptr<seat::Seat> seat_;
   std::unique_ptr<EntityTree> tree_;
 #ifdef VSA_HAS_PARAMETERS
-  void look_at_parameters();
-  gz::transport::parameters::ParametersRegistry* registry_ = nullptr;
-  std::string parameter_, faults_;  ///< its name; its value, as far as it was taken
-  int rounds_to_look_ = 0;
+  FaultParameter faults_;
 #endif
-  int steps_ = 0;  ///< since the start or a reset, as far as anyone asks: see look_for_physics
+  static constexpr int kPhysicsSteps = 10;  ///< by then any physics has filled the joints' components
+  int steps_ = 0;                           ///< since the start or a reset, as far as anyone asks: see look_for_physics
   std::int64_t last_dt_ns_ = 0;
 };
 

@@ -120,26 +120,4 @@ std::string faults_text(const device::Faults& f) {
   return join(words, " ");
 }
 
-std::vector<std::string> apply_faults(host::Robot& robot, std::string_view text, std::string_view source) {
-  text = trim(text);
-  const std::size_t end = std::min(text.find_first_of(" \t\n\r\f\v"), text.size());
-  const std::string who(text.substr(0, end));
-  const bool all = who == "all";
-  const auto one = robot.find(who);
-  if (!all && !one) {
-    std::vector<std::string> names{"all"};
-    for (const auto& a : robot.config().actuators) names.push_back(a.name);
-    throw InputError({"", std::string(source), who, "no such actuator", join(names)});
-  }
-  device::Faults faults = read_faults(text.substr(end), source);
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < robot.size(); ++i) {
-    if (!all && i != *one) continue;
-    robot.set_faults(i, faults);
-    ++faults.seed;
-    names.push_back(robot.config().actuators[i].name);
-  }
-  return names;
-}
-
 }  // namespace vsa::config

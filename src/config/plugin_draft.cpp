@@ -57,6 +57,7 @@ class Finisher {
     out.preset = a.preset;
     out.initial_equilibrium_rad = a.initial_equilibrium;
     out.initial_preset = a.initial_preset;
+    out.equilibrium_given = a.equilibrium_given;
     find_bus(a, out);
     if (const Preset* preset = a.preset.empty() ? nullptr : load(a)) {
       out.unit = preset->unit;

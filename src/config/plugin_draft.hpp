@@ -26,6 +26,7 @@ struct ActuatorDraft {
   std::optional<int> id;  ///< none: the next free one
   bool id_ok = true;
   double initial_equilibrium = 0, initial_preset = 0;
+  bool equilibrium_given = false;
   std::string initial_preset_key;  ///< "preset_rad"; empty: not given
   std::vector<Override> overrides;
   std::map<std::string, std::string> tag_of;  ///< keys of overrides that an older plug-in's tag gave, and that tag

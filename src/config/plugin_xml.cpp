@@ -133,6 +133,7 @@ class Parser {
     xml_.check_attributes(e, path, known);
     xml_.check_children(e, path, {});
     if (const auto text = xml_.attribute(e, "equilibrium_rad")) {
+      draft.equilibrium_given = true;
       draft.initial_equilibrium = xml_.number(path + "@equilibrium_rad", *text, -kMaxAngle, kMaxAngle, "rad").value_or(0);
     }
   }

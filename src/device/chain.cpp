@@ -24,6 +24,12 @@ Chain::Chain(const LineConfig& config, std::vector<Station> stations) : config_(
   speakers_.reserve(4 * stations_.size() + 16);
 }
 
+void Chain::save(ChainState& into) const {
+  into.speeches.reserve(state_.speeches.capacity());
+  into.bytes.reserve(state_.bytes.capacity());
+  into = state_;
+}
+
 std::span<const std::uint8_t> Chain::view(const Speech& s) const noexcept { return {state_.bytes.data() + s.begin, s.size}; }
 
 void Chain::run_to(std::int64_t until_ns, bus::LineHost& host) noexcept {

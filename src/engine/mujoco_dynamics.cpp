@@ -27,7 +27,9 @@ MujocoPhysics::MujocoPhysics(const MujocoPhysics& other)
       mass_matrix_(other.mass_matrix_),
       damped_(other.damped_) {
   make_data();
-  restore(other.save());
+  PhysicsState state;
+  other.save(state);
+  restore(state);
 }
 
 std::unique_ptr<Physics> MujocoPhysics::clone() const { return std::unique_ptr<Physics>(new MujocoPhysics(*this)); }

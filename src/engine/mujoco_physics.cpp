@@ -74,7 +74,7 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const WorldDescript
   jacobian_.resize(3 * unit_.size());
   mobility_.resize(3 * unit_.size());
   make_data();
-  before_ = save().values;
+  save(before_);
 }
 
 void MujocoPhysics::make_data() {
@@ -85,7 +85,8 @@ void MujocoPhysics::make_data() {
 }
 
 void MujocoPhysics::grow() {
-  const PhysicsState state = save();
+  PhysicsState state;
+  save(state);
   model_ = ModelPtr(mj_copyModel(nullptr, model_.get()));
   if (!model_) throw SimulationError("MuJoCo: no memory for a larger world");
   model_->njmax *= 2;
@@ -101,9 +102,7 @@ void MujocoPhysics::changed() { view_stale_ = true; }
 
 void MujocoPhysics::prepare() {
   const mjModel* m = model_.get();
-  mju_copy(before_.data(), data_->qpos, m->nq);
-  mju_copy(before_.data() + m->nq, data_->qvel, m->nv);
-  mju_copy(before_.data() + m->nq + m->nv, data_->qacc_warmstart, m->nv);
+  save(before_);
   for (;;) {
     mj_fwdPosition(m, data_.get());
     const bool full = data_->warning[mjWARN_CONTACTFULL].number > 0 || data_->warning[mjWARN_CNSTRFULL].number > 0;
@@ -198,7 +197,7 @@ std::optional<Fault> MujocoPhysics::advance() {
     if (!fault) fault = check(d->qpos, m->nq, true, "position");
     if (!fault) fault = find_fault();
   }
-  if (fault) restore({before_});
+  if (fault) restore(before_);
   changed();
   stepped_ = !fault;
   return fault;
@@ -212,13 +211,12 @@ void MujocoPhysics::set_joint(std::size_t joint, JointState state) {
   changed();
 }
 
-PhysicsState MujocoPhysics::save() const {
+void MujocoPhysics::save(PhysicsState& into) const {
   const mjModel* m = model_.get();
-  PhysicsState out;
-  out.values.assign(data_->qpos, data_->qpos + m->nq);
-  out.values.insert(out.values.end(), data_->qvel, data_->qvel + m->nv);
-  out.values.insert(out.values.end(), data_->qacc_warmstart, data_->qacc_warmstart + m->nv);
-  return out;
+  into.values.resize(static_cast<std::size_t>(m->nq + 2 * m->nv));
+  mju_copy(into.values.data(), data_->qpos, m->nq);
+  mju_copy(into.values.data() + m->nq, data_->qvel, m->nv);
+  mju_copy(into.values.data() + m->nq + m->nv, data_->qacc_warmstart, m->nv);
 }
 
 void MujocoPhysics::restore(const PhysicsState& state) {

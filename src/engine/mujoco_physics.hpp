@@ -38,7 +38,7 @@ class MujocoPhysics final : public Physics {
   World::Energy energy() const override;
   int contact_count() const override;
   void contacts(std::vector<Contact>& out) const override;
-  PhysicsState save() const override;
+  void save(PhysicsState& into) const override;
   void restore(const PhysicsState& state) override;
   std::unique_ptr<Physics> clone() const override;
   void push(std::size_t joint, double torque) override;
@@ -75,7 +75,8 @@ class MujocoPhysics final : public Physics {
   std::vector<Address> joint_;  // of a one-axis joint
   std::vector<int> root_;       // of a link: the joint id of its free root, −1: tied to the world
   std::vector<std::string> q_owner_, v_owner_;
-  std::vector<mjtNum> before_, unit_, column_, jacobian_, mobility_, mass_matrix_;
+  PhysicsState before_;  // of the last prepare()
+  std::vector<mjtNum> unit_, column_, jacobian_, mobility_, mass_matrix_;
   bool damped_ = false;   // some joint has damping, which MuJoCo's Euler takes implicitly
   bool stepped_ = false;  // data_ holds the contacts of the last step
 };

@@ -63,7 +63,8 @@ class Physics {
   [[nodiscard]] virtual int contact_count() const = 0;
   virtual void contacts(std::vector<Contact>& out) const = 0;  ///< of the last advance(); none where the state was set since
 
-  [[nodiscard]] virtual PhysicsState save() const = 0;
+  /// Into what was saved to before: allocates nothing.
+  virtual void save(PhysicsState& into) const = 0;
   virtual void restore(const PhysicsState& state) = 0;
 
   /// The same world in the same state, with data of its own.

@@ -35,7 +35,7 @@ const std::vector<ActuatorRef>& World::actuators() const { return impl_->actuato
 
 actuator::Ledger World::ledger() const {
   actuator::Ledger sum;
-  for (const RobotSlot& slot : impl_->robots) sum += slot.robot.ledger();
+  for (const RobotSlot& slot : impl_->robots) sum += slot.robot().ledger();
   return sum;
 }
 

@@ -1,42 +1,32 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// A World's insides. States: physics, time and step count, the robots, and the mobilities last asked for; Snapshot holds them all.
+// A World's insides. States: physics, time and step count, and the robots' seats; Snapshot holds them all.
 #pragma once
 
 #include <map>
 
 #include "description.hpp"
 #include "physics.hpp"
-#include "vsa/host/mobility_watch.hpp"
+#include "vsa/seat/seat.hpp"
 
 namespace vsa::engine {
 
 struct SdfSource;
 
-/// B of a robot's trees, and when it is asked for again.
-struct Mobility {
-  std::vector<double> matrices;
-  host::MobilityWatch watch;
-};
-
 struct World::Snapshot {
   std::shared_ptr<const WorldDescription> world;
   PhysicsState physics;
   std::int64_t time_ns = 0, steps = 0;
-  std::vector<std::shared_ptr<const host::Robot::Snapshot>> robots;
-  std::vector<Mobility> mobility;
-  std::vector<std::vector<host::JointIn>> in;  ///< tells which joints somebody has put elsewhere since the last step
+  std::vector<std::shared_ptr<const seat::Seat::Snapshot>> robots;
 };
 
-/// One <plugin>: a robot and what passes between it and the engine.
+/// One <plugin>: a robot and its joints in the engine.
 struct RobotSlot {
-  std::string model;  ///< scoped
-  host::Robot robot;
-  std::vector<std::size_t> joints;  ///< of its actuators, into WorldDescription::joints
-  std::vector<host::JointIn> in;
-  std::vector<double> torques;
+  std::unique_ptr<seat::Seat> seat;
+  std::vector<std::size_t> joints;              ///< of its actuators, into WorldDescription::joints
   std::vector<std::vector<std::size_t>> trees;  ///< of joints, by index into WorldDescription::joints
-  Mobility mobility;
+
+  [[nodiscard]] host::Robot& robot() const { return seat->robot(); }
 };
 
 /// Who is called what, made once and shared with clones.
@@ -68,6 +58,7 @@ struct World::Impl {
   std::int64_t dt_ns = 0, time_ns = 0, steps = 0;        ///< dt_ns: of a step of `substeps`
   int substeps = 1;
   std::shared_ptr<const Snapshot> initial;
+  PhysicsState before;  ///< the step under way, where physics takes back only the last of its substeps
 
   [[nodiscard]] static std::unique_ptr<Impl> load(const SdfSource& source, WorldOptions options);
   void add_robots(const std::string& file, Problems& problems);
@@ -76,9 +67,11 @@ struct World::Impl {
   [[nodiscard]] double substep_s() const { return static_cast<double>(substep_ns()) * 1e-9; }
   void step();
   [[nodiscard]] std::optional<Fault> substep();
-  [[nodiscard]] std::shared_ptr<const Snapshot> before_step() const;
+  void keep();     ///< what a fault goes back to
+  void go_back();  ///< to it
   void join_trees();
-  void ask_mobility(RobotSlot& slot);
+  void ask_mobility(const RobotSlot& slot);
+  void tell_joints(const RobotSlot& slot) const;
   void drive();
   void observe();
   void forget_mobility();          ///< something was moved

@@ -106,7 +106,7 @@ void check_same_world(const WorldDescription& theirs, const WorldDescription& ou
 void World::Impl::check(const Snapshot& s) const {
   check_same_world(*s.world, *world);
   if (s.robots.size() != robots.size()) foreign(fmt::format("{} robots", s.robots.size()), fmt::format("{}", robots.size()));
-  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].robot.check(*s.robots[i]);
+  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].seat->check(*s.robots[i]);
 }
 
 void World::Impl::index_names() {
@@ -124,7 +124,7 @@ void World::Impl::index_names() {
     if (ref.index == 0) made->first_actuator[ref.robot] = a;
     made->joints[robots[ref.robot].joints[ref.index]].actuator = a;
     made->full.emplace(ref.model + "/" + ref.name, a);
-    made->full.emplace(host::slashed(robots[ref.robot].model) + "/" + ref.name, a);
+    made->full.emplace(host::slashed(robots[ref.robot].seat->model()) + "/" + ref.name, a);
     if (!made->actuator.emplace(ref.name, a).second) made->actuator[ref.name] = WorldNames::kSeveral;
   }
   names = std::move(made);

@@ -2,10 +2,10 @@
 //
 // A step, or each of its substeps:
 //   1  prepare()              everything that depends on q
-//   2  where host::MobilityWatch says so   B of the driven joints of every tree
-//   3  Robot::advance         q, v, B → torque, for [t, t + dt)
+//   2  where the seat says so   B of the driven joints of every tree
+//   3  Seat::step             q, v, B → torque, for [t, t + dt)
 //   4  apply, hands, advance()  v' = v + dt·a, q' = q + dt·v'
-//   5  Robot::observe         q', v', for readings
+//   5  Seat::observe          q', v', for readings
 // After a fault in 4 physics and robots are put back to where they were before the (whole) step.
 #include <fmt/format.h>
 
@@ -25,57 +25,57 @@ constexpr double kLongestRun_s = 1e9;
 void World::Impl::join_trees() {
   for (RobotSlot& slot : robots) {
     const auto trees = physics->trees(slot.joints);
-    slot.robot.join(trees);
+    slot.seat->join(trees);
     for (const auto& tree : trees) {
       slot.trees.emplace_back();
       for (const std::size_t i : tree) slot.trees.back().push_back(slot.joints[i]);
     }
-    slot.mobility.matrices.resize(slot.robot.mobility_size());
-    slot.mobility.watch = host::MobilityWatch(slot.joints.size());
   }
 }
 
-void World::Impl::ask_mobility(RobotSlot& slot) {
-  std::size_t at = 0;
+void World::Impl::ask_mobility(const RobotSlot& slot) {
+  std::span<double> rest = slot.seat->mobility();
   for (const auto& tree : slot.trees) {
     const std::size_t size = tree.size() * tree.size();
-    physics->mobility(tree, std::span(slot.mobility.matrices).subspan(at, size));
-    at += size;
+    physics->mobility(tree, rest.first(size));
+    rest = rest.subspan(size);
   }
 }
 
 void World::Impl::forget_mobility() {
-  for (RobotSlot& slot : robots) slot.mobility.watch.again();
+  for (RobotSlot& slot : robots) slot.seat->moved();
 }
 
 void World::Impl::placed(std::size_t joint) {
   forget_mobility();
   for (RobotSlot& slot : robots) {
     for (std::size_t i = 0; i < slot.joints.size(); ++i)
-      if (slot.joints[i] == joint) slot.in[i].placed = true;
+      if (slot.joints[i] == joint) slot.seat->moved(i);
   }
 }
 
+void World::Impl::tell_joints(const RobotSlot& slot) const {
+  for (std::size_t i = 0; i < slot.joints.size(); ++i) {
+    const JointState state = physics->joint(slot.joints[i]);
+    slot.seat->in()[i].angle_rad = state.position;
+    slot.seat->in()[i].speed_rad_per_s = state.speed;
+  }
+}
+
+/// What isn't finite any more stops a seat, too; then advance() finds it and says so.
 void World::Impl::drive() {
-  for (RobotSlot& slot : robots) {
-    for (std::size_t i = 0; i < slot.joints.size(); ++i) {
-      const JointState state = physics->joint(slot.joints[i]);
-      slot.in[i].angle_rad = state.position;
-      slot.in[i].speed_rad_per_s = state.speed;
-    }
-    if (slot.mobility.watch.due(slot.in)) ask_mobility(slot);
-    slot.robot.advance(time_ns, substep_ns(), slot.in, slot.torques, slot.mobility.matrices);
-    for (std::size_t i = 0; i < slot.joints.size(); ++i) physics->apply(slot.joints[i], slot.torques[i]);
+  for (const RobotSlot& slot : robots) {
+    tell_joints(slot);
+    if (slot.seat->wants_mobility()) ask_mobility(slot);
+    slot.seat->step(substep_ns());
+    for (std::size_t i = 0; i < slot.joints.size(); ++i) physics->apply(slot.joints[i], slot.seat->torques()[i]);
   }
 }
 
 void World::Impl::observe() {
-  for (RobotSlot& slot : robots) {
-    for (std::size_t i = 0; i < slot.joints.size(); ++i) {
-      const JointState state = physics->joint(slot.joints[i]);
-      slot.in[i] = {state.position, state.speed, std::nullopt, false};
-    }
-    slot.robot.observe(slot.in);
+  for (const RobotSlot& slot : robots) {
+    tell_joints(slot);
+    slot.seat->observe();
   }
 }
 
@@ -89,27 +89,26 @@ std::optional<Fault> World::Impl::substep() {
   return std::nullopt;
 }
 
-/// What a fault goes back to: the robots only where physics, which takes back its last step by itself, has made no other.
-std::shared_ptr<const World::Snapshot> World::Impl::before_step() const {
-  if (substeps > 1) return snapshot();
-  auto out = std::make_shared<Snapshot>();
-  out->robots.reserve(robots.size());
-  for (const RobotSlot& slot : robots) out->robots.push_back(slot.robot.snapshot());
-  return out;
+/// Physics takes back its last substep by itself.
+void World::Impl::keep() {
+  for (const RobotSlot& slot : robots) slot.seat->keep();
+  if (substeps > 1) physics->save(before);
+}
+
+void World::Impl::go_back() {
+  for (const RobotSlot& slot : robots) slot.seat->go_back();
+  if (substeps > 1) physics->restore(before);
 }
 
 void World::Impl::step() {
-  const std::shared_ptr<const Snapshot> before = before_step();
+  const std::int64_t begin_ns = time_ns;
+  keep();
   for (int k = 0; k < substeps; ++k) {
     const std::optional<Fault> fault = substep();
     if (!fault) continue;
     const double at_s = static_cast<double>(time_ns) * kNanosecond;
-    if (substeps > 1) {
-      restore(*before);
-    } else {
-      for (std::size_t i = 0; i < robots.size(); ++i) robots[i].robot.restore(*before->robots[i]);
-    }
-    forget_mobility();
+    time_ns = begin_ns;
+    go_back();
     throw SimulationError(
         fmt::format("the simulation blew up at t = {:.6f} s: {}: {} = {:.6g}", at_s, fault->where, fault->quantity, fault->value));
   }
@@ -119,14 +118,10 @@ void World::Impl::step() {
 std::shared_ptr<const World::Snapshot> World::Impl::snapshot() const {
   auto out = std::make_shared<Snapshot>();
   out->world = world;
-  out->physics = physics->save();
+  physics->save(out->physics);
   out->time_ns = time_ns;
   out->steps = steps;
-  for (const RobotSlot& slot : robots) {
-    out->robots.push_back(slot.robot.snapshot());
-    out->mobility.push_back(slot.mobility);
-    out->in.push_back(slot.in);
-  }
+  for (const RobotSlot& slot : robots) out->robots.push_back(slot.seat->snapshot());
   return out;
 }
 
@@ -134,11 +129,7 @@ void World::Impl::restore(const Snapshot& s) {
   physics->restore(s.physics);
   time_ns = s.time_ns;
   steps = s.steps;
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    robots[i].robot.restore(*s.robots[i]);
-    robots[i].mobility = s.mobility[i];
-    robots[i].in = s.in[i];
-  }
+  for (std::size_t i = 0; i < robots.size(); ++i) robots[i].seat->restore(*s.robots[i]);
 }
 
 void World::step() { impl_->step(); }

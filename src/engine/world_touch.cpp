@@ -28,7 +28,7 @@ bool World::command(std::string_view name, double equilibrium_rad, double preset
 
 bool World::command(const ActuatorRef& ref, double equilibrium_rad, double preset) {
   static_cast<void>(at(ref));
-  return impl_->robots[ref.robot].robot.command(ref.index, equilibrium_rad, preset);
+  return impl_->robots[ref.robot].robot().command(ref.index, equilibrium_rad, preset);
 }
 
 void World::place(std::string_view name, double angle_rad, double preset, double speed_rad_per_s) {
@@ -41,7 +41,7 @@ void World::place(const ActuatorRef& ref, const host::Placement& to) {
     throw InputError(Problem{"", ref.name + ": angle_rad", fmt::format("{}", to.angle_rad),
                              "beyond the limits of " + joints()[joint].name, fmt::format("{} … {}", (*range)[0], (*range)[1])});
   }
-  impl_->robots[ref.robot].robot.place(ref.index, to, impl_->substep_s());
+  impl_->robots[ref.robot].robot().place(ref.index, to, impl_->substep_s());
   impl_->physics->set_joint(joint, {to.angle_rad, to.speed_rad_per_s});
   impl_->forget_mobility();
 }
@@ -49,22 +49,26 @@ void World::place(const ActuatorRef& ref, const host::Placement& to) {
 host::ActuatorReading World::read(std::string_view name) const { return read(actuator(name)); }
 host::ActuatorReading World::read(const ActuatorRef& ref) const {
   static_cast<void>(at(ref));
-  return impl_->robots[ref.robot].robot.read(ref.index);
+  return impl_->robots[ref.robot].robot().read(ref.index);
 }
 
 std::size_t World::robot_count() const { return impl_->robots.size(); }
 host::Robot& World::robot(std::size_t index) {
   static_cast<void>(robot_model(index));
-  return impl_->robots[index].robot;
+  return impl_->robots[index].robot();
 }
 const host::Robot& World::robot(std::size_t index) const {
   static_cast<void>(robot_model(index));
-  return impl_->robots[index].robot;
+  return impl_->robots[index].robot();
+}
+seat::Seat& World::seat(std::size_t index) {
+  static_cast<void>(robot_model(index));
+  return *impl_->robots[index].seat;
 }
 const std::string& World::robot_model(std::size_t index) const {
   if (index >= robot_count())
     throw InputError(Problem{"", "robot", fmt::format("{}", index), "no such robot", fmt::format("below {}", robot_count())});
-  return impl_->robots[index].model;
+  return impl_->robots[index].seat->model();
 }
 
 double World::joint_angle(JointHandle joint) const { return impl_->physics->joint(at(joint)).position; }
@@ -116,8 +120,7 @@ World World::clone() const {
   to->names = impl_->names;
   to->warnings = impl_->warnings;
   to->physics = impl_->physics->clone();
-  for (const RobotSlot& slot : impl_->robots)
-    to->robots.push_back({slot.model, slot.robot.clone(), slot.joints, slot.in, slot.torques, slot.trees, slot.mobility});
+  for (const RobotSlot& slot : impl_->robots) to->robots.push_back({slot.seat->clone(), slot.joints, slot.trees});
   to->actuators = impl_->actuators;
   to->pulls = impl_->pulls;
   to->wrenches = impl_->wrenches;

@@ -61,6 +61,11 @@ class BusLine final : private bus::MasterClient {
     if (port_) port_->unlock();
   }
   [[nodiscard]] BusState state() const { return {chain_.state(), master_.state()}; }
+  /// The same into what was saved to before, without allocating.
+  void save(BusState& into) const {
+    chain_.save(into.chain);
+    into.master = master_.state();
+  }
   /// The programs' states are restored by their owner.
   void restore(const BusState& state);
 

@@ -44,7 +44,7 @@ void check_whole(const RobotConfig& config) {
   problems.throw_if_any();
 }
 
-constexpr std::int64_t kLongestStepNs = 16'000'000, kLatestNs = 4'000'000'000'000'000'000;
+constexpr std::int64_t kLatestNs = 4'000'000'000'000'000'000;
 constexpr double kLongestPath_s = 1e9;
 
 /// Whether a joint can be worked with.
@@ -113,7 +113,7 @@ void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const Joint
   require(in.size() == d.units.size() && torques_out.size() == d.units.size(), kHere,
           "in and torques_out need one entry an actuator");
   require(mobility.empty() || mobility.size() == d.mobility_size, kHere, "mobility needs mobility_size() numbers, or none");
-  require(dt_ns >= 1 && dt_ns <= kLongestStepNs, kHere, "a step has 1 ns … 16 ms");
+  require(dt_ns >= 1 && dt_ns <= kLongestStep_ns, kHere, "a step has 1 ns … 16 ms");
   require(t_ns >= 0 && t_ns <= kLatestNs, kHere, "t is outside 0 … 4e18 ns");
   if (!std::all_of(in.begin(), in.end(), told)) {
     std::fill(torques_out.begin(), torques_out.end(), std::numeric_limits<double>::quiet_NaN());
@@ -202,6 +202,9 @@ void Robot::restore(const Snapshot& snapshot) {
   check(snapshot);
   impl_->restore(snapshot);
 }
+
+void Robot::keep() { impl_->keep(); }
+void Robot::go_back() { impl_->restore(impl_->kept); }
 
 void Robot::reset() {
   impl_->notices.clear();

@@ -43,6 +43,8 @@ struct Robot::Impl {
     initial.made_of = made_of;
     initial.state = state;
     for (const auto& bus : buses) initial.buses.push_back(bus->state());
+    kept = initial;
+    keep();
   }
 
   /// Where the shaft is will be known at the first step.
@@ -157,6 +159,13 @@ struct Robot::Impl {
     state.time_ns = t_ns;
   }
 
+  void keep() {
+    const QuietBuses quiet(buses);
+    kept.made_of = made_of;
+    kept.state = state;
+    for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->save(kept.buses[b]);
+  }
+
   void restore(const Snapshot& from) {
     const QuietBuses quiet(buses);
     queue.clear();
@@ -179,7 +188,7 @@ struct Robot::Impl {
   std::vector<Cluster> clusters;
   std::vector<std::vector<std::size_t>> trees;  ///< as the host joined them
   std::size_t mobility_size = 0;
-  Snapshot initial;
+  Snapshot initial, kept;  ///< kept: has room for all that a state may grow to
   CommandQueue queue;
   FaultQueue faults;
   NoticeList notices;

@@ -207,6 +207,17 @@ host::Outcome IgnitionPort::on_actuators(const std::string& topic, std::function
   return impl_->subscribe<msgs::Actuators>(topic, [h = std::move(handler)](const msgs::Actuators& message) { h(decode(message)); });
 }
 
+host::Outcome IgnitionPort::serve_text(const std::string& service, Answer answer) {
+  std::function<bool(const msgs::StringMsg&, msgs::StringMsg&)> serve =
+      [gate = impl_->gate, answer = std::move(answer)](const msgs::StringMsg& request, msgs::StringMsg& reply) {
+        const std::lock_guard lock(gate->mutex);
+        const std::optional<std::string> text = gate->open ? answer(request.data()) : std::nullopt;
+        if (text) reply.set_data(*text);
+        return text.has_value();
+      };
+  return impl_->node.Advertise(service, serve) ? host::Outcome::ok : host::Outcome::refused;
+}
+
 std::unique_ptr<host::Publisher<double>> IgnitionPort::advertise_double(const std::string& topic) {
   return impl_->advertise<Doubles>(topic);
 }

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "messages.hpp"
-#include "vsa/topics/fault_service.hpp"
+#include "vsa/seat/seat.hpp"
 #include "vsa/topics/ignition_port.hpp"
 #include "vsa/topics/transport.hpp"
 
@@ -87,6 +87,10 @@ struct WorldServer::Impl {
   Impl(engine::World& the_world, RunControl& the_control) : world(the_world), control(the_control) {}
   ~Impl() {
     if (service) service->close();
+    for (std::size_t i = 0; i < world.robot_count(); ++i) {
+      world.seat(i).disconnect();
+      world.seat(i).report_to({});
+    }
   }
 
   void advertise(const host::RobotTopics::Report& report);
@@ -97,9 +101,7 @@ struct WorldServer::Impl {
   engine::World& world;
   RunControl& control;
   std::shared_ptr<ControlService> service;
-  std::vector<host::RobotTopics> robots;  // destroyed after the port that calls them
-  IgnitionPort port;
-  std::vector<FaultService> faults;
+  std::shared_ptr<IgnitionPort> port = std::make_shared<IgnitionPort>();
   Node node;
   Node::Publisher clock, stats;
   bool clock_wanted = false, stats_wanted = false;
@@ -162,10 +164,9 @@ WorldServer::WorldServer(engine::World& world, RunControl& control, host::RobotT
   prefer_loopback();
   impl_ = std::make_unique<Impl>(world, control);
   impl_->advertise(report);
-  impl_->robots.reserve(world.robot_count());
   for (std::size_t i = 0; i < world.robot_count(); ++i) {
-    impl_->robots.emplace_back(world.robot(i), world.robot_model(i), impl_->port, report);
-    impl_->faults.emplace_back(world.robot(i), world.robot_model(i));
+    world.seat(i).report_to(report);
+    world.seat(i).connect(impl_->port);
   }
   impl_->rate_mark.sim_ns = world.time_ns();
 }
@@ -180,7 +181,7 @@ void WorldServer::stepped() {
     impl_->next_clock = now + kClockEvery;
     impl_->publish_clock();
   }
-  for (auto& robot : impl_->robots) robot.update(impl_->world.time_ns());
+  for (std::size_t i = 0; i < impl_->world.robot_count(); ++i) impl_->world.seat(i).publish_step(impl_->world.time_ns());
   if (now >= impl_->next_stats) {
     impl_->next_stats = now + kStatsEvery;
     impl_->publish_stats(now);
@@ -193,13 +194,13 @@ void WorldServer::idle() {
   impl_->next_idle = now + kIdleEvery;
   impl_->refresh(now);
   impl_->publish_clock();
-  for (auto& robot : impl_->robots) robot.publish(impl_->world.time_ns());
+  for (std::size_t i = 0; i < impl_->world.robot_count(); ++i) impl_->world.seat(i).publish(impl_->world.time_ns());
   impl_->publish_stats(now);
 }
 
 std::uint64_t WorldServer::refused() const noexcept {
   std::uint64_t sum = impl_->service->refused();
-  for (const auto& robot : impl_->robots) sum += robot.refused();
+  for (std::size_t i = 0; i < impl_->world.robot_count(); ++i) sum += impl_->world.seat(i).refused();
   return sum;
 }
 

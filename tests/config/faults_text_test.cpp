@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "support/one_joint.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::config {
@@ -45,34 +44,6 @@ TEST(FaultsText, WhatIsWrongIsNamedAllAtOnce) {
   EXPECT_NE(refusal(""), "taken");
   EXPECT_NE(refusal("noise_rad=nan"), "taken");
   EXPECT_NE(refusal(std::string_view("supply_V=7\0", 11)), "taken");
-}
-
-TEST(FaultsText, OneActuatorOrAllAreBrokenOrNoneWhereSomethingIsWrong) {
-  host::RobotConfig config;
-  config.buses.push_back({"arm", 2'000'000, std::nullopt});
-  for (const int id : {1, 2})
-    config.actuators.push_back(
-        {"m" + std::to_string(id), "j" + std::to_string(id), "maker_pro", test::maker_pro(), 0, id, 0.0, 0.2});
-  host::Robot robot(config);
-  auto step = [&robot, t = std::int64_t{0}]() mutable {
-    const std::vector<host::JointIn> still(2);
-    std::vector<double> torque(2);
-    robot.advance(t, 1'000'000, still, torque);
-    t += 1'000'000;
-  };
-  EXPECT_EQ(apply_faults(robot, "m2 supply_V=7", "").size(), 1U);
-  step();
-  EXPECT_EQ(robot.faults(0), device::Faults{});
-  EXPECT_EQ(robot.faults(1).supply_V, 7.0);
-  EXPECT_EQ(apply_faults(robot, " all off", "").size(), 2U);
-  step();
-  EXPECT_FALSE(robot.faults(0).powered || robot.faults(1).powered);
-  EXPECT_NE(robot.faults(0).seed, robot.faults(1).seed);
-  EXPECT_THROW((void)apply_faults(robot, "m3 none", ""), InputError);
-  EXPECT_THROW((void)apply_faults(robot, "all none stuck=x", ""), InputError);
-  EXPECT_THROW((void)apply_faults(robot, "", ""), InputError);
-  step();
-  EXPECT_FALSE(robot.faults(0).powered);
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ RobotWorld::RobotWorld(const std::string& name, const std::string& model, const 
                        bool gravity)
     : ClassicWorld(world_sdf(name, others + without(model, "<plugin", "</plugin>"), gravity), engine),
       plugin_(load_robot(world, model)) {
-  if (plugin_->robot() == nullptr) throw std::runtime_error("the plug-in didn't load");
+  if (plugin_->seat() == nullptr) throw std::runtime_error("the plug-in didn't load");
   if (world->Physics()->GetType() != engine) throw std::runtime_error("Gazebo has no " + engine);
 }
 

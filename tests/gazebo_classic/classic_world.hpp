@@ -62,8 +62,8 @@ class RobotWorld : public ClassicWorld {
   RobotWorld(const std::string& name, const std::string& model, const std::string& engine = "ode", const std::string& others = "",
              bool gravity = true);
 
-  [[nodiscard]] host::Robot& robot() { return plugin_->robot()->robot(); }
-  [[nodiscard]] std::span<const double> torques() const { return plugin_->robot()->torques(); }  ///< of the last step
+  [[nodiscard]] host::Robot& robot() { return plugin_->seat()->robot(); }
+  [[nodiscard]] std::span<const double> torques() const { return plugin_->seat()->torques(); }  ///< of the last step
   void reset();
 
  private:

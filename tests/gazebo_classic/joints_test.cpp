@@ -61,11 +61,11 @@ TEST(DrivenJoints, AreFreeAgainOnceTheirPluginIsGone) {
   const std::string model = hanging();
   ClassicWorld w(world_sdf("again", without(model, "<plugin", "</plugin>")));
   auto first = load_robot(w.world, model);
-  ASSERT_NE(first->robot(), nullptr);
-  EXPECT_EQ(load_robot(w.world, model)->robot(), nullptr);
-  EXPECT_EQ(load_robot(w.world, model)->robot(), nullptr) << "one that was refused holds nothing and frees nothing";
+  ASSERT_NE(first->seat(), nullptr);
+  EXPECT_EQ(load_robot(w.world, model)->seat(), nullptr);
+  EXPECT_EQ(load_robot(w.world, model)->seat(), nullptr) << "one that was refused holds nothing and frees nothing";
   first.reset();
-  EXPECT_NE(load_robot(w.world, model)->robot(), nullptr);
+  EXPECT_NE(load_robot(w.world, model)->seat(), nullptr);
 }
 
 TEST(DrivenJoints, OfTheSameModelInTwoWorldsAreDifferentOnes) {
@@ -74,8 +74,8 @@ TEST(DrivenJoints, OfTheSameModelInTwoWorldsAreDifferentOnes) {
   const auto first = load_robot(a.world, model);
   const auto b = gazebo::loadWorld(VSA_SOURCE_DIR "/models/worlds/bench_load.sdf");  // goes with a
   ASSERT_TRUE(b);
-  EXPECT_NE(load_robot(b, model)->robot(), nullptr);
-  EXPECT_NE(first->robot(), nullptr);
+  EXPECT_NE(load_robot(b, model)->seat(), nullptr);
+  EXPECT_NE(first->seat(), nullptr);
 }
 
 }  // namespace

@@ -167,7 +167,7 @@ void OwnRobot::before_step(const sim::UpdateInfo& info, sim::EntityComponentMana
   if (!configured_) {
     configured_ = true;
     system_.Configure(*sim::entitiesFromScopedName(name_, ecm).begin(), element_, ecm, events_);
-    if (system_.robot() == nullptr) throw std::runtime_error("the plug-in didn't load");
+    if (system_.seat() == nullptr) throw std::runtime_error("the plug-in didn't load");
     if (first) first(robot());
   }
   system_.PreUpdate(info, ecm);

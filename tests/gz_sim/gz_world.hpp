@@ -112,7 +112,7 @@ class OwnRobot {
   OwnRobot(std::string& model, std::string name);
   /// Call it before every step. Configures the system the first time; `first` is called then.
   void before_step(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm);
-  [[nodiscard]] host::Robot& robot() { return system_.robot()->robot(); }
+  [[nodiscard]] host::Robot& robot() { return system_.seat()->robot(); }
 
   std::function<void(host::Robot&)> first;
 

@@ -61,6 +61,10 @@ class FakePort final : public host::TopicPort {
     actuators[topic] = std::move(handler);
     return outcome;
   }
+  Outcome serve_text(const std::string& service, Answer answer) override {
+    services[service] = std::move(answer);
+    return of_services;
+  }
   std::unique_ptr<host::Publisher<double>> advertise_double(const std::string& topic) override {
     advertised.insert(topic);
     return std::make_unique<FakePublisher<double>>(wire, topic);
@@ -73,9 +77,10 @@ class FakePort final : public host::TopicPort {
   std::map<std::string, std::function<void(double)>> doubles;
   std::map<std::string, std::function<void(const host::Trajectory&)>> trajectories;
   std::map<std::string, std::function<void(const host::ActuatorsCmd&)>> actuators;
+  std::map<std::string, Answer> services;
   std::set<std::string> advertised;
   std::shared_ptr<Wire> wire = std::make_shared<Wire>();
-  Outcome outcome = Outcome::ok;
+  Outcome outcome = Outcome::ok, of_services = Outcome::ok;
   bool knows_trajectories = true;
 };
 

@@ -24,6 +24,9 @@ class NamesOnly final : public vsa::host::TopicPort {
   vsa::host::Outcome on_actuators(const std::string& topic, std::function<void(const vsa::host::ActuatorsCmd&)>) override {
     return tell("to_gz", "gz.msgs.Actuators", topic);
   }
+  vsa::host::Outcome serve_text(const std::string&, Answer) override {
+    return vsa::host::Outcome::unsupported;
+  }  // no bridge has it
   std::unique_ptr<vsa::host::Publisher<double>> advertise_double(const std::string& topic) override {
     tell("to_ros", "gz.msgs.Double", topic);
     return nullptr;

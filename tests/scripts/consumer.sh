@@ -13,7 +13,11 @@ cmake -Wno-dev -S "$source/examples/snake_gait_topics" -B "$work/topics" -G Ninj
 cmake --build "$work/topics"
 cmake -Wno-dev -S "$source/examples/serial_client" -B "$work/serial" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null
 cmake --build "$work/serial"
+cmake -Wno-dev -S "$source/examples/host" -B "$work/host" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null
+cmake --build "$work/host"
 "$work/build/one_actuator"
+"$work/host/host" | tee "$work/swung"
+grep -qE '^after 2 s at (0\.[789]|1\.0)' "$work/swung"
 # It finds the data of the installation by itself, and no others: without them it says where it looked.
 unset VSA_DATA_DIR
 "$work/build/move_a_joint" | tee "$work/output"

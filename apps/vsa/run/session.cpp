@@ -12,8 +12,8 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/settings.hpp"
 #include "unit/port_report.hpp"
-#include "vsa/config/faults_text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/seat/seat.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::app {
@@ -21,7 +21,6 @@ namespace {
 
 constexpr double kTravelWindow_s = 1.3;  // where no gait tells its period; close to Table II's 2π/4.71 s
 constexpr double kTravelRate_Hz = 100;
-constexpr double kNoticesRate_Hz = 10;
 constexpr std::chrono::milliseconds kIdleWait{100};
 constexpr double kSlowest = 0.01, kFastest = 100;  // of --speed
 
@@ -68,7 +67,7 @@ void break_robots(engine::World& world, const std::vector<std::string>& faults) 
         const bool last = i + 1 == world.robot_count() && !known;
         if (who != "all" && !world.robot(i).find(who) && !last) continue;
         known = true;
-        (void)config::apply_faults(world.robot(i), text, "--fault");
+        (void)world.seat(i).apply_faults(text, "--fault");
       }
     } catch (const InputError& error) {
       problems.add_all(error);
@@ -105,16 +104,16 @@ RunSession::RunSession(const RunOptions& options, Console& console)
       travel_window_s_(travel_window_s(gait_)),
       control_(options.paused),
       travel_(travel_window_s_, 1 / kTravelRate_Hz),
-      travel_cadence_(kTravelRate_Hz),
-      notices_cadence_(kNoticesRate_Hz) {
+      travel_cadence_(kTravelRate_Hz) {
   for (const auto& warning : world_.warnings()) console_.line("warning: " + warning);
   if (world_.robot_count() == 0)
     console_.line("warning: the world has no actuator: no model that moves has a <plugin name=\"vsa::Robot\">");
   break_robots(world_, faults_);
   if (gait_) gait_->bind(world_);
   const auto report = [&console](const std::string& line) { console.line(line); };
+  for (std::size_t i = 0; i < world_.robot_count(); ++i) world_.seat(i).report_to(report);
   if (!options.no_topics) server_.emplace(world_, control_, report);
-  open_ports(report);
+  open_ports();
   if (options.view) open_view(options);
   // Last, so that a run that is refused has not touched an earlier record.
   if (!options.record.empty()) recorder_.emplace(world_, options.record, recorder_options(faults_));
@@ -132,11 +131,12 @@ void RunSession::open_view(const RunOptions& options) {
   console_.line("live view: " + view_->url());
 }
 
-void RunSession::open_ports(const ports::Report& report) {
+void RunSession::open_ports() {
   Problems problems;
   for (std::size_t i = 0; i < world_.robot_count(); ++i) {
     try {
-      ports_.open(world_.robot(i), world_.robot_model(i), report);
+      world_.seat(i).open_ports();
+      has_ports_ = has_ports_ || !world_.seat(i).ports().empty();
     } catch (const InputError& error) {
       problems.add_all(error);
     }
@@ -175,21 +175,15 @@ void RunSession::step() {
     travel_cadence_.taken(world_.time_ns());
     travel_.add(world_.center_of_mass(robot_model_));
   }
-  if (server_) server_->stepped();
-  if (!server_) tell_notices();
+  if (server_) {
+    server_->stepped();
+  } else {
+    for (std::size_t i = 0; i < world_.robot_count(); ++i) world_.seat(i).publish_step(world_.time_ns());
+  }
   if (view_) view_->stepped();
   keep_time();
   constexpr std::uint64_t kLookAtClock = 16;  // steps between two looks at the wall clock for the progress line
   if (steps_ % kLookAtClock == 0) console_.progress(world_.time_s(), duration_s_, speed_factor());
-}
-
-/// Without topics nobody else takes them.
-void RunSession::tell_notices() {
-  if (!notices_cadence_.due(world_.time_ns())) return;
-  notices_cadence_.taken(world_.time_ns());
-  for (std::size_t i = 0; i < world_.robot_count(); ++i) {
-    for (const host::Notice& notice : world_.robot(i).take_notices()) console_.line(world_.robot_model(i) + ": " + notice.text);
-  }
 }
 
 void RunSession::take_speed() {
@@ -201,7 +195,7 @@ void RunSession::take_speed() {
 /// At full speed nothing waits, but a client on a serial port lives by the wall clock and wants to know.
 void RunSession::keep_time() {
   if (view_ && view_->speed_changes() != speed_changes_) take_speed();
-  if (!speed_ && (ports_.all().empty() || told_late_)) return;
+  if (!speed_ && (!has_ports_ || told_late_)) return;
   RealTimePace::Clock::time_point due;
   const bool in_time = speed_ ? pace_.hold(world_.time_ns()) : pace_.keeps_up(world_.time_ns(), RealTimePace::Clock::now(), due);
   if (in_time || std::exchange(told_late_, true)) return;
@@ -215,7 +209,6 @@ void RunSession::reset() {
   if (gait_) gait_->reset();
   travel_.restart();
   travel_cadence_.restart();
-  notices_cadence_.restart();
   if (recorder_) recorder_->sample(world_);
   if (server_) server_->idle();
   if (view_) view_->idle();
@@ -265,12 +258,12 @@ std::vector<record::Statistic> RunSession::statistics() const {
 
 std::vector<record::Statistic> RunSession::finish(const std::string& note) {
   wall_.pause();
-  if (!server_) {
-    notices_cadence_.restart();
-    tell_notices();
-  }
+  for (std::size_t i = 0; !server_ && i < world_.robot_count(); ++i) world_.seat(i).publish(world_.time_ns());
   std::vector<record::Statistic> out = statistics();
-  for (const auto& port : ports_.all()) out.push_back({"serial port", port->path() + ": " + in_a_line(port->counters())});
+  for (std::size_t i = 0; i < world_.robot_count(); ++i) {
+    for (const auto& port : world_.seat(i).ports())
+      out.push_back({"serial port", port->path() + ": " + in_a_line(port->counters())});
+  }
   if (view_) {
     for (const auto& page : view_->finish(note)) out.push_back({"recorded in the view", page.string()});
   }

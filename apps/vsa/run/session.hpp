@@ -14,7 +14,6 @@
 #include "terminal/pace.hpp"
 #include "vsa/engine/gait.hpp"
 #include "vsa/engine/world.hpp"
-#include "vsa/ports/robot_ports.hpp"
 #include "vsa/record/recorder.hpp"
 #include "vsa/study/travel.hpp"
 #include "vsa/topics/run_control.hpp"
@@ -38,11 +37,10 @@ class RunSession {
  private:
   [[nodiscard]] bool done() const { return end_ns_ && world_.time_ns() >= *end_ns_; }
   void open_view(const RunOptions& options);
-  void open_ports(const ports::Report& report);
+  void open_ports();
   void step();
   void reset();
   void idle();
-  void tell_notices();
   void take_speed();
   void keep_time();
   [[nodiscard]] double speed_factor() const;
@@ -59,9 +57,8 @@ class RunSession {
   topics::RunControl control_;
   std::optional<record::Recorder> recorder_;
   std::optional<topics::WorldServer> server_;
-  ports::RobotPorts ports_;
   study::Travel travel_;
-  record::Cadence travel_cadence_, notices_cadence_;
+  record::Cadence travel_cadence_;
   std::optional<view::LiveView> view_;
   std::uint64_t speed_changes_ = 0;
   RealTimePace pace_;
@@ -69,7 +66,7 @@ class RunSession {
   std::optional<std::int64_t> end_ns_;
   std::uint64_t steps_ = 0;
   int resets_ = 0;
-  bool told_late_ = false;
+  bool has_ports_ = false, told_late_ = false;
 };
 
 }  // namespace vsa::app

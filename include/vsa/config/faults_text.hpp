@@ -18,10 +18,8 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "vsa/device/faults.hpp"
-#include "vsa/host/robot.hpp"
 
 namespace vsa::config {
 
@@ -30,9 +28,5 @@ namespace vsa::config {
 
 /// The inverse; noise as far as all encoders share it.
 [[nodiscard]] std::string faults_text(const device::Faults& faults);
-
-/// "ACTUATOR words" or "all words": sets the faults of one actuator or of all, or of none where anything is wrong. With the same
-/// words each unit gets the next seed. Returns the actuators' names.
-std::vector<std::string> apply_faults(host::Robot& robot, std::string_view text, std::string_view source);
 
 }  // namespace vsa::config

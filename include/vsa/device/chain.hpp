@@ -81,6 +81,8 @@ class Chain {
 
   [[nodiscard]] std::size_t size() const noexcept { return stations_.size(); }
   [[nodiscard]] const ChainState& state() const noexcept { return state_; }
+  /// state(), into one that was saved to before: allocates nothing then, whatever is under way on the line.
+  void save(ChainState& into) const;
   /// For snapshots: the same number of stations. The programs' states are the owner's to restore.
   void restore(const ChainState& state) { state_ = state; }
 

@@ -25,6 +25,10 @@
 #include "vsa/engine/handles.hpp"
 #include "vsa/host/robot.hpp"
 
+namespace vsa::seat {
+class Seat;
+}
+
 namespace vsa::engine {
 
 /// Collision meshes that aren't convex, which the engine would fill to their hulls without a word. A <mesh> that says
@@ -143,6 +147,8 @@ class World {
   [[nodiscard]] host::Robot& robot(std::size_t index);
   [[nodiscard]] const host::Robot& robot(std::size_t index) const;
   [[nodiscard]] const std::string& robot_model(std::size_t index) const;  ///< scoped model name
+  /// A robot's ports, topics and faults (vsa/seat/seat.hpp). Its steps, joints, snapshots and reset are the world's.
+  [[nodiscard]] seat::Seat& seat(std::size_t index);
 
   // Bodies
   [[nodiscard]] const std::vector<LinkInfo>& links() const;

@@ -53,6 +53,8 @@ struct ActuatorConfig {
   int id = 1;           ///< device id on that bus, 1–254
   double initial_equilibrium_rad = 0;
   double initial_preset = 0;  ///< in the law's preset unit
+  /// False: the text names no initial equilibrium, and a host whose joint starts elsewhere may put it there.
+  bool equilibrium_given = true;
 };
 
 struct BusConfig {
@@ -67,6 +69,8 @@ struct BusConfig {
 };
 
 inline constexpr int kMostSubsteps = 64;
+inline constexpr std::int64_t kLongestStep_ns = 16'000'000;  ///< of Robot::advance
+inline constexpr double kLongestStep_s = 1e-9 * static_cast<double>(kLongestStep_ns);
 
 struct RobotConfig {
   std::vector<ActuatorConfig> actuators;
@@ -224,6 +228,11 @@ class Robot {
   void restore(const Snapshot& snapshot);
   void check(const Snapshot& snapshot) const;  ///< throws what restore() would
   void reset();                                ///< back to the first sample
+
+  /// For a host whose step may fail: keep() before it notes what snapshot() would hold, in memory that the robot has for it, so that
+  /// nothing is allocated; go_back() is restore() of that, or of the first sample where nothing was kept.
+  void keep();
+  void go_back();
 
  private:
   struct Impl;

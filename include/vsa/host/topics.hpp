@@ -14,6 +14,7 @@
 //   /model/M/joint/J/deflection        double        rad      shaft − equilibrium
 //   /model/M/joint/J/preset            double        rad ¹    attained, from the pulleys
 //   /model/M/joint/J/current_1, _2     double        A        physical; the unit's filtered readings are on its port
+//   /model/M/vsa/faults                a service: text to text; what it means is a seat's business (vsa/seat/seat.hpp)
 //   ¹ the unit of the actuator's law: half the pulleys' difference, in rad, for the qbmove
 //
 // A trajectory with one point acts at once, whatever its time. With several, each channel goes linearly from its
@@ -29,6 +30,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -93,6 +95,9 @@ class TopicPort {
   virtual Outcome on_double(const std::string& topic, std::function<void(double)> handler) = 0;
   virtual Outcome on_trajectory(const std::string& topic, std::function<void(const Trajectory&)> handler) = 0;
   virtual Outcome on_actuators(const std::string& topic, std::function<void(const ActuatorsCmd&)> handler) = 0;
+  /// A service: a text is asked and one answered; none: there is nobody any more who could.
+  using Answer = std::function<std::optional<std::string>(const std::string& request)>;
+  virtual Outcome serve_text(const std::string& service, Answer answer) = 0;
   /// Null: unsupported or refused.
   virtual std::unique_ptr<Publisher<double>> advertise_double(const std::string& topic) = 0;
   virtual std::unique_ptr<Publisher<JointStates>> advertise_states(const std::string& topic) = 0;

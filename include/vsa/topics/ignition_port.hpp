@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// host::TopicPort on ignition-transport 11 with stock messages: Double, JointTrajectory, Actuators and Model, simulated stamps.
+// host::TopicPort on ignition-transport 11 with stock messages: Double, JointTrajectory, Actuators, Model and StringMsg,
+// simulated stamps.
 #pragma once
 
 #include <memory>
@@ -23,6 +24,7 @@ class IgnitionPort final : public host::TopicPort {
   host::Outcome on_double(const std::string& topic, std::function<void(double)> handler) override;
   host::Outcome on_trajectory(const std::string& topic, std::function<void(const host::Trajectory&)> handler) override;
   host::Outcome on_actuators(const std::string& topic, std::function<void(const host::ActuatorsCmd&)> handler) override;
+  host::Outcome serve_text(const std::string& service, Answer answer) override;  ///< StringMsg to StringMsg
   std::unique_ptr<host::Publisher<double>> advertise_double(const std::string& topic) override;
   std::unique_ptr<host::Publisher<host::JointStates>> advertise_states(const std::string& topic) override;
 

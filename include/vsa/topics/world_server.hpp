@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // A world on the transport: its robots' topics (host/topics.hpp), /clock, /world/W/stats and the services /world/W/control and
-// /model/M/vsa/faults (vsa/topics/fault_service.hpp).
+// /model/M/vsa/faults (vsa/seat/seat.hpp).
 //
 // WorldControl → Boolean. Honoured: pause, step, multi_step, reset.all, run_to_sim_time, as in gz-sim (in that message an absent
 // `pause` is false and lets the world run). Refused whole, with reply false and one reported line: reset.time_only,
@@ -20,7 +20,8 @@ namespace vsa::topics {
 /// World and control must outlive it. All but the constructor's `report` stays in the thread that calls.
 class WorldServer {
  public:
-  /// Throws InputError for names that can't be topics. `report` gets readable lines, from any thread.
+  /// Throws InputError for names that can't be topics. `report` gets readable lines, from any thread: all that the robots' seats
+  /// have to tell as long as the server lives.
   WorldServer(engine::World& world, RunControl& control, host::RobotTopics::Report report);
   ~WorldServer();
   WorldServer(const WorldServer&) = delete;

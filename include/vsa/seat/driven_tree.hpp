@@ -10,7 +10,7 @@
 
 #include "vsa/host/tree_inertia.hpp"
 
-namespace vsa::plugins {
+namespace vsa::seat {
 
 class DrivenTree {
  public:
@@ -46,4 +46,4 @@ class DrivenTree {
   std::vector<std::vector<std::size_t>> trees_, of_tree_;
 };
 
-}  // namespace vsa::plugins
+}  // namespace vsa::seat

@@ -1,5 +1,5 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "driven_joints.hpp"
+#include "vsa/seat/driven_joints.hpp"
 
 #include <map>
 #include <mutex>
@@ -7,7 +7,7 @@
 
 #include "vsa/errors.hpp"
 
-namespace vsa::plugins {
+namespace vsa::seat {
 namespace {
 
 struct Registry {
@@ -41,4 +41,4 @@ DrivenJoints::~DrivenJoints() {
   for (const JointKey& key : mine_) registry.owners.erase(key);
 }
 
-}  // namespace vsa::plugins
+}  // namespace vsa::seat

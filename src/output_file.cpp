@@ -1,5 +1,5 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "record/output_file.hpp"
+#include "vsa/output_file.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,9 +11,8 @@
 #include <utility>
 
 #include "vsa/errors.hpp"
-#include "vsa/record/run_data.hpp"
 
-namespace vsa::record {
+namespace vsa {
 
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
   fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -35,7 +34,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
 }
 
 void OutputFile::fail(std::string_view what, int error) const {
-  throw RecordError(path_.string() + ": " + std::string(what) + ": " + std::system_category().message(error));
+  throw OutputError(path_.string() + ": " + std::string(what) + ": " + std::system_category().message(error));
 }
 
 void OutputFile::append(std::string_view piece) {
@@ -83,4 +82,4 @@ DirectoryLock& DirectoryLock::operator=(DirectoryLock&& other) noexcept {
   return *this;
 }
 
-}  // namespace vsa::record
+}  // namespace vsa

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-namespace vsa::plugins {
+namespace vsa::seat {
 
 /// A joint among all that live in this process, as its host tells it apart. Not its name: of two models of one name, one may be on
 /// its way out.
@@ -40,4 +40,4 @@ class DrivenJoints {
   std::vector<JointKey> mine_;
 };
 
-}  // namespace vsa::plugins
+}  // namespace vsa::seat

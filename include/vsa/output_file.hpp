@@ -4,22 +4,29 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <string_view>
 
-namespace vsa::record {
+namespace vsa {
+
+/// Writing failed after it had begun (disk full, …). what() gives path and reason.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// A file that is appended to in whole pieces: a piece that fails half-way is cut off again, so that what stays is readable.
 class OutputFile {
  public:
   OutputFile() = default;
-  explicit OutputFile(std::filesystem::path path);  ///< creates or empties; throws RecordError
+  explicit OutputFile(std::filesystem::path path);  ///< creates or empties; throws OutputError
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&& other) noexcept;
 
-  void append(std::string_view piece);  ///< throws RecordError
-  void restart();                       ///< empties; throws RecordError
-  void close();                         ///< throws RecordError
+  void append(std::string_view piece);  ///< throws OutputError
+  void restart();                       ///< empties; throws OutputError
+  void close();                         ///< throws OutputError
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
  private:
@@ -45,4 +52,4 @@ class DirectoryLock {
   int fd_ = -1;
 };
 
-}  // namespace vsa::record
+}  // namespace vsa

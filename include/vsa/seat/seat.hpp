@@ -1,0 +1,172 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What every simulator does with a robot; its host only carries numbers in and out (docs/seat.md, examples/host).
+//
+//   Seat seat({element_xml, "world: model", "model", joints_of_the_model}, options);
+//   seat.join(trees);            which joints move each other            once
+//   seat.open_ports();           the buses' serial ports
+//   seat.connect(port);          the robot's topics, on any transport
+//
+//   every step:  each actuator's angle and speed into seat.in()
+//                if (seat.wants_mobility()) fill seat.mobility();
+//                seat.step(dt_ns);
+//                apply seat.torques(), and let the host's engine make its step
+//                each angle and speed again; seat.observe();             where the host can look after its step
+//                seat.publish_step(simulated time);
+//   standing:    seat.publish_paused(simulated time);
+//
+// The seat's clock counts the steps that it was given since it was made or reset, so a host that sets its time back or seeks doesn't
+// disturb buses and firmware; stamps of messages are the host's time.
+// One thread steps; commands, faults and clients of serial ports come from any.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "vsa/config/plugin_xml.hpp"
+#include "vsa/host/mobility_watch.hpp"
+#include "vsa/host/robot.hpp"
+#include "vsa/host/topics.hpp"
+#include "vsa/ports/pace_watch.hpp"
+#include "vsa/ports/robot_ports.hpp"
+#include "vsa/seat/driven_joints.hpp"
+
+namespace vsa::seat {
+
+/// A joint of the host's model.
+struct Joint {
+  std::string name;                   ///< relative to the model: "module_1::shaft"
+  JointKey key{};                     ///< none: two robots that drive one joint go unnoticed
+  std::string refusal{};              ///< why no actuator can drive it; empty: one can
+  std::optional<double> start_rad{};  ///< where it begins, if not at 0
+};
+
+struct Model {
+  std::string xml;            ///< of the whole <plugin> element
+  std::string where;          ///< leads every line of a problem: "arm.sdf: arm"
+  std::string name;           ///< scoped
+  std::vector<Joint> joints;  ///< those that an element may name
+};
+
+struct Options {
+  config::PresetLibrary presets{};
+  config::Replacement actuator{};      ///< puts another actuator on the robot
+  host::RobotTopics::Report report{};  ///< one readable line, from any thread; none: nobody is told
+  bool makes_substeps = false;         ///< the host honours <substeps>; else a robot that asks for several is refused
+  bool watches_pace = true;            ///< tells once where a robot with a serial port falls behind the wall clock
+};
+
+class Seat {
+ public:
+  using Report = host::RobotTopics::Report;
+
+  /// Throws InputError with every problem at once; a joint that another robot of this process drives is one.
+  Seat(const Model& model, const Options& options);
+  ~Seat();
+  Seat(const Seat&) = delete;
+  Seat& operator=(const Seat&) = delete;
+  /// Another seat with its robot in the same state, without ports, topics and report: for a copy of the host's model.
+  [[nodiscard]] std::unique_ptr<Seat> clone() const;
+
+  [[nodiscard]] const std::string& model() const noexcept { return model_; }  ///< scoped name
+  [[nodiscard]] host::Robot& robot() noexcept { return robot_; }
+  [[nodiscard]] const host::Robot& robot() const noexcept { return robot_; }
+  /// Of the actuators, into Model::joints.
+  [[nodiscard]] const std::vector<std::size_t>& joints() const noexcept { return joints_; }
+  void report_to(Report report) { report_ = std::move(report); }  ///< from now on; topics: from connect() on
+
+  /// Which actuators' joints move each other (host::Robot::join). None where the model is no tree: that is reported, and each joint
+  /// is then solved by itself with its type's shaft inertia, or what the host gives as JointIn::inverse_inertia.
+  void join(const std::vector<std::vector<std::size_t>>& trees);
+
+  // One step. Nothing is allocated, as long as nothing is reported.
+  [[nodiscard]] std::span<host::JointIn> in() noexcept { return now_.in; }
+  /// Once before each step, when in() is filled: whether B is due (host/mobility_watch.hpp).
+  [[nodiscard]] bool wants_mobility() noexcept { return !mobility_.empty() && watch_.due(now_.in); }
+  [[nodiscard]] std::span<double> mobility() noexcept { return mobility_; }
+  /// A step length that the units don't know, or a joint that is no longer finite, stops the actuators with one reported line:
+  /// torques are 0 until reset().
+  void step(std::int64_t dt_ns);
+  [[nodiscard]] std::span<const double> torques() const noexcept { return torques_; }
+  [[nodiscard]] bool stopped() const noexcept { return now_.stopped; }
+  /// in() tells where the joints are after the host's step.
+  void observe() noexcept { robot_.observe(now_.in); }
+  /// The host has put bodies elsewhere: B is due in the next step. With an actuator: its joint, and that was neither work nor
+  /// acceleration.
+  void moved() noexcept { watch_.again(); }
+  void moved(std::size_t actuator) noexcept;
+
+  void open_ports();  ///< reports each; throws InputError with every one that can't be had
+  [[nodiscard]] const std::vector<std::unique_ptr<serial::VirtualPort>>& ports() const noexcept { return ports_.all(); }
+
+  /// The robot's topics (host/topics.hpp) and the service of its faults, /model/M/vsa/faults: asked "ACTUATOR words" or "all words"
+  /// (config/faults_text.hpp) it answers "ok: …", or "refused: …" and nothing has changed. Several ports: on each. Throws InputError
+  /// for names that the transport doesn't take.
+  void connect(std::shared_ptr<host::TopicPort> port);
+  void disconnect();  ///< from all
+  /// After a step: states at the robot's state rate, and what the robot has to tell. Without topics: only that, 10 times a simulated
+  /// second.
+  void publish_step(std::int64_t time_ns);
+  void publish_paused(std::int64_t time_ns);    ///< the same while the host stands, 10 times a wall second at most
+  void publish(std::int64_t time_ns);           ///< now, whatever the time
+  [[nodiscard]] std::uint64_t refused() const;  ///< commands on topics refused so far
+
+  /// "ACTUATOR words" or "all words" (config/faults_text.hpp): sets the faults of one actuator or of all, or of none where anything
+  /// is wrong (InputError; `source` names the text in it). With the same words each unit gets the next seed. Returns the actuators'
+  /// names. From any thread.
+  std::vector<std::string> apply_faults(std::string_view text, std::string_view source);
+
+  void reset();  ///< back to the first sample
+
+  struct Snapshot;  ///< of robot, clock, B and in()
+  [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
+  void restore(const Snapshot& snapshot);
+  void check(const Snapshot& snapshot) const;  ///< throws InputError where restore() would be wrong
+  /// For a host whose step may fail: keep() before it, and go_back() to there. Nothing is allocated.
+  void keep();
+  void go_back();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Desk;
+  /// What a step changes beside the robot and B.
+  struct Moment {
+    std::int64_t time_ns = 0;
+    bool stopped = false;
+    std::vector<host::JointIn> in;
+  };
+  struct Connection {
+    std::shared_ptr<host::TopicPort> port;
+    host::RobotTopics topics;
+  };
+
+  Seat(const Seat& other, host::Robot robot);
+  void stop(const std::string& why);
+  void tell(const std::string& line) const;
+  void tell_notices();
+
+  std::string model_;
+  host::Robot robot_;
+  std::vector<std::size_t> joints_;
+  DrivenJoints driven_;
+  Report report_;
+  bool watches_pace_;
+  Moment now_, kept_;
+  std::vector<double> torques_, mobility_;
+  host::MobilityWatch watch_;
+  std::int64_t last_told_ = -1;  ///< tenth of a second whose notices were told
+  Clock::time_point next_paused_{};
+  std::vector<Connection> connections_;
+  std::shared_ptr<Desk> desk_;  ///< answers for the seat while it is connected
+  ports::RobotPorts ports_;
+  ports::PaceWatch pace_;
+};
+
+}  // namespace vsa::seat

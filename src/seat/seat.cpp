@@ -1,0 +1,187 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// From an element to a seat; its steps and snapshots.
+#include "vsa/seat/seat.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "vsa/config/text.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/units.hpp"
+
+namespace vsa::seat {
+namespace {
+
+const Joint* find(const Model& model, const std::string& name) {
+  const auto it = std::find_if(model.joints.begin(), model.joints.end(), [&](const Joint& j) { return j.name == name; });
+  return it == model.joints.end() ? nullptr : &*it;
+}
+
+void check_joints(const host::RobotConfig& config, const Model& model, Problems& problems) {
+  std::vector<std::string> names;
+  for (const Joint& joint : model.joints) names.push_back(joint.name);
+  config::check_joints(config, names, model.where, problems);
+  for (const host::ActuatorConfig& a : config.actuators) {
+    const Joint* joint = find(model, a.joint);
+    if (joint != nullptr && !joint->refusal.empty())
+      problems.add({model.where, "actuator[" + a.name + "]/joint", a.joint, joint->refusal,
+                    "a revolute or continuous joint that follows no other"});
+  }
+}
+
+/// An actuator whose text gives no equilibrium starts where its joint does, so that its springs aren't wound up.
+void start_with_joints(host::RobotConfig& config, const Model& model, Problems& problems) {
+  for (host::ActuatorConfig& a : config.actuators) {
+    const Joint* joint = find(model, a.joint);
+    const double start = joint == nullptr ? 0 : joint->start_rad.value_or(0);
+    if (start == 0 || a.equilibrium_given) continue;
+    if (std::abs(start) > kPi)
+      problems.add({model.where, "actuator[" + a.name + "]/initial@equilibrium_rad", "",
+                    "is needed: its joint starts at " + config::number_text(start) + " rad",
+                    "an equilibrium near the joint's start"});
+    a.initial_equilibrium_rad = start;
+  }
+}
+
+host::Robot make_robot(const Model& model, const Options& options) {
+  host::RobotConfig config = config::parse_plugin(model.xml, model.where, options.presets, options.actuator);
+  Problems problems;
+  check_joints(config, model, problems);
+  start_with_joints(config, model, problems);
+  if (!options.makes_substeps) config::check_one_step(config, model.where, problems);
+  problems.throw_if_any();
+  return host::Robot(std::move(config));
+}
+
+std::vector<std::size_t> joints_of(const host::Robot& robot, const Model& model) {
+  std::vector<std::size_t> out;
+  for (const host::ActuatorConfig& a : robot.config().actuators)
+    out.push_back(static_cast<std::size_t>(find(model, a.joint) - model.joints.data()));
+  return out;
+}
+
+std::vector<DrivenJoints::Joint> driven(const host::Robot& robot, const Model& model, const std::vector<std::size_t>& joints) {
+  std::vector<DrivenJoints::Joint> out;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const Joint& joint = model.joints[joints[i]];
+    if (joint.key.world != nullptr) out.push_back({joint.key, joint.name, robot.config().actuators[i].name});
+  }
+  return out;
+}
+
+}  // namespace
+
+Seat::Seat(const Model& model, const Options& options)
+    : model_(model.name),
+      robot_(make_robot(model, options)),
+      joints_(joints_of(robot_, model)),
+      driven_(model.where, driven(robot_, model, joints_)),
+      report_(options.report),
+      watches_pace_(options.watches_pace),
+      now_{0, false, std::vector<host::JointIn>(robot_.size())},
+      kept_(now_),
+      torques_(robot_.size(), 0.0),
+      watch_(robot_.size()) {}
+
+Seat::Seat(const Seat& other, host::Robot robot)
+    : model_(other.model_),
+      robot_(std::move(robot)),
+      joints_(other.joints_),
+      driven_("", {}),
+      watches_pace_(other.watches_pace_),
+      now_(other.now_),
+      kept_(other.kept_),
+      torques_(other.torques_),
+      mobility_(other.mobility_),
+      watch_(other.watch_) {}
+
+Seat::~Seat() { disconnect(); }
+
+std::unique_ptr<Seat> Seat::clone() const { return std::unique_ptr<Seat>(new Seat(*this, robot_.clone())); }
+
+void Seat::tell(const std::string& line) const {
+  if (report_) report_(line);
+}
+
+void Seat::join(const std::vector<std::vector<std::size_t>>& trees) {
+  if (trees.empty() && robot_.size() > 0) {
+    tell(model_ +
+         ": no tree of hinges, sliders and fixed joints (a loop, a ball joint, another model's link): its joints are solved one "
+         "by one with their types' shaft.inertia_kgm2");
+    return;
+  }
+  robot_.join(trees);
+  mobility_.resize(robot_.mobility_size());
+}
+
+void Seat::stop(const std::string& why) {
+  now_.stopped = true;
+  std::fill(torques_.begin(), torques_.end(), 0.0);
+  tell(model_ + ": " + why + ": its actuators give no torque until the world is reset");
+}
+
+void Seat::step(std::int64_t dt_ns) {
+  if (now_.stopped) return;
+  if (dt_ns <= 0 || dt_ns > host::kLongestStep_ns)
+    return stop("a step of " + std::to_string(dt_ns) + " ns is outside 1 ns … 16 ms");
+  for (std::size_t i = 0; i < now_.in.size(); ++i) {
+    if (std::isfinite(now_.in[i].angle_rad) && std::isfinite(now_.in[i].speed_rad_per_s)) continue;
+    return stop("joint " + robot_.config().actuators[i].joint + " is no longer at a finite angle or speed");
+  }
+  robot_.advance(now_.time_ns, dt_ns, now_.in, torques_, mobility_);
+  for (host::JointIn& joint : now_.in) joint.placed = false;
+  now_.time_ns += dt_ns;
+  if (watches_pace_ && !ports_.all().empty() && pace_.fell_behind(Clock::now(), now_.time_ns))
+    tell(model_ + ": slower than real time: units on serial ports answer in time, but move more slowly than a client expects");
+}
+
+void Seat::moved(std::size_t actuator) noexcept {
+  now_.in[actuator].placed = true;
+  watch_.again();
+}
+
+void Seat::reset() {
+  robot_.reset();
+  pace_.stood();
+  now_.time_ns = 0;
+  now_.stopped = false;
+  watch_.again();
+  std::fill(torques_.begin(), torques_.end(), 0.0);
+}
+
+struct Seat::Snapshot {
+  std::shared_ptr<const host::Robot::Snapshot> robot;
+  Moment now;
+  std::vector<double> mobility;
+  host::MobilityWatch watch;
+};
+
+std::shared_ptr<const Seat::Snapshot> Seat::snapshot() const {
+  return std::make_shared<const Snapshot>(Snapshot{robot_.snapshot(), now_, mobility_, watch_});
+}
+
+void Seat::check(const Snapshot& snapshot) const { robot_.check(*snapshot.robot); }
+
+void Seat::restore(const Snapshot& snapshot) {
+  robot_.restore(*snapshot.robot);
+  now_ = snapshot.now;
+  mobility_ = snapshot.mobility;
+  watch_ = snapshot.watch;
+  last_told_ = -1;
+  pace_.stood();
+}
+
+void Seat::keep() {
+  robot_.keep();
+  kept_ = now_;
+}
+
+void Seat::go_back() {
+  robot_.go_back();
+  now_ = kept_;
+  watch_.again();
+}
+
+}  // namespace vsa::seat

@@ -1,0 +1,61 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What a step takes from the heap: nothing, whatever goes on in it.
+#include <cmath>
+
+#include "arm.hpp"
+
+long allocation_count();  // allocation_count.cpp
+
+namespace vsa::engine::testing {
+namespace {
+
+/// Over `steps` that follow some that may still grow what they need.
+long allocations_of(World& w, int steps, double (*equilibrium_rad)(double)) {
+  const auto run = [&](int n) {
+    for (int k = 0; k < n; ++k) {
+      for (const ActuatorRef& a : w.actuators()) w.command(a, equilibrium_rad(w.time_s()), 0.3);
+      w.step();
+    }
+  };
+  run(100);
+  const long before = allocation_count();
+  run(steps);
+  return allocation_count() - before;
+}
+
+double swing(double t_s) { return 0.5 * std::sin(5 * t_s); }
+
+TEST(Allocation, AStepOfTheSnakeOnTheGroundTakesNothingFromTheHeap) {
+  World w = World::load(VSA_SOURCE_DIR "/models/worlds/snake_flat.sdf");
+  EXPECT_EQ(allocations_of(w, 400, swing), 0);
+  EXPECT_GT(w.contact_count(), 0);
+}
+
+TEST(Allocation, AStepOfSeveralSubstepsWithHandsAtWorkTakesNothingFromTheHeap) {
+  std::string text = arm();
+  const std::string actuator = "<actuator ";
+  World w = World::load_string(text.replace(text.find(actuator), 0, "<substeps>4</substeps>"));
+  ASSERT_EQ(w.substeps(), 4);
+  Pull pull;
+  pull.link = w.link("arm::fore").index();
+  pull.target_m = {0.3, 0.1, 1.1};
+  w.pull({pull});
+  w.apply_wrench(w.link("arm::upper"), {{0, 0, 1}, {0, 0.1, 0}, {0.1, 0, 0}});
+  w.apply_torque(w.joint("arm::elbow"), 0.05);
+  EXPECT_EQ(allocations_of(w, 400, swing), 0);
+}
+
+/// The line is then worked out bit by bit, and bytes of old frames wait on it.
+TEST(Allocation, AStepWithFaultsOnTheLineTakesNothingFromTheHeap) {
+  World w = World::load(VSA_SOURCE_DIR "/models/worlds/snake_flat.sdf");
+  device::Faults faults;
+  faults.lost_byte = 0.05;
+  faults.flipped_byte = 0.05;
+  faults.late_s = 1e-3;
+  for (std::size_t i = 0; i < w.robot(0).size(); ++i) w.robot(0).set_faults(i, faults);
+  EXPECT_EQ(allocations_of(w, 400, swing), 0);
+}
+
+}  // namespace
+}  // namespace vsa::engine::testing
