@@ -14,8 +14,8 @@
 # make test-gazebo   the plug-in in a real Gazebo Classic 11; where the system has none, in a private Debian 11 (0.5 GB, made once)
 # make test-gazebo-long   ten simulated minutes there, with test-long; make bench-gazebo   what the plug-in costs there, or beside another plug-in (VSA_PEER_WORLD)
 # make test-gz       the plug-in in a real gz-sim, where there is one (VSA_GZ_PREFIX)
-# make stiffness-uses   what stiffness is good for (docs/17): pages in out/stiffness_uses; minutes
-# make snake-travel   how far the snake gets over its terrains (docs/snake.md); about 20 minutes
+# make stiffness-uses   what stiffness is good for (docs/explanation/what-stiffness-is-good-for.md): pages in out/stiffness_uses; minutes
+# make snake-travel   how far the snake gets over its terrains (docs/explanation/snake.md); about 20 minutes
 JOBS ?= $(shell nproc)
 FUZZ_S ?= 300
 BUILD := build/release

@@ -1,7 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// When each of 12 units on one bus has the references of one command, against the wire model (docs/6-bus-and-device.md). One curve
-// a time of the command within the master's cycle; the robot is stepped by a byte's time.
+// When each of 12 units on one bus has the references of one command, against the wire model
+// (docs/explanation/6-bus-and-device.md). One curve a time of the command within the master's cycle; the robot is stepped by a
+// byte's time.
 //
 //   reference_times PAGE.html
 #include <fmt/format.h>

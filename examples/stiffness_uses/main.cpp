@@ -1,7 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// vsa-stiffness-uses impact|gripper|throw|terrain [--out DIR]: what variable stiffness is good for, measured (docs/17). Each writes a
-// page and prints its table. Exit codes: 0 done, 1 failed, 2 bad usage or input.
+// vsa-stiffness-uses impact|gripper|throw|terrain [--out DIR]: what variable stiffness is good for, measured
+// (docs/explanation/what-stiffness-is-good-for.md). Each writes a page and prints its table. Exit codes: 0 done, 1 failed, 2 bad
+// usage or input.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

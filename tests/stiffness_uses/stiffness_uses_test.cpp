@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The physics behind docs/17: impulse is change of momentum, moments balance, energy closes, and the trends that the page claims.
+// The physics behind docs/explanation/what-stiffness-is-good-for.md: impulse is change of momentum, moments balance, energy closes,
+// and the trends that the page claims.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Debian's own command-line client, over real sockets: what docs/topics.md shows.
+// Debian's own command-line client, over real sockets: what docs/reference/topics.md shows.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

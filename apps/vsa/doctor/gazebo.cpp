@@ -113,7 +113,7 @@ Missing missing(const std::string& ldd, const fs::path& file) {
 
 void check_library(Findings& findings, const Host& host, const fs::path& file) {
   const std::string what = std::string("plug-in for ") + host.name;
-  const std::string build = "build the plug-in against this machine's Gazebo: docs/13-gazebo.md";
+  const std::string build = "build the plug-in against this machine's Gazebo: docs/howto/gazebo.md";
   if (!find_executable("ldd")) {
     findings.note(what, file.string() + ", which wasn't tried: there is no ldd here");
     return;

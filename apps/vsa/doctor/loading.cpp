@@ -17,7 +17,7 @@ void load_world(Findings& findings, const std::filesystem::path& file) {
       findings.ok("robot", fmt::format("{} with {} actuator{}", world.robot_model(r), world.robot(r).size(),
                                        world.robot(r).size() == 1 ? "" : "s"));
     if (world.robot_count() == 0)
-      findings.problem("robot", "no model has a <plugin name=\"vsa::Robot\">", "docs/config.md shows one");
+      findings.problem("robot", "no model has a <plugin name=\"vsa::Robot\">", "docs/reference/config.md shows one");
     for (const std::string& warning : world.warnings()) findings.note("vsa run", warning);
   } catch (const InputError& error) {
     for (Problem p : error.problems()) {

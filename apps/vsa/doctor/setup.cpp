@@ -15,7 +15,7 @@ Exit codes: 0 no problem, 1 a problem, 2 bad usage or no such world.
 Examples:
   vsa doctor                     what Gazebo, topics and serial ports need, here and now
   vsa doctor snake_flat          and this world
-  vsa doctor robot.sdf           elements of older plug-ins are written anew: docs/migration.md)";
+  vsa doctor robot.sdf           elements of older plug-ins are written anew: docs/howto/migration.md)";
 
 }  // namespace
 

@@ -15,9 +15,8 @@ namespace {
 
 constexpr const char* kCaption =
     "RMS of simulated − recorded deflection; predicted: of the recording, by a fit without it. AICc: more than the least of all "
-    "(docs/11-identify.md). Open: parameters or combinations that the recordings don't determine. Starts: local solutions, and by "
-    "how "
-    "much the worst is above the best.";
+    "(docs/howto/identify.md). Open: parameters or combinations that the recordings don't determine. Starts: local solutions, and "
+    "by how much the worst is above the best.";
 
 std::string rad(double v) { return std::isfinite(v) ? fmt::format("{:.4f}", v) : "–"; }
 

@@ -38,7 +38,7 @@ Writes report.html, results.json and identified.toml, a preset for vsa. Where th
 says which, writes no preset and ends with 1.
 
 --compare FILE fits each hypothesis of a TOML file to the recordings that it names, and with each of them left out, and
-writes comparison.md, comparison.json and every fit into --out; begun again it goes on. docs/11-identify.md tells the
+writes comparison.md, comparison.json and every fit into --out; begun again it goes on. docs/howto/identify.md tells the
 file's keys.
 
 Examples:

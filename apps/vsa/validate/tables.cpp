@@ -12,7 +12,7 @@ namespace {
 
 using report::Table;
 
-constexpr std::size_t kMarkdownWidth = 132;  // as the documents' own lines
+constexpr std::size_t kMarkdownWidth = 120;  // as the documents' own lines
 constexpr const char* kRmsTitle = "Simulated − recorded over |τ| ≤ 1.4 N·m, root mean square";
 
 std::string number(double value, int decimals) {
