@@ -14,15 +14,15 @@
 # make test-gazebo   the plug-in in a real Gazebo Classic 11; where the system has none, in a private Debian 11 (0.5 GB, made once)
 # make test-gazebo-long   ten simulated minutes there, with test-long; make bench-gazebo   what the plug-in costs there, or beside another plug-in (VSA_PEER_WORLD)
 # make test-gz       the plug-in in a real gz-sim, where there is one (VSA_GZ_PREFIX)
-# make experiments   what stiffness is good for (docs/explanation/what-stiffness-is-good-for.md): pages in out/experiments; minutes
-# make experiments-snake   how far the snake gets over its terrains (docs/explanation/snake.md); about 20 minutes
+# make stiffness-uses   what stiffness is good for (docs/explanation/what-stiffness-is-good-for.md): pages in out/stiffness_uses; minutes
+# make snake-travel   how far the snake gets over its terrains (docs/explanation/snake.md); about 20 minutes
 JOBS ?= $(shell nproc)
 FUZZ_S ?= 300
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
 .PHONY: all setup build demo test test-long flakes mutants validate bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan check-asan check-tsan tidy check-all format \
-  check-format experiments experiments-snake clean
+  check-format stiffness-uses snake-travel clean
 
 all: build
 
@@ -127,16 +127,16 @@ check-format:
 	@sh scripts/setup.sh tidy
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror
 
-experiments: setup
+stiffness-uses: setup
 	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
-	@cmake --build $(BUILD) -j $(JOBS) --target vsa-experiments -- --quiet
-	@$(BUILD)/bin/vsa-experiments impact
-	@$(BUILD)/bin/vsa-experiments gripper
-	@$(BUILD)/bin/vsa-experiments throw
-	@$(BUILD)/bin/vsa-experiments terrain --jobs $(JOBS)
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa-stiffness-uses -- --quiet
+	@$(BUILD)/bin/vsa-stiffness-uses impact
+	@$(BUILD)/bin/vsa-stiffness-uses gripper
+	@$(BUILD)/bin/vsa-stiffness-uses throw
+	@$(BUILD)/bin/vsa-stiffness-uses terrain --jobs $(JOBS)
 
 # 8 starts each of the snake's gaits over three grounds, 60 s of simulated time.
-experiments-snake: build
+snake-travel: build
 	@$(BUILD)/bin/snake_travel --jobs $(JOBS) --worlds flat --gaits sidewind_soft,sidewind,sidewind_stiff,steered_soft,steered,steered_stiff
 	@$(BUILD)/bin/snake_travel --jobs $(JOBS) --worlds rubble,hills --gaits sidewind,steered_soft,steered,steered_stiff
 	@$(BUILD)/bin/snake_travel --jobs $(JOBS) --worlds rubble --gaits climb_soft,climb,climb_stiff
