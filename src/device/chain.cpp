@@ -9,6 +9,7 @@
 namespace vsa::device {
 namespace {
 
+constexpr std::size_t kSpeeches = 16;   // of a station at a time: an answer through a fault is one a byte
 constexpr std::size_t kMaxDead = 4096;  // bytes of ended speeches that may lie in front of the living ones
 
 using bus::kPsPerNs;
@@ -19,9 +20,9 @@ Chain::Chain(const LineConfig& config, std::vector<Station> stations) : config_(
   state_.host_ear.rate = config_.rate;
   state_.ears.resize(stations_.size());
   for (ChainState::Ear& ear : state_.ears) ear.receiver.rate = config_.rate;
-  state_.speeches.reserve(4 * stations_.size() + 16);
+  state_.speeches.reserve(kSpeeches * stations_.size() + 16);
   state_.bytes.reserve(2 * kMaxDead + 64 * stations_.size());
-  speakers_.reserve(4 * stations_.size() + 16);
+  speakers_.reserve(kSpeeches * stations_.size() + 16);
 }
 
 void Chain::save(ChainState& into) const {

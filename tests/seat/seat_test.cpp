@@ -119,6 +119,7 @@ TEST(Seat, GoesBackToWhatItKeptAndToSnapshotsBitForBit) {
   const auto snapshot = seat.snapshot();
   const auto kept_on = seat.clone();
   const auto first = future(60);
+  seat.step(300'000);  // so that a clock that didn't go back would stand beside the units' ticks
   seat.go_back();
   EXPECT_EQ(future(60), first);
   (void)future(200);
@@ -148,7 +149,7 @@ TEST(Seat, AJointPutElsewhereIsNeitherWorkNorForgottenByAWayBack) {
   EXPECT_LT(std::abs(seat.robot().ledger(0).coupling), coupling + 1e-3);
 }
 
-TEST(Seat, AsksForMobilityAtOnceWhereTheHostMovedBodies) {
+TEST(Seat, AsksForMobilityAtOnceWhereBodiesAreElsewhere) {
   Seat seat(model(), {});
   seat.join({{0}, {1}});
   EXPECT_EQ(seat.mobility().size(), 2U);
@@ -156,6 +157,13 @@ TEST(Seat, AsksForMobilityAtOnceWhereTheHostMovedBodies) {
   EXPECT_FALSE(seat.wants_mobility());
   seat.moved();
   EXPECT_TRUE(seat.wants_mobility());
+  seat.moved(1);
+  EXPECT_TRUE(seat.wants_mobility());
+  seat.go_back();
+  EXPECT_TRUE(seat.wants_mobility());
+  seat.reset();
+  EXPECT_TRUE(seat.wants_mobility());
+  EXPECT_FALSE(seat.wants_mobility());
 }
 
 TEST(Seat, AModelThatIsNoTreeIsToldOfAndWantsNoMobility) {
