@@ -7,20 +7,22 @@
 # make mutants     88 one-line mistakes, one at a time, in a copy: which test notices (scripts/mutants.toml); half an hour. MUTANTS_FILTER chooses, MUTANTS_JOBS builds
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make bench   run the benchmarks and print their table
-# make asan    the tests under the address and undefined-behaviour sanitizers
+# make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   the rooms' own
+# make check-tsan   what has threads under the thread sanitizer; make tidy   clang-tidy, TIDY_S bounds its seconds
+# make check-all    the last three whole: CI has time for a part of them
 # make fuzz    any bytes into the frame parser and into whole units, with clang's libFuzzer and sanitizers; FUZZ_S seconds each (300)
 # make test-gazebo   the plug-in in a real Gazebo Classic 11; where the system has none, in a private Debian 11 (0.5 GB, made once)
 # make test-gazebo-long   ten simulated minutes there, with test-long; make bench-gazebo   what the plug-in costs there, or beside another plug-in (VSA_PEER_WORLD)
 # make test-gz       the plug-in in a real gz-sim, where there is one (VSA_GZ_PREFIX)
-# make experiments   what stiffness is good for (docs/17): pages in out/experiments; minutes
-# make experiments-snake   how far the snake gets over its terrains (docs/snake.md); about 20 minutes
+# make stiffness-uses   what stiffness is good for (docs/explanation/what-stiffness-is-good-for.md): pages in out/stiffness_uses; minutes
+# make snake-travel   how far the snake gets over its terrains (docs/explanation/snake.md); about 20 minutes
 JOBS ?= $(shell nproc)
 FUZZ_S ?= 300
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo test test-long flakes mutants validate bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan tidy format \
-  check-format experiments experiments-snake clean
+.PHONY: all setup build demo test test-long flakes mutants validate bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan check-asan check-tsan tidy check-all format \
+  check-format stiffness-uses snake-travel clean
 
 all: build
 
@@ -28,23 +30,23 @@ setup:
 	@sh scripts/setup.sh
 
 build: setup
-	@cmake --preset release > /dev/null
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 
 demo: setup
-	@cmake --preset release > /dev/null
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa -- --quiet
 	@$(VSA) run snake_rubble --duration-s 20 --gait climb --record out/demo --no-topics
 
 test:
 	@sh scripts/setup.sh test
-	@cmake --preset release > /dev/null
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -LE long
 
 test-long:
 	@sh scripts/setup.sh test
-	@cmake --preset release > /dev/null
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -L long
 	@sh scripts/test_gazebo.sh $(BUILD) long
@@ -52,7 +54,7 @@ test-long:
 
 flakes:
 	@sh scripts/setup.sh test
-	@cmake --preset release > /dev/null
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@bash scripts/flakes.sh $(BUILD)
 
@@ -65,7 +67,7 @@ fuzz:
 
 test-gazebo:
 	@sh scripts/setup.sh classic
-	@cmake --preset release > /dev/null
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa-gazebo-bench -- --quiet
 	@sh scripts/test_gazebo.sh $(BUILD)
 
@@ -77,19 +79,33 @@ bench-gazebo:
 	@sh scripts/test_gazebo.sh $(BUILD) bench
 
 test-gz: setup
-	@cmake --preset release > /dev/null
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa-gazebo-bench -- --quiet
 	@sh scripts/test_gz.sh $(BUILD)
 
 validate: setup
-	@cmake --preset release > /dev/null
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa -- --quiet
 	@$(VSA) validate --out out/validate
 
 bench: setup
-	@cmake --preset release > /dev/null
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@sh scripts/bench.sh $(BUILD)
+
+# The rooms' own tests, in a debug build.
+check-asan:
+	@sh scripts/setup.sh test
+	@cmake --preset asan > /dev/null
+	@cmake --build build/asan -j $(JOBS) --target room-tests -- --quiet
+	@ctest --test-dir build/asan --output-on-failure -j 1 -L room
+
+check-tsan:
+	@sh scripts/setup.sh test
+	@cmake --preset tsan > /dev/null
+	@cmake --build build/tsan -j $(JOBS) --target thread-tests -- --quiet
+	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/support/tsan.txt halt_on_error=1" \
+	  ctest --test-dir build/tsan --output-on-failure -j 1 -L threads
 
 asan:
 	@sh scripts/setup.sh test
@@ -99,8 +115,10 @@ asan:
 
 tidy:
 	@sh scripts/setup.sh tidy
-	@cmake --preset tidy > /dev/null
-	@cmake --build build/tidy -j $(JOBS) -- --quiet
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@bash scripts/tidy.sh $(BUILD)
+
+check-all: check-format asan check-tsan tidy
 
 format:
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
@@ -109,16 +127,16 @@ check-format:
 	@sh scripts/setup.sh tidy
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror
 
-experiments: setup
-	@cmake --preset release > /dev/null
-	@cmake --build $(BUILD) -j $(JOBS) --target vsa-experiments -- --quiet
-	@$(BUILD)/bin/vsa-experiments impact
-	@$(BUILD)/bin/vsa-experiments gripper
-	@$(BUILD)/bin/vsa-experiments throw
-	@$(BUILD)/bin/vsa-experiments terrain --jobs $(JOBS)
+stiffness-uses: setup
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa-stiffness-uses -- --quiet
+	@$(BUILD)/bin/vsa-stiffness-uses impact
+	@$(BUILD)/bin/vsa-stiffness-uses gripper
+	@$(BUILD)/bin/vsa-stiffness-uses throw
+	@$(BUILD)/bin/vsa-stiffness-uses terrain --jobs $(JOBS)
 
 # 8 starts each of the snake's gaits over three grounds, 60 s of simulated time.
-experiments-snake: build
+snake-travel: build
 	@$(BUILD)/bin/snake_travel --jobs $(JOBS) --worlds flat --gaits sidewind_soft,sidewind,sidewind_stiff,steered_soft,steered,steered_stiff
 	@$(BUILD)/bin/snake_travel --jobs $(JOBS) --worlds rubble,hills --gaits sidewind,steered_soft,steered,steered_stiff
 	@$(BUILD)/bin/snake_travel --jobs $(JOBS) --worlds rubble --gaits climb_soft,climb,climb_stiff

@@ -9,9 +9,9 @@
 #include <iostream>
 #include <string_view>
 
-#include "doctor.hpp"
-#include "doctor_checks.hpp"
-#include "exit_codes.hpp"
+#include "doctor/checks.hpp"
+#include "doctor/doctor.hpp"
+#include "terminal/exit_codes.hpp"
 #include "vsa/config/plugin_xml.hpp"
 #include "vsa/errors.hpp"
 
@@ -43,9 +43,7 @@ int check_robots(Findings& findings, const XMLElement& e, const std::string& fil
   return found;
 }
 
-}  // namespace
-
-void check_loading(Findings& findings, const std::filesystem::path& file) {
+void read_elements(Findings& findings, const std::filesystem::path& file) {
   tinyxml2::XMLDocument document;
   if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS || document.RootElement() == nullptr) {
     findings.problem("world", fmt::format("{}:{}: is not well-formed XML", file.string(), document.ErrorLineNum()),
@@ -56,6 +54,7 @@ void check_loading(Findings& findings, const std::filesystem::path& file) {
     findings.note("robot", "no <plugin name=\"vsa::Robot\"> in the file itself", "look at the models that it includes, too");
 }
 
+}  // namespace
 }  // namespace vsa::app
 
 int main(int argc, char** argv) {
@@ -67,7 +66,7 @@ int main(int argc, char** argv) {
     }
     vsa::app::DoctorOptions options;
     options.world = first;
-    return vsa::app::run_doctor(options);
+    return vsa::app::run_doctor(options, vsa::app::read_elements);
   } catch (const vsa::InputError& error) {
     for (const auto& problem : error.problems()) std::cerr << "vsa-doctor: " << problem.text() << '\n';
     return vsa::app::kBadInput;

@@ -33,7 +33,7 @@ std::string entry(const std::string& ros_topic, const std::string& gz_topic, con
 std::string bridge(const std::string& model, const std::vector<std::string>& actuators) {
   std::string text =
       "# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0\n"
-      "# Written by vsa-generate from models/robots.toml: change that, not this. See docs/14-ros2.md.\n";
+      "# Written by vsa-generate from models/robots.toml: change that, not this. See docs/howto/ros2.md.\n";
   const std::string gz = "/model/" + model;
   // Not lazy: nodes with use_sim_time start by listening.
   text += "- ros_topic_name: \"/clock\"\n  gz_topic_name: \"/clock\"\n  ros_type_name: \"" + std::string(kClock.ros) +

@@ -27,7 +27,7 @@ void write_light(Xml& xml) {
 }
 
 /// For gz-sim, which has DART whatever the type says: a chain that lies still has dozens of contacts, and of what DART offers this
-/// pair alone keeps up with real time there (docs/13-gazebo.md).
+/// pair alone keeps up with real time there (docs/howto/gazebo.md).
 void write_dart(Xml& xml) {
   xml.open("dart").leaf("collision_detector", "bullet");
   xml.open("solver").leaf("solver_type", "pgs").close();
@@ -99,7 +99,7 @@ void add_model(Files& files, const std::string& name, const std::string& title, 
   xml.leaf("name", title).leaf("version", "1.0");
   xml.leaf("sdf", "model.sdf", {{"version", "1.7"}});
   xml.open("author").leaf("name", "The vsasim authors").leaf("email", "none").close();
-  xml.leaf("description", title + ". Generated from models/robots.toml; see docs/models.md.");
+  xml.leaf("description", title + ". Generated from models/robots.toml; see docs/reference/models.md.");
   xml.close();
   files[name + "/model.config"] = xml.text();
 }

@@ -6,35 +6,14 @@
 #include <algorithm>
 #include <cassert>
 
+#include "vsa/xml_escape.hpp"
+
 namespace vsa::generate {
 namespace {
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string start(std::string_view tag, Xml::Attributes attributes) {
   std::string out = fmt::format("<{}", tag);
-  for (const auto& [name, value] : attributes) out += fmt::format(" {}=\"{}\"", name, escaped(value));
+  for (const auto& [name, value] : attributes) out += fmt::format(" {}=\"{}\"", name, xml_escaped(value));
   return out;
 }
 
@@ -73,7 +52,7 @@ Xml& Xml::close() {
 }
 
 Xml& Xml::leaf(std::string_view tag, const std::string& text, Attributes attributes) {
-  line(fmt::format("{}>{}</{}>", start(tag, attributes), escaped(text), tag));
+  line(fmt::format("{}>{}</{}>", start(tag, attributes), xml_escaped(text), tag));
   return *this;
 }
 

@@ -1,8 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // A pendulum integrator of one's own as the host of a robot with one actuator: v' = v + dt·a, q' = q + dt·v'. All else, from the
-// element to firmware, bus, springs, faults and serial ports, is the seat's (docs/seat.md). Topics need a transport:
-// seat.connect(std::make_shared<vsa::topics::IgnitionPort>()), and vsa::topics beside vsa::seat in CMakeLists.txt.
+// element to firmware, bus, springs, faults and serial ports, is the seat's (docs/howto/your-simulator.md). Topics need a
+// transport: seat.connect(std::make_shared<vsa::topics::IgnitionPort>()), and vsa::topics beside vsa::seat in CMakeLists.txt.
 #include <cmath>
 #include <cstdio>
 

@@ -24,7 +24,7 @@ double number(const Any& message) {
 }
 
 /// All numbers of a robot, one message a publication: 60 publishers on a node of Gazebo's cost a step of the snake 20 to 40 µs,
-/// even where nobody listens (docs/13-gazebo.md).
+/// even where nobody listens (docs/howto/gazebo.md).
 struct Readings {
   gazebo::transport::PublisherPtr publisher;
   gazebo::msgs::Param_V message;  ///< the time, then one number each in the order of advertise_double

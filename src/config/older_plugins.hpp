@@ -2,7 +2,8 @@
 //
 // What older plug-ins of these actuators called things: the ROS-Gazebo toolbox of 2021 (one <plugin> a joint, tags such as
 // spring_k1), the plug-ins that it came from, and the Gazebo plug-in of 2015 (fixed joint names). A tag that means the same here is
-// taken; any other is answered with the new spelling and why. docs/migration.md is the table, and a test goes through its rows.
+// taken; any other is answered with the new spelling and why. docs/howto/migration.md is the table, and a test goes through its
+// rows.
 #pragma once
 
 #include <string>

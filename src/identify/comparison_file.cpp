@@ -6,11 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 #include "vsa/identify/comparison.hpp"
 
 namespace vsa::identify {
@@ -108,12 +107,10 @@ class Section {
 };
 
 toml::table parse(const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) throw InputError({file.string(), "", "", "can't be read", "a TOML file"});
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const auto text = read_file(file);
+  if (!text) throw InputError({file.string(), "", "", "can't be read", "a TOML file"});
   try {
-    return toml::parse(text, file.string());
+    return toml::parse(*text, file.string());
   } catch (const toml::parse_error& e) {
     throw InputError({fmt::format("{}:{}", file.string(), e.source().begin.line), "", "", std::string(e.description()), "TOML"});
   }

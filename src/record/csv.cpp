@@ -7,7 +7,6 @@
 
 #include "record/energy_columns.hpp"
 #include "record/number_text.hpp"
-#include "record/output_file.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::record {

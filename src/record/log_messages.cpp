@@ -6,11 +6,16 @@
 #include <cmath>
 
 #include "record/energy_columns.hpp"
-#include "record/json_schema.hpp"
 #include "record/number_text.hpp"
+#include "record/schema.hpp"
 
 namespace vsa::record {
 namespace {
+
+using page::Json;
+using schema::array_of;
+using schema::object;
+using schema::of_type;
 
 using host::ActuatorReading;
 
@@ -75,10 +80,10 @@ void begin(std::string& out, std::int64_t time_ns) {
 }
 
 void actuator(std::string& out, const ActuatorInfo& info, const ActuatorReading& r) {
-  out += "{\"name\":" + json_string(info.name);
+  out += "{\"name\":" + page::json_string(info.name);
   for (const Number& n : kNumbers) member(out, n.name, r.*n.value);
   key(out, "preset_unit");
-  out += json_string(info.preset_unit);
+  out += page::json_string(info.preset_unit);
   const auto motors = static_cast<std::size_t>(std::clamp(info.motors, 1, 2));
   for (const MotorNumber& n : kMotorNumbers) member(out, n.name, std::span(r.*n.value).first(motors));
   key(out, "measured_motor_ticks");
@@ -97,17 +102,15 @@ std::string column_name(const EnergyColumn& c) { return std::string(c.name) + "_
 }  // namespace
 
 std::string actuators_schema() {
-  schema::Fields fields{{"name", schema::of_type("string", "the actuator's name")}};
-  for (const Number& n : kNumbers) fields.emplace_back(n.name, schema::of_type("number", n.description));
-  fields.emplace_back("preset_unit", schema::of_type("string", "of the preset; it belongs to the actuator's law; empty: no unit"));
-  const std::string number = schema::of_type("number");
-  for (const MotorNumber& n : kMotorNumbers) fields.emplace_back(n.name, schema::array_of(number, n.description));
-  const std::string integer = schema::of_type("integer");
-  fields.emplace_back("measured_motor_ticks",
-                      schema::array_of(integer, "the unit's own reading of each motor, as its master last read it"));
-  fields.emplace_back("measured_shaft_ticks", schema::of_type("integer", "the same of the shaft"));
-  return schema::object("vsasim.ActuatorStates", {{"time_s", schema::of_type("number", kTimeText)},
-                                                  {"actuators", schema::array_of(schema::object("vsasim.ActuatorState", fields))}});
+  Json fields{{"name", of_type("string", "the actuator's name")}};
+  for (const Number& n : kNumbers) fields[n.name] = of_type("number", n.description);
+  fields["preset_unit"] = of_type("string", "of the preset; it belongs to the actuator's law; empty: no unit");
+  for (const MotorNumber& n : kMotorNumbers) fields[n.name] = array_of(of_type("number"), n.description);
+  fields["measured_motor_ticks"] = array_of(of_type("integer"), "the unit's own reading of each motor, as its master last read it");
+  fields["measured_shaft_ticks"] = of_type("integer", "the same of the shaft");
+  return object("vsasim.ActuatorStates",
+                {{"time_s", of_type("number", kTimeText)}, {"actuators", array_of(object("vsasim.ActuatorState", fields))}})
+      .dump();
 }
 
 void actuators_message(std::string& out, std::int64_t time_ns, const RobotInfo& robot, std::span<const ActuatorReading> readings) {
@@ -122,11 +125,9 @@ void actuators_message(std::string& out, std::int64_t time_ns, const RobotInfo& 
 }
 
 std::string energy_schema() {
-  std::vector<std::string> names;
-  for (const EnergyColumn& c : kEnergyColumns) names.push_back(column_name(c));
-  schema::Fields fields{{"time_s", schema::of_type("number", kTimeText)}};
-  for (const std::string& name : names) fields.emplace_back(name, schema::of_type("number"));
-  return schema::object("vsasim.Energy", fields);
+  Json fields{{"time_s", of_type("number", kTimeText)}};
+  for (const EnergyColumn& c : kEnergyColumns) fields[column_name(c)] = of_type("number");
+  return object("vsasim.Energy", fields).dump();
 }
 
 void energy_message(std::string& out, const Sample& sample) {

@@ -5,15 +5,19 @@
 // their items.
 #include <cmath>
 
-#include "record/json_schema.hpp"
 #include "record/log_messages.hpp"
 #include "record/number_text.hpp"
+#include "record/schema.hpp"
 
 namespace vsa::record {
 namespace {
 
 using engine::Pose;
 using engine::Shape;
+using page::Json;
+using schema::array_of;
+using schema::object;
+using schema::of_type;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
@@ -134,7 +138,7 @@ struct Primitives {
 };
 
 std::string entity(const engine::LinkInfo& link, const std::string& time) {
-  const std::string name = json_string(link.name);
+  const std::string name = page::json_string(link.name);
   Primitives p;
   for (const Shape& s : link.visuals) p.add(s);
   return "{\"timestamp\":" + time + ",\"frame_id\":" + name + ",\"id\":" + name +
@@ -143,27 +147,23 @@ std::string entity(const engine::LinkInfo& link, const std::string& time) {
          "],\"arrows\":[],\"lines\":[],\"texts\":[],\"models\":[]}";
 }
 
-std::string instant(std::string_view title) {
-  const std::string integer = schema::of_type("integer");
-  return schema::object(title, {{"sec", integer}, {"nsec", integer}});
-}
+Json instant(std::string_view title) { return object(title, {{"sec", of_type("integer")}, {"nsec", of_type("integer")}}); }
 
-std::string vector_schema(std::string_view title, std::string_view axes) {
-  schema::Fields fields;
-  for (std::size_t i = 0; i < axes.size(); ++i) fields.emplace_back(axes.substr(i, 1), schema::of_type("number"));
-  return schema::object(title, fields);
+Json vector_schema(std::string_view title, std::string_view axes) {
+  Json fields = Json::object();
+  for (const char axis : axes) fields[std::string(1, axis)] = of_type("number");
+  return object(title, fields);
 }
 
 }  // namespace
 
 std::string transforms_schema() {
-  const std::string text = schema::of_type("string");
-  const std::string one = schema::object("foxglove.FrameTransform", {{"timestamp", instant("time")},
-                                                                     {"parent_frame_id", text},
-                                                                     {"child_frame_id", text},
-                                                                     {"translation", vector_schema("foxglove.Vector3", "xyz")},
-                                                                     {"rotation", vector_schema("foxglove.Quaternion", "xyzw")}});
-  return schema::object("foxglove.FrameTransforms", {{"transforms", schema::array_of(one)}});
+  const Json one = object("foxglove.FrameTransform", {{"timestamp", instant("time")},
+                                                      {"parent_frame_id", of_type("string")},
+                                                      {"child_frame_id", of_type("string")},
+                                                      {"translation", vector_schema("foxglove.Vector3", "xyz")},
+                                                      {"rotation", vector_schema("foxglove.Quaternion", "xyzw")}});
+  return object("foxglove.FrameTransforms", {{"transforms", array_of(one)}}).dump();
 }
 
 void transforms_message(std::string& out, std::int64_t time_ns, const std::vector<LogLink>& links, const std::vector<Pose>& poses) {
@@ -185,40 +185,38 @@ void transforms_message(std::string& out, std::int64_t time_ns, const std::vecto
 }
 
 std::string scene_schema() {
-  const std::string text = schema::of_type("string"), number = schema::of_type("number");
-  const std::string xyz_schema = vector_schema("foxglove.Vector3", "xyz"), color = vector_schema("foxglove.Color", "rgba");
-  const std::string pose =
-      schema::object("foxglove.Pose", {{"position", xyz_schema}, {"orientation", vector_schema("foxglove.Quaternion", "xyzw")}});
+  const Json text = of_type("string"), number = of_type("number");
+  const Json xyz_schema = vector_schema("foxglove.Vector3", "xyz"), color = vector_schema("foxglove.Color", "rgba");
+  const Json pose =
+      object("foxglove.Pose", {{"position", xyz_schema}, {"orientation", vector_schema("foxglove.Quaternion", "xyzw")}});
   const auto solid = [&](std::string_view title) {
-    return schema::object(title, {{"pose", pose}, {"size", xyz_schema}, {"color", color}});
+    return object(title, {{"pose", pose}, {"size", xyz_schema}, {"color", color}});
   };
-  const std::string cylinder =
-      schema::object("foxglove.CylinderPrimitive",
-                     {{"pose", pose}, {"size", xyz_schema}, {"bottom_scale", number}, {"top_scale", number}, {"color", color}});
-  const std::string triangles =
-      schema::object("foxglove.TriangleListPrimitive", {{"pose", pose},
-                                                        {"points", schema::array_of(vector_schema("foxglove.Point3", "xyz"))},
-                                                        {"color", color},
-                                                        {"colors", schema::array_of(color)},
-                                                        {"indices", schema::array_of(schema::of_type("integer"))}});
-  const auto none = [](std::string_view title) { return schema::array_of(schema::object(title, {})); };
-  const std::string pair = schema::object("foxglove.KeyValuePair", {{"key", text}, {"value", text}});
-  const std::string one = schema::object("foxglove.SceneEntity", {{"timestamp", instant("time")},
-                                                                  {"frame_id", text},
-                                                                  {"id", text},
-                                                                  {"lifetime", instant("duration")},
-                                                                  {"frame_locked", schema::of_type("boolean")},
-                                                                  {"metadata", schema::array_of(pair)},
-                                                                  {"cubes", schema::array_of(solid("foxglove.CubePrimitive"))},
-                                                                  {"spheres", schema::array_of(solid("foxglove.SpherePrimitive"))},
-                                                                  {"cylinders", schema::array_of(cylinder)},
-                                                                  {"triangles", schema::array_of(triangles)},
-                                                                  {"arrows", none("foxglove.ArrowPrimitive")},
-                                                                  {"lines", none("foxglove.LinePrimitive")},
-                                                                  {"texts", none("foxglove.TextPrimitive")},
-                                                                  {"models", none("foxglove.ModelPrimitive")}});
-  return schema::object("foxglove.SceneUpdate",
-                        {{"deletions", none("foxglove.SceneEntityDeletion")}, {"entities", schema::array_of(one)}});
+  const Json cylinder =
+      object("foxglove.CylinderPrimitive",
+             {{"pose", pose}, {"size", xyz_schema}, {"bottom_scale", number}, {"top_scale", number}, {"color", color}});
+  const Json triangles = object("foxglove.TriangleListPrimitive", {{"pose", pose},
+                                                                   {"points", array_of(vector_schema("foxglove.Point3", "xyz"))},
+                                                                   {"color", color},
+                                                                   {"colors", array_of(color)},
+                                                                   {"indices", array_of(of_type("integer"))}});
+  const auto none = [](std::string_view title) { return array_of(object(title, Json::object())); };
+  const Json pair = object("foxglove.KeyValuePair", {{"key", text}, {"value", text}});
+  const Json one = object("foxglove.SceneEntity", {{"timestamp", instant("time")},
+                                                   {"frame_id", text},
+                                                   {"id", text},
+                                                   {"lifetime", instant("duration")},
+                                                   {"frame_locked", of_type("boolean")},
+                                                   {"metadata", array_of(pair)},
+                                                   {"cubes", array_of(solid("foxglove.CubePrimitive"))},
+                                                   {"spheres", array_of(solid("foxglove.SpherePrimitive"))},
+                                                   {"cylinders", array_of(cylinder)},
+                                                   {"triangles", array_of(triangles)},
+                                                   {"arrows", none("foxglove.ArrowPrimitive")},
+                                                   {"lines", none("foxglove.LinePrimitive")},
+                                                   {"texts", none("foxglove.TextPrimitive")},
+                                                   {"models", none("foxglove.ModelPrimitive")}});
+  return object("foxglove.SceneUpdate", {{"deletions", none("foxglove.SceneEntityDeletion")}, {"entities", array_of(one)}}).dump();
 }
 
 std::string scene_message(std::int64_t time_ns, const std::vector<engine::LinkInfo>& links) {

@@ -5,7 +5,6 @@
 #include <exception>
 
 #include "record/mcap_bytes.hpp"
-#include "record/output_file.hpp"
 #include "vsa/record/run_data.hpp"
 
 namespace vsa::record {

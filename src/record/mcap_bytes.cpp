@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "record/mcap_bytes.hpp"
 
-#include "record/utf8.hpp"
+#include "vsa/page/json.hpp"
 
 namespace vsa::record {
 
@@ -15,7 +15,7 @@ McapBytes& McapBytes::raw(std::string_view bytes) {
   return *this;
 }
 
-McapBytes& McapBytes::string(std::string_view text) { return sized_32(well_formed(text)); }
+McapBytes& McapBytes::string(std::string_view text) { return sized_32(page::well_formed(text)); }
 
 McapBytes& McapBytes::sized_32(std::string_view bytes) { return u32(bytes.size()).raw(bytes); }
 

@@ -3,17 +3,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <system_error>
 
 #include "record/energy_columns.hpp"
-#include "record/output_file.hpp"
 #include "record/page_json.hpp"
-#include "vsa/errors.hpp"
-#include "vsa/files.hpp"
+#include "vsa/page/json.hpp"
 
 namespace vsa::record {
 namespace {
+
+using page::base64;
+using page::Json;
 
 struct Channel {
   std::string_view name;
@@ -46,10 +45,10 @@ std::vector<float> by_channel(const std::vector<float>& frames, std::size_t widt
 }
 
 template <class Columns>
-std::string names(const Columns& columns) {
-  std::string out;
-  for (const auto& c : columns) (out += out.empty() ? "" : ",") += '"' + std::string(c.name) + '"';
-  return '[' + out + ']';
+Json names(const Columns& columns) {
+  Json out = Json::array();
+  for (const auto& c : columns) out.push_back(c.name);
+  return out;
 }
 
 void drop_odd(std::vector<float>& frames, std::size_t width) {
@@ -116,41 +115,15 @@ void PageData::restart() {
 }
 
 std::string PageData::json(const RunInfo& info, const PageText& text) const {
-  std::string out = "{" + page_header(info, text, first_);
-  out += ",\n\"frames\":" + std::to_string(frames()) + ",\n\"time\":\"" + base64(time_) + "\",\n\"poses\":\"" + base64(data_.poses);
-  out += "\",\n\"actuator_channels\":" + names(kChannels) + ",\n\"actuators\":\"";
-  out += base64(by_channel(data_.readings, actuators_ * kChannels.size()));
-  out += "\",\n\"energy_channels\":" + names(kEnergyColumns) + ",\n\"energy\":\"";
-  return out + base64(by_channel(data_.energy, kEnergyColumns.size())) + "\"}";
-}
-
-std::string read_template(const std::filesystem::path& file) {
-  const auto problem = [&](const std::string& message) { return InputError(Problem{file.string(), "", "", message, ""}); };
-  auto text = read_file(file);
-  if (!text) throw problem("can't read the page's template: " + std::system_category().message(errno));
-  const std::size_t at = text->find(kPageMarker);
-  if (at == std::string::npos || text->find(kPageMarker, at + 1) != std::string::npos) {
-    throw problem("not a page's template: it must hold " + std::string(kPageMarker) + " once");
-  }
-  return std::move(*text);
-}
-
-void write_page(const std::filesystem::path& file, std::string_view page_template, std::string_view json) {
-  const std::size_t at = page_template.find(kPageMarker);
-  std::filesystem::path beside = file;
-  beside += ".part";
-  try {
-    OutputFile out(beside);
-    out.append(page_template.substr(0, at));
-    out.append(json);
-    out.append(page_template.substr(at + kPageMarker.size()));
-    out.close();
-    std::filesystem::rename(beside, file);
-  } catch (const std::exception& e) {
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    throw RecordError(file.string() + ": can't write the page: " + e.what());
-  }
+  Json out = page_header(info, text, first_);
+  out["frames"] = frames();
+  out["time"] = base64(time_);
+  out["poses"] = base64(data_.poses);
+  out["actuator_channels"] = names(kChannels);
+  out["actuators"] = base64(by_channel(data_.readings, actuators_ * kChannels.size()));
+  out["energy_channels"] = names(kEnergyColumns);
+  out["energy"] = base64(by_channel(data_.energy, kEnergyColumns.size()));
+  return page::text(out);
 }
 
 }  // namespace vsa::record

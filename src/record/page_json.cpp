@@ -3,47 +3,32 @@
 // The header of the page's data: names, geometry, which arrays there are. web/src/data.js reads it.
 #include "record/page_json.hpp"
 
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <utility>
-
-#include "vsa/record/page.hpp"
 
 namespace vsa::record {
 namespace {
 
-std::string number(double value) {
-  if (!std::isfinite(value)) return "null";
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-std::string number(float value) {
-  if (!std::isfinite(value)) return "null";
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-/// [ f(a), f(b), … ]
-template <class Range, class F>
-std::string array(const Range& range, F&& f) {
-  std::string out = "[";
-  for (const auto& item : range) {
-    if (out.size() > 1) out += ',';
-    out += f(item);
-  }
-  return out + ']';
-}
+using page::Json;
 
 template <class Range>
-std::string numbers(const Range& range) {
-  return array(range, [](auto v) { return number(v); });
+Json numbers(const Range& range) {
+  Json out = Json::array();
+  for (const auto v : range) out.push_back(page::number(v));
+  return out;
 }
 
-std::string pose(const engine::Pose& p) {
-  return '[' + number(p.position[0]) + ',' + number(p.position[1]) + ',' + number(p.position[2]) + ',' + number(p.quaternion[0]) +
-         ',' + number(p.quaternion[1]) + ',' + number(p.quaternion[2]) + ',' + number(p.quaternion[3]) + ']';
+template <class Range, class F>
+Json array(const Range& range, F&& f) {
+  Json out = Json::array();
+  for (const auto& item : range) out.push_back(f(item));
+  return out;
+}
+
+Json pose(const engine::Pose& p) {
+  Json out = numbers(p.position);
+  for (const double v : p.quaternion) out.push_back(page::number(v));
+  return out;
 }
 
 std::string_view kind_name(engine::Shape::Kind kind) {
@@ -75,56 +60,55 @@ class Geometries {
     if (fresh) {
       // Indices as floats stay exact up to 2^24 corners.
       const std::vector<float> indices(shape.indices.begin(), shape.indices.end());
-      (text_ += text_.empty() ? "" : ",") +=
-          "{\"vertices\":\"" + base64(shape.vertices) + "\",\"indices\":\"" + base64(indices) + "\"}";
+      json_.push_back({{"vertices", page::base64(shape.vertices)}, {"indices", page::base64(indices)}});
     }
     return at->second;
   }
-  [[nodiscard]] std::string text() const { return '[' + text_ + ']'; }
+  [[nodiscard]] const Json& json() const { return json_; }
 
  private:
   std::map<std::pair<std::vector<float>, std::vector<std::uint32_t>>, std::size_t> known_;
-  std::string text_;
+  Json json_ = Json::array();
 };
 
-std::string visual(const engine::Shape& s, Geometries& geometries) {
-  std::string out = "{\"kind\":\"" + std::string(kind_name(s.kind)) + "\",\"pose\":" + pose(s.pose) +
-                    ",\"size\":" + numbers(s.size) + ",\"rgba\":" + numbers(s.rgba);
-  if (!s.vertices.empty()) out += ",\"geometry\":" + std::to_string(geometries.index(s));
-  return out + '}';
+Json visual(const engine::Shape& s, Geometries& geometries) {
+  Json out{{"kind", kind_name(s.kind)}, {"pose", pose(s.pose)}, {"size", numbers(s.size)}, {"rgba", numbers(s.rgba)}};
+  if (!s.vertices.empty()) out["geometry"] = geometries.index(s);
+  return out;
 }
 
-std::string link(const engine::LinkInfo& l, const engine::Pose* fixed, Geometries& geometries) {
-  std::string out = "{\"name\":" + json_string(l.name) + ",\"model\":" + json_string(l.model) + ",\"mass_kg\":" + number(l.mass_kg);
-  if (fixed != nullptr) out += ",\"pose\":" + pose(*fixed);
-  return out + ",\"visuals\":" + array(l.visuals, [&](const auto& s) { return visual(s, geometries); }) + '}';
+Json link(const engine::LinkInfo& l, const engine::Pose* fixed, Geometries& geometries) {
+  Json out{{"name", l.name}, {"model", l.model}, {"mass_kg", page::number(l.mass_kg)}};
+  if (fixed != nullptr) out["pose"] = pose(*fixed);
+  out["visuals"] = array(l.visuals, [&](const auto& s) { return visual(s, geometries); });
+  return out;
 }
 
-std::string actuator(const ActuatorInfo& a) {
-  return "{\"name\":" + json_string(a.name) + ",\"joint\":" + json_string(a.joint) + ",\"preset\":" + json_string(a.preset) +
-         ",\"preset_unit\":" + json_string(a.preset_unit) + ",\"motors\":" + std::to_string(a.motors) +
-         ",\"links\":" + array(a.links, [](std::size_t i) { return std::to_string(i); }) + '}';
+Json actuator(const ActuatorInfo& a) {
+  return {{"name", a.name},     {"joint", a.joint}, {"preset", a.preset}, {"preset_unit", a.preset_unit},
+          {"motors", a.motors}, {"links", a.links}};
 }
 
 }  // namespace
 
-std::string page_header(const RunInfo& info, const PageText& text, const std::vector<engine::Pose>& first) {
+Json page_header(const RunInfo& info, const PageText& text, const std::vector<engine::Pose>& first) {
   Geometries geometries;
-  std::string links = "[";
+  Json links = Json::array();
   for (std::size_t i = 0; i < info.links.size(); ++i) {
     const engine::Pose* fixed = info.links[i].is_static && i < first.size() ? &first[i] : nullptr;
-    (links += i > 0 ? ",\n" : "") += link(info.links[i], fixed, geometries);
+    links.push_back(link(info.links[i], fixed, geometries));
   }
-  links += ']';
-  const auto robot = [](const RobotInfo& r) {
-    return "{\"model\":" + json_string(r.model) + ",\"actuators\":" + array(r.actuators, actuator) + '}';
-  };
-  const auto statistic = [](const Statistic& s) { return '[' + json_string(s.label) + ',' + json_string(s.value) + ']'; };
-  return "\"format\":1,\n\"title\":" + json_string(text.title) + ",\n\"world\":" + json_string(info.world) +
-         ",\n\"step_s\":" + number(info.step_s) +
-         ",\n\"notes\":" + array(text.notes, [](const auto& n) { return json_string(n); }) +
-         ",\n\"summary\":" + array(text.summary, statistic) + ",\n\"robots\":" + array(info.robots, robot) +
-         ",\n\"links\":" + links + ",\n\"geometries\":" + geometries.text();
+  const auto robot = [](const RobotInfo& r) { return Json{{"model", r.model}, {"actuators", array(r.actuators, actuator)}}; };
+  const auto statistic = [](const Statistic& s) { return Json::array({s.label, s.value}); };
+  return {{"format", 1},
+          {"title", text.title},
+          {"world", info.world},
+          {"step_s", page::number(info.step_s)},
+          {"notes", text.notes},
+          {"summary", array(text.summary, statistic)},
+          {"robots", array(info.robots, robot)},
+          {"links", std::move(links)},
+          {"geometries", geometries.json()}};
 }
 
 }  // namespace vsa::record

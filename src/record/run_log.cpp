@@ -9,8 +9,8 @@
 #include "record/number_text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/host/topics.hpp"
+#include "vsa/page/json.hpp"
 #include "vsa/record/mcap.hpp"
-#include "vsa/record/page.hpp"
 
 namespace vsa::record {
 namespace {
@@ -43,7 +43,7 @@ struct RunLog::Impl {
 
   Impl(const RunInfo& i, const std::filesystem::path& path, double rate_Hz) : info(i), file(path, contents(i, rate_Hz)) {
     for (std::size_t n = 0; n < info.links.size(); ++n) {
-      (info.links[n].is_static ? still : moving).push_back({n, json_string(info.links[n].name)});
+      (info.links[n].is_static ? still : moving).push_back({n, page::json_string(info.links[n].name)});
     }
   }
 

@@ -5,6 +5,7 @@
 
 #include "vsa/config/preset.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/page/page.hpp"
 #include "vsa/record/csv.hpp"
 #include "vsa/record/page.hpp"
 #include "vsa/record/recorder.hpp"
@@ -31,8 +32,8 @@ RecorderOptions checked(RecorderOptions options) {
 
 /// Empty, with the reason in `why_none`, where nobody named a template and none is installed or built.
 std::string template_for(const RecorderOptions& options, std::string& why_none) {
-  if (!options.page_template.empty()) return read_template(options.page_template);
-  if (const auto found = config::find_data("web/replay.html")) return read_template(*found);
+  if (!options.page_template.empty()) return page::read_template(options.page_template);
+  if (const auto found = config::find_data("web/replay.html")) return page::read_template(*found);
   std::string places;
   for (const fs::path& d : config::data_directories()) places += (places.empty() ? "" : ", ") + d.string();
   why_none = "no replay page: its template web/replay.html is in none of " + places + " (it comes with an installation or a build)";
@@ -125,7 +126,7 @@ fs::path RunRecord::finish(const std::vector<Statistic>& summary, std::string_vi
   fs::path file;
   if (r.without_page.empty()) {
     file = r.directory / "replay.html";
-    write_page(file, r.page_template, r.page.json(r.info, text));
+    page::write(file, r.page_template, r.page.json(r.info, text));
   }
   if (failed) std::rethrow_exception(failed);
   return file;

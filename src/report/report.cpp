@@ -3,19 +3,19 @@
 
 #include "vsa/config/preset.hpp"
 #include "vsa/errors.hpp"
-#include "vsa/record/page.hpp"
+#include "vsa/page/page.hpp"
 
 namespace vsa::report {
 
 void write_report(const Report& report, const std::filesystem::path& file) {
   const std::filesystem::path name = std::filesystem::path("web") / "report.html";
-  const auto page = config::find_data(name);
-  if (!page) {
+  const auto found = config::find_data(name);
+  if (!found) {
     std::string looked;
     for (const auto& d : config::data_directories()) looked += (looked.empty() ? "" : ", ") + (d / name).string();
     throw InputError(Problem{"", "", "", "the report page's template is nowhere: " + looked, "set VSA_DATA_DIR"});
   }
-  record::write_page(file, record::read_template(*page), to_json(report));
+  page::write(file, page::read_template(*found), to_json(report));
 }
 
 }  // namespace vsa::report

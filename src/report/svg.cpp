@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "vsa/report/report.hpp"
+#include "vsa/xml_escape.hpp"
 
 namespace vsa::report {
 namespace {
@@ -25,29 +26,6 @@ std::string px(double v) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", std::abs(v) < 0.05 ? 0.0 : v);
   return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;  // XML knows no other control characters
-    }
-  }
-  return out;
 }
 
 std::string color_of(const Curve& c) { return c.color < 0 ? kGrey : kColors[static_cast<std::size_t>(c.color) % kColors.size()]; }
@@ -131,7 +109,8 @@ struct Range {
 };
 
 std::string text_at(double x, double y, const std::string& text, const char* anchor, const char* more = "") {
-  return "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" + escaped(text) + "</text>\n";
+  return "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" + xml_escaped(text) +
+         "</text>\n";
 }
 
 std::string line(double x1, double y1, double x2, double y2, const std::string& color, const char* more = "") {
@@ -157,7 +136,8 @@ class Drawing {
     const std::string size = "width=\"" + px(kWidth) + "\" height=\"" + px(kHeight) + "\"";
     std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" " + size + " viewBox=\"0 0 " + px(kWidth) + ' ' + px(kHeight) +
                       "\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" fill=\"#1d242b\">\n";
-    out += "<title>" + escaped(chart_.title) + "</title>\n<rect " + size + " fill=\"#ffffff\"/>\n";  // readable on a dark page too
+    out +=
+        "<title>" + xml_escaped(chart_.title) + "</title>\n<rect " + size + " fill=\"#ffffff\"/>\n";  // readable on a dark page too
     out += text_at(kLeft, 22, chart_.title, "start", " font-size=\"14\" font-weight=\"bold\"") + legend() + frame();
     for (const bool bands : {true, false}) {
       for (const Curve& c : chart_.curves) {

@@ -3,6 +3,7 @@
 
 #include "live_impl.hpp"
 #include "vsa/config/preset.hpp"
+#include "vsa/page/page.hpp"
 #include "vsa/record/page.hpp"
 #include "vsa/record/recorder.hpp"
 
@@ -19,14 +20,12 @@ fs::path or_built_in(const fs::path& given, const char* name) {
 }
 
 std::string page_of(const engine::World& world, const fs::path& file) {
-  const std::string page = record::read_template(file);
   const record::RunInfo info = record::describe(world);
   record::PageData data(info, 1, 2);
   record::Sample first;
   record::read(world, first);
   data.add(first);
-  const std::size_t at = page.find(record::kPageMarker);
-  return page.substr(0, at) + data.json(info, {world.name(), {}, world.warnings()}) + page.substr(at + record::kPageMarker.size());
+  return page::filled(page::read_template(file), data.json(info, {world.name(), {}, world.warnings()}));
 }
 
 }  // namespace

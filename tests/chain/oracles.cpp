@@ -36,7 +36,7 @@ double frequency(World& w, double duration_s) {
 
 double stiffness_at(const World& w) { return w.read("a").stiffness_Nm_per_rad; }
 
-TEST(Chain, SpringMassFrequencyOfTheUnpoweredUnitAtSeveralPresets) {
+TEST(SignalChain, SpringMassFrequencyOfTheUnpoweredUnitAtSeveralPresets) {
   for (const double preset : {0.1, 0.3, 0.5, 0.69}) {
     FlangeWorld f;
     f.preset_rad = preset;
@@ -50,7 +50,7 @@ TEST(Chain, SpringMassFrequencyOfTheUnpoweredUnitAtSeveralPresets) {
   }
 }
 
-TEST(Chain, MeetsTheCouplingCriterionInTheEmbeddedEngine) {
+TEST(SignalChain, MeetsTheCouplingCriterionInTheEmbeddedEngine) {
   // p = 0.611 rad, J = 4e-4 kg·m², 1 ms: 90–110 % of the energy after 1 s, frequency within 1 %.
   FlangeWorld f;
   f.losses = false;
@@ -65,7 +65,7 @@ TEST(Chain, MeetsTheCouplingCriterionInTheEmbeddedEngine) {
   EXPECT_NEAR(hz * 2 * vsa::kPi / std::sqrt(sigma / 4e-4), 1.0, 0.01);
 }
 
-TEST(Chain, ABareFlangeKickedFarStaysBoundedAtEveryStep) {
+TEST(SignalChain, ABareFlangeKickedFarStaysBoundedAtEveryStep) {
   for (const double step : {0.5e-3, 1e-3, 2e-3, 4e-3}) {
     for (const bool losses : {false, true}) {
       for (const char* preset : {"qbmove_maker_pro_6_1", "qbmove_maker_pro_paper"}) {
@@ -112,12 +112,12 @@ void keeps_its_energy(const char* preset) {
   EXPECT_LT(stored(w) / before, 1.01) << preset;
 }
 
-TEST(Chain, KeepsItsEnergyOverTenPeriodsAtHalfAMillisecond) {
+TEST(SignalChain, KeepsItsEnergyOverTenPeriodsAtHalfAMillisecond) {
   keeps_its_energy("qbmove_maker_pro_6_1");
   keeps_its_energy("qbmove_maker_pro_paper");
 }
 
-TEST(Chain, StaticDeflectionUnderALoadFollowsTheClosedForm) {
+TEST(SignalChain, StaticDeflectionUnderALoadFollowsTheClosedForm) {
   // The housing is upright, the lever hangs; commanded to the horizontal it sags by the spring's deflection.
   FlangeWorld f;
   f.preset = "qbmove_maker_pro_paper";  // whose springs have a closed form
@@ -138,7 +138,7 @@ TEST(Chain, StaticDeflectionUnderALoadFollowsTheClosedForm) {
   EXPECT_NEAR(std::abs(r.torque_Nm), load, 0.01) << "what is left of the swing";
 }
 
-TEST(Chain, EquilibriumDoesNotDependOnThePreset) {
+TEST(SignalChain, EquilibriumDoesNotDependOnThePreset) {
   FlangeWorld f;
   f.preset_rad = 0.2;
   World w = World::load_string(flange_world(f));
@@ -150,7 +150,7 @@ TEST(Chain, EquilibriumDoesNotDependOnThePreset) {
   EXPECT_GT(w.read("a").preset, 0.45);
 }
 
-TEST(Chain, MotorReachesItsSteadySpeed) {
+TEST(SignalChain, MotorReachesItsSteadySpeed) {
   FlangeWorld f;
   f.inertia_kgm2 = 4e-4;
   f.preset = "qbmove_maker_pro_paper";
@@ -168,7 +168,7 @@ TEST(Chain, MotorReachesItsSteadySpeed) {
   EXPECT_NEAR(speed, expected, 0.05 * expected);
 }
 
-TEST(Chain, WithTheSupplyCutTheWholeEnergyNeverGrows) {
+TEST(SignalChain, WithTheSupplyCutTheWholeEnergyNeverGrows) {
   FlangeWorld f;
   f.gravity = true;
   f.mass_kg = 0.3;

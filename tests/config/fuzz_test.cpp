@@ -126,7 +126,7 @@ TEST(Fuzz, MutatedOverridesAreReadOrRefused) {
 TEST(Fuzz, MutatedPluginsAreReadOrRefused) {
   Mutator mutator(4);
   const config::PresetLibrary presets = shipped();
-  const std::string documentation = read(source_dir() / "docs/config.md");
+  const std::string documentation = read(source_dir() / "docs/reference/config.md");
   const std::size_t from = documentation.find("<plugin");
   const std::string good = documentation.substr(from, documentation.find("</plugin>", from) + 9 - from);
   int read_well = 0;

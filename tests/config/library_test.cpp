@@ -232,11 +232,11 @@ TEST(Text, NumbersDoNotDependOnTheLocale) {
 }
 
 TEST(Documentation, NamesEveryKeyUnitAndBoundOfTheSchema) {
-  const std::string text = read(source_dir() / "docs/config.md");
+  const std::string text = read(source_dir() / "docs/reference/config.md");
   const auto expect_row = [&](const std::string& key, const std::string& unit, const std::string& bounds,
                               std::string_view meaning) {
     const std::size_t at = text.find("| `" + key + "` |");
-    ASSERT_NE(at, std::string::npos) << key << " has no row in docs/config.md";
+    ASSERT_NE(at, std::string::npos) << key << " has no row in docs/reference/config.md";
     const std::string row = text.substr(at, text.find('\n', at) - at);
     expect_pieces(row, {unit, bounds, std::string(meaning)});
   };

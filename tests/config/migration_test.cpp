@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Elements of the 2021 toolbox and of the plug-in of 2015: every row of docs/migration.md, and every tag of their sources.
+// Elements of the 2021 toolbox and of the plug-in of 2015: every row of docs/howto/migration.md, and every tag of their sources.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -39,7 +39,7 @@ struct Row {
 
 /// The table whose header starts with "tag" and "preset".
 std::vector<Row> rows() {
-  std::istringstream lines(read(source_dir() / "docs/migration.md"));
+  std::istringstream lines(read(source_dir() / "docs/howto/migration.md"));
   std::vector<Row> out;
   bool inside = false;
   for (std::string line; std::getline(lines, line);) {

@@ -25,7 +25,7 @@ std::vector<Problem> problems_in(const std::string& xml) {
 }
 
 TEST(Plugin, TheFullExampleOfTheDocumentationIsRead) {
-  const std::string text = read(source_dir() / "docs/config.md");
+  const std::string text = read(source_dir() / "docs/reference/config.md");
   const std::size_t from = text.find("<plugin"), to = text.find("</plugin>", from);
   ASSERT_NE(to, std::string::npos);
   const host::RobotConfig robot = parse(text.substr(from, to + 9 - from));

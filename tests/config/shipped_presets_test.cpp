@@ -26,7 +26,7 @@ TEST(ShippedPresets, AreTheSixOfTheDocumentation) {
 }
 
 TEST(ShippedPresets, AreInTheDocumentationsTableWithTheirOwnTitles) {
-  const std::string text = read(source_dir() / "docs/config.md");
+  const std::string text = read(source_dir() / "docs/reference/config.md");
   const std::size_t from = text.find("| preset |"), to = text.find("\n\n", from);
   ASSERT_NE(to, std::string::npos);
   std::istringstream table(text.substr(from, to - from));

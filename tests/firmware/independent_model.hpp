@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// A second statement of the controller, written from docs/4-firmware.md in mathematicians' terms: exact integers, floor division,
-// residues modulo 2ⁿ. Nothing of the library's arithmetic is used. The maker pro only.
+// A second statement of the controller, written from docs/explanation/4-firmware.md in mathematicians' terms: exact integers, floor
+// division, residues modulo 2ⁿ. Nothing of the library's arithmetic is used. The maker pro only.
 #pragma once
 
 #include "scenario.hpp"

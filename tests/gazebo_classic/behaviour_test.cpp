@@ -99,7 +99,7 @@ TEST(GazeboClassic, ABareFlangeKickedAtTheStiffestPresetStaysBounded) {
     shaft->SetVelocity(0, 20);
     double largest = 0;
     const auto connection = gazebo::event::Events::ConnectWorldUpdateEnd([&] {
-      // As the coupling sees the shaft, docs/7-host.md: the angle that the engine shows swings further.
+      // As the coupling sees the shaft, docs/explanation/7-host.md: the angle that the engine shows swings further.
       largest = std::max(largest, std::abs(shaft->Position(0) - 0.5 * step_s * shaft->GetVelocity(0)));
     });
     w.run(static_cast<int>(1.0 / step_s));

@@ -47,7 +47,7 @@ class Watch {
   bool finite = true;
   double first_J = std::numeric_limits<double>::quiet_NaN();  ///< after the first step
   double most_J = 0;                                          ///< later
-  double farthest_rad = 0;                                    ///< of the angle that goes with the speed, docs/7-host.md
+  double farthest_rad = 0;                                    ///< of the angle that goes with the speed, docs/explanation/7-host.md
   double lowest_rad = 0, highest_rad = 0;                     ///< as the engine shows it
 
  private:

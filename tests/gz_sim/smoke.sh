@@ -16,7 +16,7 @@ stop() {
 }
 trap stop EXIT
 
-# Debian's `ign topic` looks for its program in the wrong place and dies; the program itself works (docs/topics.md).
+# Debian's `ign topic` looks for its program in the wrong place and dies; the program itself works (docs/reference/topics.md).
 debians_topic=/usr/libexec/ignition/transport11/ign-transport-topic
 world="$source_tree/models/worlds/bench_load.sdf"
 if gz sim --versions >/dev/null 2>&1; then

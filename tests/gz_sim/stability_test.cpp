@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Light flanges at the stiffest preset, kicked: bounded in gz-sim as the coupling promises (docs/7-host.md).
+// Light flanges at the stiffest preset, kicked: bounded in gz-sim as the coupling promises (docs/explanation/7-host.md).
 #include <gtest/gtest.h>
 
 #include <cmath>

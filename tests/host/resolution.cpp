@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The table of docs/7-host.md: what the coupling makes of a swing, by formula and by stepping a unit.
+// The table of docs/explanation/7-host.md: what the coupling makes of a swing, by formula and by stepping a unit.
 #include "vsa/host/resolution.hpp"
 
 #include <gtest/gtest.h>

@@ -5,35 +5,10 @@
 
 #include "record/fake_snake.hpp"
 #include "record/scratch.hpp"
-#include "vsa/errors.hpp"
+#include "vsa/page/json.hpp"
 
 namespace vsa::record {
 namespace {
-
-namespace fs = std::filesystem;
-
-TEST(JsonString, NeverLeavesTheScriptElementItStandsIn) {
-  EXPECT_EQ(json_string("</script><!--&"), R"("\u003c/script\u003e\u003c!--\u0026")");
-  EXPECT_EQ(json_string("a\"b\\c\n\x01\x7f"), R"("a\"b\\c\u000a\u0001\u007f")");
-  EXPECT_EQ(json_string("\u2028\u2029"), R"("\u2028\u2029")");
-}
-
-TEST(JsonString, KeepsUtf8AndReplacesWhatIsNone) {
-  EXPECT_EQ(json_string("Σ \U0001F40D"), "\"Σ \U0001F40D\"");
-  EXPECT_EQ(json_string("a\xff"
-                        "b"),
-            R"("a\ufffdb")");
-  EXPECT_EQ(json_string("\xc0\xaf"), R"("\ufffd\ufffd")") << "an overlong '/'";
-  EXPECT_EQ(json_string("\xed\xa0\x80"), R"("\ufffd\ufffd\ufffd")") << "a lone surrogate";
-  EXPECT_EQ(json_string("\xe2\x82"), R"("\ufffd\ufffd")") << "cut short";
-}
-
-TEST(Base64, IsTheStandardOneOverLittleEndianFloats) {
-  EXPECT_EQ(base64({}), "");
-  EXPECT_EQ(base64({1.0f}), "AACAPw==");
-  EXPECT_EQ(base64({1.0f, -2.0f}), "AACAPwAAAMA=");
-  EXPECT_EQ(base64({1.0f, -2.0f, 0.5f}), "AACAPwAAAMAAAAA/");
-}
 
 TEST(PageData, HoldsNamesGeometryAndFrames) {
   PageData page(fake::tiny(), 50, 100);
@@ -46,8 +21,8 @@ TEST(PageData, HoldsNamesGeometryAndFrames) {
         R"("name":"arm::lever","model":"arm","mass_kg":0.2,"visuals":[{"kind":"sphere")", R"("rgba":[1,0,0,1])", R"("frames":1)"}) {
     EXPECT_NE(json.find(part), std::string::npos) << part << "\n" << json;
   }
-  EXPECT_NE(json.find("\"poses\":\"" + base64({0.5f, 0, -1, 1, 0, 0, 0}) + '"'), std::string::npos) << json;
-  EXPECT_NE(json.find(base64({0.1f, -2, 0.25f, 0.2f, 0.611f, 0.6f, static_cast<float>(1.0 / 3), 1e-7f, 1.5f, -1e22f})),
+  EXPECT_NE(json.find("\"poses\":\"" + page::base64({0.5f, 0, -1, 1, 0, 0, 0}) + '"'), std::string::npos) << json;
+  EXPECT_NE(json.find(page::base64({0.1f, -2, 0.25f, 0.2f, 0.611f, 0.6f, static_cast<float>(1.0 / 3), 1e-7f, 1.5f, -1e22f})),
             std::string::npos)
       << json;
 }
@@ -67,7 +42,7 @@ TEST(PageData, PutsAnActuatorsChannelsOneAfterTheOther) {
   expected[1] = 2;
   expected[3] = 3;
   const std::string json = page.json(fake::tiny(), {});
-  EXPECT_NE(json.find("\"actuators\":\"" + base64(expected) + '"'), std::string::npos) << json;
+  EXPECT_NE(json.find("\"actuators\":\"" + page::base64(expected) + '"'), std::string::npos) << json;
 }
 
 TEST(PageData, WritesAMeshOnceHoweverManyLinksShowIt) {
@@ -79,7 +54,7 @@ TEST(PageData, WritesAMeshOnceHoweverManyLinksShowIt) {
   info.links[0].visuals = {mesh};
   info.links[1].visuals = {mesh, mesh};
   const std::string json = PageData(info, 50, 10).json(info, {});
-  const std::string bytes = base64(mesh.vertices);
+  const std::string bytes = page::base64(mesh.vertices);
   EXPECT_NE(json.find(bytes), std::string::npos);
   EXPECT_EQ(json.find(bytes), json.rfind(bytes));
 }
@@ -93,33 +68,7 @@ TEST(PageData, DropsEveryOtherFrameInsteadOfGrowingWithoutBound) {
   EXPECT_GE(page.frames(), 4u);
   const std::string json = page.json(fake::tiny(), {});
   // 1 s at 100 Hz in at most 8 frames: 160 ms apart.
-  EXPECT_NE(json.find(base64({0, 0.16f, 0.32f, 0.48f, 0.64f, 0.80f, 0.96f})), std::string::npos) << json;
-}
-
-TEST(Page, IsTheTemplateWithTheDataInPlaceOfTheMarker) {
-  const Scratch dir;
-  write_page(dir.path() / "replay.html", "<script>@VSA_PAGE_DATA@</script>", "{\"a\":1}");
-  EXPECT_EQ(slurp(dir.path() / "replay.html"), "<script>{\"a\":1}</script>");
-  EXPECT_FALSE(fs::exists(dir.path() / "replay.html.part"));
-}
-
-TEST(Page, LeavesTheOldPageAloneWhenItCantBeWritten) {
-  const Scratch dir;
-  spew(dir.path() / "replay.html", "old");
-  fs::create_symlink("/dev/full", dir.path() / "replay.html.part");
-  const std::string message = message_of<RecordError>([&] { write_page(dir.path() / "replay.html", "@VSA_PAGE_DATA@", "{}"); });
-  EXPECT_NE(message.find("No space left on device"), std::string::npos) << message;
-  EXPECT_NE(message.find((dir.path() / "replay.html").string()), std::string::npos) << message;
-  EXPECT_EQ(slurp(dir.path() / "replay.html"), "old");
-}
-
-TEST(Page, RefusesATemplateThatIsMissingOrNone) {
-  const Scratch dir;
-  const std::string missing = message_of<InputError>([&] { (void)read_template(dir.path() / "no.html"); });
-  EXPECT_NE(missing.find("No such file or directory"), std::string::npos) << missing;
-  spew(dir.path() / "bad.html", "<html>");
-  const std::string bad = message_of<InputError>([&] { (void)read_template(dir.path() / "bad.html"); });
-  EXPECT_NE(bad.find("it must hold @VSA_PAGE_DATA@ once"), std::string::npos) << bad;
+  EXPECT_NE(json.find(page::base64({0, 0.16f, 0.32f, 0.48f, 0.64f, 0.80f, 0.96f})), std::string::npos) << json;
 }
 
 }  // namespace

@@ -21,12 +21,7 @@ void expect_holds(const std::string& json, const std::string& part) {
 }
 
 TEST(ReportJson, OfAnEmptyReportIsComplete) {
-  EXPECT_EQ(to_json({}), R"({"format":1,
-"title":"",
-"subtitle":"",
-"footer":"",
-"one_page":false,
-"sections":[]})");
+  EXPECT_EQ(to_json({}), R"({"format":1,"title":"","subtitle":"","footer":"","one_page":false,"sections":[]})");
 }
 
 TEST(ReportJson, HoldsEveryKindOfBlock) {
@@ -61,7 +56,8 @@ TEST(ReportJson, MakesAGapOfWhatIsNoNumber) {
 
 TEST(ReportJson, KeepsHostileTextInsideItsStrings) {
   const std::string evil = "</script><img src=x onerror=\"alert(1)\">\n\\ \xff";
-  const std::string safe = R"(\u003c/script\u003e\u003cimg src=x onerror=\"alert(1)\"\u003e\u000a\\ \ufffd)";
+  const std::string safe = R"(\u003c/script\u003e\u003cimg src=x onerror=\"alert(1)\"\u003e\n\\ )"
+                           "\uFFFD";
   Curve curve;
   curve.name = curve.group = evil;
   Report r;

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Chains of every shipped type, preset, step and posture come to rest in the embedded engine. docs/7-host.md has the table.
+// Chains of every shipped type, preset, step and posture come to rest in the embedded engine. docs/explanation/7-host.md has the
+// table.
 #include <gtest/gtest.h>
 
 #include <cmath>

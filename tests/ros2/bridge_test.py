@@ -77,7 +77,7 @@ class Bridges(unittest.TestCase):
                 self.assertIsNotNone(ROS_NAME.fullmatch(name), name)
 
     def test_the_table_of_the_documentation_names_what_is_bridged(self):
-        text = (SOURCE / 'docs' / '14-ros2.md').read_text()
+        text = (SOURCE / 'docs' / 'howto' / 'ros2.md').read_text()
         rows = re.findall(r'^\| `/M/(\S+)` \| (\S+) \| (to|from) ROS \|', text, re.M)
         said = {(name, kind, 'ROS_TO_GZ' if way == 'from' else 'GZ_TO_ROS') for name, kind, way in rows}
         entries = bridges()['qbmove_bench_load']

@@ -247,7 +247,7 @@ class Bench(Live, unittest.TestCase):
         self.assertAlmostEqual(slope, 0.5, delta=0.05, msg='rad per simulated second')
 
     def test_the_commands_of_the_page_work_as_they_stand(self):
-        page = (SOURCE / 'docs' / '14-ros2.md').read_text()
+        page = (SOURCE / 'docs' / 'howto' / 'ros2.md').read_text()
         echo = re.search(r'^(ros2 topic echo \S+)', page, re.M).group(1)
         publish = re.search(r'^(ros2 topic pub .+)$', page, re.M).group(1)
         said = subprocess.run(f'{echo} --once', shell=True, capture_output=True, text=True, timeout=PATIENCE_S)
@@ -262,7 +262,7 @@ class Snake(Live, unittest.TestCase):
     world, launch, robot = 'snake_flat', ('snake.launch.py',), 'qbmove_snake'
 
     def test_the_wave_of_the_page_runs_over_the_snake(self):
-        page = (SOURCE / 'docs' / '14-ros2.md').read_text()
+        page = (SOURCE / 'docs' / 'howto' / 'ros2.md').read_text()
         wave = pathlib.Path(WORK.name) / 'wave.py'
         wave.write_text(re.search(r'^```python\n(.*?)^```', page, re.M | re.S).group(1))
         states = self.listen(JointState, 'joint_states')

@@ -1,5 +1,5 @@
 #!/bin/sh
-# An outside project that consumes the installed package: installs this build, builds examples/library against it, runs both programs.
+# An outside project that consumes the installed package: installs this build, builds examples/library against it, runs its programs.
 set -eu
 source=$1 build=$2
 work=$build/consumer
@@ -26,6 +26,9 @@ if "$work/build/move_a_joint" 2> "$work/error"; then echo "consumer.sh: a world 
 mv "$work/models" "$work/prefix/share/vsa/models"
 grep -qE '^shaft (0.9|1.0)' "$work/output"
 grep -q '^back at 0.000 s' "$work/output"
+"$work/build/measure_an_actuator" > "$work/measured" 2> "$work/progress"
+grep -qE '^preset 0.6 rad: [1-9]\.[0-9]+ rad/s' "$work/measured"
+grep -q '  0 % of ' "$work/progress"
 
 # The serial client against units on a virtual port of the installed command, which is ready when it has said how to end it.
 mkfifo "$work/emulated"

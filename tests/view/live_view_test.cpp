@@ -13,7 +13,7 @@
 
 #include "../record/scratch.hpp"
 #include "client.hpp"
-#include "vsa/record/page.hpp"
+#include "vsa/page/page.hpp"
 
 namespace vsa::view::testing {
 namespace {
@@ -35,7 +35,7 @@ struct Session {
   explicit Session(const std::string& name, const std::string& gait_name = "")
       : world(engine::World::load(model("worlds/" + name))) {
     if (!gait_name.empty()) gait = engine::Gait::load(model("gaits/" + gait_name));
-    record::spew(scratch.path() / "page.html", std::string("<p>") + std::string(record::kPageMarker) + "</p>");
+    record::spew(scratch.path() / "page.html", std::string("<p>") + std::string(page::kMarker) + "</p>");
     LiveOptions options;
     options.server.rate_Hz = 1000;
     options.page_template = options.replay_template = scratch.path() / "page.html";

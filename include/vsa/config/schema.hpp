@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // Every parameter of a preset but the elastic law's own: one table, from which files are checked, listings are printed and
-// docs/config.md is tested. A law's keys are asked for by its factory (LawReader).
+// docs/reference/config.md is tested. A law's keys are asked for by its factory (LawReader).
 #pragma once
 
 #include <span>

@@ -106,7 +106,7 @@ class World {
  public:
   /// A file, or the name of a built-in world ("snake_flat.sdf"). Throws InputError with all problems. Safe from several
   /// threads at once (reading takes turns); a World itself belongs to one thread, but for commands. The second World of a file
-  /// that hasn't changed takes milliseconds: what was read is kept (docs/8-engine.md). Presets are read each time.
+  /// that hasn't changed takes milliseconds: what was read is kept (docs/explanation/8-engine.md). Presets are read each time.
   [[nodiscard]] static World load(const std::filesystem::path& sdf, WorldOptions options = {});
   [[nodiscard]] static World load_string(std::string_view sdf, WorldOptions options = {});
   ~World();

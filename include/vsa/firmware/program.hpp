@@ -15,7 +15,7 @@
 // time.
 //
 // Sources: NMMI/qbmove-maker-pro 6.1 (main.c, interruptions.c, command_processing.c); NMMI/qbmove-advanced 6.1.6. Dialect seven has
-// no public firmware: its answers are what qbdevice-api 7.2.8 expects (docs/4-firmware.md).
+// no public firmware: its answers are what qbdevice-api 7.2.8 expects (docs/explanation/4-firmware.md).
 #pragma once
 
 #include <array>

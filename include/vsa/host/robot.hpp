@@ -19,8 +19,8 @@
 // Frictions look ahead with a w of their own, from their bristle's stiffness: −k [(1 − w)(u + u')/2 + w u(q')]. In the middle of
 // a step they do no work on v' = −v, and a held joint would buzz. What (2) takes from the energy is the ledger's `integrator`.
 //   B        1/(kg·m²); per tree with `join` and the last argument of `advance`, else the diagonal per joint, else the configured
-//   shaft_inertia_kgm2.     a_other  acceleration by all else (gravity, contacts, other joints), from the last step:
-//   (v − v_before)/dt − B τ_before.
+//            shaft_inertia_kgm2
+//   a_other  acceleration by all else (gravity, contacts, other joints), from the last step: (v − v_before)/dt − B τ_before
 // What (1) mispredicts is not hidden: it is the `coupling` entry of the energy ledger.
 #pragma once
 

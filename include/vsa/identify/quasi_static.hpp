@@ -18,7 +18,7 @@
 // δ = shaft_zero − attained(x).
 //
 // Range: |τ| below M g r. It doesn't see inertia, viscous and electrical damping, the sweep's speed, encoders' steps, or that a
-// motor sticks and slips between two of them; against the simulated bench it errs by 2 to 5 mrad (docs/11-identify.md).
+// motor sticks and slips between two of them; against the simulated bench it errs by 2 to 5 mrad (docs/howto/identify.md).
 #pragma once
 
 #include <array>

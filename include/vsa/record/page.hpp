@@ -1,20 +1,14 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The replay page: one HTML file that needs nothing else, no network either. The template (web/, built into
-// share/vsa/web/replay.html) carries the program; the data go where its marker is, as JSON with base64 arrays of little-endian
-// 32-bit floats. Everything that came from a user's file is data to the page, never markup.
+// The data of the replay page (page/page.hpp), as JSON with base64 arrays of little-endian 32-bit floats.
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "vsa/record/run_data.hpp"
 
 namespace vsa::record {
-
-inline constexpr std::string_view kPageMarker = "@VSA_PAGE_DATA@";
 
 /// What stands around the numbers.
 struct PageText {
@@ -58,18 +52,5 @@ class PageData {
   std::vector<float> time_;
   Frame data_;  // frame after frame
 };
-
-/// Reads the template and checks that it has the marker once. Throws InputError.
-[[nodiscard]] std::string read_template(const std::filesystem::path& file);
-
-/// Writes template + data to `file`: beside it first, then renamed, so that there is never half a page. Throws RecordError.
-void write_page(const std::filesystem::path& file, std::string_view page_template, std::string_view json);
-
-/// Text as a JSON string that is safe inside <script>: quotes included, '<', '>', '&' and line separators escaped, bytes that
-/// aren't UTF-8 replaced.
-[[nodiscard]] std::string json_string(std::string_view text);
-
-/// Standard base64 of the floats' little-endian bytes.
-[[nodiscard]] std::string base64(const std::vector<float>& values);
 
 }  // namespace vsa::record

@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "vsa/actuator/ledger.hpp"
 #include "vsa/engine/world.hpp"
 #include "vsa/host/robot.hpp"
+#include "vsa/output_file.hpp"
 
 namespace vsa::record {
 
@@ -55,11 +55,8 @@ struct Statistic {
   std::string value;  ///< with its unit
 };
 
-/// Writing failed after the recording had begun (disk full, …). what() gives path and reason.
-class RecordError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+/// Writing failed after the recording had begun.
+using RecordError = OutputError;
 
 /// The bodies that an actuator's joint belongs to, for highlighting: the links in the joint's own scope ("module_1::shaft" → all of
 /// "MODEL::module_1::…"). A joint without a scope says nothing of its bodies; then the robot's n-th moving link stands for its n-th

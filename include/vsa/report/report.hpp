@@ -72,7 +72,7 @@ struct Report {
 /// One chart as a picture without a page, for documents. Throws as to_json() does.
 [[nodiscard]] std::string to_svg(const Chart& chart);
 
-/// Beside it first, then renamed, so that there is never half a page. Throws record::RecordError / InputError as write_page does.
+/// Beside it first, then renamed, so that there is never half a page. Throws OutputError / InputError as write_page does.
 void write_report(const Report& report, const std::filesystem::path& file);
 
 }  // namespace vsa::report

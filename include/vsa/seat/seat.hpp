@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// What every simulator does with a robot; its host only carries numbers in and out (docs/seat.md, examples/host).
+// What every simulator does with a robot; its host only carries numbers in and out (docs/howto/your-simulator.md, examples/host).
 //
 //   Seat seat({element_xml, "world: model", "model", joints_of_the_model}, options);
 //   seat.join(trees);            which joints move each other            once

@@ -1,0 +1,117 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "characterize/characterize.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "characterize/output.hpp"
+#include "terminal/console.hpp"
+#include "terminal/exit_codes.hpp"
+#include "terminal/follow.hpp"
+#include "terminal/interrupt.hpp"
+#include "terminal/numbers.hpp"
+#include "terminal/output_files.hpp"
+#include "terminal/settings.hpp"
+
+namespace vsa::app {
+namespace {
+
+constexpr const char* kNotes = R"(Experiments, on the worlds bench_load and bench_free (the paper, section IV):
+  stiffness    slow sinusoidal sweep of the equilibrium with 1 kg on a 0.15 m lever: torque-deflection loop, stiffness
+  speed        square wave of the equilibrium, 1.57 rad, no load: rise time, speed, overshoot, ringing
+  preset-step  the preset from 0 to its largest value and back, without load and with the lever held out
+
+Writes report.html, results.json and a CSV file for each run. An actuator without a stiffness preset has no
+--preset-rad and no preset-step.
+
+Examples:
+  vsa characterize qbmove_maker_pro
+  vsa characterize qbmove_maker_pro --experiment stiffness --preset-rad 0 0.2 0.4 --period-s 76 --out slow
+  vsa characterize qbmove_maker_pro --set drive.supply_V=24)";
+
+study::CharacterizationOptions study_of(const CharacterizeOptions& o) {
+  study::CharacterizationOptions out;
+  out.specimen.preset = o.preset;
+  out.specimen.overrides = parse_settings(o.set, "--set");
+  for (const auto e : {study::Experiment::stiffness, study::Experiment::speed, study::Experiment::preset_step}) {
+    if (std::find(o.experiments.begin(), o.experiments.end(), study::word(e)) != o.experiments.end()) out.experiments.push_back(e);
+  }
+  out.preset = o.preset_rad;
+  out.period_s = o.period_s;
+  out.amplitude_rad = o.amplitude_rad;
+  out.cycles = o.cycles;
+  return out;
+}
+
+/// The command again, with what was given.
+std::string command_of(const CharacterizeOptions& o) {
+  std::string out = "vsa characterize " + o.preset;
+  for (const auto& e : o.experiments) out += " --experiment " + e;
+  if (!o.preset_rad.empty()) out += fmt::format(" --preset-rad {}", fmt::join(o.preset_rad, " "));
+  if (o.period_s) out += fmt::format(" --period-s {}", *o.period_s);
+  if (o.amplitude_rad) out += fmt::format(" --amplitude-rad {}", *o.amplitude_rad);
+  if (o.cycles) out += fmt::format(" --cycles {}", *o.cycles);
+  for (const auto& s : o.set) out += " --set " + s;
+  return out;
+}
+
+template <class Results>
+void tell_notices(const Results& results, const std::string& unit, Console& console) {
+  for (const auto& r : results) {
+    for (const std::string& n : r.run.notices) {
+      console.line(unit.empty() ? "warning: " + n : fmt::format("warning: preset {} {}: {}", r.options.preset, unit, n));
+    }
+  }
+}
+
+}  // namespace
+
+int run_characterize(const CharacterizeOptions& options) {
+  Console console;
+  study::Characterization plan = study::plan_characterization(study_of(options));
+  catch_interrupts();
+  const auto result = study::run(std::move(plan), follow(console));
+  console.wipe();
+  if (!result) {
+    console.line("stopped: nothing was written");
+    return kSignalled + interrupted();
+  }
+  tell_notices(result->stiffness, result->preset_unit(), console);
+  tell_notices(result->speed, result->preset_unit(), console);
+  tell_notices(result->preset_step, result->preset_unit(), console);
+  const std::filesystem::path out = options.out.empty() ? "characterize_" + options.preset : options.out;
+  make_directory(out, "--out");
+  const auto files = write_characterization(*result, command_of(options), out);
+  std::cout << characterization_text(*result) << "written: " << (out / files.front()).string();
+  std::cout << fmt::format(" and {} more files in {}\n", files.size() - 1, out.string());
+  return std::cout.flush() ? kDone : kFailed;
+}
+
+void setup_characterize(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<CharacterizeOptions>();
+  CLI::App* sub = app.add_subcommand("characterize", "Measure an actuator preset as the paper measured its hardware");
+  sub->add_option("PRESET", options->preset, "Actuator preset, see vsa actuators")->required();
+  sub->add_option("--experiment", options->experiments, "Which to run; default: all")
+      ->check(CLI::IsMember({"stiffness", "speed", "preset-step"}));
+  sub->add_option("--preset-rad", options->preset_rad,
+                  "Stiffness presets; default: 0 0.4602 0.6903 for stiffness, 0 0.1125 0.3 0.75 for speed, 0.75 for preset-step; "
+                  "preset-step takes the largest")
+      ->check(number_given());
+  sub->add_option("--period-s", options->period_s, "Period of the stiffness sweep; default 38")->check(number_given());
+  sub->add_option("--amplitude-rad", options->amplitude_rad,
+                  "Amplitude of the stiffness sweep; default: the shaft reaches 94° at preset 0, 81° at 0.6903 rad")
+      ->check(number_given());
+  sub->add_option("--cycles", options->cycles, "Cycles of the stiffness sweep after the first, which is left out; default 4")
+      ->check(number_given());
+  sub->add_option("--set", options->set, "Override a parameter: key=value");
+  sub->add_option("--out", options->out, "Directory for the files; default: characterize_PRESET");
+  sub->footer(kNotes);
+  sub->callback([options, &exit_code] { exit_code = run_characterize(*options); });
+}
+
+}  // namespace vsa::app

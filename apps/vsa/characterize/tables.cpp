@@ -1,0 +1,126 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "characterize/output.hpp"
+#include "terminal/table.hpp"
+#include "vsa/units.hpp"
+
+namespace vsa::app {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::string text(double value, const char* format) {
+  if (std::abs(value) < 1e-9) value = 0;  // a ratio fitted to what doesn't decay may come out as −1e-15
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "–";
+}
+
+/// σ ± standard error at the point whose torque is nearest.
+std::string stiffness_at(const study::StiffnessResult& r, double torque_Nm) {
+  const auto distance = [torque_Nm](const auto& p) { return std::abs(p.torque_Nm - torque_Nm); };
+  const auto at =
+      std::min_element(r.curve.begin(), r.curve.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  constexpr double kNear_Nm = 0.026;  // half the branches' grid
+  if (at == r.curve.end() || distance(*at) > kNear_Nm) return "–";
+  return fmt::format("{:.3g} ± {:.1g}", at->stiffness_Nm_per_rad, at->standard_error_Nm_per_rad);
+}
+
+/// The preset's cells, left out where there is none.
+void put_preset(Row& row, const study::Characterization& c, const std::string& cell) {
+  if (!c.preset_unit().empty()) row.push_back(cell);
+}
+
+Row head(const study::Characterization& c, const std::vector<std::string>& rest, bool attained) {
+  Row out;
+  put_preset(out, c, "preset [" + c.preset_unit() + "]");
+  if (attained) put_preset(out, c, "attained");
+  out.insert(out.end(), rest.begin(), rest.end());
+  return out;
+}
+
+}  // namespace
+
+report::Table stiffness_table(const study::Characterization& c) {
+  report::Table out;
+  out.title = "Stiffness";
+  out.head = head(
+      c,
+      {"shaft to [°]", "load to [N·m]", "δ to [rad]", "σ at 0 [N·m/rad]", "σ at 1 N·m", "loop [N·m·rad]", "width [rad]", "A [rad]"},
+      true);
+  for (const study::StiffnessResult& r : c.stiffness) {
+    Row row;
+    put_preset(row, c, fmt::format("{:.4g}", r.options.preset));
+    put_preset(row, c, fmt::format("{:.3f} … {:.3f}", r.preset.least, r.preset.most));
+    row.push_back(fmt::format("{:.1f}", r.shaft_rad.most * 180 / kPi));
+    row.push_back(fmt::format("{:.3f}", r.load_Nm.most));
+    row.push_back(fmt::format("{:.3f}", r.deflection_rad.most));
+    row.push_back(stiffness_at(r, 0));
+    row.push_back(stiffness_at(r, 1));
+    row.push_back(text(r.loop.area_Nm_rad, "{:.4f}"));
+    row.push_back(text(r.loop.mean_abs_width_rad, "{:.4f}"));
+    row.push_back(fmt::format("{:.4f}", r.run.amplitude_rad));
+    out.rows.push_back(row);
+  }
+  out.caption =
+      "Torque and deflection δ as the unit's encoders read them, mean of both branches; ± one standard error. Loop: ∫(falling − "
+      "rising) dτ over |τ| ≤ 1.4 N·m, positive where energy is lost. Width: mean of |falling − rising|. A: amplitude of the sweep.";
+  return out;
+}
+
+report::Table speed_table(const study::Characterization& c) {
+  report::Table out;
+  out.title = "Speed";
+  out.head = head(c,
+                  {"rise [s]", "ω shaft [rad/s]", "ω pulleys [rad/s]", "peak [rad/s]", "overshoot [%]", "ringing [Hz]",
+                   "damping [1]", "steady error [rad]"},
+                  false);
+  for (const study::SpeedResult& r : c.speed) {
+    const experiment::StepMeasures &s = r.mean.shaft, &p = r.mean.pulleys;
+    Row row;
+    put_preset(row, c, fmt::format("{:.4g}", r.options.preset));
+    row.push_back(text(s.rise_s, "{:.3f}"));
+    row.push_back(text(s.mean_speed, "{:.3f}"));
+    row.push_back(text(p.mean_speed, "{:.3f}"));
+    row.push_back(text(s.peak_slope, "{:.2f}"));
+    row.push_back(text(s.overshoot_pct, "{:.2f}"));
+    row.push_back(text(s.ringing_Hz, "{:.1f}"));
+    row.push_back(text(s.damping_ratio, "{:.3f}"));
+    row.push_back(text(s.steady_error, "{:+.4f}"));
+    out.rows.push_back(row);
+  }
+  out.caption =
+      "Means over the square wave's edges. Rise: 10–90 % of the attained change; ω: Δθ/Δt over it, of the shaft and of the mean of "
+      "the pulleys. Steady error: negative where the shaft falls short. –: nothing to measure.";
+  return out;
+}
+
+report::Table preset_step_table(const study::Characterization& c) {
+  report::Table out;
+  out.title = "Preset step";
+  const std::string unit = " [" + c.preset_unit() + "]";
+  out.head = {"load", "load torque [N·m]", "commanded" + unit, "attained" + unit, "rise [s]", "resting" + unit, "fall [s]"};
+  for (const study::PresetStepResult& r : c.preset_step) {
+    out.rows.push_back({r.options.loaded ? "lever" : "none",
+                        r.options.loaded ? fmt::format("{:.2f} … {:.2f}", r.load_Nm.least, r.load_Nm.most) : "0",
+                        fmt::format("0 → {:.4g} → 0", r.options.preset), text(r.up.final_value, "{:.4f}"),
+                        text(r.up.rise_s, "{:.3f}"), text(r.down.final_value, "{:.4f}"), text(r.down.rise_s, "{:.3f}")});
+  }
+  out.caption = "Attained preset, from the pulleys; times are 10–90 % of the attained change.";
+  return out;
+}
+
+std::string characterization_text(const study::Characterization& c) {
+  std::string out = c.actuator.title + '\n';
+  for (const report::Table& t : {stiffness_table(c), speed_table(c), preset_step_table(c)}) {
+    if (t.rows.empty()) continue;
+    std::vector<Row> rows{t.head};
+    rows.insert(rows.end(), t.rows.begin(), t.rows.end());
+    out += '\n' + t.title + '\n' + table_text(rows, 0);
+  }
+  return out + '\n';
+}
+
+}  // namespace vsa::app

@@ -1,0 +1,84 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "datasheet/datasheet.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "datasheet/page.hpp"
+#include "terminal/console.hpp"
+#include "terminal/exit_codes.hpp"
+#include "terminal/follow.hpp"
+#include "terminal/interrupt.hpp"
+#include "terminal/settings.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::app {
+namespace {
+
+constexpr const char* kNotes =
+    R"(One page: torque, speed, stiffness and energy from the law and the drive's parameters; how fast a step and a
+change of stiffness are, from the benches as vsa characterize runs them. Each number says which.
+
+Examples:
+  vsa datasheet qbmove_maker_pro
+  vsa datasheet qbmove_maker_pro --set drive.supply_V=24 --out at_24V.html)";
+
+/// Known before a minute's work, not after.
+void check_writable(const std::filesystem::path& file) {
+  const std::filesystem::path directory = file.has_parent_path() ? file.parent_path() : ".";
+  if (!std::filesystem::is_directory(directory)) {
+    throw InputError({"", "--out", file.string(), "its directory doesn't exist", "a file in a directory that exists"});
+  }
+  if (std::filesystem::is_directory(file)) throw InputError({"", "--out", file.string(), "is a directory", "a file"});
+}
+
+std::string command_of(const DatasheetOptions& o) {
+  std::string out = "vsa datasheet " + o.preset;
+  for (const auto& s : o.set) out += " --set " + s;
+  return out;
+}
+
+template <class Results>
+void tell_notices(const Results& results, Console& console) {
+  for (const auto& r : results) {
+    for (const std::string& notice : r.run.notices) console.line("warning: " + notice);
+  }
+}
+
+}  // namespace
+
+int run_datasheet(const DatasheetOptions& options) {
+  Console console;
+  const std::filesystem::path file = options.out.empty() ? "datasheet_" + options.preset + ".html" : options.out;
+  experiment::Specimen specimen;
+  specimen.preset = options.preset;
+  specimen.overrides = parse_settings(options.set, "--set");
+  study::DataSheet plan = study::plan_data_sheet(specimen);
+  check_writable(file);
+  catch_interrupts();
+  const auto done = study::run(std::move(plan), follow(console));
+  console.wipe();
+  if (!done) return kSignalled + interrupted();
+  const study::DataSheet& data = *done;
+  tell_notices(data.simulated.speed, console);
+  tell_notices(data.simulated.preset_step, console);
+  report::write_report(data_sheet_report(data, command_of(options)), file);
+  std::cout << data_sheet_text(data) << "written: " << file.string() << '\n';
+  return std::cout.flush() ? kDone : kFailed;
+}
+
+void setup_datasheet(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<DatasheetOptions>();
+  CLI::App* sub = app.add_subcommand("datasheet", "Write a one-page data sheet of an actuator preset");
+  sub->add_option("PRESET", options->preset, "Actuator preset, see vsa actuators")->required();
+  sub->add_option("--set", options->set, "Override a parameter: key=value");
+  sub->add_option("--out", options->out, "File to write; default: datasheet_PRESET.html");
+  sub->footer(kNotes);
+  sub->callback([options, &exit_code] { exit_code = run_datasheet(*options); });
+}
+
+}  // namespace vsa::app

@@ -1,0 +1,90 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "datasheet/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "terminal/table.hpp"
+
+namespace vsa::app {
+namespace {
+
+std::string overridden(const study::DataSheet& d) {
+  std::string out;
+  for (const config::Override& o : d.simulated.specimen.overrides) out += (out.empty() ? " with " : ", ") + o.key + " = " + o.value;
+  return out;
+}
+
+/// "linear_beyond_rad" → "linear beyond": the unit stands beside the value.
+std::string symbol(std::string key) {
+  for (const std::string_view suffix : {"_Nm_per_rad", "_per_rad", "_Nm", "_rad"}) {
+    if (key.size() <= suffix.size() || key.compare(key.size() - suffix.size(), suffix.size(), suffix) != 0) continue;
+    key.resize(key.size() - suffix.size());
+    break;
+  }
+  std::replace(key.begin(), key.end(), '_', ' ');
+  return key;
+}
+
+/// The law's equation where we know it; its parameters always.
+std::string law_text(const config::Preset& preset) {
+  std::string out = "Elastic law " + preset.law;
+  if (preset.law == "two_sinh") out += ": τ = −Σ kᵢ sinh(aᵢ δᵢ), δᵢ = q − qᵢ, q₁,₂ = θ ± p";
+  if (preset.law == "two_sinh_linear") out += ": τ = −Σ (kᵢ sinh(aᵢ δᵢ) + cᵢ δᵢ), δᵢ = q − qᵢ, q₁,₂ = θ ± p";
+  if (preset.law == "series_spring") out += ": τ = −k (q − q₁)";
+  std::string with;
+  for (const config::Entry& e : preset.entries) {
+    if (e.key.rfind("elastic.", 0) != 0 || e.unit.empty()) continue;
+    with +=
+        fmt::format("{}{} = {}{}", with.empty() ? "; " : ", ", symbol(e.key.substr(8)), e.value, e.unit == "1" ? "" : " " + e.unit);
+  }
+  return out + with + ".";
+}
+
+std::string how_text(const study::DataSheet& d) {
+  return fmt::format(
+      "law: from the spring's equation; drive: from the motors' parameters at {} V; simulation: from runs on the benches, as vsa "
+      "characterize does them. Steady values at full voltage: no parameter tells what the motors may give for long, nor mass and "
+      "size.",
+      number(d.computed.preset.unit.actuator.bridge.supply_V));
+}
+
+}  // namespace
+
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
+
+report::Report data_sheet_report(const study::DataSheet& d, const std::string& command) {
+  const config::Preset& p = d.computed.preset;
+  report::Report out;
+  out.title = p.title;
+  out.subtitle = "Data sheet of the simulated actuator " + p.name + overridden(d);
+  out.one_page = true;
+  std::string about = p.description.empty() ? "" : p.description + " ";
+  report::Section head{"", {report::Text{about + law_text(p)}, report::Figures{key_figures(d)}}};
+  report::Section curves{"", sheet_charts(d)};
+  report::Section tables{"", {}};
+  if (d.has_preset()) tables.blocks.push_back(preset_table(d));
+  report::Section operating{"", {mechanical_table(d), electrical_table(d)}};
+  out.sections = {std::move(head), std::move(curves)};
+  if (!tables.blocks.empty()) out.sections.push_back(std::move(tables));
+  out.sections.push_back(std::move(operating));
+  out.footer = how_text(d) + "\n" + command + " · vsa " VSA_VERSION;
+  return out;
+}
+
+std::string data_sheet_text(const study::DataSheet& d) {
+  std::string out = d.computed.preset.title + "\n\n";
+  std::vector<report::Table> tables{mechanical_table(d), electrical_table(d)};
+  if (d.has_preset()) tables.insert(tables.begin(), preset_table(d));
+  for (const report::Table& t : tables) {
+    std::vector<std::vector<std::string>> rows{t.head};
+    rows.insert(rows.end(), t.rows.begin(), t.rows.end());
+    out += t.title + "\n" + table_text(rows, terminal_width()) + "\n";
+  }
+  return out;
+}
+
+}  // namespace vsa::app

@@ -1,0 +1,27 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The page of a data sheet: numbers with where each comes from, curves, one A4 page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vsa/report/report.hpp"
+#include "vsa/study/data_sheet.hpp"
+
+namespace vsa::app {
+
+[[nodiscard]] std::vector<report::Figure> key_figures(const study::DataSheet& d);
+[[nodiscard]] report::Table mechanical_table(const study::DataSheet& d);
+[[nodiscard]] report::Table electrical_table(const study::DataSheet& d);
+[[nodiscard]] report::Table preset_table(const study::DataSheet& d);
+[[nodiscard]] std::vector<report::Block> sheet_charts(const study::DataSheet& d);
+
+[[nodiscard]] report::Report data_sheet_report(const study::DataSheet& d, const std::string& command);
+/// The tables as text.
+[[nodiscard]] std::string data_sheet_text(const study::DataSheet& d);
+
+/// "0.302": three digits that count; "–" where there is no number.
+[[nodiscard]] std::string number(double value);
+
+}  // namespace vsa::app

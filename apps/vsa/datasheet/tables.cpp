@@ -1,0 +1,166 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "datasheet/page.hpp"
+#include "vsa/units.hpp"
+
+namespace vsa::app {
+namespace {
+
+using experiment::PresetColumn;
+
+constexpr const char* kDrive = "drive";
+constexpr const char* kBoth = "law, drive";
+constexpr const char* kSimulation = "simulation";
+constexpr const char* kPreset = "preset";
+constexpr const char* kDevice = "electronics";
+
+std::string range(double low, double high) { return low == -high ? "±" + number(high) : number(low) + " … " + number(high); }
+std::string pair(double a, double b) { return number(a) + " / " + number(b); }
+
+/// Speed at which the actuator still moves a load, along the boundary at its softest; NaN: it doesn't.
+double speed_under(const PresetColumn& c, double load_Nm) {
+  for (std::size_t i = 1; i < c.boundary.size(); ++i) {
+    const auto &a = c.boundary[i - 1], &b = c.boundary[i];
+    if (!(a.reach.torque_Nm >= load_Nm && b.reach.torque_Nm <= load_Nm)) continue;
+    const double part = (a.reach.torque_Nm - load_Nm) / (a.reach.torque_Nm - b.reach.torque_Nm);
+    return a.speed_rad_per_s + part * (b.speed_rad_per_s - a.speed_rad_per_s);
+  }
+  return std::nan("");
+}
+
+void add_preset_steps(const study::DataSheet& d, report::Table& out) {
+  const std::string unit = d.preset_unit();
+  for (const study::PresetStepResult& r : d.simulated.preset_step) {
+    const std::string load = r.options.loaded ? fmt::format("{} N·m", number(r.run.load_peak_Nm)) : "no load";
+    out.rows.push_back(
+        {"stiffness variation time 10–90 %, " + load + ", up / down", pair(r.up.rise_s, r.down.rise_s), "s", kSimulation});
+  }
+  for (const study::PresetStepResult& r : d.simulated.preset_step) {
+    const std::string load = r.options.loaded ? fmt::format("{} N·m", number(r.run.load_peak_Nm)) : "no load";
+    out.rows.push_back({fmt::format("preset attained of {} / left of 0, {}", number(r.options.preset), load),
+                        pair(r.up.final_value, r.down.final_value), unit, kSimulation});
+  }
+}
+
+void add_speeds(const study::DataSheet& d, report::Table& out) {
+  const auto& speeds = d.simulated.speed;
+  const auto row = [&](const std::string& what, const std::string& unit, double experiment::StepMeasures::*field) {
+    const double soft = speeds.front().mean.shaft.*field, stiff = speeds.back().mean.shaft.*field;
+    const bool one = speeds.size() == 1;
+    const std::string at = one ? "" : fmt::format(", preset 0 / {}", number(speeds.back().options.preset));
+    out.rows.push_back({what + at, one ? number(soft) : pair(soft, stiff), unit, kSimulation});
+  };
+  const std::string step = fmt::format("{} rad step", number(speeds.front().options.step_rad));
+  row(step + ", mean speed 10–90 %", "rad/s", &experiment::StepMeasures::mean_speed);
+  row(step + ", overshoot", "%", &experiment::StepMeasures::overshoot_pct);
+}
+
+/// What a sheet with presets has in a table of its own.
+void add_columns(const PresetColumn& c, report::Table& out) {
+  out.rows.push_back({"peak torque", number(c.peak.torque_Nm), "N·m", kBoth});
+  out.rows.push_back({"torque held without current", number(c.unpowered.torque_Nm), "N·m", kBoth});
+  out.rows.push_back({"no-load speed", number(c.no_load_speed_rad_per_s), "rad/s", kDrive});
+  out.rows.push_back({"deflection at peak torque", number(c.peak.deflection_rad), "rad", kBoth});
+}
+
+}  // namespace
+
+std::vector<report::Figure> key_figures(const study::DataSheet& d) {
+  const experiment::DataSheet& s = d.computed;
+  const PresetColumn& soft = s.columns.front();
+  std::vector<report::Figure> out{
+      {"Peak torque", number(soft.peak.torque_Nm) + " N·m", "moves it; holds " + number(soft.holding.torque_Nm)},
+      {"No-load speed", number(soft.no_load_speed_rad_per_s) + " rad/s",
+       fmt::format("{:.0f} rpm", soft.no_load_speed_rad_per_s * 30 / kPi)},
+      {"Peak output power", number(soft.power.power_W) + " W",
+       fmt::format("{} N·m, {} rad/s", number(soft.power.torque_Nm), number(soft.power.speed_rad_per_s))},
+  };
+  if (d.has_preset()) {
+    out.push_back({"Stiffness at rest", range(soft.stiffness_at_rest_Nm_per_rad, s.stiffest_Nm_per_rad),
+                   fmt::format("N·m/rad, preset 0 … {} {}", number(s.attainable_preset), d.preset_unit())});
+  } else {
+    out.push_back({"Stiffness", number(soft.stiffness_at_rest_Nm_per_rad) + " N·m/rad", "no stiffness preset"});
+  }
+  out.push_back({"Elastic energy", number(s.most_energy_J) + " J", "largest that the motors load"});
+  const auto& steps = d.simulated.preset_step;
+  if (steps.size() == 2) {
+    out.push_back({"Stiffness variation", number(steps[0].up.rise_s) + " s",
+                   fmt::format("{} s at {} N·m", number(steps[1].up.rise_s), number(steps[1].run.load_peak_Nm))});
+  }
+  return out;
+}
+
+report::Table mechanical_table(const study::DataSheet& d) {
+  const experiment::DataSheet& s = d.computed;
+  const PresetColumn& c = s.columns.front();
+  report::Table out{"Mechanics", {"quantity", "value", "unit", "from"}, {}, ""};
+  auto& rows = out.rows;
+  if (!d.has_preset()) add_columns(c, out);  // else they stand in the table of presets
+  rows.push_back({"torque that full voltage holds", number(c.holding.torque_Nm), "N·m", kBoth});
+  if (const auto load = d.nominal_load_Nm()) {
+    rows.push_back({fmt::format("speed at {} N·m", number(*load)), number(speed_under(c, *load)), "rad/s", kBoth});
+  }
+  rows.push_back({"elastic energy, released at the shaft", number(c.peak.energy_J - c.energy_at_rest_J), "J", kBoth});
+  add_speeds(d, out);
+  add_preset_steps(d, out);
+  rows.push_back({"friction of the shaft", number(s.preset.unit.actuator.shaft_friction.coulomb_Nm), "N·m", kPreset});
+  if (d.has_preset()) out.caption = "At preset 0 where nothing else is said.";
+  return out;
+}
+
+report::Table electrical_table(const study::DataSheet& d) {
+  const experiment::DataSheet& s = d.computed;
+  const device::UnitConfig& u = s.preset.unit;
+  const int motors = u.actuator.transmission->motor_count();
+  const double degree = 180 / kPi;
+  report::Table out{"Electronics, control, limits", {"quantity", "value", "unit", "from"}, {}, ""};
+  auto& rows = out.rows;
+  rows.push_back({"supply", number(u.actuator.bridge.supply_V), "V", kPreset});
+  rows.push_back({"full voltage at a motor", number(s.line.voltage_V), "V", u.supply_limited() ? "firmware" : kDrive});
+  rows.push_back(
+      {"motors / current of each when stalled", fmt::format("{} / {}", motors, number(s.line.stall_current_A)), "A", kDrive});
+  rows.push_back({"friction of a motor with gears", number(s.line.friction_Nm), "N·m", kPreset});
+  rows.push_back({"position loop", number(1e6 / static_cast<double>(firmware::kTickNs)), "kHz", "firmware"});
+  rows.push_back({"error that moves a motor / gives full voltage", pair(s.errors.moves_rad * degree, s.errors.full_rad * degree),
+                  "°", kDrive});
+  rows.push_back({"encoders", number(u.actuator.encoder.bits), "bit", kPreset});
+  rows.push_back({"resolution measured / reported",
+                  pair(360.0 / std::pow(2.0, u.actuator.encoder.bits), 360.0 / (65536 >> u.memory.resolution[0])), "°",
+                  "firmware"});
+  rows.push_back({"current sense, a count", number(25771.0 / 8192.0), "mA", kDevice});
+  if (u.memory.limits_on != 0) {
+    rows.push_back({"travel of the motors",
+                    range(u.reference_range_raw(0)[0] * 360 / kRawPerTurn, u.reference_range_raw(0)[1] * 360 / kRawPerTurn), "°",
+                    "firmware"});
+  }
+  if (d.has_preset()) {
+    rows.push_back(
+        {"preset accepted / that the motors wind to", pair(u.preset_max, s.attainable_preset), d.preset_unit(), "preset; drive"});
+  }
+  return out;
+}
+
+report::Table preset_table(const study::DataSheet& d) {
+  const auto& columns = d.computed.columns;
+  report::Table out{"By stiffness preset", {fmt::format("attained preset [{}]", d.preset_unit())}, {}, ""};
+  const auto row = [&](const char* what, auto value) {
+    std::vector<std::string> cells{what};
+    for (const PresetColumn& c : columns) cells.push_back(number(value(c)));
+    out.rows.push_back(std::move(cells));
+  };
+  for (const PresetColumn& c : columns) out.head.push_back(number(c.preset));
+  row("stiffness at rest [N·m/rad]", [](const PresetColumn& c) { return c.stiffness_at_rest_Nm_per_rad; });
+  row("peak torque [N·m]", [](const PresetColumn& c) { return c.peak.torque_Nm; });
+  row("deflection at peak torque [rad]", [](const PresetColumn& c) { return c.peak.deflection_rad; });
+  row("stiffness at peak torque [N·m/rad]", [](const PresetColumn& c) { return c.peak.stiffness_Nm_per_rad; });
+  row("torque held without current [N·m]", [](const PresetColumn& c) { return c.unpowered.torque_Nm; });
+  row("no-load speed [rad/s]", [](const PresetColumn& c) { return c.no_load_speed_rad_per_s; });
+  row("peak output power [W]", [](const PresetColumn& c) { return c.power.power_W; });
+  row("elastic energy without load [J]", [](const PresetColumn& c) { return c.energy_at_rest_J; });
+  return out;
+}
+
+}  // namespace vsa::app

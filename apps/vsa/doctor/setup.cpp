@@ -1,0 +1,33 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Apart from the checks, which vsa-doctor has without CLI11.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "doctor/doctor.hpp"
+
+namespace vsa::app {
+namespace {
+
+constexpr const char* kNotes = R"(ok: nothing to do. note: worth knowing. problem: something won't work.
+Exit codes: 0 no problem, 1 a problem, 2 bad usage or no such world.
+
+Examples:
+  vsa doctor                     what Gazebo, topics and serial ports need, here and now
+  vsa doctor snake_flat          and this world
+  vsa doctor robot.sdf           elements of older plug-ins are written anew: docs/howto/migration.md)";
+
+}  // namespace
+
+void setup_doctor(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<DoctorOptions>();
+  CLI::App* sub = app.add_subcommand("doctor", "What is missing for Gazebo, topics and serial ports, or wrong with a world");
+  sub->add_option("WORLD", options->world, "An SDF file, or the name of a built-in world");
+  sub->add_option("--devices", options->devices, "Where the machine's devices are")
+      ->capture_default_str()
+      ->check(CLI::ExistingDirectory);
+  sub->footer(kNotes);
+  sub->callback([options, &exit_code] { exit_code = run_doctor(*options, load_world); });
+}
+
+}  // namespace vsa::app

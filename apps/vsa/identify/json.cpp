@@ -1,0 +1,144 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/study/json.hpp"
+
+#include "identify/output.hpp"
+#include "vsa/config/text.hpp"
+
+namespace vsa::app {
+namespace {
+
+using study::Json;
+using study::json_number;
+using study::json_numbers;
+
+Json parameters_json(const Identification& r) {
+  Json out = Json::array();
+  const identify::Uncertainty& u = r.uncertainty;
+  for (std::size_t k = 0; k < r.task.parameters.size(); ++k) {
+    const identify::Parameter& p = r.task.parameters[k];
+    out.push_back({{"name", p.name},
+                   {"keys", p.keys},
+                   {"unit", p.unit},
+                   {"start", p.start},
+                   {"bounds", {p.min, p.max}},
+                   {"value", r.fit.values[k]},
+                   {"standard_error", json_number(u.standard_error[k])},
+                   {"interval_95", {json_number(u.low[k]), json_number(u.high[k])}},
+                   {"standard_error_if_white", json_number(u.white_standard_error[k])},
+                   {"at_bound", static_cast<bool>(r.fit.at_bound[k])}});
+  }
+  return out;
+}
+
+Json difference_json(const experiment::Difference& d) {
+  return {{"rms_rad", json_number(d.both_rad)},
+          {"rms_rising_rad", json_number(d.rising_rad)},
+          {"rms_falling_rad", json_number(d.falling_rad)}};
+}
+
+Json recordings_json(const Identification& r) {
+  Json out = Json::array();
+  for (std::size_t o = 0; o < r.task.observations.size(); ++o) {
+    out.push_back({{"file", r.task.observations[o].name},
+                   {"preset", r.task.observations[o].preset},
+                   {"weight_per_rad", r.task.observations[o].weight},
+                   {"points", r.misfits[o].rms.points},
+                   {"before", difference_json(r.misfits_before[o].rms)},
+                   {"after", difference_json(r.misfits[o].rms)},
+                   {"residual_autocorrelation", json_number(r.uncertainty.autocorrelation[o])},
+                   {"residual_sd_rad", json_number(r.uncertainty.sd_rad[o])}});
+  }
+  return out;
+}
+
+Json groups_json(const Identification& r) {
+  Json out = Json::array();
+  for (const auto& group : r.uncertainty.unseparated) {
+    Json names = Json::array();
+    for (std::size_t k : group) names.push_back(r.task.parameters[k].name);
+    out.push_back(names);
+  }
+  return out;
+}
+
+Json starts_json(const Identification& r) {
+  Json out = Json::array();
+  for (const identify::StartResult& s : r.fit.starts) {
+    out.push_back(
+        {{"from", s.from}, {"to", s.to}, {"rms_rad", s.rms_rad}, {"iterations", s.iterations}, {"converged", s.converged}});
+  }
+  return out;
+}
+
+Json left_out_json(const Identification& r) {
+  Json out = Json::array();
+  for (const identify::LeftOut& l : r.left_out) {
+    out.push_back(
+        {{"preset", l.preset}, {"values", l.values}, {"rms_rad", l.rms_rad}, {"rms_rad_fitted_to_all", l.rms_rad_of_all}});
+  }
+  return out;
+}
+
+Json profiles_json(const Identification& r) {
+  Json out = Json::array();
+  for (std::size_t k = 0; k < r.profiles.size(); ++k) {
+    Json values = Json::array(), rms = Json::array();
+    for (const identify::ProfilePoint& p : r.profiles[k]) {
+      values.push_back(p.value);
+      rms.push_back(p.rms_rad);
+    }
+    out.push_back({{"name", r.task.parameters[k].name}, {"value", values}, {"rms_rad", rms}});
+  }
+  return out;
+}
+
+Json residuals_json(const Identification& r) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < r.points.size(); ++i) {
+    const identify::Point& p = r.points[i];
+    out.push_back({{"recording", p.observation},
+                   {"branch", p.rising ? "rising" : "falling"},
+                   {"load_torque_Nm", r.task.observations[p.observation].data.torque_Nm[p.grid]},
+                   {"residual_rad", r.fit.residuals[i]}});
+  }
+  return out;
+}
+
+/// Every value of the identified preset: by these `vsa validate` knows which preset a record belongs to.
+Json values_json(const Identification& r) {
+  Json out = Json::object();
+  for (const config::Entry& e : r.preset.entries) out[e.key] = e.value;
+  for (std::size_t k = 0; k < r.task.parameters.size(); ++k) {
+    for (const std::string& key : r.task.parameters[k].keys) out[key] = config::number_text(r.fit.values[k]);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string results_json(const Identification& r) {
+  const identify::Uncertainty& u = r.uncertainty;
+  Json out = study::json_head(r.command);
+  out["preset"] = r.preset.name;
+  out["sweep_period_s"] = r.period_s;
+  out["rms_rad"] = {{"before", identify::rms(r.residuals_before)}, {"after", r.fit.rms_rad}};
+  out["determined"] = !u.deficient();
+  out["warnings"] = warnings(r);
+  out["parameters"] = parameters_json(r);
+  out["identified_values"] = values_json(r);
+  Json& correlation = out["correlation"] = Json::array();
+  for (const auto& row : u.correlation) correlation.push_back(json_numbers(row));
+  out["condition"] = json_number(u.condition);
+  out["unseparated"] = groups_json(r);
+  out["effective_samples"] = u.effective_samples;
+  out["degrees_of_freedom"] = u.degrees_of_freedom;
+  out["recordings"] = recordings_json(r);
+  out["starts"] = starts_json(r);
+  out["leave_one_preset_out"] = left_out_json(r);
+  out["profiles"] = profiles_json(r);
+  out["residuals"] = residuals_json(r);
+  out["simulations"] = r.evaluations;
+  return study::json_text(out);
+}
+
+}  // namespace vsa::app

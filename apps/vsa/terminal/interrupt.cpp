@@ -1,0 +1,35 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "terminal/interrupt.hpp"
+
+#include <atomic>
+#include <csignal>
+
+namespace vsa::app {
+namespace {
+
+std::atomic<int> noted{0};
+static_assert(std::atomic<int>::is_always_lock_free);
+
+extern "C" void vsa_note_signal(int signal) { noted.store(signal); }
+
+}  // namespace
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = vsa_note_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGHUP, &action, nullptr);
+}
+
+void survive_broken_pipes() {
+  // A reader that went away, or a file at its size limit, is then an error of that write, not the end of the run.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+int interrupted() noexcept { return noted.load(std::memory_order_relaxed); }
+
+}  // namespace vsa::app

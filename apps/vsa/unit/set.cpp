@@ -1,0 +1,182 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "unit/set.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <tuple>
+
+#include "terminal/exit_codes.hpp"
+#include "vsa/config/unit_parameters.hpp"
+
+namespace vsa::app {
+namespace {
+
+constexpr const char* kNotes = R"(WHAT and its values; angles in degrees, or in the unit's ticks as 910ticks:
+  inputs MOTOR_1 MOTOR_2          references of both motors
+  equilibrium POSITION PRESET     the same as position + preset and position - preset
+  position_stiffness POSITION S   the unit's own command; S in percent of its max stiffness, -100 to 100
+  active on|off                   motors on: they hold where they are, until the next references
+  PARAMETER VALUE...              named as vsa get PORT parameters shows them; most act only once they are stored
+  store                           write the parameters to the unit's memory
+
+Examples:
+  vsa set qbmove_maker_pro_6_1 active on
+  vsa set qbmove_maker_pro_6_1 equilibrium 20 15
+  vsa set /dev/ttyUSB0 inputs -910ticks 910ticks --id 3
+  vsa set /dev/ttyUSB0 position_pid 0.1 0 0.8 --id 1-12 --store)";
+
+constexpr std::array<std::string_view, 5> kThings{"inputs", "equilibrium", "position_stiffness", "active", "store"};
+constexpr auto kSettles = std::chrono::seconds(2);  // references show two ticks later, which a busy machine may delay
+constexpr std::int32_t kLowest = std::numeric_limits<std::int16_t>::min();
+constexpr std::int32_t kHighest = std::numeric_limits<std::int16_t>::max();
+
+/// One unit that is told things.
+class Told {
+ public:
+  Told(UnitPort& port, std::uint8_t id, const SetOptions& options)
+      : port_(port), id_(id), options_(options), dialect_(port.dialect(id)), client_(port.client(dialect_)) {
+    now_ = port_.take(client_.parameters(id_), id_, "its parameters");
+  }
+
+  /// Reads the values, tells the unit, looks whether it did; says what it has now.
+  std::string tell() {
+    config::ValueReader reader(options_.what, options_.values);
+    if (options_.what == "active") return activate(reader);
+    if (options_.what == "inputs" || options_.what == "equilibrium") return references(reader);
+    if (options_.what == "position_stiffness") return position_stiffness(reader);
+    if (options_.what == "store") {
+      reader.expect(0, "vsa set PORT store");
+      reader.throw_if_any();
+      store();
+      return "stored";
+    }
+    return parameter(reader);
+  }
+
+ private:
+  std::string activate(config::ValueReader& reader);
+  std::string references(config::ValueReader& reader);
+  std::string position_stiffness(config::ValueReader& reader);
+  std::string parameter(config::ValueReader& reader);
+  void store();
+  [[nodiscard]] std::int32_t motor_ticks(config::ValueReader& reader, std::size_t index, std::size_t motor) const {
+    return reader.ticks(index, now_.resolutions[motor], kLowest, kHighest);
+  }
+  [[nodiscard]] std::string shown(const bus::InputsReply& has) const;
+
+  UnitPort& port_;
+  std::uint8_t id_;
+  const SetOptions& options_;
+  bus::Dialect dialect_;
+  bus::Client client_;
+  bus::ParameterValues now_;
+};
+
+std::string Told::shown(const bus::InputsReply& has) const {
+  return "references " + config::angles_text({has.inputs[0].value, has.inputs[1].value}, now_.resolutions);
+}
+
+std::string Told::activate(config::ValueReader& reader) {
+  constexpr std::array<std::string_view, 2> kWords{"off", "on"};
+  const bool on = reader.expect(1, "on") && reader.word(0, kWords) == 1;
+  reader.throw_if_any();
+  static_cast<void>(port_.take(client_.activate(id_, on), id_, "active"));
+  const auto end = std::chrono::steady_clock::now() + kSettles;
+  while (port_.take(client_.active(id_), id_, "active") != on) {
+    if (std::chrono::steady_clock::now() < end) continue;
+    throw NoAnswer(fmt::format("{}: unit {}: the motors stay {} (a sensor beyond ±142.8° keeps them off; see vsa get {} --id {})",
+                               port_.path(), id_, on ? "off" : "on", port_.path(), id_));
+  }
+  return on ? "motors on" : "motors off";
+}
+
+std::string Told::references(config::ValueReader& reader) {
+  std::array<Ticks, 2> inputs{};
+  if (reader.expect(2, options_.what + " 10 -10")) {
+    std::int32_t a = motor_ticks(reader, 0, 0);
+    std::int32_t b = motor_ticks(reader, 1, 1);
+    if (options_.what == "equilibrium") std::tie(a, b) = std::pair(a + b, a - b);
+    if (std::max(std::abs(a), std::abs(b)) > kHighest) reader.refuse(0, "with the preset out of the unit's range", "less");
+    inputs = {Ticks{static_cast<std::int16_t>(a)}, Ticks{static_cast<std::int16_t>(b)}};
+  }
+  reader.throw_if_any();
+  static_cast<void>(port_.take(client_.set_inputs(id_, inputs), id_, options_.what));
+  const auto end = std::chrono::steady_clock::now() + kSettles;
+  while (true) {
+    const bus::InputsReply has = port_.take(client_.inputs(id_), id_, "inputs");
+    if (has.inputs == inputs) return shown(has);
+    if (std::chrono::steady_clock::now() >= end) return shown(has) + ": not what was asked for; see its limits and control_mode";
+  }
+}
+
+std::string Told::position_stiffness(config::ValueReader& reader) {
+  std::int32_t position = 0;
+  double percent = 0;
+  if (reader.expect(2, "position_stiffness 10 50")) {
+    position = motor_ticks(reader, 0, 0);
+    percent = reader.number(1, -100, 100, " %");
+  }
+  reader.throw_if_any();
+  const double part = std::min(std::round(percent / 100 * 32768), double{kHighest});
+  const auto sent =
+      client_.set_position_stiffness(id_, Ticks{static_cast<std::int16_t>(position)}, static_cast<std::int16_t>(part));
+  static_cast<void>(port_.take(sent, id_, options_.what));
+  return fmt::format("position {} with {} % of its max stiffness sent", config::angle_text(position, now_.resolutions[0]), percent);
+}
+
+std::string Told::parameter(config::ValueReader& reader) {
+  const bus::ParameterId parameter = config::need_unit_parameter(dialect_, options_.what, kThings);
+  const bus::ParameterValue value = config::read_unit_parameter(reader, parameter, now_.resolutions);
+  reader.throw_if_any();
+  static_cast<void>(port_.take(client_.set_parameter(id_, parameter, value), id_, options_.what));
+  if (!options_.store) return options_.what + " sent; most parameters act, and are kept, once they are stored (vsa set PORT store)";
+  store();
+  // Dialect six doesn't answer a set, so only the list tells; it shows what is in force, after the store. A new id is in force,
+  // too.
+  if (parameter == bus::ParameterId::id) id_ = std::get<std::uint8_t>(value);
+  now_ = port_.take(client_.parameters(id_), id_, "its parameters");
+  const std::string text = fmt::format("{} = {}", options_.what, config::unit_parameter_text(now_, parameter));
+  if (!config::same_unit_value(bus::get(now_, parameter), value))
+    throw NoAnswer(fmt::format("{}: unit {} didn't take it: {}", port_.path(), id_, text));
+  return text + ", stored";
+}
+
+void Told::store() { static_cast<void>(port_.take(client_.store(id_), id_, "store")); }
+
+}  // namespace
+
+int run_set(const SetOptions& options) {
+  const std::vector<std::uint8_t> ids = parse_ids(options.port.ids);
+  if (options.what == "id" && ids.size() > 1) {
+    throw InputError({"", "--id", options.port.ids, "several units can't have the same id", "one unit"});
+  }
+  config::check_unit_word(options.what, kThings);
+  const bool is_parameter = std::find(kThings.begin(), kThings.end(), options.what) == kThings.end();
+  if (options.store && !is_parameter) throw InputError({"", "--store", options.what, "is no parameter", "with a parameter only"});
+  UnitPort port(options.port);
+  for (const std::uint8_t id : ids) std::cout << fmt::format("unit {}: {}\n", id, Told(port, id, options).tell()) << std::flush;
+  return std::cout.flush() ? kDone : kFailed;
+}
+
+void setup_set(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<SetOptions>();
+  CLI::App* sub = app.add_subcommand("set", "Command units on a serial port, virtual or real, or set their parameters");
+  sub->add_option("PORT", options->port.port, "A port's path, or a virtual port's name")->required();
+  sub->add_option("WHAT", options->what, "What to set, see below")->required();
+  sub->add_option("VALUE", options->values, "Its values");
+  sub->add_option("--id", options->port.ids, "Units, such as 3 or 1-12 or 1,3,5")->capture_default_str();
+  sub->add_flag("--store", options->store, "Then write the parameters to the unit's memory");
+  add_port_options(*sub, options->port);
+  sub->footer(kNotes);
+  sub->callback([options, &exit_code] { exit_code = run_set(*options); });
+}
+
+}  // namespace vsa::app

@@ -1,0 +1,55 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+
+namespace vsa {
+
+/// Writing failed after it had begun (disk full, …). what() gives path and reason.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file that is appended to in whole pieces: a piece that fails half-way is cut off again, so that what stays is readable.
+class OutputFile {
+ public:
+  OutputFile() = default;
+  explicit OutputFile(std::filesystem::path path);  ///< creates or empties; throws OutputError
+  ~OutputFile();
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&& other) noexcept;
+
+  void append(std::string_view piece);  ///< throws OutputError
+  void restart();                       ///< empties; throws OutputError
+  void close();                         ///< throws OutputError
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  [[noreturn]] void fail(std::string_view what, int error) const;
+
+  std::filesystem::path path_;
+  int fd_ = -1;
+  off_t good_ = 0;  // bytes in whole pieces
+};
+
+/// Holds a directory for one recording at a time, by a lock on the directory itself: it leaves nothing behind, whatever ends the
+/// program.
+class DirectoryLock {
+ public:
+  DirectoryLock() = default;
+  /// Throws InputError where another recording holds it.
+  explicit DirectoryLock(const std::filesystem::path& directory);
+  ~DirectoryLock();
+  DirectoryLock(DirectoryLock&& other) noexcept;
+  DirectoryLock& operator=(DirectoryLock&& other) noexcept;
+
+ private:
+  int fd_ = -1;
+};
+
+}  // namespace vsa

@@ -1,0 +1,32 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// JSON that is safe inside <script>: '<', '>', '&' and line separators are escaped, bytes that aren't UTF-8 replaced. For the library's
+// own rooms; whoever includes it needs nlohmann::json.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vsa::page {
+
+/// Members keep their order.
+using Json = nlohmann::ordered_json;
+
+/// The shortest digits that read back the same number, whole ones without a point. JSON has no NaN and no infinity: null.
+[[nodiscard]] Json number(double value);
+[[nodiscard]] Json number(float value);
+/// Rounded to so many digits.
+[[nodiscard]] Json number(double value, int digits);
+
+[[nodiscard]] std::string text(const Json& json);
+[[nodiscard]] inline std::string json_string(std::string_view value) { return text(Json(value)); }
+
+/// UTF-8, with U+FFFD for what was none.
+[[nodiscard]] std::string well_formed(std::string_view value);
+
+/// Standard base64 of the floats' little-endian bytes.
+[[nodiscard]] std::string base64(const std::vector<float>& values);
+
+}  // namespace vsa::page

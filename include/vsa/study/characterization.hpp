@@ -1,0 +1,110 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// An actuator measured as the paper measured its hardware (section IV): what is run, what each run shows, and the results as files.
+//
+//   study::CharacterizationOptions options;
+//   options.specimen.preset = "qbmove_maker_pro";
+//   const auto done = study::run(study::plan_characterization(options), [](const study::Progress& p) { return p.wall_s < 60; });
+//   if (done) std::cout << study::to_json(*done, "my program");   // none: stopped
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vsa/experiment/bench.hpp"
+#include "vsa/experiment/measures.hpp"
+#include "vsa/study/progress.hpp"
+
+namespace vsa::study {
+
+/// The benches are those of vsa/experiment/bench.hpp.
+enum class Experiment {
+  stiffness,   ///< slow sweep of the equilibrium under load: torque–deflection loop, stiffness
+  speed,       ///< square wave of the equilibrium without load: rise time, speed, overshoot, ringing
+  preset_step  ///< the preset from 0 to its largest value and back, without load and with the lever held out
+};
+/// "stiffness", "speed", "preset-step"
+[[nodiscard]] const char* word(Experiment experiment);
+
+struct CharacterizationOptions {
+  experiment::Specimen specimen;
+  std::vector<Experiment> experiments;  ///< empty: all that the actuator has
+  std::vector<double> preset;           ///< in the law's unit; a preset step takes the largest. Empty: the paper's
+  std::optional<double> period_s;       ///< of the stiffness sweep, 1 … 3600; none: 38
+  std::optional<double> amplitude_rad;  ///< of the stiffness sweep, 0.01 … 3; none: by the rule in experiment/bench.hpp
+  std::optional<int> cycles;            ///< of the stiffness sweep after the first, 1 … 1000; none: 4
+};
+
+struct Range {
+  double least = 0, most = 0;
+};
+
+struct StiffnessResult {
+  experiment::StiffnessOptions options;
+  experiment::BenchRun run;
+  experiment::Branches branches;
+  experiment::Loop loop;
+  std::vector<experiment::StiffnessPoint> curve;
+  Range shaft_rad, load_Nm, deflection_rad;  ///< as the unit measures them
+  Range preset;                              ///< attained
+};
+
+/// One edge of the square wave.
+struct Edge {
+  double command_s = 0, from_rad = 0, to_rad = 0;
+  experiment::StepMeasures shaft, pulleys;  ///< of the shaft; of the equilibrium, which the pulleys make
+};
+
+struct SpeedResult {
+  experiment::SpeedOptions options;
+  experiment::BenchRun run;
+  std::vector<Edge> edges;
+  Edge mean;  ///< over the edges; steady errors signed by the way of travel: negative where it falls short
+};
+
+struct PresetStepResult {
+  experiment::PresetStepOptions options;
+  experiment::BenchRun run;
+  experiment::StepMeasures up, down;  ///< of the attained preset
+  Range load_Nm;                      ///< measured
+};
+
+/// A plan where the results' runs are empty: their options say what is to be run.
+struct Characterization {
+  experiment::Specimen specimen;
+  config::Preset actuator;
+  std::vector<StiffnessResult> stiffness;
+  std::vector<SpeedResult> speed;
+  std::vector<PresetStepResult> preset_step;
+  /// "rad" …; empty: the law has no stiffness preset.
+  [[nodiscard]] std::string preset_unit() const { return std::string(actuator.unit.actuator.transmission->preset_unit()); }
+};
+
+/// Throws InputError with every problem: an unknown preset or override, a stiffness preset that the actuator doesn't have, accept or
+/// that stands there twice, a value out of range, an option of the sweep without the sweep. They name the options as
+/// `vsa characterize` does (--preset-rad).
+[[nodiscard]] Characterization plan_characterization(const CharacterizationOptions& options);
+
+/// Runs everything in `plan` on `threads` threads (0: all the machine has) and measures it. None: `on_progress` stopped it. Throws
+/// engine::SimulationError where a run blows up.
+[[nodiscard]] std::optional<Characterization> run(Characterization plan, const OnProgress& on_progress = {}, unsigned threads = 0);
+
+/// Measures what a run shows. `run` must be one of `options`; `preset_unit` is the law's.
+[[nodiscard]] StiffnessResult measure(const experiment::StiffnessOptions& options, experiment::BenchRun run,
+                                      const std::string& preset_unit);
+[[nodiscard]] SpeedResult measure(const experiment::SpeedOptions& options, experiment::BenchRun run);
+[[nodiscard]] PresetStepResult measure(const experiment::PresetStepOptions& options, experiment::BenchRun run);
+
+/// results.json: every measure, units in the keys; what couldn't be measured is null. `command`: what made it.
+[[nodiscard]] std::string to_json(const Characterization& c, const std::string& command);
+
+/// The samples, one a line, units in the head.
+[[nodiscard]] std::string csv_text(const experiment::BenchRun& run);
+/// "stiffness_preset_0.6903rad.csv", "speed_preset_0.1125rad.csv", "preset_step_loaded.csv"; an actuator without a preset has
+/// "stiffness.csv" and "speed.csv". results.json names them.
+[[nodiscard]] std::string csv_name(const Characterization& c, const StiffnessResult& r);
+[[nodiscard]] std::string csv_name(const Characterization& c, const SpeedResult& r);
+[[nodiscard]] std::string csv_name(const PresetStepResult& r);
+
+}  // namespace vsa::study

@@ -1,0 +1,48 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The leave-one-out figures of a preset: fitted without a recording, judged on it. They take minutes, so `vsa identify` finds them
+// once; its results.json, kept as data/PRESET/leave_one_out.json, is the record. Read here: "command", "parameters",
+// "leave_one_preset_out", "identified_values"; other keys are the identification's own.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vsa/config/preset.hpp"
+
+namespace vsa::study {
+
+struct LeaveOneOut {
+  struct Row {
+    double preset = 0;
+    double predicted_rad = 0;  ///< root mean square by the fit to the other presets
+    double fitted_rad = 0;     ///< and by the fit to all
+  };
+  struct Value {
+    std::string key, text;
+  };
+  /// The 95 % interval of a parameter that was fitted; NaN where it isn't determined.
+  struct Interval {
+    std::string key;
+    double low = 0, high = 0;
+  };
+  std::string file, command;
+  std::vector<std::string> fitted;  ///< parameters that were fitted again each time; all others were held
+  std::vector<Interval> intervals;  ///< of each key of them, tied ones each
+  std::vector<Row> rows;
+  std::vector<Value> values;  ///< of every parameter of the identified preset
+};
+
+/// Where the record of a preset is kept, below a data directory.
+[[nodiscard]] std::filesystem::path record_name(const std::string& preset);
+
+/// Throws InputError where it isn't what `vsa identify` writes, or holds no cross-validation.
+[[nodiscard]] LeaveOneOut read_leave_one_out(const std::filesystem::path& file);
+
+/// What tells that the record isn't this preset's: held values that differ, fitted ones outside of the record's interval, and what it
+/// doesn't know. Empty: it is this preset's.
+[[nodiscard]] std::vector<std::string> differences(const LeaveOneOut& record, const config::Preset& preset);
+
+}  // namespace vsa::study

@@ -1,0 +1,78 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/page/json.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+namespace vsa::page {
+
+Json number(double value) {
+  constexpr double kMost = 1e15;
+  if (!std::isfinite(value)) return nullptr;
+  if (value == std::trunc(value) && std::abs(value) < kMost) return static_cast<std::int64_t>(value);
+  return value;
+}
+
+Json number(float value) {
+  char text[32];
+  double same = value;
+  std::from_chars(text, std::to_chars(text, text + sizeof text, value).ptr, same);
+  return number(same);
+}
+
+Json number(double value, int digits) {
+  char text[32];
+  double rounded = value;
+  std::from_chars(text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr, rounded);
+  return number(rounded);
+}
+
+std::string text(const Json& json) {
+  const std::string plain = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string out;
+  out.reserve(plain.size());
+  // Outside of strings JSON has none of these.
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const std::string_view three(&plain[i], std::min<std::size_t>(3, plain.size() - i));
+    if (plain[i] == '<') {
+      out += "\\u003c";
+    } else if (plain[i] == '>') {
+      out += "\\u003e";
+    } else if (plain[i] == '&') {
+      out += "\\u0026";
+    } else if (three == "\u2028" || three == "\u2029") {
+      out += three == "\u2028" ? "\\u2028" : "\\u2029";
+      i += 2;
+    } else {
+      out += plain[i];
+    }
+  }
+  return out;
+}
+
+std::string well_formed(std::string_view value) {
+  return Json::parse(Json(value).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
+std::string base64(const std::vector<float>& values) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const std::size_t bytes = values.size() * 4;
+  const auto byte = [&](std::size_t i) -> std::uint32_t {
+    return i < bytes ? (std::bit_cast<std::uint32_t>(values[i / 4]) >> (8 * (i % 4))) & 0xFFU : 0U;
+  };
+  std::string out;
+  out.reserve((bytes + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes; i += 3) {
+    const std::uint32_t three = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
+    out += kDigits[three >> 18U];
+    out += kDigits[(three >> 12U) & 63U];
+    out += i + 1 < bytes ? kDigits[(three >> 6U) & 63U] : '=';
+    out += i + 2 < bytes ? kDigits[three & 63U] : '=';
+  }
+  return out;
+}
+
+}  // namespace vsa::page

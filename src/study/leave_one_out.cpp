@@ -1,0 +1,129 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/study/leave_one_out.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "vsa/errors.hpp"
+#include "vsa/files.hpp"
+
+namespace vsa::study {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kWhatItIs = "results.json of vsa identify, with cross-validation";
+
+/// One object's members, each problem with the file and the key.
+class Fields {
+ public:
+  Fields(const Json& object, std::string at, const std::string& file) : object_(object), at_(std::move(at)), file_(file) {
+    if (!object.is_object()) fail("", "isn't an object");
+  }
+  [[nodiscard]] const Json& member(const char* key) const {
+    const auto it = object_.find(key);
+    if (it == object_.end()) fail(key, "is missing");
+    return *it;
+  }
+  [[nodiscard]] std::string text(const char* key) const {
+    const Json& value = member(key);
+    if (!value.is_string()) fail(key, "isn't a text");
+    return value.get<std::string>();
+  }
+  /// null: it isn't determined.
+  [[nodiscard]] double number(const char* key) const {
+    const Json& value = member(key);
+    if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
+    if (!value.is_number()) fail(key, "isn't a number");
+    return value.get<double>();
+  }
+  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
+    throw InputError({file_, at_ + key, "", what, kWhatItIs});
+  }
+
+ private:
+  const Json& object_;
+  std::string at_, file_;
+};
+
+Json parse(const std::filesystem::path& file) {
+  const auto text = read_file(file);
+  if (!text) throw InputError({file.string(), "", "", "can't be read", kWhatItIs});
+  Json out = Json::parse(*text, nullptr, false);
+  if (out.is_discarded()) throw InputError({file.string(), "", "", "isn't JSON", kWhatItIs});
+  return out;
+}
+
+void add_parameter(LeaveOneOut& out, const Json& parameter) {
+  const Fields f(parameter, "parameters.", out.file);
+  out.fitted.push_back(f.text("name"));
+  const Json& interval = f.member("interval_95");
+  if (!interval.is_array() || interval.size() != 2) f.fail("interval_95", "isn't a pair of numbers");
+  const auto end = [&](std::size_t i) {
+    if (interval[i].is_null()) return std::numeric_limits<double>::quiet_NaN();
+    if (!interval[i].is_number()) f.fail("interval_95", "isn't a pair of numbers");
+    return interval[i].get<double>();
+  };
+  const Json& keys = f.member("keys");
+  if (!keys.is_array()) f.fail("keys", "isn't a list");
+  for (const Json& key : keys) {
+    if (!key.is_string()) f.fail("keys", "holds what isn't a text");
+    out.intervals.push_back({key.get<std::string>(), end(0), end(1)});
+  }
+}
+
+/// A fitted value is what the data leave open: another one within the interval is the same finding.
+bool within_interval(const LeaveOneOut& record, const config::Entry& e) {
+  const auto same = [&](const LeaveOneOut::Interval& i) { return i.key == e.key; };
+  const auto it = std::find_if(record.intervals.begin(), record.intervals.end(), same);
+  if (it == record.intervals.end()) return false;
+  const double value = std::strtod(e.value.c_str(), nullptr);
+  return value >= it->low && value <= it->high;
+}
+
+}  // namespace
+
+std::filesystem::path record_name(const std::string& preset) {
+  return std::filesystem::path("data") / preset / "leave_one_out.json";
+}
+
+LeaveOneOut read_leave_one_out(const std::filesystem::path& file) {
+  const Json root = parse(file);
+  LeaveOneOut out;
+  out.file = file.string();
+  const Fields all(root, "", out.file);
+  out.command = all.text("command");
+  const Json& parameters = all.member("parameters");
+  if (!parameters.is_array() || parameters.empty()) all.fail("parameters", "holds no parameter");
+  for (const Json& p : parameters) add_parameter(out, p);
+  const Json& rows = all.member("leave_one_preset_out");
+  if (!rows.is_array() || rows.empty()) all.fail("leave_one_preset_out", "holds no preset that was left out");
+  for (const Json& row : rows) {
+    const Fields f(row, "leave_one_preset_out.", out.file);
+    out.rows.push_back({f.number("preset"), f.number("rms_rad"), f.number("rms_rad_fitted_to_all")});
+  }
+  const Json& values = all.member("identified_values");
+  if (!values.is_object()) all.fail("identified_values", "isn't an object");
+  const Fields f(values, "identified_values.", out.file);
+  for (const auto& [key, value] : values.items()) out.values.push_back({key, f.text(key.c_str())});
+  return out;
+}
+
+std::vector<std::string> differences(const LeaveOneOut& record, const config::Preset& preset) {
+  std::vector<std::string> changed, unknown;
+  for (const config::Entry& e : preset.entries) {
+    const auto same = [&](const LeaveOneOut::Value& v) { return v.key == e.key; };
+    const auto it = std::find_if(record.values.begin(), record.values.end(), same);
+    if (it == record.values.end()) {
+      unknown.push_back(e.key + " isn't in the record");
+    } else if (it->text != e.value && !within_interval(record, e)) {
+      changed.push_back(e.key + " was " + it->text + " and is " + e.value);
+    }
+  }
+  changed.insert(changed.end(), unknown.begin(), unknown.end());
+  return changed;
+}
+
+}  // namespace vsa::study
