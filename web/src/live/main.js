@@ -216,7 +216,7 @@ function writeClock() {
   $('play').classList.toggle('playing', playing.now);
   $('play').setAttribute('aria-label', playing.now ? 'Pause' : 'Play');
   $('factor').textContent = frame.paused ? '–' : frame.factor.toPrecision(2).replace(/\.?0+e\+?/, 'e');
-  if (link.ready) setStatus(frame.paused ? 'paused' : 'running', frame.paused ? '' : 'good');
+  if (link.ready && !link.ended) setStatus(frame.paused ? 'paused' : 'running', frame.paused ? '' : 'good');
 }
 
 function everyFrame() {
