@@ -3,10 +3,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "vsa/config/text.hpp"
 #include "vsa/config/unit_parameters.hpp"
 
 namespace vsa::config {
@@ -19,10 +19,10 @@ struct Parsed {
 };
 std::optional<Parsed> parse(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-  return Parsed{value, text.substr(static_cast<std::size_t>(end - text.data()))};
+  for (std::size_t length = text.size(); length > 0; --length) {
+    if (const auto value = parse_number(text.substr(0, length))) return Parsed{*value, text.substr(length)};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
