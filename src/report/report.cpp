@@ -7,7 +7,7 @@
 
 namespace vsa::report {
 
-void write_report(const Report& report, const std::filesystem::path& file) {
+std::string page_template() {
   const std::filesystem::path name = std::filesystem::path("web") / "report.html";
   const auto found = config::find_data(name);
   if (!found) {
@@ -15,7 +15,11 @@ void write_report(const Report& report, const std::filesystem::path& file) {
     for (const auto& d : config::data_directories()) looked += (looked.empty() ? "" : ", ") + (d / name).string();
     throw InputError(Problem{"", "", "", "the report page's template is nowhere: " + looked, "set VSA_DATA_DIR"});
   }
-  page::write(file, page::read_template(*found), to_json(report));
+  return page::read_template(*found);
+}
+
+void write_report(const Report& report, const std::filesystem::path& file) {
+  page::write(file, page_template(), to_json(report));
 }
 
 }  // namespace vsa::report

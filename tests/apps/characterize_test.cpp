@@ -157,6 +157,29 @@ TEST(Characterize, ASignalStopsItAndNothingIsWritten) {
   EXPECT_FALSE(fs::exists(scratch / "out"));
 }
 
+// The program alone, away from its pages: runs that would take days end at once.
+TEST(Report, WhoseTemplateIsNowhereIsToldBeforeTheWork) {
+  const Scratch scratch;
+  fs::create_directories(scratch / "bin");
+  fs::copy_file(fs::path(VSA_BINARY_DIR) / "bin" / "vsa", scratch / "bin/vsa");
+  Surroundings alone;
+  alone.program = scratch / "bin/vsa";
+  const std::string recording = std::string(VSA_SOURCE_DIR) + "/data/qbmove_maker_pro/stiffness_preset_0.6903rad_branches.csv";
+  const std::vector<std::vector<std::string>> commands{
+      {"characterize", "qbmove_maker_pro", "--period-s", "3600", "--cycles", "1000", "--out", scratch / "out"},
+      {"identify", recording, "--preset", "qbmove_maker_pro", "--parameters", "shaft.friction_Nm", "--period-s", "3600", "--out",
+       scratch / "out"},
+      {"validate", "--out", scratch / "out"},
+      {"datasheet", "sea_example", "--out", scratch / "sheet.html"}};
+  for (const auto& command : commands) {
+    const Result result = run_vsa(command, alone);
+    EXPECT_EQ(result.exit_code, 2) << command.front() << '\n' << result.err;
+    EXPECT_NE(result.err.find("template is nowhere"), std::string::npos) << command.front() << '\n' << result.err;
+  }
+  EXPECT_FALSE(fs::exists(scratch / "out"));
+  EXPECT_FALSE(fs::exists(scratch / "sheet.html"));
+}
+
 TEST(Run, AnotherActuatorCanBePutOnAWorld) {
   const Scratch scratch;
   const Result result = run_vsa({"run", "bench_free", "--no-topics", "--duration-s", "0.02", "--preset", "sea_example", "--set",

@@ -44,7 +44,7 @@ Ends make_terminal() {
     signal(SIGXFSZ, SIG_IGN);
   }
   for (const auto& [name, value] : around.environment) setenv(name.c_str(), value.c_str(), 1);
-  const std::string program = std::string(VSA_BINARY_DIR) + "/bin/" + around.program;
+  const std::string program = std::filesystem::path(VSA_BINARY_DIR) / "bin" / around.program;
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);

@@ -25,7 +25,7 @@ struct Surroundings {
   bool full_stdout = false;                   ///< standard output is /dev/full
   std::optional<std::uint64_t> largest_file;  ///< bytes; a write beyond fails as on a full disk
   std::vector<std::pair<std::string, std::string>> environment;
-  std::string program = "vsa";  ///< in the build's bin/
+  std::string program = "vsa";  ///< in the build's bin/, or a path
 };
 
 class Subprocess {

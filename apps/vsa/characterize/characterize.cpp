@@ -74,6 +74,7 @@ void tell_notices(const Results& results, const std::string& unit, Console& cons
 int run_characterize(const CharacterizeOptions& options) {
   Console console;
   study::Characterization plan = study::plan_characterization(study_of(options));
+  (void)report::page_template();  // told before the work, not after it
   catch_interrupts();
   const auto result = study::run(std::move(plan), follow(console));
   console.wipe();

@@ -59,6 +59,7 @@ int run_datasheet(const DatasheetOptions& options) {
   specimen.overrides = parse_settings(options.set, "--set");
   study::DataSheet plan = study::plan_data_sheet(specimen);
   check_writable(file);
+  (void)report::page_template();
   catch_interrupts();
   const auto done = study::run(std::move(plan), follow(console));
   console.wipe();

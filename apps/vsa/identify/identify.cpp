@@ -182,6 +182,7 @@ bool wait_for(std::future<void>& work, experiment::Watch& watch) {
 int run_identify(const IdentifyOptions& o) {
   check_given(o);
   check_numbers(o);
+  (void)report::page_template();  // told before the work, not after it
   Identification r;
   experiment::Specimen specimen;
   specimen.preset = o.preset;

@@ -64,6 +64,7 @@ void write_markdown(const study::Validation& v, const std::filesystem::path& fil
 int run_validate(const ValidateOptions& o) {
   study::ValidationPlan plan = study::plan_validation(study_of(o));
   if (!o.markdown.empty()) (void)with_tables(o.markdown, "");  // told before the work, not after it
+  (void)report::page_template();
   const std::filesystem::path out = o.out.empty() ? "validate_" + o.preset : o.out;
   catch_interrupts();
   Console console;

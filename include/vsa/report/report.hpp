@@ -72,7 +72,11 @@ struct Report {
 /// One chart as a picture without a page, for documents. Throws as to_json() does.
 [[nodiscard]] std::string to_svg(const Chart& chart);
 
-/// Beside it first, then renamed, so that there is never half a page. Throws OutputError / InputError as write_page does.
+/// The page's program and looks, as the data directories have it. A run that ends in a report asks for it before it begins. Throws
+/// InputError where there is none.
+[[nodiscard]] std::string page_template();
+
+/// Beside it first, then renamed, so that there is never half a page. Throws OutputError / InputError as page::write does.
 void write_report(const Report& report, const std::filesystem::path& file);
 
 }  // namespace vsa::report
