@@ -18,8 +18,6 @@ std::string page_template() {
   return page::read_template(*found);
 }
 
-void write_report(const Report& report, const std::filesystem::path& file) {
-  page::write(file, page_template(), to_json(report));
-}
+void write_report(const Report& report, const std::filesystem::path& file) { page::write(file, page_template(), to_json(report)); }
 
 }  // namespace vsa::report
