@@ -7,7 +7,7 @@
 # make mutants     88 one-line mistakes, one at a time, in a copy: which test notices (scripts/mutants.toml); half an hour. MUTANTS_FILTER chooses, MUTANTS_JOBS builds
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make bench   run the benchmarks and print their table
-# make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   the rooms' own
+# make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   those of the rooms without engine
 # make check-tsan   what has threads under the thread sanitizer; make tidy   clang-tidy, TIDY_S bounds its seconds
 # make check-all    the last three whole: CI has time for a part of them
 # make fuzz    any bytes into the frame parser and into whole units, with clang's libFuzzer and sanitizers; FUZZ_S seconds each (300)
@@ -93,12 +93,12 @@ bench: setup
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@sh scripts/bench.sh $(BUILD)
 
-# The rooms' own tests, in a debug build.
+# The rooms that need no engine, in a debug build.
 check-asan:
 	@sh scripts/setup.sh test
 	@cmake --preset asan > /dev/null
-	@cmake --build build/asan -j $(JOBS) --target room-tests -- --quiet
-	@ctest --test-dir build/asan --output-on-failure -j 1 -L room
+	@cmake --build build/asan -j $(JOBS) --target core-tests -- --quiet
+	@ctest --test-dir build/asan --output-on-failure -j 1 -L core
 
 check-tsan:
 	@sh scripts/setup.sh test
