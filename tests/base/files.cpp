@@ -25,7 +25,7 @@ class Files : public testing::Test {
 };
 
 TEST_F(Files, AreReadByteForByte) {
-  const std::string bytes("a\0\r\n\xff, no line's end", 24);
+  const std::string bytes = std::string("a\0\r\n\xff", 5) + ", no line's end";
   std::ofstream(folder / "some", std::ios::binary) << bytes;
   std::ofstream(folder / "empty");
   EXPECT_EQ(vsa::read_file(folder / "some"), bytes);
