@@ -1,11 +1,23 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/report/report.hpp"
 
+#include <utility>
+
 #include "vsa/config/preset.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/page/page.hpp"
 
 namespace vsa::report {
+
+Curve curve(std::string name, std::vector<double> x, std::vector<double> y, Curve::Style style, int color) {
+  Curve c;
+  c.name = c.group = std::move(name);
+  c.x = std::move(x);
+  c.y = std::move(y);
+  c.style = style;
+  c.color = color;
+  return c;
+}
 
 std::string page_template() {
   const std::filesystem::path name = std::filesystem::path("web") / "report.html";

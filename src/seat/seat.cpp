@@ -137,7 +137,10 @@ void Seat::step(std::int64_t dt_ns) {
     tell(model_ + ": slower than real time: units on serial ports answer in time, but move more slowly than a client expects");
 }
 
-void Seat::moved(std::size_t actuator) noexcept {
+void Seat::moved(std::size_t actuator) {
+  if (actuator >= now_.in.size())
+    throw InputError(Problem{"", "actuator", std::to_string(actuator), "there is no such actuator",
+                             "0 … " + std::to_string(now_.in.size() - 1)});
   now_.in[actuator].placed = true;
   watch_.again();
 }
@@ -169,6 +172,7 @@ void Seat::restore(const Snapshot& snapshot) {
   now_ = snapshot.now;
   mobility_ = snapshot.mobility;
   watch_ = snapshot.watch;
+  std::fill(torques_.begin(), torques_.end(), 0.0);  // the next step's; one that has stopped makes none
   last_told_ = -1;
   pace_.stood();
 }

@@ -93,6 +93,28 @@ TEST(Seat, AJointThatIsNoLongerFiniteStopsItsActuatorsWithOneLineUntilAReset) {
   EXPECT_EQ(host.angle, of_fresh.angle) << "a reset is a beginning";
 }
 
+TEST(Seat, ASnapshotOfOneThatHasStoppedGivesNoTorqueAgain) {
+  Seat seat(model(), {});
+  Pendulums host;
+  seat.robot().command(0, 0.7, 0.3);
+  for (int k = 0; k < 100; ++k) host.step(seat);
+  const auto moving = seat.snapshot();
+  seat.step(0);
+  const auto stopped = seat.snapshot();
+  seat.restore(*moving);
+  host.step(seat);
+  EXPECT_NE(seat.torques()[0], 0);
+  seat.restore(*stopped);
+  host.step(seat);
+  EXPECT_EQ(seat.torques()[0], 0) << "the torque of a step before";
+}
+
+TEST(Seat, AnActuatorThatIsntThereCannotHaveMoved) {
+  Seat seat(model(), {});
+  EXPECT_NO_THROW(seat.moved(1));
+  EXPECT_THROW(seat.moved(2), InputError);
+}
+
 TEST(Seat, AStepThatTheUnitsDontKnowStopsThem) {
   for (const std::int64_t dt_ns : {std::int64_t{0}, std::int64_t{-1'000'000}, std::int64_t{16'000'001}}) {
     Seat seat(model(), {});

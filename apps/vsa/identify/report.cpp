@@ -51,16 +51,6 @@ Branch branch(const Identification& r, std::size_t observation, bool rising) {
   return out;
 }
 
-Curve curve(std::string name, std::vector<double> x, std::vector<double> y, Curve::Style style, int color) {
-  Curve c;
-  c.name = c.group = std::move(name);
-  c.x = std::move(x);
-  c.y = std::move(y);
-  c.style = style;
-  c.color = color;
-  return c;
-}
-
 Chart loop_chart(const Identification& r, std::size_t observation) {
   Chart out;
   out.title = fmt::format("Preset {:.4g} rad", r.task.observations[observation].preset);
@@ -69,8 +59,8 @@ Chart loop_chart(const Identification& r, std::size_t observation) {
   for (const bool rising : {true, false}) {
     const Branch b = branch(r, observation, rising);
     const std::string way = rising ? "rising" : "falling";
-    out.curves.push_back(curve("recorded, " + way, b.data, b.torque, Curve::Style::markers, rising ? 0 : 1));
-    out.curves.push_back(curve("simulated, " + way, b.model, b.torque, Curve::Style::line, rising ? 0 : 1));
+    out.curves.push_back(report::curve("recorded, " + way, b.data, b.torque, Curve::Style::markers, rising ? 0 : 1));
+    out.curves.push_back(report::curve("simulated, " + way, b.model, b.torque, Curve::Style::line, rising ? 0 : 1));
   }
   out.caption = r.task.observations[observation].name;
   return out;
@@ -84,8 +74,9 @@ Chart residual_chart(const Identification& r) {
   for (std::size_t o = 0; o < r.task.observations.size(); ++o) {
     for (const bool rising : {true, false}) {
       const Branch b = branch(r, o, rising);
-      out.curves.push_back(curve(fmt::format("{:.4g} rad, {}", r.task.observations[o].preset, rising ? "rising" : "falling"),
-                                 b.torque, b.residual, rising ? Curve::Style::line : Curve::Style::dashed, static_cast<int>(o)));
+      out.curves.push_back(
+          report::curve(fmt::format("{:.4g} rad, {}", r.task.observations[o].preset, rising ? "rising" : "falling"), b.torque,
+                        b.residual, rising ? Curve::Style::line : Curve::Style::dashed, static_cast<int>(o)));
     }
   }
   out.caption = "Smooth residuals are the model's own error: the intervals allow for their correlation.";
@@ -129,7 +120,7 @@ report::Section profiles_section(const Identification& r) {
     chart.title = r.task.parameters[k].name;
     chart.x_label = fmt::format("{} [{}]", r.task.parameters[k].name, r.task.parameters[k].unit);
     chart.y_label = "RMS [rad]";
-    chart.curves.push_back(curve("the others fitted again", x, y, Curve::Style::line, 0));
+    chart.curves.push_back(report::curve("the others fitted again", x, y, Curve::Style::line, 0));
     out.blocks.emplace_back(std::move(chart));
   }
   return out;

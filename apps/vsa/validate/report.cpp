@@ -11,16 +11,6 @@ namespace {
 using report::Chart;
 using report::Curve;
 
-Curve curve(std::string name, std::vector<double> x, std::vector<double> y, Curve::Style style, int color) {
-  Curve c;
-  c.name = c.group = std::move(name);
-  c.x = std::move(x);
-  c.y = std::move(y);
-  c.style = style;
-  c.color = color;
-  return c;
-}
-
 std::vector<double> width(const experiment::Branches& b) {
   std::vector<double> out;
   for (std::size_t i = 0; i < b.torque_Nm.size(); ++i) out.push_back(b.falling_rad[i] - b.rising_rad[i]);
@@ -32,8 +22,8 @@ Chart width_chart(const study::RecordingCheck& r) {
   out.title = fmt::format("Width of the loop, preset {:.4f} rad", r.preset);
   out.x_label = "load torque [N·m]";
   out.y_label = "falling − rising [rad]";
-  out.curves = {curve("recorded", r.data.torque_Nm, width(r.data), Curve::Style::markers, 0),
-                curve("simulated", r.ours.torque_Nm, width(r.ours), Curve::Style::line, 0)};
+  out.curves = {report::curve("recorded", r.data.torque_Nm, width(r.data), Curve::Style::markers, 0),
+                report::curve("simulated", r.ours.torque_Nm, width(r.ours), Curve::Style::line, 0)};
   return out;
 }
 
@@ -47,7 +37,7 @@ Chart torque_chart(const study::RecordingCheck& r) {
     const experiment::BranchInverse inverse(r.ours.torque_Nm, rising ? r.ours.rising_rad : r.ours.falling_rad);
     std::vector<double> residual;
     for (std::size_t i = 0; i < at.size(); ++i) residual.push_back(inverse.at(at[i]).torque_Nm - r.data.torque_Nm[i]);
-    out.curves.push_back(curve(rising ? "rising" : "falling", at, residual, Curve::Style::line, rising ? 0 : 1));
+    out.curves.push_back(report::curve(rising ? "rising" : "falling", at, residual, Curve::Style::line, rising ? 0 : 1));
   }
   return out;
 }
@@ -57,8 +47,8 @@ Chart time_chart(std::string title, std::string y_label, const experiment::TimeS
   out.title = std::move(title);
   out.x_label = "time from the command [s]";
   out.y_label = std::move(y_label);
-  out.curves = {curve("simulated", ours.time_s, ours.value, Curve::Style::line, 0),
-                curve("2015", theirs.time_s, theirs.value, Curve::Style::dashed, 1)};
+  out.curves = {report::curve("simulated", ours.time_s, ours.value, Curve::Style::line, 0),
+                report::curve("2015", theirs.time_s, theirs.value, Curve::Style::dashed, 1)};
   return out;
 }
 
@@ -84,10 +74,10 @@ Chart loop_chart(const study::RecordingCheck& r, const std::string& kind) {
   out.title = fmt::format("Preset {:.4f} rad ({})", r.preset, kind);
   out.x_label = "deflection [rad]";
   out.y_label = "load torque [N·m]";
-  out.curves = {curve("recorded, rising", r.data.rising_rad, r.data.torque_Nm, Curve::Style::markers, 0),
-                curve("recorded, falling", r.data.falling_rad, r.data.torque_Nm, Curve::Style::markers, 1),
-                curve("simulated, rising", r.ours.rising_rad, r.ours.torque_Nm, Curve::Style::line, 0),
-                curve("simulated, falling", r.ours.falling_rad, r.ours.torque_Nm, Curve::Style::line, 1)};
+  out.curves = {report::curve("recorded, rising", r.data.rising_rad, r.data.torque_Nm, Curve::Style::markers, 0),
+                report::curve("recorded, falling", r.data.falling_rad, r.data.torque_Nm, Curve::Style::markers, 1),
+                report::curve("simulated, rising", r.ours.rising_rad, r.ours.torque_Nm, Curve::Style::line, 0),
+                report::curve("simulated, falling", r.ours.falling_rad, r.ours.torque_Nm, Curve::Style::line, 1)};
   out.caption = r.file;
   return out;
 }
@@ -98,8 +88,8 @@ Chart residual_chart(const study::RecordingCheck& r) {
   out.x_label = "load torque [N·m]";
   out.y_label = "simulated − recorded [rad]";
   const experiment::Branches apart = experiment::subtract(r.ours, r.data);
-  out.curves = {curve("rising", apart.torque_Nm, apart.rising_rad, Curve::Style::line, 0),
-                curve("falling", apart.torque_Nm, apart.falling_rad, Curve::Style::line, 1)};
+  out.curves = {report::curve("rising", apart.torque_Nm, apart.rising_rad, Curve::Style::line, 0),
+                report::curve("falling", apart.torque_Nm, apart.falling_rad, Curve::Style::line, 1)};
   return out;
 }
 

@@ -22,6 +22,9 @@ struct Curve {
   std::string group;  ///< curves of one group share a legend entry
 };
 
+/// Without error bars, and a group of its own.
+[[nodiscard]] Curve curve(std::string name, std::vector<double> x, std::vector<double> y, Curve::Style style, int color);
+
 struct Chart {
   std::string title, x_label, y_label;  ///< labels with units: "deflection [rad]"
   std::vector<Curve> curves;

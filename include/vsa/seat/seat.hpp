@@ -99,9 +99,9 @@ class Seat {
   /// in() tells where the joints are after the host's step.
   void observe() noexcept { robot_.observe(now_.in); }
   /// The host has put bodies elsewhere: B is due in the next step. With an actuator: its joint, and that was neither work nor
-  /// acceleration.
+  /// acceleration; throws InputError for one that isn't there.
   void moved() noexcept { watch_.again(); }
-  void moved(std::size_t actuator) noexcept;
+  void moved(std::size_t actuator);
 
   void open_ports();  ///< reports each; throws InputError with every one that can't be had
   [[nodiscard]] const std::vector<std::unique_ptr<serial::VirtualPort>>& ports() const noexcept { return ports_.all(); }
