@@ -64,6 +64,10 @@ def wrap(text):
 
 
 if __name__ == "__main__":
+    missing = [name for name in sys.argv[1:] if not pathlib.Path(name).is_file()]
+    if missing or len(sys.argv) < 2:
+        print(f"wrap_docs.py: {', '.join(missing) or 'FILE'}: no such file; nothing was wrapped", file=sys.stderr)
+        sys.exit(2)
     for name in sys.argv[1:]:
         path = pathlib.Path(name)
         path.write_text(wrap(path.read_text(encoding="utf-8")), encoding="utf-8")

@@ -202,6 +202,10 @@ def check(root, vsa=None):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) not in (2, 3) or not (pathlib.Path(sys.argv[1]) / "docs" / "README.md").is_file():
+        print(f"manual.py: ROOT = {' '.join(sys.argv[1:2]) or 'missing'}: a checkout with docs/README.md; usage: manual.py ROOT [VSA]",
+              file=sys.stderr)
+        sys.exit(2)
     found = check(pathlib.Path(sys.argv[1]), *sys.argv[2:3])
     print("\n".join(found) if found else "The manual is whole.")
     sys.exit(1 if found else 0)
