@@ -1,10 +1,11 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #
 # make demo    set up, build, let the snake crawl over its terrain, say where the page lies
+# make demo-python   set up, build the Python module, let a small policy learn to balance a pole, say where its replay page lies
 # make test    set up, build, run the tests
 # make test-long   the tests that take minutes
 # make flakes      every test FLAKES_N times (50), beside 0, 2 and 6 busy processes: which fail now and then; hours. FLAKES_FILTER chooses (ctest -R)
-# make mutants     88 one-line mistakes, one at a time, in a copy: which test notices (scripts/mutants.toml); half an hour. MUTANTS_FILTER chooses, MUTANTS_JOBS builds
+# make mutants     91 one-line mistakes, one at a time, in a copy: which test notices (scripts/mutants.toml); half an hour. MUTANTS_FILTER chooses, MUTANTS_JOBS builds
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make bench   run the benchmarks and print their table
 # make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   those of the rooms without engine
@@ -21,7 +22,7 @@ FUZZ_S ?= 300
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo test test-long flakes mutants validate bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan check-asan check-tsan tidy check-all format \
+.PHONY: all setup build demo demo-python test test-long flakes mutants validate bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan check-asan check-tsan tidy check-all format \
   check-format stiffness-uses snake-travel clean
 
 all: build
@@ -37,6 +38,11 @@ demo: setup
 	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa -- --quiet
 	@$(VSA) run snake_rubble --duration-s 20 --gait climb --record out/demo --no-topics
+
+demo-python: setup
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) --target vsasim_python vsa_web -- --quiet
+	@cmake --build $(BUILD) --target demo-python -- --quiet
 
 test:
 	@sh scripts/setup.sh test
@@ -116,7 +122,7 @@ asan:
 tidy:
 	@sh scripts/setup.sh tidy
 	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
-	@bash scripts/tidy.sh $(BUILD)
+	@python3 scripts/tidy.py $(BUILD)
 
 check-all: check-format asan check-tsan tidy
 

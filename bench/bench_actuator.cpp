@@ -5,14 +5,16 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
+#include "vsa/device/unit_batch.hpp"
 #include "vsa/host/robot.hpp"
 
 namespace {
 
-vsa::device::UnitConfig maker_pro() { return vsa::config::PresetLibrary().load("qbmove_maker_pro_6_1").unit; }
+vsa::device::UnitConfig maker_pro() { return vsa::config::TypeLibrary().load("qbmove_maker_pro_6_1").unit; }
 
 void sinh_cosh_pair(benchmark::State& state) {
   double u = 0.1;
@@ -40,6 +42,30 @@ void actuator_step_1ms(benchmark::State& state) {
   benchmark::DoNotOptimize(q);
 }
 BENCHMARK(actuator_step_1ms);
+
+/// N units as above, each with its own place in the gait, side by side in lanes; the time is that of all.
+void lanes_of(benchmark::State& state, std::string_view instructions) {
+  const auto count = static_cast<std::size_t>(state.range(0));
+  vsa::device::UnitBatch units(maker_pro(), count, instructions);
+  std::vector<double> q(count, 0.0), v(count, 0.0), inverse_inertia(count, 200.0), torque(count);
+  double t = 0;
+  std::int64_t n = 0;
+  for (auto _ : state) {
+    if (n % 12 == 0)
+      for (std::size_t i = 0; i < count; ++i) units.command(i, 1.047 * std::sin(4.71 * t + 0.6 * static_cast<double>(i)), 0.6109);
+    units.step(1'000'000, q, v, inverse_inertia, torque);
+    for (std::size_t i = 0; i < count; ++i) {
+      v[i] += 1e-3 * (torque[i] - 0.5 * std::sin(q[i]) - 0.02 * v[i]) * 200.0;
+      q[i] += 1e-3 * v[i];
+    }
+    t += 1e-3;
+    ++n;
+  }
+  benchmark::DoNotOptimize(q.data());
+  state.SetLabel(std::string(units.instructions()));
+}
+void units_in_lanes(benchmark::State& state) { lanes_of(state, {}); }
+BENCHMARK(units_in_lanes)->Arg(64)->Arg(4096);
 
 /// A whole robot of N units with its bus; items are actuator steps.
 void robot_step(benchmark::State& state) {
@@ -80,4 +106,13 @@ BENCHMARK(robot_step)->Arg(1)->Arg(12)->Arg(1000);
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  for (const std::string_view set : vsa::device::UnitBatch::instruction_sets())
+    benchmark::RegisterBenchmark(("units_in_lanes_" + std::string(set)).c_str(), [set](benchmark::State& state) {
+      lanes_of(state, set);
+    })->Arg(64);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

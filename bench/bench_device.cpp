@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "vsa/bus/codec.hpp"
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/device/emulation.hpp"
 
 namespace {
 
 using namespace vsa;
 
-device::UnitConfig maker_pro() { return config::PresetLibrary().load("qbmove_maker_pro_6_1").unit; }
+device::UnitConfig maker_pro() { return config::TypeLibrary().load("qbmove_maker_pro_6_1").unit; }
 
 /// A millisecond of the physics alone: bridges at changing voltages, the shaft swinging.
 void physics_1ms(benchmark::State& state) {

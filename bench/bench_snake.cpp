@@ -5,13 +5,13 @@
 
 #include <memory>
 
-#include "vsa/engine/gait.hpp"
 #include "vsa/engine/world.hpp"
+#include "vsa/motion/gait.hpp"
 
 namespace {
 
-using vsa::engine::Gait;
 using vsa::engine::World;
+using vsa::motion::Gait;
 
 World load(bool actuators) {
   vsa::engine::WorldOptions options;

@@ -13,7 +13,7 @@ set -eu
 
 source_tree=$(cd "$(dirname "$0")/.." && pwd)
 root="${XDG_CACHE_HOME:-$HOME/.cache}/vsasim/debian11"
-packages="g++ ccache cmake ninja-build pkg-config libtinyxml2-dev libfmt-dev libgtest-dev
+packages="g++ ccache cmake ninja-build pkg-config libtinyxml2-dev libfmt-dev nlohmann-json3-dev libgtest-dev
   gazebo libgazebo-dev libignition-transport-dev libignition-msgs-dev"
 
 left_out() { echo "Classic left out: $1"; exit 3; }

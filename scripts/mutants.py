@@ -71,8 +71,8 @@ def copy_tree():
             continue
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(source, target)
-    for folder in {name.split("/")[0] for name in names if "/" in name}:
-        for path in (TREE / folder).rglob("*"):
+    for folder in (f for f in TREE.iterdir() if f.is_dir() and f.name != "build"):
+        for path in folder.rglob("*"):
             if path.is_file() and str(path.relative_to(TREE)) not in names and "node_modules" not in path.parts:
                 path.unlink()
 

@@ -5,9 +5,10 @@ set -eu
 
 packages="
   build-essential cmake ninja-build pkg-config git ca-certificates
-  libmujoco-dev libqhull-dev libgl-dev libopengl-dev libsdformat-dev libassimp-dev libbullet-extras-dev libignition-transport-dev libignition-msgs-dev ignition-transport-cli
-  libtomlplusplus-dev libtinyxml2-dev libcli11-dev libfmt-dev nlohmann-json3-dev libboost-dev libceres-dev libnlopt-cxx-dev
+  libmujoco-dev libqhull-dev libgl-dev libopengl-dev libsdformat-dev libassimp-dev libbullet-extras-dev liblodepng-dev libignition-transport-dev libignition-msgs-dev ignition-transport-cli
+  libtomlplusplus-dev libtinyxml2-dev libcli11-dev libfmt-dev nlohmann-json3-dev libboost-dev libceres-dev libeigen3-dev libnlopt-cxx-dev
   libgtest-dev libbenchmark-dev python3-yaml
+  python3-dev python3-numpy pybind11-dev
 "
 # The page tests drive Debian's Chromium, the man page's groff; a developer's tools are asked for by name: setup.sh test tidy
 for group in "$@"; do

@@ -34,7 +34,7 @@ int check_robots(Findings& findings, const XMLElement& e, const std::string& fil
     child->Accept(&printer);
     try {
       const auto robot =
-          config::parse_plugin(printer.CStr(), fmt::format("{}:{}", file, child->GetLineNum()), config::PresetLibrary());
+          config::parse_plugin(printer.CStr(), fmt::format("{}:{}", file, child->GetLineNum()), config::TypeLibrary());
       findings.ok("robot", fmt::format("{}:{}: {} actuators", file, child->GetLineNum(), robot.actuators.size()));
     } catch (const InputError& error) {
       for (const Problem& p : error.problems()) findings.problem("robot", p.text(), "mend the element");

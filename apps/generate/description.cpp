@@ -1,104 +1,54 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "description.hpp"
 
-#include <fmt/format.h>
-#include <toml++/toml.h>
-
-#include <cmath>
-#include <set>
-
+#include "vsa/config/text.hpp"
+#include "vsa/config/toml_section.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::generate {
 namespace {
 
-/// Reads one table and remembers which of its keys were asked for; the others are mistakes.
-class Section {
+/// One table, in which everything that is asked for must be there, and nothing else.
+class Section : public config::TomlSection {
  public:
-  Section(const std::string& file, std::string name, const toml::table* table, Problems& problems)
-      : file_(file), name_(std::move(name)), table_(table), problems_(problems) {
-    if (table_ == nullptr) problem("", "", "the table is missing", "");
+  Section(const std::string& file, const std::string& name, const toml::table* table, Problems& problems)
+      : TomlSection(table, file, name + ".", problems), given_(table != nullptr) {
+    if (!given_) problems.add({file, name, "", "the table is missing", ""});
   }
   Section(const Section&) = delete;
   Section& operator=(const Section&) = delete;
-  ~Section() {
-    if (table_ == nullptr) return;
-    for (const auto& [key, node] : *table_) {
-      if (!asked_.contains(std::string(key.str()))) problem(std::string(key.str()), "", "unknown key", join());
-    }
-  }
+  ~Section() { refuse_others(); }
 
-  double number(const char* key, double min, double max) { return checked(key, find(key), min, max); }
+  double number(const char* key, double min, double max) {
+    return asked(key, min, max).TomlSection::number(key, min, max).value_or(min);
+  }
   int integer(const char* key, int min, int max) {
-    const double value = number(key, min, max);
-    if (value != std::floor(value)) problem(key, fmt::format("{}", value), "not a whole number", fmt::format("{} … {}", min, max));
-    return static_cast<int>(value);
+    return static_cast<int>(asked(key, min, max).whole(key, min, max).value_or(min));
   }
-  std::string text(const char* key) {
-    const toml::node* node = find(key);
-    const auto value = node == nullptr ? std::nullopt : node->value<std::string>();
-    if (!value || value->empty()) problem(key, "", "missing or not a text", "a name");
-    return value.value_or("");
-  }
+  std::string text(const char* key) { return (given_ ? need(key, "a name") : *this).TomlSection::text(key).value_or(""); }
   std::vector<double> numbers(const char* key, double min, double max) {
-    std::vector<double> values;
-    const toml::node* node = find(key);
-    if (node == nullptr || node->as_array() == nullptr) {
-      problem(key, "", "missing or not a list", "numbers");
-      return values;
-    }
-    for (const toml::node& item : *node->as_array()) values.push_back(checked(key, &item, min, max));
-    return values;
+    return asked(key, min, max).TomlSection::numbers(key, min, max);
   }
   Range range(const char* key, double min, double max) {
     const auto values = numbers(key, min, max);
     if (values.size() == 2) return {values[0], values[1]};
-    problem(key, "", "not two numbers", fmt::format("{} … {}", min, max));
+    add(key, "", "not two numbers", config::range_text(min, max));
     return {min, max};
   }
   Size size(const char* key, double min, double max) {
     const auto values = numbers(key, min, max);
     if (values.size() == 3) return {values[0], values[1], values[2]};
-    problem(key, "", "not three numbers", fmt::format("{} … {}", min, max));
+    add(key, "", "not three numbers", config::range_text(min, max));
     return {min, min, min};
-  }
-  const toml::array* tables(const char* key) {
-    const toml::node* node = find(key);
-    return node == nullptr ? nullptr : node->as_array();
-  }
-  void problem(const std::string& key, const std::string& value, const std::string& message, const std::string& allowed) {
-    problems_.add({file_, key.empty() ? name_ : name_ + "." + key, value, message, allowed});
   }
 
  private:
-  const toml::node* find(const char* key) {
-    asked_.insert(key);
-    return table_ == nullptr ? nullptr : table_->get(key);
-  }
-  double checked(const char* key, const toml::node* node, double min, double max) {
-    const auto value = node == nullptr || !node->is_number() ? std::nullopt : node->value<double>();
-    if (!value) {
-      problem(key, "", "missing or not a number", fmt::format("{} … {}", min, max));
-    } else if (!(*value >= min && *value <= max)) {
-      problem(key, fmt::format("{}", *value), "out of range", fmt::format("{} … {}", min, max));
-    }
-    return value.value_or(min);
-  }
-  std::string join() const {
-    std::string all;
-    for (const auto& key : asked_) all += (all.empty() ? "" : ", ") + key;
-    return all;
-  }
+  TomlSection& asked(const char* key, double min, double max) { return given_ ? need(key, config::range_text(min, max)) : *this; }
 
-  const std::string& file_;
-  std::string name_;
-  const toml::table* table_;
-  Problems& problems_;
-  std::set<std::string> asked_;
+  bool given_;
 };
 
-BenchSpec read_bench(const std::string& file, const char* name, const toml::table* table, Problems& problems) {
-  Section s(file, name, table, problems);
+BenchSpec read_bench(Section& s) {
   return {s.number("height_m", 0.05, 10), s.number("load_mass_kg", 1e-3, 100), s.number("load_lever_m", 1e-3, 10),
           s.number("load_radius_m", 1e-3, 1), s.number("load_length_m", 1e-3, 1)};
 }
@@ -169,16 +119,21 @@ void read_robots(const std::string& file, const toml::table& root, Problems& pro
                 s.number("contact_radius_m", 1e-3, 1),
                 s.number("friction", 0, 10),
                 s.number("bracket_mass_kg", 1e-3, 1)};
-    if (d.module.flange_mass_kg >= d.module.mass_kg)
-      s.problem("flange_mass_kg", "", "not less than mass_kg, which includes it", "");
+    if (d.module.flange_mass_kg >= d.module.mass_kg) s.add("flange_mass_kg", "", "not less than mass_kg, which includes it", "");
   }
   {
     Section s(file, "actuator", table("actuator"), problems);
-    d.actuator = {s.text("preset"), s.text("plugin_file"), s.number("initial_preset_rad", 0, 0.785), s.number("baud_Hz", 1200, 1e8),
+    d.actuator = {s.text("type"), s.text("plugin_file"), s.number("initial_preset_rad", 0, 0.785), s.number("baud_Hz", 1200, 1e8),
                   s.number("state_rate_Hz", 1, 1000)};
   }
-  d.bench = read_bench(file, "bench", table("bench"), problems);
-  d.throwing = read_bench(file, "throw", table("throw"), problems);
+  for (const auto& [name, bench] : {std::pair{"bench", &d.bench}, std::pair{"throw", &d.throwing}}) {
+    Section s(file, name, table(name), problems);
+    *bench = read_bench(s);
+  }
+  {
+    Section s(file, "pole", table("pole"), problems);
+    d.pole = {read_bench(s), s.number("mass_kg", 1e-3, 10), s.number("radius_m", 1e-3, 0.1), s.number("length_m", 0.05, 10)};
+  }
   {
     Section s(file, "snake", table("snake"), problems);
     d.snake.modules = s.integer("modules", 2, 100);
@@ -194,13 +149,13 @@ void read_hills(const std::string& file, const toml::table& root, Problems& prob
   Section s(file, "hills", root["hills"].as_table(), problems);
   hills.samples = s.integer("samples", 3, 4097);
   if (const int cells = hills.samples - 1; (cells & (cells - 1)) != 0)
-    s.problem("samples", "", "not a power of two plus one", "129, 257, 513 …");
+    s.add("samples", "", "not a power of two plus one", "129, 257, 513 …");
   hills.size_m = s.number("size_m", 1, 1000);
   hills.flat_radius_m = s.range("flat_radius_m", 0, 100);
-  const toml::array* waves = s.tables("waves");
-  if (waves == nullptr || waves->empty()) s.problem("waves", "", "missing or empty", "a list of waves");
-  for (std::size_t i = 0; waves != nullptr && i < waves->size(); ++i) {
-    Section w(file, fmt::format("hills.waves[{}]", i), waves->get(i)->as_table(), problems);
+  const auto waves = s.tables("waves");
+  if (waves.empty()) s.add("waves", "", "missing or empty", "a list of waves");
+  for (std::size_t i = 0; i < waves.size(); ++i) {
+    Section w(file, "hills.waves[" + std::to_string(i) + "]", waves[i], problems);
     hills.waves.push_back({w.number("height_m", 0, 10), w.number("wavelength_m", 0.1, 1000), w.number("direction_deg", -360, 360),
                            w.number("phase_deg", -360, 360)});
   }
@@ -233,20 +188,16 @@ Description read_description(const std::filesystem::path& file) {
   const std::string name = file.string();
   Problems problems;
   Description description{};
-  try {
-    const toml::table root = toml::parse_file(name);
-    read_robots(name, root, problems, description);
-    read_frank(name, root["frank"].as_table(), problems, description.frank);
-    read_grasping(name, root, problems, description);
-    read_world(name, root, problems, description);
-    for (const auto& [key, node] : root) {
-      const std::set<std::string_view> known{"module",   "actuator",     "bench", "snake",       "frank", "gripper", "table",
-                                             "pendulum", "bench_object", "throw", "manipulator", "world", "rubble",  "hills"};
-      if (!known.contains(key.str())) problems.add({name, std::string(key.str()), "", "unknown table", ""});
-    }
-  } catch (const toml::parse_error& error) {
-    problems.add({name, "", "", fmt::format("line {}: {}", error.source().begin.line, error.description()), ""});
-  }
+  const toml::table root = config::parse_toml(file);
+  read_robots(name, root, problems, description);
+  read_frank(name, root["frank"].as_table(), problems, description.frank);
+  read_grasping(name, root, problems, description);
+  read_world(name, root, problems, description);
+  config::TomlSection top(&root, name, "", problems);
+  for (const char* known : {"module", "actuator", "bench", "snake", "frank", "gripper", "table", "pendulum", "bench_object",
+                            "throw", "pole", "manipulator", "world", "rubble", "hills"})
+    (void)top.find(known);
+  top.refuse_others();
   problems.throw_if_any();
   return description;
 }

@@ -19,11 +19,15 @@ struct ModuleSpec {
       bracket_mass_kg;
 };
 struct ActuatorSpec {
-  std::string preset, plugin_file;
+  std::string type, plugin_file;
   double initial_preset_rad, baud_Hz, state_rate_Hz;
 };
 struct BenchSpec {
   double height_m, load_mass_kg, load_lever_m, load_radius_m, load_length_m;
+};
+struct PoleSpec {
+  BenchSpec bench;
+  double mass_kg, radius_m, length_m;
 };
 struct SnakeSpec {
   int modules;
@@ -89,6 +93,7 @@ struct Description {
   PendulumSpec pendulum;
   BenchObjectSpec bench_object;
   BenchSpec throwing;
+  PoleSpec pole;
   ManipulatorSpec manipulator;
   WorldSpec world;
   RubbleSpec rubble;

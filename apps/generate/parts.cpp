@@ -43,7 +43,7 @@ void write_plugin(Xml& xml, const ActuatorSpec& a, const std::string& bus, doubl
   for (std::size_t i = 0; i < list.size(); ++i) {
     xml.open("actuator", {{"name", list[i].name}});
     xml.leaf("joint", list[i].joint);
-    xml.leaf("preset", a.preset);
+    xml.leaf("type", a.type);
     xml.leaf("bus", bus, {{"id", std::to_string(i + 1)}});
     xml.empty("initial", {{"equilibrium_rad", "0"}, {"preset_rad", number(initial_preset)}});
     xml.close();

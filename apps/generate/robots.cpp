@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// qbmove, its two benches and the snake. Joint angles grow right-handed about the joint's axis.
+// qbmove, its benches and the snake. Joint angles grow right-handed about the joint's axis.
 #include <fmt/format.h>
 
 #include "generate.hpp"
@@ -40,13 +40,25 @@ void write_flange_link(Xml& xml, const ModuleSpec& m, const BenchSpec* load) {
   xml.close();
 }
 
-std::string module_model(const Description& d, const std::string& name, bool fixed, const BenchSpec* load) {
+/// A pole that stands on the lever's end, free to turn about the lever. Frame: its hinge.
+void write_pole_link(Xml& xml, const ModuleSpec& m, const PoleSpec& p) {
+  begin_link(xml, "pole", {0, p.bench.load_lever_m, m.edge_m / 2 + m.flange_thickness_m / 2}, 0);
+  const Vec middle{0, 0, p.length_m / 2};
+  write_inertial(xml, solid_cylinder(p.mass_kg, p.radius_m, p.length_m, Axis::z, middle));
+  cylinder_visual(xml, "pole", middle, Axis::z, p.radius_m, p.length_m, kMark);
+  xml.close();
+}
+
+std::string module_model(const Description& d, const std::string& name, bool fixed, const BenchSpec* load,
+                         const PoleSpec* pole = nullptr) {
   Xml xml = begin_sdf();
   xml.open("model", {{"name", name}});
   if (fixed) xml.open("joint", {{"name", "mount"}, {"type", "fixed"}}).leaf("parent", "world").leaf("child", "housing").close();
   write_housing_link(xml, d.module);
   write_flange_link(xml, d.module, load);
+  if (pole != nullptr) write_pole_link(xml, d.module, *pole);
   write_joint(xml, "shaft", "housing", "flange", {}, kUp);
+  if (pole != nullptr) write_joint(xml, "hinge", "flange", "pole", {}, {0, 1, 0});
   write_plugin(xml, d.actuator, "bus", d.actuator.initial_preset_rad, {{"shaft", "shaft"}});
   xml.close().close();
   return xml.text();
@@ -129,6 +141,8 @@ void add_robots(Files& files, const Description& d) {
             module_model(d, "qbmove_bench_load", true, &d.bench));
   add_model(files, "qbmove_bench_throw", "qbmove maker pro, held by its housing, axis upright, with a ball on a lever",
             module_model(d, "qbmove_bench_throw", true, &d.throwing));
+  add_model(files, "qbmove_bench_pole", "qbmove maker pro, held by its housing, axis upright, with a pole that stands on a lever",
+            module_model(d, "qbmove_bench_pole", true, &d.pole.bench, &d.pole));
   add_model(files, "qbmove_snake", "Snake of qbmove modules in series", snake_model(d));
 }
 

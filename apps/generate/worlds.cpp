@@ -119,6 +119,7 @@ void add_worlds(Files& files, const Description& d) {
   put("bench_load", {{"terrain_flat", {}}, {"qbmove_bench_load", {0, 0, d.bench.height_m, -quarter, 0, 0}}});
   put("bench_free", {{"terrain_flat", {}}, {"qbmove_bench_free", {0, 0, d.bench.height_m, 0, 0, 0}}});
   put("bench_throw", {{"terrain_flat", {}}, {"qbmove_bench_throw", {0, 0, d.throwing.height_m, 0, 0, 0}}});
+  put("bench_pole", {{"terrain_flat", {}}, {"qbmove_bench_pole", {0, 0, d.pole.bench.height_m, 0, 0, 0}}});
   put("manipulator_3r", {{"terrain_flat", {}}, {"qbmove_manipulator_3r", {}}});
   add_frank_worlds(put, d);
   put("module", {{"terrain_flat", {}}, {"qbmove", {0, 0, lying, 0, 0, 0}}});

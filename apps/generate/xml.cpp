@@ -4,18 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
-
-#include "vsa/xml_escape.hpp"
 
 namespace vsa::generate {
 namespace {
 
-std::string start(std::string_view tag, Xml::Attributes attributes) {
-  std::string out = fmt::format("<{}", tag);
-  for (const auto& [name, value] : attributes) out += fmt::format(" {}=\"{}\"", name, xml_escaped(value));
-  return out;
-}
+class Printer : public tinyxml2::XMLPrinter {
+  void PrintSpace(int depth) override {
+    for (int i = 0; i < depth; ++i) Write("  ", 2);
+  }
+};
 
 }  // namespace
 
@@ -30,50 +27,33 @@ std::string numbers(std::initializer_list<double> values) {
   return out;
 }
 
-Xml::Xml() : text_("<?xml version=\"1.0\"?>\n") {}
+Xml::Xml() : printer_(std::make_unique<Printer>()) { printer_->PushDeclaration("xml version=\"1.0\""); }
 
-void Xml::line(const std::string& text) {
-  text_.append(2 * stack_.size(), ' ');
-  text_ += text;
-  text_ += '\n';
-}
-
-Xml& Xml::open(std::string_view tag, Attributes attributes) {
-  line(fmt::format("{}>", start(tag, attributes)));
-  stack_.emplace_back(tag);
+Xml& Xml::open(const char* tag, Attributes attributes) {
+  printer_->OpenElement(tag);
+  for (const auto& [name, value] : attributes) printer_->PushAttribute(name, value.c_str());
   return *this;
 }
 
 Xml& Xml::close() {
-  const std::string tag = stack_.back();
-  stack_.pop_back();
-  line(fmt::format("</{}>", tag));
+  printer_->CloseElement();
   return *this;
 }
 
-Xml& Xml::leaf(std::string_view tag, const std::string& text, Attributes attributes) {
-  line(fmt::format("{}>{}</{}>", start(tag, attributes), xml_escaped(text), tag));
-  return *this;
+Xml& Xml::leaf(const char* tag, const std::string& text, Attributes attributes) {
+  open(tag, attributes);
+  printer_->PushText(text.c_str());
+  return close();
 }
 
-Xml& Xml::empty(std::string_view tag, Attributes attributes) {
-  line(fmt::format("{}/>", start(tag, attributes)));
-  return *this;
-}
-
-Xml& Xml::comment(std::string_view text) {
-  line(fmt::format("<!-- {} -->", text));
+Xml& Xml::comment(const std::string& text) {
+  printer_->PushComment(fmt::format(" {} ", text).c_str());
   return *this;
 }
 
 Xml& Xml::pose(std::initializer_list<double> values) {
   if (std::any_of(values.begin(), values.end(), [](double v) { return v != 0; })) leaf("pose", numbers(values));
   return *this;
-}
-
-const std::string& Xml::text() const {
-  assert(stack_.empty());
-  return text_;
 }
 
 }  // namespace vsa::generate

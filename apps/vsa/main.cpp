@@ -14,6 +14,7 @@
 #include "datasheet/datasheet.hpp"
 #include "doctor/doctor.hpp"
 #include "identify/identify.hpp"
+#include "linearize/linearize.hpp"
 #include "run/run.hpp"
 #include "terminal/completion.hpp"
 #include "terminal/exit_codes.hpp"
@@ -25,17 +26,19 @@
 #include "unit/ping.hpp"
 #include "unit/set.hpp"
 #include "validate/validate.hpp"
+#include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
   vsa run snake_flat --gait sidewind --duration-s 20 --record out
-  vsa run models/worlds/snake_flat.sdf --realtime
+  vsa run my_arm.urdf --realtime
   vsa command 20 35
   vsa actuators qbmove_maker_pro
   vsa characterize qbmove_maker_pro
   vsa datasheet qbmove_maker_pro
+  vsa linearize qbmove_maker_pro_6_1 --preset-rad 0.3
   vsa emulate qbmove_maker_pro --units 12
   vsa ping qbmove_maker_pro
   vsa doctor snake_flat
@@ -63,6 +66,7 @@ void set_up(CLI::App& app, int& exit_code) {
   vsa::app::setup_get(app, exit_code);
   vsa::app::setup_set(app, exit_code);
   vsa::app::setup_characterize(app, exit_code);
+  vsa::app::setup_linearize(app, exit_code);
   vsa::app::setup_identify(app, exit_code);
   vsa::app::setup_validate(app, exit_code);
   vsa::app::setup_datasheet(app, exit_code);
@@ -83,17 +87,36 @@ bool tell_about(const CLI::App& app, const std::vector<std::string>& arguments) 
   return true;
 }
 
+/// --preset is what --type was called: understood for one more release.
+std::vector<std::string> with_names_of_now(std::vector<std::string> arguments) {
+  constexpr std::string_view kOld = "--preset", kNow = "--type";
+  for (std::string& a : arguments) {
+    if (a != kOld && !a.starts_with(std::string(kOld) + '=')) continue;
+    a.replace(0, kOld.size(), kNow);
+    std::cerr << "vsa: " << vsa::config::renamed_text(kOld, kNow) << '\n';
+  }
+  return arguments;
+}
+
+/// "help" and "help run", as "--help" and "run --help".
+void understand_help(std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments.front() != "help") return;
+  arguments.erase(arguments.begin());
+  arguments.insert(arguments.begin() + (arguments.empty() ? 0 : 1), "--help");
+}
+
 int run_application(int argc, char** argv) {
   vsa::app::survive_broken_pipes();
   CLI::App app{"vsa: simulates robots built of variable stiffness actuators", "vsa"};
   int exit_code = vsa::app::kDone;
   set_up(app, exit_code);
-  const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  std::vector<std::string> arguments = with_names_of_now({argv + (argc > 0 ? 1 : 0), argv + argc});
+  understand_help(arguments);
   if (tell_about(app, arguments)) return vsa::app::kDone;
   refuse_empty(argc, argv);
   vsa::app::refuse_unknown_command(app, arguments);
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ExtrasError& error) {
     vsa::app::refuse_unexpected(app);
     app.exit(error);

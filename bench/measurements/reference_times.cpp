@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "vsa/bus/master.hpp"
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/host/robot.hpp"
 #include "vsa/report/report.hpp"
@@ -24,7 +24,7 @@ constexpr std::int64_t kByteNs = 5'000;  // ten bits at 2 Mbaud
 vsa::host::RobotConfig chain() {
   vsa::host::RobotConfig config;
   config.buses.push_back({"spine", 2e6, std::nullopt});
-  const auto unit = vsa::config::PresetLibrary().load("qbmove_maker_pro_6_1").unit;
+  const auto unit = vsa::config::TypeLibrary().load("qbmove_maker_pro_6_1").unit;
   for (std::size_t i = 0; i < kUnits; ++i) {
     vsa::host::ActuatorConfig a;
     a.name = a.joint = fmt::format("unit_{}", i + 1);

@@ -18,14 +18,15 @@
 #include <mutex>
 #include <thread>
 
-#include "vsa/engine/gait.hpp"
+#include "vsa/engine/world.hpp"
+#include "vsa/motion/gait.hpp"
 #include "vsa/units.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-using vsa::engine::Gait;
 using vsa::engine::World;
+using vsa::motion::Gait;
 
 const fs::path kModels = fs::path(VSA_SOURCE_DIR) / "models";
 

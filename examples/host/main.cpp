@@ -2,7 +2,7 @@
 //
 // A pendulum integrator of one's own as the host of a robot with one actuator: v' = v + dt·a, q' = q + dt·v'. All else, from the
 // element to firmware, bus, springs, faults and serial ports, is the seat's (docs/howto/your-simulator.md). Topics need a
-// transport: seat.connect(std::make_shared<vsa::topics::IgnitionPort>()), and vsa::topics beside vsa::seat in CMakeLists.txt.
+// transport: seat.connect(std::make_shared<vsa::topics::IgnitionTransport>()), and vsa::topics beside vsa::seat in CMakeLists.txt.
 #include <cmath>
 #include <cstdio>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kRobot = R"(<plugin name="vsa::Robot" filename="libvsa-robot.so">
   <actuator name="shoulder">
     <joint>hinge</joint>
-    <preset>qbmove_maker_pro_6_1</preset>
+    <type>qbmove_maker_pro_6_1</type>
     <bus id="1">arm</bus>
     <initial equilibrium_rad="0" preset_rad="0.3"/>
   </actuator>

@@ -11,7 +11,7 @@ namespace study = vsa::study;
 int main() {
   try {
     study::CharacterizationOptions options;
-    options.specimen.preset = "qbmove_maker_pro";
+    options.specimen.type = "qbmove_maker_pro";
     options.experiments = {study::Experiment::speed};
     options.preset = {0, 0.6};  // rad
     const auto measured = study::run(study::plan_characterization(options), [](const study::Progress& p) {

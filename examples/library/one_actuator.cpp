@@ -9,16 +9,17 @@
 #include "vsa/elastic/two_sinh.hpp"
 
 int main() {
+  constexpr double inertia = 0.005, dt = 1e-3;  // kg·m², s
   vsa::device::UnitConfig config;
   config.actuator.transmission = std::make_shared<vsa::elastic::TwoSinh>(vsa::elastic::TwoSinhParams{{0.022, 0.022}, {6.85, 6.85}});
   config.actuator.motor = {0.001, 0.01, 0.8, 1.3, 2.3, std::nullopt};
   config.actuator.gearbox = {1.0, {0.8, 0.03}};
   config.actuator.shaft_friction = {0.01, 0.03};
+  config.actuator.shaft_inertia_kgm2 = inertia;
   vsa::device::Unit unit(config);
   auto state = unit.initial(0.0, 0.4, 0.0);  // equilibrium, preset, shaft: rad
   unit.set_inputs(state, unit.inputs_for(0.8, 0.4));
 
-  const double inertia = 0.005, dt = 1e-3;
   double q = 0, v = 0;
   for (int n = 0; n < 2000; ++n) {
     const double torque = unit.step(state, n * 1'000'000LL, 1'000'000, {q, v, 1 / inertia});

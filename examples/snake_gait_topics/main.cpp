@@ -16,13 +16,13 @@
 #include <iostream>
 #include <thread>
 
-#include "vsa/engine/gait.hpp"
+#include "vsa/motion/gait.hpp"
 
 namespace {
 
 volatile std::sig_atomic_t stop = 0;
 
-ignition::msgs::JointTrajectory message_at(const vsa::engine::Gait& gait, double t_s) {
+ignition::msgs::JointTrajectory message_at(const vsa::motion::Gait& gait, double t_s) {
   ignition::msgs::JointTrajectory message;
   auto* point = message.add_points();
   for (const auto& group : gait.params().groups) {
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
   setenv("IGN_IP", "127.0.0.1", 0);  // as vsa does: talk on this machine only unless told otherwise
   std::signal(SIGINT, [](int) { stop = 1; });
   try {
-    const auto gait = vsa::engine::Gait::load(argv[1]);
+    const auto gait = vsa::motion::Gait::load(argv[1]);
     if (gait.params().steering) std::cerr << "note: over the topics this gait runs without its steering\n";
     const double duration_s = std::stod(argv[2]);
     ignition::transport::Node node;

@@ -18,7 +18,7 @@ using report::Curve;
 using report::Table;
 
 double degrees(double rad) { return rad * 180 / kPi; }
-std::string preset_name(double rad) { return fmt::format("preset {:.0f}°", degrees(rad)); }
+std::string preset_name(double rad) { return fmt::format("preset {:.3g}°", degrees(rad)); }
 
 std::string line(const std::vector<std::string>& cells) { return fmt::format("| {} |\n", fmt::join(cells, " | ")); }
 
@@ -93,7 +93,7 @@ Page impact_page(const std::vector<ImpactRun>& runs) {
   Chart shoulder{"What the shoulder does", "time since the hit [s]", "shoulder [°]", {}, ""};
   int color = 0;
   for (const ImpactRun& r : runs) {
-    table.rows.push_back({fmt::format("{:.0f}°", degrees(r.preset_rad)), fmt::format("{:.2f}", r.stiffness_Nm_per_rad),
+    table.rows.push_back({fmt::format("{:.3g}°", degrees(r.preset_rad)), fmt::format("{:.2f}", r.stiffness_Nm_per_rad),
                           fmt::format("{:.0f}", r.peak_N), fmt::format("{:.1f}", r.push_N),
                           fmt::format("{:.0f}", r.contact_s * 1e3), fmt::format("{:.3f}", r.impulse_Ns),
                           fmt::format("{:.3f}", r.absorbed_J), fmt::format("{:.1f}", r.shoulder_deg),
@@ -125,7 +125,7 @@ Page gripper_page(const std::vector<GripRun>& runs) {
                              [&](const GripPoint& p) { return std::abs(p.command_deg - command) < 1e-9; });
       };
       for (const GripPoint& p : r.points) c.x.push_back(p.command_deg), c.y.push_back(p.force_N);
-      table.rows.push_back({object, fmt::format("{:.0f}°", degrees(r.preset_rad)), fmt::format("{:.2f}", r.slope_N_per_deg()),
+      table.rows.push_back({object, fmt::format("{:.3g}°", degrees(r.preset_rad)), fmt::format("{:.2f}", r.slope_N_per_deg()),
                             fmt::format("{:.2f}", at(10).force_N), fmt::format("{:.2f}", at(30).force_N),
                             fmt::format("{:.1f}", at(30).finger_deg)});
       chart.curves.push_back(std::move(c));
@@ -149,7 +149,7 @@ Page throw_page(const std::vector<std::vector<ThrowRun>>& sweeps, const std::vec
   for (const auto& runs : sweeps) {
     const ThrowRun& best = best_of(runs);
     const auto forward = std::find_if(runs.begin(), runs.end(), [](const ThrowRun& r) { return r.swing_back_s == 0; });
-    table.rows.push_back({fmt::format("{:.0f}°", degrees(best.preset_rad)), fmt::format("{:.2f}", best.swing_back_s),
+    table.rows.push_back({fmt::format("{:.3g}°", degrees(best.preset_rad)), fmt::format("{:.2f}", best.swing_back_s),
                           fmt::format("{:.2f}", best.link_rad_per_s), fmt::format("{:.2f}", best.motor_rad_per_s),
                           fmt::format("{:.2f}", best.ratio()),
                           forward == runs.end() ? "–" : fmt::format("{:.2f}", forward->ratio()),

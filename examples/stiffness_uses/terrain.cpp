@@ -8,7 +8,8 @@
 #include <mutex>
 #include <thread>
 
-#include "vsa/engine/gait.hpp"
+#include "vsa/engine/world.hpp"
+#include "vsa/motion/gait.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::stiffness_uses {
@@ -55,7 +56,7 @@ double largest_contact(const World& world, std::vector<engine::Contact>& contact
 TerrainRun run_terrain(const TerrainPlan& plan) {
   World world = World::load("snake_" + plan.ground + ".sdf");
   const auto file = config::find_data("models/gaits/" + plan.gait + ".toml");
-  engine::Gait gait = engine::Gait::load(file.value_or(plan.gait));
+  motion::Gait gait = motion::Gait::load(file.value_or(plan.gait));
   const double yaw_deg = plan.starts == 1 ? 0.0 : -2.0 + 4.0 * plan.start / (plan.starts - 1);
   world.displace_model(kSnake, yaw_deg * kPi / 180, {0, 0, 0});
   TerrainRun run{plan.ground, plan.gait, plan.start};

@@ -9,6 +9,8 @@
 #include <gazebo/physics/Model.hh>
 #include <utility>
 
+#include "model_links.hpp"
+
 namespace vsa::plugins {
 namespace {
 
@@ -19,11 +21,6 @@ using gazebo::physics::ModelPtr;
 using host::TreeBody;
 
 std::array<double, 3> array(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
-
-void collect_links(const ModelPtr& model, std::vector<LinkPtr>& out) {
-  for (const LinkPtr& link : model->GetLinks()) out.push_back(link);
-  for (const ModelPtr& nested : model->NestedModels()) collect_links(nested, out);
-}
 
 std::optional<TreeBody::Joint> kind(const JointPtr& joint) {
   if (!joint) return TreeBody::Joint::free;
@@ -36,10 +33,8 @@ std::optional<TreeBody::Joint> kind(const JointPtr& joint) {
 }  // namespace
 
 ModelTree::ModelTree(const ModelPtr& model, const std::vector<JointPtr>& driven) {
-  std::vector<LinkPtr> links;
-  collect_links(model, links);
   std::vector<TreeBody> bodies;
-  if (!build(links, bodies)) return;
+  if (!build(all_links(model), bodies)) return;
   std::vector<std::size_t> body_of;
   for (const JointPtr& joint : driven) {
     const auto at = std::find_if(items_.begin(), items_.end(), [&](const Item& item) { return item.joint == joint; });

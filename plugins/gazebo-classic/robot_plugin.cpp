@@ -10,9 +10,10 @@
 #include <gazebo/physics/World.hh>
 #include <utility>
 
-#include "gazebo_port.hpp"
+#include "gazebo_transport.hpp"
+#include "model_links.hpp"
 #include "vsa/errors.hpp"
-#include "vsa/topics/ignition_port.hpp"
+#include "vsa/topics/ignition_transport.hpp"
 
 namespace vsa::plugins {
 namespace {
@@ -45,6 +46,7 @@ void ClassicRobot::Load(ModelPtr model, sdf::ElementPtr element) {
   try {
     attach(element);
   } catch (const InputError& error) {
+    watch_.reset();
     seat_.reset();
     gzerr << "vsa::Robot: " << model_->GetScopedName() << " stays without torques:\n" << error.what() << std::endl;
   }
@@ -59,11 +61,14 @@ void ClassicRobot::attach(const sdf::ElementPtr& element) {
   options.report = [](const std::string& line) { gzwarn << "vsa::Robot: " << line << std::endl; };
   seat_ = std::make_unique<seat::Seat>(model, options);
   seat_->open_ports();
-  seat_->connect(std::make_shared<topics::IgnitionPort>());
-  seat_->connect(std::make_shared<GazeboPort>(world_, model.name));
+  seat_->connect(std::make_shared<topics::IgnitionTransport>());
+  seat_->connect(std::make_shared<GazeboTransport>(world_, model.name));
   for (const std::size_t j : seat_->joints()) joints_.push_back(known[j].joint);
   tree_ = std::make_unique<ModelTree>(model_, joints_);
   seat_->join(tree_->trees());
+  watch_ = ModelWatch::make(
+      model.where, world_, model_->GetWorld()->Physics()->GetMaxStepSize(), *seat_, [this] { return model_links(model_); },
+      options.report);
   using gazebo::event::Events;
   connection_ = Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo& info) { update(info); });
   time_reset_ = Events::ConnectTimeReset([this] {  // of any world
@@ -87,14 +92,18 @@ void ClassicRobot::step() {
     seat_->in()[i].angle_rad = joints_[i]->Position(0);
     seat_->in()[i].speed_rad_per_s = joints_[i]->GetVelocity(0);
   }
+  const std::int64_t dt_ns = std::llround(model_->GetWorld()->Physics()->GetMaxStepSize() * 1e9);
+  if (watch_) watch_->before_step(now_ns_ - dt_ns);
   if (seat_->wants_mobility()) tree_->mobility(seat_->mobility());
-  seat_->step(std::llround(model_->GetWorld()->Physics()->GetMaxStepSize() * 1e9));
+  seat_->step(dt_ns);
   for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i]->SetForce(0, seat_->torques()[i]);
 }
 
 void ClassicRobot::publish_where_it_stands() {
   const std::lock_guard lock(mutex_);
-  if (!std::exchange(stepped_, false)) seat_->publish_paused(now_ns_);
+  if (std::exchange(stepped_, false)) return;
+  seat_->publish_paused(now_ns_);
+  if (watch_) watch_->paused();
 }
 
 void ClassicRobot::Reset() {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "model_tree.hpp"
+#include "model_watch.hpp"
 #include "vsa/seat/seat.hpp"
 #include "wall_timer.hpp"
 
@@ -43,6 +44,7 @@ class ClassicRobot : public gazebo::ModelPlugin {
   std::vector<gazebo::physics::JointPtr> joints_;  ///< of the actuators
   std::unique_ptr<seat::Seat> seat_;
   std::unique_ptr<ModelTree> tree_;
+  std::unique_ptr<ModelWatch> watch_;
   std::mutex mutex_;                                      ///< guards what is below, and the robot
   std::int64_t now_ns_ = 0;                               ///< simulated
   bool stepped_ = false;                                  ///< since the timer looked

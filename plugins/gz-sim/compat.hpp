@@ -22,6 +22,7 @@
 #include <gz/sim/components/Name.hh>
 #include <gz/sim/components/ParentEntity.hh>
 #include <gz/sim/components/ParentLinkName.hh>
+#include <gz/sim/components/Physics.hh>
 #include <gz/sim/components/Pose.hh>
 #include <gz/transport/parameters/Registry.hh>
 
@@ -54,6 +55,7 @@ namespace math = gz::math;
 #include <ignition/gazebo/components/Name.hh>
 #include <ignition/gazebo/components/ParentEntity.hh>
 #include <ignition/gazebo/components/ParentLinkName.hh>
+#include <ignition/gazebo/components/Physics.hh>
 #include <ignition/gazebo/components/Pose.hh>
 
 #define VSA_ADD_PLUGIN IGNITION_ADD_PLUGIN

@@ -5,8 +5,9 @@
 
 #include "entities.hpp"
 #include "joint_components.hpp"
+#include "model_links.hpp"
 #include "vsa/errors.hpp"
-#include "vsa/topics/ignition_port.hpp"
+#include "vsa/topics/ignition_transport.hpp"
 
 namespace vsa::plugins {
 
@@ -22,6 +23,7 @@ void SimRobot::Configure(const sim::Entity& entity, const std::shared_ptr<const 
   try {
     attach(*element, ecm);
   } catch (const InputError& error) {
+    watch_.reset();
     seat_.reset();
     const std::string text = name_ + " stays without torques:\n" + error.what();
     VSA_ERROR << "vsa::Robot: " << text << std::endl;
@@ -40,7 +42,7 @@ void SimRobot::attach(const sdf::Element& element, sim::EntityComponentManager& 
   options.report = [](const std::string& line) { VSA_WARNING << "vsa::Robot: " << line << std::endl; };
   seat_ = std::make_unique<seat::Seat>(model, options);
   seat_->open_ports();
-  seat_->connect(std::make_shared<topics::IgnitionPort>());
+  seat_->connect(std::make_shared<topics::IgnitionTransport>());
   for (const std::size_t j : seat_->joints()) joints_.push_back(known[j].entity);
   for (const sim::Entity joint : joints_) {
     first_number<components::JointPosition>(joint, ecm);
@@ -48,11 +50,14 @@ void SimRobot::attach(const sdf::Element& element, sim::EntityComponentManager& 
   }
   tree_ = std::make_unique<EntityTree>(model_, joints_, ecm);
   seat_->join(tree_->trees());
+  watch_ = ModelWatch::make(
+      name_, world_name(ecm), world_step_s(ecm), *seat_, [&] { return model_links(model_, name_, ecm); }, options.report);
 }
 
 void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) {
   if (!seat_) return;
   if (!ecm.HasEntity(model_)) {  // removed: Fortress keeps the system
+    watch_.reset();
     seat_.reset();
     tree_.reset();
     return;
@@ -63,24 +68,26 @@ void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManage
   const auto time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(info.simTime).count();
   if (info.paused) {
     seat_->publish_paused(time_ns);
+    if (watch_) watch_->paused();
     return;
   }
   const auto dt_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(info.dt).count();
   if (dt_ns > 0) last_dt_ns_ = dt_ns;
   if (last_dt_ns_ == 0) return;
-  step(last_dt_ns_, ecm);
+  step(time_ns, ecm);
   seat_->publish_step(time_ns);
 }
 
-void SimRobot::step(std::int64_t dt_ns, sim::EntityComponentManager& ecm) {
+void SimRobot::step(std::int64_t time_ns, sim::EntityComponentManager& ecm) {
   if (steps_ <= kPhysicsSteps && steps_++ == kPhysicsSteps) look_for_physics(ecm);
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     seat_->in()[i].angle_rad = first_number<components::JointPosition>(joints_[i], ecm);
     seat_->in()[i].speed_rad_per_s = first_number<components::JointVelocity>(joints_[i], ecm);
   }
+  if (watch_) watch_->before_step(time_ns - last_dt_ns_);
   if (seat_->wants_mobility()) tree_->mobility(ecm, seat_->mobility());
   const bool stopped = seat_->stopped();
-  seat_->step(dt_ns);
+  seat_->step(last_dt_ns_);
   if (seat_->stopped() && !stopped) {  // the reason is a warning, which gz-sim doesn't show unasked
     const std::string text = name_ + ": its actuators have stopped and give no torque; -v 2 shows why";
     VSA_ERROR << "vsa::Robot: " << text << std::endl;

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "compat.hpp"
+#include "model_watch.hpp"
 #include "vsa/seat/driven_tree.hpp"
 #include "vsa/seat/seat.hpp"
 #ifdef VSA_HAS_PARAMETERS
@@ -74,7 +75,7 @@ class SimRobot : public sim::System,
 
  private:
   void attach(const sdf::Element& element, sim::EntityComponentManager& ecm);
-  void step(std::int64_t dt_ns, sim::EntityComponentManager& ecm);
+  void step(std::int64_t time_ns, sim::EntityComponentManager& ecm);
   void look_for_physics(const sim::EntityComponentManager& ecm);
 
   sim::Entity model_ = sim::kNullEntity;
@@ -82,6 +83,7 @@ class SimRobot : public sim::System,
   std::vector<sim::Entity> joints_;  ///< of the actuators
   std::unique_ptr<seat::Seat> seat_;
   std::unique_ptr<EntityTree> tree_;
+  std::unique_ptr<ModelWatch> watch_;
 #ifdef VSA_HAS_PARAMETERS
   FaultParameter faults_;
 #endif

@@ -3,6 +3,7 @@
 
 namespace vsa::actuator {
 
+template <>
 Ledger& Ledger::operator+=(const Ledger& o) noexcept {
   supply += o.supply;
   copper += o.copper;

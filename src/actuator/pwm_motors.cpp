@@ -33,7 +33,7 @@ const drive::PwmCycle& Actuator::cycle(int i, const drive::PwmHold& hold) noexce
 }
 
 void Actuator::begin_pwm(Segment& seg, int i, double speed, double h_s) noexcept {
-  Segment::Pwm& pwm = seg.pwm[i];
+  PwmInSegment& pwm = seg.pwm[i];
   pwm.cycle = &cycle(i, {seg.in.voltage[i] / seg.in.supply_V, seg.in.supply_V});
   pwm.start = speed;
   pwm.h = h_s;
@@ -41,7 +41,7 @@ void Actuator::begin_pwm(Segment& seg, int i, double speed, double h_s) noexcept
 }
 
 void Actuator::aim(Segment& seg, int i, double speed) const noexcept {
-  Segment::Pwm& pwm = seg.pwm[i];
+  PwmInSegment& pwm = seg.pwm[i];
   const drive::PwmMean mean = pwm.cycle->mean(motor_.back_emf_Vs_per_rad * speed);
   const double droop = mean.conductance * motor_.back_emf_Vs_per_rad;
   pwm.aim = speed;
@@ -52,11 +52,11 @@ void Actuator::aim(Segment& seg, int i, double speed) const noexcept {
 }
 
 void Actuator::follow(Segment& seg, int i) const noexcept {
-  const double speed = seg.dx[i] / seg.pwm[i].h;
+  const double speed = seg.found.dx[i] / seg.pwm[i].h;
   if (std::abs(speed - seg.pwm[i].aim) > kSameSpeed_rad_per_s) aim(seg, i, speed);
 }
 
-drive::MotorStep Actuator::pwm_step(Ledger& l, const Segment::Pwm& pwm, double torque) const noexcept {
+drive::MotorStep Actuator::pwm_step(Ledger& l, const PwmInSegment& pwm, double torque) const noexcept {
   const double emf_per_speed = motor_.back_emf_Vs_per_rad;
   const drive::MotorStep step = pwm.stepper.step(pwm.start, pwm.current_at_rest, torque);
   const drive::PwmPower power = pwm.cycle->power(emf_per_speed * step.displacement / pwm.h);

@@ -56,7 +56,7 @@ Result<Done> Client::send(std::uint8_t id, const Request& request) {
 }
 
 Result<Frame> Client::await_frame(std::uint8_t id, Command command, Channel::Time timeout) {
-  HostReceiver receiver;
+  MasterReceiver receiver;
   Frame frame;
   const auto take = [&] {
     while (receiver.next(frame)) {

@@ -137,7 +137,7 @@ std::size_t encode_info(Wire wire, std::uint8_t id, std::string_view text, std::
   return total;
 }
 
-// ------------------------------------------------------------------------------------------------------------------ host's side
+// ------------------------------------------------------------------------------------------------------------------ master's side
 
 bool answers(Wire wire, Command command, const Frame& frame) noexcept {
   const bool acknowledged = wire.dialect == Dialect::six && frame.length == kMinLength && frame.command() <= kAckOk;

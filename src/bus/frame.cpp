@@ -74,14 +74,14 @@ ReceiverEvent UnitReceiver::push_frame(std::span<const std::uint8_t> bytes, std:
   return checksum(bytes.subspan(kHeaderBytes)) == 0 ? ReceiverEvent::frame : ReceiverEvent::bad_checksum;
 }
 
-std::size_t HostReceiver::push(std::span<const std::uint8_t> bytes) noexcept {
+std::size_t MasterReceiver::push(std::span<const std::uint8_t> bytes) noexcept {
   const std::size_t count = std::min(bytes.size(), room());
   std::copy_n(bytes.begin(), count, buffer_.begin() + static_cast<std::ptrdiff_t>(size_));
   size_ += count;
   return count;
 }
 
-bool HostReceiver::next(Frame& frame) noexcept {
+bool MasterReceiver::next(Frame& frame) noexcept {
   while (size_ > 0) {
     const bool start = buffer_[0] == kStartByte && (size_ < 2 || buffer_[1] == kStartByte);
     const bool length_ok = size_ < kHeaderBytes || (buffer_[3] >= kMinLength && buffer_[3] <= kMaxLength);
@@ -105,14 +105,14 @@ bool HostReceiver::next(Frame& frame) noexcept {
   return false;
 }
 
-bool HostReceiver::give_up() noexcept {
+bool MasterReceiver::give_up() noexcept {
   if (size_ == 0) return false;
   drop(1);
   dropped_ += 1;
   return true;
 }
 
-void HostReceiver::drop(std::size_t count) noexcept {
+void MasterReceiver::drop(std::size_t count) noexcept {
   std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(count), buffer_.begin() + static_cast<std::ptrdiff_t>(size_),
             buffer_.begin());
   size_ -= count;

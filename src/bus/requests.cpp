@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Requests both ways: host → frame, frame → unit.
+// Requests both ways: master → frame, frame → unit.
 #include <algorithm>
 
 #include "vsa/bus/bytes.hpp"

@@ -108,23 +108,25 @@ void check_together(const device::UnitConfig& unit, Resolver& resolver) {
 
 }  // namespace
 
-Preset build_preset(const Document& document, const std::vector<Override>& overrides, const LawRegistry& laws, Problems& problems) {
-  Preset preset;
-  preset.name = document.name;
-  preset.title = document.title;
-  preset.description = document.description;
-  preset.law = document.law;
-  preset.file = document.file;
-  preset.evidence = document.evidence;
+ActuatorType build_type(const Document& document, const std::vector<Override>& overrides, const LawRegistry& laws,
+                        Problems& problems) {
+  ActuatorType type;
+  type.name = document.name;
+  type.title = document.title;
+  type.description = document.description;
+  type.law = document.law;
+  type.file = document.file;
+  type.evidence = document.evidence;
+  type.notices = document.notices;
   Resolver resolver(document, overrides, problems);
   bool law_known = false;
   const Law law = make_law(document, laws, resolver, law_known);
-  preset.unit.actuator.transmission = law;
-  for (const Parameter& p : parameters()) read_parameter(p, law, resolver, preset.unit);
-  check_together(preset.unit, resolver);
+  type.unit.actuator.transmission = law;
+  for (const Parameter& p : parameters()) read_parameter(p, law, resolver, type.unit);
+  check_together(type.unit, resolver);
   resolver.report_unknown(law_known ? "" : "elastic.");
-  preset.entries = std::move(resolver.entries());
-  return preset;
+  type.entries = std::move(resolver.entries());
+  return type;
 }
 
 }  // namespace vsa::config

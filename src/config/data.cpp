@@ -3,23 +3,25 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/config/installed.hpp"
-#include "vsa/config/preset.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::config {
 namespace fs = std::filesystem;
 namespace {
 
-constinit std::atomic<const char*> installation{nullptr};
+constinit std::atomic<const char*> installation{nullptr}, module{nullptr};
 
 }  // namespace
 
 void installed_in(const char* directory) noexcept { installation.store(directory); }
+void loaded_with(const char* directory) noexcept { module.store(directory); }
 
 std::vector<fs::path> data_directories() {
   const char* set = std::getenv("VSA_DATA_DIR");
   if (set != nullptr && *set != '\0') return {fs::path(set)};
+  if (const char* own = module.load()) return {fs::path(own)};
   std::vector<fs::path> directories;
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
@@ -38,12 +40,14 @@ std::optional<fs::path> find_data(const fs::path& relative) {
 }
 
 fs::path data_directory() {
-  if (const auto presets = find_data("presets")) return presets->parent_path();
+  for (const char* name : {"actuators", "presets"}) {  // presets: as it was called before, for one more release
+    if (const auto types = find_data(name)) return types->parent_path();
+  }
   std::vector<std::string> places;
   for (const fs::path& directory : data_directories()) places.push_back(directory.string());
   const char* set = std::getenv("VSA_DATA_DIR");
-  throw InputError(Problem{set != nullptr ? "VSA_DATA_DIR" : "", "data directory", join(places), "has no presets/",
-                           "a directory with presets/ and models/; set VSA_DATA_DIR"});
+  throw InputError(Problem{set != nullptr ? "VSA_DATA_DIR" : "", "data directory", join(places), "has no actuators/",
+                           "a directory with actuators/ and models/; set VSA_DATA_DIR"});
 }
 
 }  // namespace vsa::config

@@ -11,9 +11,9 @@
 namespace vsa::config {
 namespace {
 
-const std::vector<std::string> kGroups{"preset", "evidence", "elastic",  "drive",  "tendon",
-                                       "shaft",  "sensor",   "firmware", "limits", "physics"};
-const std::vector<std::string> kPresetKeys{"name", "title", "description"};
+const std::vector<std::string> kGroups{"type",  "evidence", "elastic",  "drive",  "tendon",
+                                       "shaft", "sensor",   "firmware", "limits", "physics"};
+const std::vector<std::string> kTypeKeys{"name", "title", "description"};
 const std::vector<std::string> kItemKeys{"value", "unit", "bounds", "source"};
 const std::vector<std::string> kEvidenceKeys{"calibrated_on"};
 const std::vector<std::string> kEvidenceParts{"value", "source"};
@@ -41,22 +41,26 @@ class Reader {
 
   void read(const toml::table& root) {
     for (const auto& [key, node] : root) {
-      const std::string group(key.str());
+      std::string group(key.str());
+      if (group == "preset" && !root.contains("type")) {
+        doc_.notices.push_back(doc_.place(line_of(node)) + ": " + renamed_text("[preset]", "[type]"));
+        group = "type";
+      }
       const toml::table* table = node.as_table();
       if (std::find(kGroups.begin(), kGroups.end(), group) == kGroups.end()) {
         unknown(line_of(node), group, group, kGroups, "unknown table");
       } else if (table == nullptr) {
         add(line_of(node), group, node_text(node), "must be a table", "[" + group + "]");
-      } else if (group == "preset") {
-        read_preset(*table);
+      } else if (group == "type") {
+        read_type(*table);
       } else if (group == "evidence") {
         read_evidence(*table);
       } else {
         read_group(group, *table);
       }
     }
-    if (doc_.name.empty()) missing("preset.name");
-    if (doc_.title.empty()) missing("preset.title");
+    if (doc_.name.empty()) missing("type.name");
+    if (doc_.title.empty()) missing("type.title");
     if (doc_.law.empty()) missing("elastic.law");
   }
 
@@ -68,7 +72,7 @@ class Reader {
     if (std::find(doc_.broken.begin(), doc_.broken.end(), key) == doc_.broken.end()) add(0, key, "", "is missing", "a text");
   }
   void unknown(int line, const std::string& key, std::string_view word, const std::vector<std::string>& known, const char* what) {
-    add(line, key, "", std::string(what) + ", did you mean " + nearest(word, known) + "?", join(known));
+    add(line, key, "", what + did_you_mean(word, known), join(known));
   }
 
   std::string text_at(const toml::node& node, const std::string& key) {
@@ -79,9 +83,9 @@ class Reader {
     return {};
   }
 
-  void read_preset(const toml::table& table) {
+  void read_type(const toml::table& table) {
     for (const auto& [name, node] : table) {
-      const std::string key = "preset." + std::string(name.str());
+      const std::string key = "type." + std::string(name.str());
       if (name == "name") {
         doc_.name = text_at(node, key);
       } else if (name == "title") {
@@ -89,7 +93,7 @@ class Reader {
       } else if (name == "description") {
         doc_.description = text_at(node, key);
       } else {
-        unknown(line_of(node), key, name.str(), kPresetKeys, "unknown key");
+        unknown(line_of(node), key, name.str(), kTypeKeys, "unknown key");
       }
     }
   }
@@ -193,7 +197,7 @@ class Reader {
       if (numbers && std::isfinite(*low) && std::isfinite(*high) && *low <= *high) return std::array<double, 2>{*low, *high};
     }
     add(line_of(node), key, node_text(node), "must be two finite numbers in order", "[lowest, highest]");
-    // Without usable bounds the schema's alone hold; this problem stops the preset anyway.
+    // Without usable bounds the schema's alone hold; this problem stops the type anyway.
     return std::nullopt;
   }
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// A preset file as written: its form is checked, its meaning is not. Keeps toml++ in one source file.
+// A type's file as written: its form is checked, its meaning is not. Keeps toml++ in one source file.
 #pragma once
 
 #include <array>
@@ -34,6 +34,7 @@ struct Document {
   int law_line = 0;
   std::optional<Evidence> evidence;
   std::vector<Item> items;
+  std::vector<std::string> notices;
   /// Keys whose form is wrong, so that they are not reported as missing as well.
   std::vector<std::string> broken;
   bool readable = false;  ///< false: not TOML at all; nothing else holds

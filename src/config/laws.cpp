@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The elastic laws that presets may name. A new law in the library: its room's header, a line in law_parameters(), a line here.
-#include "vsa/config/preset.hpp"
+// The elastic laws that actuator types may name. A new law in the library: its room's header, a line in law_parameters(), a line here.
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/config/schema.hpp"
 #include "vsa/elastic/series_spring.hpp"
 #include "vsa/elastic/two_sinh.hpp"

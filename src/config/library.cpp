@@ -4,7 +4,7 @@
 #include <set>
 
 #include "config/build.hpp"
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/files.hpp"
 
@@ -14,15 +14,21 @@ namespace {
 
 constexpr std::string_view kEnding = ".toml";
 
-std::vector<fs::path> standard_directories() {
-  std::vector<fs::path> directories;
-  if (const char* path = std::getenv("VSA_PRESET_PATH")) {
-    for (const std::string& part : split(path, ':')) {
-      if (!part.empty()) directories.emplace_back(part);
-    }
+void add_path(const char* variable, std::vector<fs::path>& to) {
+  const char* path = std::getenv(variable);
+  for (const std::string& part : split(path == nullptr ? "" : path, ':')) {
+    if (!part.empty()) to.emplace_back(part);
   }
-  for (const fs::path& data : data_directories()) directories.push_back(data / "presets");
-  return directories;
+}
+
+/// Without the ending.
+std::set<std::string> toml_files(const fs::path& directory) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
+    if (it->path().extension() == kEnding) names.insert(it->path().stem().string());
+  }
+  return names;
 }
 
 std::string read_text(const fs::path& file) {
@@ -39,47 +45,77 @@ std::string searched_text(const std::vector<std::string>& names, const std::vect
 
 }  // namespace
 
-PresetLibrary::PresetLibrary(std::vector<fs::path> directories, LawRegistry laws)
-    : directories_(directories.empty() ? standard_directories() : std::move(directories)), laws_(std::move(laws)) {}
+TypeLibrary::TypeLibrary(std::vector<fs::path> directories, LawRegistry laws)
+    : directories_(std::move(directories)), laws_(std::move(laws)) {
+  if (directories_.empty()) search_standard_directories();
+}
 
-std::vector<std::string> PresetLibrary::names() const {
-  std::set<std::string> names;
-  for (const fs::path& directory : directories_) {
-    std::error_code error;
-    for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
-      if (it->path().extension() == kEnding) names.insert(it->path().stem().string());
-    }
+void TypeLibrary::search_standard_directories() {
+  add_path("VSA_ACTUATOR_PATH", directories_);
+  const std::size_t of_now = directories_.size();
+  add_path("VSA_PRESET_PATH", directories_);
+  if (directories_.size() > of_now) notices_.push_back(renamed_text("VSA_PRESET_PATH", "VSA_ACTUATOR_PATH"));
+  for (const fs::path& data : data_directories()) {
+    directories_.push_back(data / "actuators");
+    if (toml_files(data / "presets").empty()) continue;
+    directories_.push_back(data / "presets");
+    notices_.push_back(renamed_text((data / "presets").string(), "actuators"));
   }
+}
+
+std::vector<std::string> TypeLibrary::names() const {
+  std::set<std::string> names;
+  for (const fs::path& directory : directories_) names.merge(toml_files(directory));
   return {names.begin(), names.end()};
 }
 
-Preset PresetLibrary::load(std::string_view name, const std::vector<Override>& overrides) const {
-  // Only names of files in the directories are presets: "../x" is none, wherever it may lead.
+fs::path TypeLibrary::find(std::string_view name) const {
+  // Only names of files in the directories are types: "../x" is none, wherever it may lead.
   const std::vector<std::string> known = names();
   if (std::find(known.begin(), known.end(), name) != known.end()) {
     for (const fs::path& directory : directories_) {
       const fs::path file = directory / (std::string(name) + std::string(kEnding));
       std::error_code error;
-      if (fs::exists(file, error)) return load_file(file, overrides);
+      if (fs::exists(file, error)) return file;
     }
   }
-  throw InputError(Problem{"", "preset", '"' + std::string(name) + '"', "unknown preset", searched_text(known, directories_)});
+  throw InputError(Problem{"", "type", '"' + std::string(name) + '"', "unknown actuator type" + did_you_mean(name, known),
+                           searched_text(known, directories_)});
 }
 
-Preset PresetLibrary::load_file(const fs::path& file, const std::vector<Override>& overrides) const {
+ActuatorType TypeLibrary::load(std::string_view name, const std::vector<Override>& overrides) const {
+  return load_file(find(name), overrides);
+}
+
+TypeFile TypeLibrary::open(std::string_view name) const {
+  const fs::path file = find(name);
+  Problems problems;
+  auto document = std::make_shared<const Document>(read_document(read_text(file), file.string(), problems));
+  problems.throw_if_any();
+  return {std::move(document), laws_};
+}
+
+ActuatorType TypeFile::make(const std::vector<Override>& overrides) const {
+  Problems problems;
+  ActuatorType type = build_type(*document_, overrides, laws_, problems);
+  problems.throw_if_any();
+  return type;
+}
+
+ActuatorType TypeLibrary::load_file(const fs::path& file, const std::vector<Override>& overrides) const {
   return load_text(read_text(file), file, overrides);
 }
 
-Preset PresetLibrary::load_text(std::string_view text, const fs::path& file, const std::vector<Override>& overrides) const {
+ActuatorType TypeLibrary::load_text(std::string_view text, const fs::path& file, const std::vector<Override>& overrides) const {
   Problems problems;
   const Document document = read_document(text, file.string(), problems);
   if (!document.readable) problems.throw_if_any();
-  Preset preset = build_preset(document, overrides, laws_, problems);
+  ActuatorType type = build_type(document, overrides, laws_, problems);
   if (!document.name.empty() && document.name != file.stem().string()) {
-    problems.add({file.string(), "preset.name", '"' + document.name + '"', "differs from the file's name", file.stem().string()});
+    problems.add({file.string(), "type.name", '"' + document.name + '"', "differs from the file's name", file.stem().string()});
   }
   problems.throw_if_any();
-  return preset;
+  return type;
 }
 
 }  // namespace vsa::config

@@ -120,20 +120,19 @@ std::string file_of(const XMLElement& root) {
   return name.substr(name.rfind('/') + 1);
 }
 
-/// The preset that stands for an older library; where the library was renamed already, its spring tells.
-std::string preset_of(const XMLElement& root, bool of_2015) {
+/// The type that stands for an older library; where the library was renamed already, its spring tells.
+std::string type_of(const XMLElement& root, bool of_2015) {
   const std::string file = file_of(root);
   if (of_2015) return "qbmove_maker_pro_6_1";
-  if (file == "libbavs_plugin.so" || root.FirstChildElement("spring_k_e") != nullptr) return "YOUR_PRESET_OF_A_BAVS";
-  if (file == "libawas_ii_plugin.so" || root.FirstChildElement("spring_Ks") != nullptr) return "YOUR_PRESET_OF_AN_AWAS_II";
+  if (file == "libbavs_plugin.so" || root.FirstChildElement("spring_k_e") != nullptr) return "YOUR_TYPE_OF_A_BAVS";
+  if (file == "libawas_ii_plugin.so" || root.FirstChildElement("spring_Ks") != nullptr) return "YOUR_TYPE_OF_AN_AWAS_II";
   const bool one_spring = root.FirstChildElement("spring_k") != nullptr || root.FirstChildElement("stiffness") != nullptr;
   return file == "libsea_plugin.so" || one_spring ? "sea_example" : "qbmove_advanced";
 }
 
-std::string actuator_text(const std::string& joint, const std::string& preset, const OlderTags& tags,
-                          const std::string& name = "") {
+std::string actuator_text(const std::string& joint, const std::string& type, const OlderTags& tags, const std::string& name = "") {
   std::string text = name.empty() ? "<actuator>" : "<actuator name=\"" + name + "\">";
-  text += "<joint>" + joint + "</joint><preset>" + preset + "</preset>";
+  text += "<joint>" + joint + "</joint><type>" + type + "</type>";
   for (const OlderTags::Taken& t : tags.taken) text += override_text(t.override);
   return text + "</actuator>";
 }
@@ -194,7 +193,7 @@ void answer_older_plugin(const XMLElement& root, XmlReader& xml) {
           ? "is the plug-in of 2015, one a module; here one <plugin> lists all the model's actuators, whose units share a bus"
           : "is the 2021 toolbox's form, one a joint; here one <plugin> lists all the model's actuators, whose units share a bus",
       "<plugin name=\"" + std::string(kPluginName) + "\" filename=\"libvsa-robot.so\">" +
-          actuator_text(driven, preset_of(root, of_2015), tags, name) + "</plugin>, and see docs/howto/migration.md");
+          actuator_text(driven, type_of(root, of_2015), tags, name) + "</plugin>, and see docs/howto/migration.md");
 }
 
 void check_motor_joints(const host::RobotConfig& config, const std::vector<std::string>& joints, std::string_view where,

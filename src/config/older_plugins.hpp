@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "config/xml_reader.hpp"
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/host/robot.hpp"
 
 namespace vsa::config {

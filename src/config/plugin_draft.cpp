@@ -15,14 +15,24 @@ namespace {
 // Endings that topics add to an actuator's name: "J_preset" is a channel of J.
 constexpr std::string_view kReservedEndings[] = {"_preset", "_motor_1", "_motor_2"};
 
+std::shared_ptr<const host::Settings> settings(const std::vector<Override>& overrides) {
+  auto out = std::make_shared<host::Settings>();
+  for (const Override& o : overrides) out->emplace_back(o.key, o.value);
+  return out;
+}
+
 class Finisher {
  public:
-  Finisher(const RobotDraft& draft, std::string_view where, const PresetLibrary& presets, Problems& problems)
-      : draft_(draft), where_(where), presets_(presets), problems_(problems) {}
+  Finisher(const RobotDraft& draft, std::string_view where, const TypeLibrary& types, Problems& problems)
+      : draft_(draft), where_(where), types_(types), problems_(problems) {}
 
   host::RobotConfig finish() {
     config_.state_rate_Hz = draft_.state_rate_Hz;
     config_.substeps = draft_.substeps;
+    config_.record = draft_.record;
+    config_.view_port = draft_.view_port;
+    config_.notices = draft_.notices;
+    for (const std::string& n : types_.notices()) config_.notices.push_back(n);
     if (draft_.actuators.empty() && !draft_.answered) add("plugin", "", "has no actuator", "at least one <actuator>");
     make_buses();
     for (const ActuatorDraft& a : draft_.actuators) config_.actuators.push_back(make(a));
@@ -54,17 +64,18 @@ class Finisher {
     host::ActuatorConfig out;
     out.name = a.name;
     out.joint = a.joint;
-    out.preset = a.preset;
+    out.type = a.type;
     out.initial_equilibrium_rad = a.initial_equilibrium;
     out.initial_preset = a.initial_preset;
     out.equilibrium_given = a.equilibrium_given;
     find_bus(a, out);
-    if (const Preset* preset = a.preset.empty() ? nullptr : load(a)) {
-      out.unit = preset->unit;
+    if (const ActuatorType* type = a.type.empty() ? nullptr : load(a)) {
+      out.unit = type->unit;
+      if (!a.overrides.empty()) out.changed = settings(a.overrides);
       check_initial(a, out);
-      if (a.motor_at_pulley && preset->unit.actuator.gearbox.ratio != 1)
-        add(a.path + "/preset", '"' + a.preset + '"', "has a gearbox, and the toolbox's motor values are at the pulley",
-            "a preset with drive.gear_ratio 1, or <override>s at the motor's shaft");
+      if (a.motor_at_pulley && type->unit.actuator.gearbox.ratio != 1)
+        add(a.path + "/type", '"' + a.type + '"', "has a gearbox, and the toolbox's motor values are at the pulley",
+            "a type with drive.gear_ratio 1, or <override>s at the motor's shaft");
     }
     return out;
   }
@@ -88,32 +99,35 @@ class Finisher {
     }
   }
 
-  /// Robots have many equal units: each preset is read once, and its problems are told once.
-  const Preset* load(const ActuatorDraft& a) {
-    std::string key = a.preset;
+  /// Robots have many equal units: each type is read once, and its problems are told once.
+  const ActuatorType* load(const ActuatorDraft& a) {
+    std::string key = a.type;
     for (const Override& o : a.overrides) key += '\n' + o.key + '\t' + o.value;
     const auto [entry, fresh] = cache_.try_emplace(key);
     if (fresh) {
       try {
-        entry->second = presets_.load(a.preset, a.overrides);
+        entry->second = types_.load(a.type, a.overrides);
+        for (const std::string& n : entry->second->notices) config_.notices.push_back(n);
       } catch (const InputError& error) {
-        for (const Problem& p : error.problems()) report_preset(a, p);
+        for (const Problem& p : error.problems()) report_type(a, p);
       }
     }
     return entry->second ? &*entry->second : nullptr;
   }
 
-  void report_preset(const ActuatorDraft& a, const Problem& p) {
+  void report_type(const ActuatorDraft& a, const Problem& p) {
     const bool from_override = p.key.compare(0, kOverrideMark.size(), kOverrideMark) == 0;
     const std::string key = from_override ? p.key.substr(kOverrideMark.size()) : "";
     if (const auto tag = a.tag_of.find(key); tag != a.tag_of.end()) {
       add(a.path + "/" + tag->second, p.value, key + ": " + p.message, p.allowed);
+    } else if (const auto flag = a.flag_of.find(key); flag != a.flag_of.end()) {
+      problems_.add({"", flag->second + " " + key, p.value, p.message, p.allowed});  // the robot's file is right
     } else if (from_override) {
       add(a.path + "/override[" + key + "]", p.value, p.message, p.allowed);
-    } else if (p.key == "preset" && p.file.empty()) {
-      add(a.path + "/preset", p.value, p.message, p.allowed);
+    } else if (p.key == "type" && p.file.empty()) {
+      add(a.path + "/type", p.value, p.message, p.allowed);
     } else {
-      add(a.path + "/preset", '"' + a.preset + '"', p.text());
+      add(a.path + "/type", '"' + a.type + '"', p.text());
     }
   }
 
@@ -214,18 +228,18 @@ class Finisher {
 
   const RobotDraft& draft_;
   std::string_view where_;
-  const PresetLibrary& presets_;
+  const TypeLibrary& types_;
   Problems& problems_;
   host::RobotConfig config_;
   bool lost_ = false;  // an actuator's bus is unknown: who shares a bus can't be judged
   std::vector<std::map<int, std::string>> used_;
-  std::map<std::string, std::optional<Preset>> cache_;
+  std::map<std::string, std::optional<ActuatorType>> cache_;
 };
 
 }  // namespace
 
-host::RobotConfig finish(const RobotDraft& draft, std::string_view where, const PresetLibrary& presets, Problems& problems) {
-  return Finisher(draft, where, presets, problems).finish();
+host::RobotConfig finish(const RobotDraft& draft, std::string_view where, const TypeLibrary& types, Problems& problems) {
+  return Finisher(draft, where, types, problems).finish();
 }
 
 }  // namespace vsa::config

@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The plug-in element as written, form checked, and what makes a robot of it: presets, names, buses, ids.
+// The plug-in element as written, form checked, and what makes a robot of it: types, names, buses, ids.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/host/robot.hpp"
 
 namespace vsa::config {
@@ -20,7 +20,7 @@ inline constexpr const char* kDefaultBus = "bus";
 
 struct ActuatorDraft {
   std::string path;  ///< "actuator[shoulder]"
-  std::string name, joint, preset;
+  std::string name, joint, type;
   bool name_ok = false;
   std::string bus;        ///< empty: the only one
   std::optional<int> id;  ///< none: the next free one
@@ -29,9 +29,10 @@ struct ActuatorDraft {
   bool equilibrium_given = false;
   std::string initial_preset_key;  ///< "preset_rad"; empty: not given
   std::vector<Override> overrides;
-  std::map<std::string, std::string> tag_of;  ///< keys of overrides that an older plug-in's tag gave, and that tag
-  bool motor_at_pulley = false;               ///< such a tag gave values of a motor without a gearbox
-  bool replaced = false;                      ///< the preset isn't the element's own: its initial preset may not fit
+  std::map<std::string, std::string> tag_of;   ///< keys of overrides that an older plug-in's tag gave, and that tag
+  bool motor_at_pulley = false;                ///< such a tag gave values of a motor without a gearbox
+  std::map<std::string, std::string> flag_of;  ///< keys of overrides that a Replacement gave, and its flag
+  bool replaced = false;                       ///< the type isn't the element's own: its initial preset may not fit
 };
 
 struct BusDraft {
@@ -47,10 +48,13 @@ struct RobotDraft {
   std::vector<BusDraft> buses;
   double state_rate_Hz = 100;
   std::optional<int> substeps;
+  std::optional<host::RecordConfig> record;
+  std::optional<std::uint16_t> view_port;
+  std::vector<std::string> notices;
   bool answered = false;  ///< the element is an older plug-in's, and the problem says so
 };
 
-[[nodiscard]] host::RobotConfig finish(const RobotDraft& draft, std::string_view where, const PresetLibrary& presets,
+[[nodiscard]] host::RobotConfig finish(const RobotDraft& draft, std::string_view where, const TypeLibrary& types,
                                        Problems& problems);
 
 }  // namespace vsa::config

@@ -15,15 +15,16 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr double kMaxAngle = 1e6;  // what a command may be depends on the firmware's limits, checked with the preset
+constexpr double kMaxAngle = 1e6;  // what a command may be depends on the firmware's limits, checked with the type
 constexpr double kMinBaud = 9600, kMaxBaud = 10e6;
 constexpr double kMaxCycle_s = 10;
 constexpr std::size_t kLongestPort = 100;  // a socket or link name has at most 107 bytes
 constexpr double kMinRate_Hz = 1e-3, kMaxRate_Hz = 1000;
+constexpr double kMaxRecordRate_Hz = 1e6;
 
 class Parser {
  public:
-  Parser(std::string_view where, Problems& problems) : xml_(where, problems) {}
+  Parser(std::string_view where, Problems& problems) : where_(where), xml_(where, problems) {}
 
   RobotDraft parse(const XMLElement& root) {
     RobotDraft robot;
@@ -37,7 +38,7 @@ class Parser {
     for (const char* child : {"state_rate_Hz", "substeps"}) xml_.child_as_attribute(root, "plugin", child);
     const std::string name = xml_.attribute(root, "name").value_or("");
     if (name != kPluginName) xml_.add("plugin@name", '"' + name + '"', "is not this plug-in", std::string(kPluginName));
-    xml_.check_children(root, "plugin", {"actuator", "bus", "state_rate_Hz", "substeps"});
+    xml_.check_children(root, "plugin", {"actuator", "bus", "state_rate_Hz", "substeps", "record", "view"});
     for (const XMLElement* e = root.FirstChildElement("bus"); e; e = e->NextSiblingElement("bus")) robot.buses.push_back(bus(*e));
     int index = 0;
     for (const XMLElement* e = root.FirstChildElement("actuator"); e; e = e->NextSiblingElement("actuator")) {
@@ -52,10 +53,32 @@ class Parser {
       xml_.check_attributes(*e, "substeps", {});
       robot.substeps = xml_.integer("substeps", xml_.text(*e, "substeps"), 1, host::kMostSubsteps);
     }
+    if (const XMLElement* e = xml_.only(root, "plugin", "record")) robot.record = record(*e);
+    if (const XMLElement* e = xml_.only(root, "plugin", "view")) robot.view_port = view(*e);
+    robot.notices = std::move(notices_);
     return robot;
   }
 
  private:
+  host::RecordConfig record(const XMLElement& e) {
+    host::RecordConfig out;
+    xml_.check_attributes(e, "record", {"directory", "rate_Hz"});
+    xml_.check_children(e, "record", {});
+    out.directory = xml_.attribute(e, "directory").value_or("");
+    if (out.directory.empty())
+      xml_.add("record@directory", "", xml_.attribute(e, "directory") ? "is empty" : "is missing", "where the files go");
+    if (const auto rate = xml_.attribute(e, "rate_Hz"))
+      out.rate_Hz = xml_.number("record@rate_Hz", *rate, kMinRate_Hz, kMaxRecordRate_Hz, "Hz").value_or(out.rate_Hz);
+    return out;
+  }
+
+  std::uint16_t view(const XMLElement& e) {
+    xml_.check_attributes(e, "view", {"port"});
+    xml_.check_children(e, "view", {});
+    const auto port = xml_.integer("view@port", xml_.attribute(e, "port").value_or("0"), 0, 65535);
+    return static_cast<std::uint16_t>(port.value_or(0));
+  }
+
   /// Text of a child that must be there; empty where it isn't, and reported.
   std::string required_text(const XMLElement& e, const std::string& path, const char* name) {
     if (const auto attribute = xml_.child_as_attribute(e, path, name)) return *attribute;
@@ -70,15 +93,30 @@ class Parser {
     return text;
   }
 
+  /// <preset> is what <type> was called: understood for one more release.
+  std::string type_text(const XMLElement& e, const std::string& path) {
+    if (const auto attribute = xml_.attribute(e, "preset")) {
+      xml_.add(attribute_path(path, "preset"), '"' + *attribute + '"', "is an element, not an attribute",
+               "<type>" + *attribute + "</type>");
+      return *attribute;
+    }
+    if (e.FirstChildElement("preset") == nullptr) return required_text(e, path, "type");
+    if (e.FirstChildElement("type") != nullptr)
+      xml_.add(path + "/preset", "", "is an old name of type, which is given too", "one <type>");
+    if (notices_.empty()) notices_.push_back(where_ + ": " + renamed_text("<preset>", "<type>"));
+    return required_text(e, path, "preset");
+  }
+
   ActuatorDraft actuator(const XMLElement& e, int index) {
     ActuatorDraft draft;
     const std::string numbered = "actuator[" + std::to_string(index) + "]";
     const auto given = xml_.attribute(e, "name");
     draft.path = given && !given->empty() ? "actuator[" + *given + "]" : numbered;
-    xml_.check_attributes(e, draft.path, {"name"}, {"joint", "preset", "bus"});
-    xml_.check_children(e, draft.path, {"joint", "preset", "bus", "initial", "override"}, is_older_tag);
+    xml_.check_attributes(e, draft.path, {"name"}, {"joint", "type", "preset", "bus"});
+    xml_.check_children(e, draft.path, {"joint", "type", "bus", "initial", "override"},
+                        [](std::string_view tag) { return tag == "preset" || is_older_tag(tag); });
     draft.joint = required_text(e, draft.path, "joint");
-    draft.preset = required_text(e, draft.path, "preset");
+    draft.type = type_text(e, draft.path);
     draft.name = given ? *given : draft.joint;
     if (given) {
       draft.name_ok = xml_.check_name(draft.path + "@name", draft.name);
@@ -195,13 +233,15 @@ class Parser {
     return draft;
   }
 
+  std::string where_;
   XmlReader xml_;
+  std::vector<std::string> notices_;
 };
 
 void replace(RobotDraft& robot, const Replacement& replacement) {
   for (ActuatorDraft& a : robot.actuators) {
-    if (replacement.preset) {
-      a.preset = *replacement.preset;
+    if (replacement.type) {
+      a.type = *replacement.type;
       a.overrides.clear();
       a.tag_of.clear();
       a.motor_at_pulley = false;
@@ -210,14 +250,15 @@ void replace(RobotDraft& robot, const Replacement& replacement) {
       a.tag_of.erase(o.key);
       std::erase_if(a.overrides, [&](const Override& own) { return own.key == o.key; });
     }
+    for (const Override& o : replacement.overrides) a.flag_of[o.key] = replacement.flag;
     a.overrides.insert(a.overrides.end(), replacement.overrides.begin(), replacement.overrides.end());
-    a.replaced = replacement.preset || !replacement.overrides.empty();
+    a.replaced = replacement.type || !replacement.overrides.empty();
   }
 }
 
 }  // namespace
 
-host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, const PresetLibrary& presets,
+host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, const TypeLibrary& types,
                                const Replacement& replacement) {
   Problems problems;
   tinyxml2::XMLDocument document;
@@ -233,7 +274,7 @@ host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, con
   }
   RobotDraft draft = Parser(where, problems).parse(*root);
   replace(draft, replacement);
-  host::RobotConfig config = finish(draft, where, presets, problems);
+  host::RobotConfig config = finish(draft, where, types, problems);
   problems.throw_if_any();
   return config;
 }
@@ -249,8 +290,8 @@ void check_joints(const host::RobotConfig& config, const std::vector<std::string
                   Problems& problems) {
   for (const host::ActuatorConfig& a : config.actuators) {
     if (std::find(joints.begin(), joints.end(), a.joint) != joints.end()) continue;
-    const std::string hint = joints.empty() ? "" : ", did you mean " + nearest(a.joint, joints) + "?";
-    problems.add({std::string(where), "actuator[" + a.name + "]/joint", '"' + a.joint + '"', "the model has no such joint" + hint,
+    problems.add({std::string(where), "actuator[" + a.name + "]/joint", '"' + a.joint + '"',
+                  "the model has no such joint" + did_you_mean(a.joint, joints),
                   joints.empty() ? "the model has no joints" : join(joints)});
   }
   check_motor_joints(config, joints, where, problems);

@@ -14,7 +14,7 @@ bool is_numeric(const Spec& spec) { return spec.kind == Kind::number || spec.kin
 
 /// The unit with a space before it; empty where there is none or nobody knows it.
 std::string unit_text(const Spec& spec) {
-  return !is_numeric(spec) || spec.unit.empty() || spec.unit == "?" ? "" : " " + spec.unit;
+  return !is_numeric(spec) || spec.unit.empty() || spec.unit == "?" || spec.unit == "1" ? "" : " " + spec.unit;
 }
 
 std::optional<double> word_index(std::string_view words, std::string_view word) {
@@ -77,19 +77,28 @@ std::string value_text(const Spec& spec, double value) {
 }
 
 Entry make_entry(const Spec& spec, const Item* item, double value, std::string source) {
-  const std::string bounds = item && item->bounds ? range_text((*item->bounds)[0], (*item->bounds)[1]) : allowed_text(spec);
-  return {spec.key, value_text(spec, value),   is_numeric(spec) ? spec.unit : "",
-          bounds,   std::string(spec.meaning), std::move(source)};
+  const bool own = item && item->bounds;
+  const double min = own ? (*item->bounds)[0] : spec.min, max = own ? (*item->bounds)[1] : spec.max;
+  return {.key = spec.key,
+          .value = value_text(spec, value),
+          .unit = is_numeric(spec) ? spec.unit : "",
+          .bounds = is_numeric(spec) ? range_text(min, max) : allowed_text(spec),
+          .meaning = std::string(spec.meaning),
+          .source = std::move(source),
+          .kind = spec.kind,
+          .number = value,
+          .min = min,
+          .max = max};
 }
 
-/// The nearest key, of the same group where there is one.
-std::string nearest_key(const std::string& key, const std::set<std::string, std::less<>>& known) {
+/// The nearest key, of the same group where there is one, as did_you_mean() puts it.
+std::string near_key(const std::string& key, const std::set<std::string, std::less<>>& known) {
   const std::string group = key.substr(0, key.find('.') + 1);
   std::vector<std::string> same;
   for (const std::string& k : known) {
     if (!group.empty() && k.compare(0, group.size(), group) == 0) same.push_back(k);
   }
-  return nearest(key, same.empty() ? std::vector<std::string>(known.begin(), known.end()) : same);
+  return did_you_mean(key, same.empty() ? std::vector<std::string>(known.begin(), known.end()) : same);
 }
 
 }  // namespace
@@ -138,8 +147,8 @@ std::optional<double> Resolver::resolve(const Spec& spec) {
   for (const Override& o : overrides_) {
     if (o.key != spec.key) continue;
     if (++given == 2) problem(0, std::string(kOverrideMark) + o.key, o.value, "is given more than once");
-    if (item && value) source = "override; the preset has " + value_text(spec, *value) + ": " + item->source;
-    if (!item) source = "override; the preset has none";
+    if (item && value) source = "override; the type has " + value_text(spec, *value) + ": " + item->source;
+    if (!item) source = "override; the type has none";
     value = from_override(spec, item, o.value);
   }
   if (value) entries_.push_back(make_entry(spec, item, *value, source));
@@ -196,7 +205,7 @@ std::optional<double> Resolver::in_range(const Spec& spec, const Item* item, dou
     problems_.add({at.file, at.key, at.value, "is outside of what the model accepts", at.allowed + unit_text(spec)});
   } else if (item && item->bounds && (value < (*item->bounds)[0] || value > (*item->bounds)[1])) {
     const std::string own = range_text((*item->bounds)[0], (*item->bounds)[1]);
-    problems_.add({at.file, at.key, at.value, "is outside of the preset's own bounds", own + unit_text(spec)});
+    problems_.add({at.file, at.key, at.value, "is outside of the type's own bounds", own + unit_text(spec)});
   } else {
     return value;
   }
@@ -215,14 +224,14 @@ void Resolver::report_unknown(std::string_view lenient_group) {
     return !lenient && asked_.find(key) == asked_.end();
   };
   for (const Item& item : document_.items) {
-    if (judged(item.key)) problem(item.line, item.key, "", "unknown key, did you mean " + nearest_key(item.key, asked_) + "?");
+    if (judged(item.key)) problem(item.line, item.key, "", "unknown key" + near_key(item.key, asked_));
   }
   for (const Override& o : overrides_) {
     if (!judged(o.key)) continue;
     const bool law = o.key == "elastic.law";
     problem(0, std::string(kOverrideMark) + o.key, '"' + o.value + '"',
-            law ? "a law has parameters of its own and can't be overridden: use another preset"
-                : "unknown key, did you mean " + nearest_key(o.key, asked_) + "?");
+            law ? "a law has parameters of its own and can't be overridden: use another type"
+                : "unknown key" + near_key(o.key, asked_));
   }
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "config/document.hpp"
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/config/schema.hpp"
 
 namespace vsa::config {

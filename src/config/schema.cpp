@@ -24,7 +24,7 @@ void set_model(Unit& u, double v) {
   u.memory = firmware::initial_memory(u.program.model);
 }
 
-// Bounds are what the models accept and a real actuator could have; a preset narrows them to what its device could have.
+// Bounds are what the models accept and a real actuator could have; a type narrows them to what its device could have.
 constexpr Parameter kTable[] = {
     {"drive.supply_V", "V", Kind::number, 0, 100, "", "supply voltage of the bridge", Need::required, "", "",
      [](Unit& u, double v) { u.actuator.bridge.supply_V = v; }},
@@ -115,7 +115,7 @@ constexpr Parameter kTable[] = {
      [](Unit& u, double v) { u.memory.max_stiffness = static_cast<std::uint16_t>(v); }},
     {"firmware.resolution", "bit", Kind::integer, 0, 8, "", "right shift from raw to reported ticks, motors and shaft",
      Need::defaulted, "1", kFirmware, set_resolution},
-    {"firmware.supply_limit", "", Kind::toggle, 0, 1, "", "duty limited by supply voltage, to about 8 V at the motor",
+    {"firmware.supply_limit", "", Kind::toggle, 0, 1, "", "duty limited by supply voltage: 6.4 … 10.6 V are left at the motor",
      Need::defaulted, "true", kFirmware, [](Unit& u, double v) { u.program.supply_table = v != 0; }},
     {"firmware.repair_layout_134", "", Kind::toggle, 0, 1, "", "replies 134 and 137 with their values two bytes apart",
      Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.layout_134 = v != 0; }},

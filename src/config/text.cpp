@@ -10,6 +10,7 @@
 #include <locale>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace vsa::config {
 namespace {
@@ -84,15 +85,27 @@ std::string_view trim(std::string_view text) {
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   std::string best;
-  std::size_t least = std::numeric_limits<std::size_t>::max();
+  std::pair<bool, std::size_t> least{true, std::numeric_limits<std::size_t>::max()};  // isn't begun by the word; distance
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word.substr(0, kLongestWord), candidate);
+    const bool other = word.empty() || candidate.compare(0, word.size(), word) != 0;
+    const std::pair<bool, std::size_t> distance{other, edit_distance(word.substr(0, kLongestWord), candidate)};
     if (distance < least) {
       least = distance;
       best = candidate;
     }
   }
   return best;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string near = nearest(word, candidates);
+  const bool begun = !word.empty() && near.compare(0, word.size(), word) == 0;
+  const bool like = edit_distance(word.substr(0, kLongestWord), near) <= std::max<std::size_t>(2, word.size() / 2);
+  return !near.empty() && (begun || like) ? ", did you mean " + near + "?" : "";
+}
+
+std::string renamed_text(std::string_view old, std::string_view now) {
+  return std::string(old) + " is called " + std::string(now) + " now: the old spelling is understood for one more release";
 }
 
 }  // namespace vsa::config

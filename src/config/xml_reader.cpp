@@ -19,7 +19,7 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
 bool is_hosts_own(const std::string& attribute) { return attribute == "xmlns" || attribute.find(':') != std::string::npos; }
 
 std::string unknown(const std::string& word, const std::vector<std::string>& known) {
-  return known.empty() ? "unknown" : "unknown, did you mean " + nearest(word, known) + "?";
+  return "unknown" + did_you_mean(word, known);
 }
 
 }  // namespace
@@ -33,12 +33,18 @@ void XmlReader::check_attributes(const tinyxml2::XMLElement& e, const std::strin
   for (const tinyxml2::XMLAttribute* a = e.FirstAttribute(); a != nullptr; a = a->Next()) {
     const std::string name = a->Name();
     if (is_hosts_own(name) || contains(known, name) || contains(children, name)) continue;
-    add(attribute_path(path, name), a->Value(), "attribute " + unknown(name, known), known.empty() ? "none" : join(known));
+    if (known.empty()) {
+      const std::string tag = e.Name();
+      add(attribute_path(path, name), '"' + std::string(a->Value()) + '"', "is no attribute: the value is the element's text",
+          "<" + tag + ">" + a->Value() + "</" + tag + ">");
+    } else {
+      add(attribute_path(path, name), a->Value(), "attribute " + unknown(name, known), join(known));
+    }
   }
 }
 
 std::optional<std::string> XmlReader::child_as_attribute(const tinyxml2::XMLElement& e, const std::string& path, const char* name) {
-  const auto value = attribute(e, name);
+  auto value = attribute(e, name);
   if (!value) return std::nullopt;
   const std::string tag(name);
   add(attribute_path(path, tag), '"' + *value + '"', "is an element, not an attribute",

@@ -9,20 +9,19 @@
 namespace vsa::device {
 namespace {
 
-constexpr std::size_t kSpeeches = 16;   // of a station at a time: an answer through a fault is one a byte
-constexpr std::size_t kMaxDead = 4096;  // bytes of ended speeches that may lie in front of the living ones
+constexpr std::size_t kMaxDead = 1024;  // bytes of ended speeches that may lie in front of the living ones
 
 using bus::kPsPerNs;
 using bus::to_ns;
 }  // namespace
 
 Chain::Chain(const LineConfig& config, std::vector<Station> stations) : config_(config), stations_(std::move(stations)) {
-  state_.host_ear.rate = config_.rate;
+  state_.master_ear.rate = config_.rate;
   state_.ears.resize(stations_.size());
   for (ChainState::Ear& ear : state_.ears) ear.receiver.rate = config_.rate;
-  state_.speeches.reserve(kSpeeches * stations_.size() + 16);
-  state_.bytes.reserve(2 * kMaxDead + 64 * stations_.size());
-  speakers_.reserve(kSpeeches * stations_.size() + 16);
+  state_.speeches.reserve(ChainState::most_speeches(stations_.size()));
+  state_.bytes.reserve(2 * ChainState::most_bytes(stations_.size()));
+  speakers_.reserve(ChainState::most_speeches(stations_.size()));
 }
 
 void Chain::save(ChainState& into) const {
@@ -33,21 +32,21 @@ void Chain::save(ChainState& into) const {
 
 std::span<const std::uint8_t> Chain::view(const Speech& s) const noexcept { return {state_.bytes.data() + s.begin, s.size}; }
 
-void Chain::run_to(std::int64_t until_ns, bus::LineHost& host) noexcept {
+void Chain::run_to(std::int64_t until_ns, bus::LineMaster& master) noexcept {
   const std::int64_t until = until_ns * kPsPerNs;
   for (;;) {
-    const std::int64_t host_ps = host.next_ps();
+    const std::int64_t master_ps = master.next_ps();
     const bool quiet = state_.speeches.empty();
     const std::int64_t reached = quiet                         ? bus::kNeverPs
                                  : state_.mode == Mode::frames ? state_.speeches.front().start_ps
                                                                : state_.now_ps;
     const std::int64_t wake_ps = next_wake_ps();
-    if (host_ps < until && host_ps <= reached && host_ps <= wake_ps) {
-      const bus::FrameBytes frame = host.speak();
-      std::int64_t start = std::max(host_ps, state_.host_free_ps);
+    if (master_ps < until && master_ps <= reached && master_ps <= wake_ps) {
+      const bus::FrameBytes frame = master.speak();
+      std::int64_t start = std::max(master_ps, state_.host_free_ps);
       if (state_.mode != Mode::frames) start = std::max(start, state_.now_ps);
-      say(ChainState::kHost, start, frame.view(), state_.host_ear.rate);
-      state_.host_free_ps = start + state_.host_ear.rate.bytes_ps(frame.size);
+      say(ChainState::kMaster, start, frame.view(), state_.master_ear.rate);
+      state_.host_free_ps = start + state_.master_ear.rate.bytes_ps(frame.size);
       continue;
     }
     if (quiet && wake_ps > until) return;
@@ -55,15 +54,15 @@ void Chain::run_to(std::int64_t until_ns, bus::LineHost& host) noexcept {
       wake(wake_ps);
       continue;
     }
-    const bool went_on = state_.mode == Mode::frames  ? step_frames(until, host_ps, host)
-                         : state_.mode == Mode::bytes ? step_bytes(until, host_ps, host)
-                                                      : step_bits(until, host_ps, host);
+    const bool went_on = state_.mode == Mode::frames  ? step_frames(until, master_ps, master)
+                         : state_.mode == Mode::bytes ? step_bytes(until, master_ps, master)
+                                                      : step_bits(until, master_ps, master);
     if (!went_on) return;
   }
 }
 
-bool Chain::alone(const Speech& s, std::int64_t host_ps) const noexcept {
-  return host_ps >= s.end_ps && (state_.speeches.size() < 2 || state_.speeches[1].start_ps >= s.end_ps);
+bool Chain::alone(const Speech& s, std::int64_t master_ps) const noexcept {
+  return master_ps >= s.end_ps && (state_.speeches.size() < 2 || state_.speeches[1].start_ps >= s.end_ps);
 }
 
 bool Chain::all_ready(const Speech& s) const noexcept {
@@ -83,10 +82,10 @@ inline void Chain::collect(std::size_t station, std::int64_t heard_ps) {
   if (!out_.silent()) speak(station, heard_ps);  // most frames are for another unit
 }
 
-bool Chain::step_frames(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost& host) {
+bool Chain::step_frames(std::int64_t until_ps, std::int64_t master_ps, bus::LineMaster& master) {
   const Speech s = state_.speeches.front();
   if (s.start_ps > until_ps) return false;
-  if (state_.rates_differ || !alone(s, host_ps)) {
+  if (state_.rates_differ || !alone(s, master_ps)) {
     enter_bits();
     return true;
   }
@@ -108,14 +107,14 @@ bool Chain::step_frames(std::int64_t until_ps, std::int64_t host_ps, bus::LineHo
     stations_[i].program->receive_frame(*stations_[i].state, frame, now_ns, out_);
     collect(i, s.end_ps);
   }
-  if (s.speaker != ChainState::kHost) host.hear_all(frame, s.end_ps, s.rate);
+  if (s.speaker != ChainState::kMaster) master.hear_all(frame, s.end_ps, s.rate);
   return true;
 }
 
-bool Chain::step_bytes(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost& host) {
+bool Chain::step_bytes(std::int64_t until_ps, std::int64_t master_ps, bus::LineMaster& master) {
   const Speech s = state_.speeches.front();
   const std::int64_t end = s.start_ps + s.rate.bytes_ps(static_cast<std::int64_t>(s.heard) + 1);
-  const std::int64_t other = state_.speeches.size() < 2 ? host_ps : std::min(host_ps, state_.speeches[1].start_ps);
+  const std::int64_t other = state_.speeches.size() < 2 ? master_ps : std::min(master_ps, state_.speeches[1].start_ps);
   const std::int64_t wake_ps = next_wake_ps();
   if (state_.rates_differ || other < end) {
     enter_bits();
@@ -137,7 +136,7 @@ bool Chain::step_bytes(std::int64_t until_ps, std::int64_t host_ps, bus::LineHos
   state_.now_ps = end;
   for (std::size_t i = 0; i < stations_.size(); ++i)
     if (static_cast<int>(i) != s.speaker) hear(i, byte, end);
-  if (s.speaker != ChainState::kHost) host.hear(byte, end);
+  if (s.speaker != ChainState::kMaster) master.hear(byte, end);
   return true;
 }
 
@@ -176,8 +175,8 @@ void Chain::say(int speaker, std::int64_t start_ps, std::span<const std::uint8_t
   Speech s;
   s.start_ps = start_ps;
   s.end_ps = start_ps + rate.bytes_ps(static_cast<std::int64_t>(bytes.size()));
-  s.begin = state_.bytes.size();
-  s.size = bytes.size();
+  s.begin = static_cast<std::uint32_t>(state_.bytes.size());
+  s.size = static_cast<std::uint32_t>(bytes.size());
   s.speaker = speaker;
   s.rate = rate;
   state_.bytes.insert(state_.bytes.end(), bytes.begin(), bytes.end());
@@ -203,7 +202,7 @@ void Chain::drop_first() {
     state_.bytes.clear();
     return;
   }
-  std::size_t dead = state_.bytes.size();
+  auto dead = static_cast<std::uint32_t>(state_.bytes.size());
   for (const Speech& s : state_.speeches) dead = std::min(dead, s.begin);
   if (dead < kMaxDead) return;
   state_.bytes.erase(state_.bytes.begin(), state_.bytes.begin() + static_cast<std::ptrdiff_t>(dead));
@@ -264,22 +263,22 @@ void Chain::set_wiring(std::size_t station, const Wiring& wiring, std::uint64_t 
   ear.dice = {seed};
 }
 
-void Chain::set_host_rate(bus::LineRate rate) noexcept {
-  state_.host_ear.rate = rate;
+void Chain::set_master_rate(bus::LineRate rate) noexcept {
+  state_.master_ear.rate = rate;
   find_rates();
 }
 
 void Chain::find_rates() noexcept {
-  const bus::LineRate host = state_.host_ear.rate;
+  const bus::LineRate master = state_.master_ear.rate;
   state_.rates_differ = std::any_of(state_.ears.begin(), state_.ears.end(),
-                                    [host](const ChainState::Ear& ear) { return !(ear.receiver.rate == host); });
+                                    [master](const ChainState::Ear& ear) { return !(ear.receiver.rate == master); });
 }
 
 void Chain::shift_time(std::int64_t by_ns) noexcept {
   const std::int64_t by = by_ns * kPsPerNs;
   state_.now_ps += by;
   state_.host_free_ps += by;
-  state_.host_ear.from_ps += by;
+  state_.master_ear.from_ps += by;
   for (Speech& s : state_.speeches) s.start_ps += by, s.end_ps += by;
   for (ChainState::Ear& ear : state_.ears) ear.free_ps += by, ear.receiver.from_ps += by;
   for (const Station& s : stations_) firmware::Program::shift_time(*s.state, by_ns);

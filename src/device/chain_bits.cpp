@@ -23,17 +23,17 @@ void Chain::enter_bits() noexcept {
   const Speech& s = state_.speeches.front();
   state_.now_ps = s.start_ps + s.rate.bytes_ps(static_cast<std::int64_t>(s.heard));
   state_.mode = Mode::bits;
-  state_.host_ear.from_ps = state_.now_ps;
+  state_.master_ear.from_ps = state_.now_ps;
   for (ChainState::Ear& ear : state_.ears) ear.receiver.from_ps = state_.now_ps;
 }
 
-bool Chain::step_bits(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost& host) {
+bool Chain::step_bits(std::int64_t until_ps, std::int64_t master_ps, bus::LineMaster& master) {
   const std::int64_t now = state_.now_ps;
   if (now >= until_ps) return false;
   std::int64_t next = std::min(until_ps, std::max(next_wake_ps(), now));
-  if (host_ps > now) next = std::min(next, host_ps);
+  if (master_ps > now) next = std::min(next, master_ps);
   bool speaking = false;
-  std::int64_t slowest_baud = state_.host_ear.rate.baud_Hz;
+  std::int64_t slowest_baud = state_.master_ear.rate.baud_Hz;
   for (const ChainState::Ear& ear : state_.ears) slowest_baud = std::min(slowest_baud, ear.receiver.rate.baud_Hz);
   const std::int64_t linger = bus::LineRate{slowest_baud}.bytes_ps(1);
   for (const Speech& s : state_.speeches) {
@@ -45,7 +45,7 @@ bool Chain::step_bits(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost
   }
   if (!speaking) next = std::min(next, state_.speeches.front().end_ps + linger);
   state_.now_ps = std::max(next, now);
-  listen_bits(state_.now_ps, host);
+  listen_bits(state_.now_ps, master);
   const bool woke = next_wake_ps() <= state_.now_ps;
   if (woke) wake(state_.now_ps);
   while (!state_.speeches.empty() && state_.speeches.front().end_ps + linger <= state_.now_ps) drop_first();
@@ -72,7 +72,7 @@ bool Chain::speaks_over(int listener, bus::LineRate rate, std::int64_t byte_end_
 }
 
 /// Those who only listen, from the same time at the same rate, hear the same: it is found once.
-void Chain::listen_bits(std::int64_t until_ps, bus::LineHost& host) {
+void Chain::listen_bits(std::int64_t until_ps, bus::LineMaster& master) {
   constexpr int kNobody = -2;
   struct Slice {
     bus::LineReceiver from, to;
@@ -103,7 +103,7 @@ void Chain::listen_bits(std::int64_t until_ps, bus::LineHost& host) {
     if (!state_.ears[i].wiring.powered) continue;
     listen_as(static_cast<int>(i), state_.ears[i].receiver, [&](const bus::HeardByte& b) { hear(i, b.value, b.end_ps); });
   }
-  listen_as(ChainState::kHost, state_.host_ear, [&](const bus::HeardByte& b) { host.hear(b.value, b.end_ps); });
+  listen_as(ChainState::kMaster, state_.master_ear, [&](const bus::HeardByte& b) { master.hear(b.value, b.end_ps); });
 }
 
 }  // namespace vsa::device

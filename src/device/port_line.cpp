@@ -87,7 +87,7 @@ std::optional<bus::SerialLine::Clock::time_point> PortLine::wake() const {
 bool PortLine::heard_at_clients_rate() {
   if (!client_Hz_ || any_rate_) return true;
   const bus::LineRate rate{*client_Hz_};
-  if (rate.baud_Hz > 0 && !(chain_.state().host_ear.rate == rate)) chain_.set_host_rate(rate);
+  if (rate.baud_Hz > 0 && !(chain_.state().master_ear.rate == rate)) chain_.set_master_rate(rate);
   const auto& ears = chain_.state().ears;
   const auto hears = [&](const ChainState::Ear& ear) {
     const auto units = static_cast<double>(ear.receiver.rate.baud_Hz), clients = static_cast<double>(rate.baud_Hz);

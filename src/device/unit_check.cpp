@@ -3,9 +3,9 @@
 // What the models need of a unit's parameters.
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
+#include "device/text.hpp"
 #include "vsa/device/unit.hpp"
 
 namespace vsa::device {
@@ -13,12 +13,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTiny = std::numeric_limits<double>::min();
-
-std::string text_of(double v) {
-  std::ostringstream out;
-  out << v;
-  return out.str();
-}
 
 class Bounds {
  public:

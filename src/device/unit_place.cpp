@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "device/text.hpp"
 #include "vsa/device/unit.hpp"
 #include "vsa/firmware/arithmetic.hpp"
 #include "vsa/firmware/exchange.hpp"
@@ -35,7 +36,7 @@ std::int8_t turns_at(double true_raw, std::int32_t word, std::int32_t sample) no
 
 void Unit::check_place(const UnitState& state, const UnitPlace& at, std::string_view where, Problems& problems) const {
   const auto say = [&](const char* key, double value, std::string message, std::string allowed) {
-    problems.add({"", std::string(where) + key, std::to_string(value), std::move(message), std::move(allowed)});
+    problems.add({"", std::string(where) + key, text_of(value), std::move(message), std::move(allowed)});
   };
   const double furthest = kMaxTurns * 2.0 * kPi;
   if (!(std::abs(at.shaft_rad) <= furthest)) say("angle_rad", at.shaft_rad, "is out of range", "±" + std::to_string(furthest));

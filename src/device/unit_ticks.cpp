@@ -7,6 +7,7 @@
 
 #include "vsa/device/duty.hpp"
 #include "vsa/device/unit.hpp"
+#include "vsa/errors.hpp"
 #include "vsa/firmware/exchange.hpp"
 
 namespace vsa::device {
@@ -18,6 +19,13 @@ std::int16_t to_ticks(double rad, int resolution) noexcept {
   const double raw = std::nearbyint(rad / (2.0 * kPi) * kRawPerTurn);
   const double ticks = std::floor(raw / static_cast<double>(std::int64_t{1} << std::min(resolution, 31)));
   return static_cast<std::int16_t>(std::clamp(ticks, -32768.0, 32767.0));
+}
+
+UnitConfig checked(UnitConfig config) {
+  Problems problems;
+  check(config, "", problems);
+  problems.throw_if_any();
+  return config;
 }
 
 bool inverted(const UnitConfig& c) noexcept { return c.program.model == firmware::Model::advanced; }
@@ -35,7 +43,7 @@ std::array<std::int32_t, 2> UnitConfig::reference_range_raw(int i) const noexcep
 }
 
 Unit::Unit(UnitConfig config)
-    : config_(std::move(config)),
+    : config_(checked(std::move(config))),
       substep_ns_(std::llround(config_.substep_max_s * 1e9)),
       program_(config_.program),
       shaft_friction_(actuator::shaft_friction(config_.actuator)),
@@ -104,6 +112,11 @@ firmware::TickInputs Unit::read_sensors(UnitState& s, double shaft) const noexce
 }
 
 void Unit::hold(UnitState& s, StepPlan& plan) const noexcept {
+  drive_bridges(s);
+  plan.held[plan.held_count++] = s.held;
+}
+
+void Unit::drive_bridges(UnitState& s) const noexcept {
   drive::BridgeParams bridge = config_.actuator.bridge;
   bridge.supply_V = supply_V(s);
   const firmware::Drive drive = program_.drive(s.program);
@@ -120,7 +133,6 @@ void Unit::hold(UnitState& s, StepPlan& plan) const noexcept {
     s.held.terminal[i] = open ? drive::Terminal::open : drive::Terminal::driven;
     s.held.voltage[i] = on && !open ? config_.polarity * drive::bridge_voltage(bridge, output, limit / kDutyScale) : 0.0;
   }
-  plan.held[plan.held_count++] = s.held;
 }
 
 }  // namespace vsa::device

@@ -182,28 +182,7 @@ MotorStepper::MotorStepper(const MotorParams& pulley_side, Terminal terminal, do
   iw_ = packed(s.iw);
 }
 
-double MotorStepper::free_displacement(const MotorState& s, double voltage) const noexcept {
-  return displacement_[0] * s.speed + displacement_[1] * s.current + displacement_[2] * voltage;
-}
-
-/// I = (V − K_b ω)/R at every instant: ∫ω and ∫ω² tell the other integrals.
-MotorStep MotorStepper::without_inductance(const MotorState& s, double voltage, double torque) const noexcept {
-  const double w = s.speed, v = voltage, t = torque;
-  MotorStep out;
-  out.displacement = displacement_[0] * w + displacement_[2] * v + displacement_[3] * t;
-  out.speed = speed_[0] * w + speed_[2] * v + speed_[3] * t;
-  out.int_ww = w * (ww_[0] * w + ww_[2] * v + ww_[3] * t) + v * (ww_[7] * v + ww_[8] * t) + ww_[9] * t * t;
-  const double emf = back_emf_ * out.displacement, emf_w = back_emf_ * out.int_ww;
-  const double forced = voltage * out.displacement - emf_w;  // ∫(V − K_b ω)ω
-  out.current = conductance_ * (voltage - back_emf_ * out.speed);
-  out.charge = conductance_ * (voltage * h_ - emf);
-  out.int_Iw = conductance_ * forced;
-  out.int_II = std::max(conductance_ * (voltage * out.charge - back_emf_ * out.int_Iw), 0.0);
-  return out;
-}
-
-MotorStep MotorStepper::step(const MotorState& s, double voltage, double torque) const noexcept {
-  if (!inductance_) return without_inductance(s, voltage, torque);
+MotorStep MotorStepper::with_inductance(const MotorState& s, double voltage, double torque) const noexcept {
   const Vector z{s.speed, s.current, voltage, torque};
   MotorStep out;
   out.displacement = dot(displacement_, z);

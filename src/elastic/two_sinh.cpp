@@ -4,57 +4,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vsa/elastic/exp_less_1.hpp"
+#include "vsa/elastic/two_sinh_lanes.hpp"
+
 namespace vsa::elastic {
 namespace {
 
-constexpr double kShort = 0.1;  // of a series' argument
-constexpr int kMoves = 64;      // origins from each other: rounding grows by an ulp or two each
-
-/// sinh, cosh and cosh − 1 from one expm1, accurate near zero too.
-struct Hyperbolic {
-  double sinh, cosh, cosh_less_1;
-};
+/// sinh, cosh and cosh − 1 from one eᵘ − 1, accurate near zero too.
+using Hyperbolic = series::HyperbolicOf<double>;
 
 Hyperbolic hyperbolic(double u) noexcept {
-  const double e = std::expm1(std::abs(u));  // e^|u| − 1
-  const double f = e / (1.0 + e);            // 1 − e^−|u|
+  const double e = exp_less_1(std::abs(u));
+  const double f = e / (1.0 + e);  // 1 − e^−|u|
   const double less_1 = 0.5 * e * f;
   return {std::copysign(0.5 * (e + f), u), 1.0 + less_1, less_1};
 }
 
-/// sinhc z = sinh z / z and its derivative.
-struct Sinhc {
-  double value, slope;
-};
-
-/// By Taylor to z⁸: below 1 ulp of 1 for |z| < 0.1.
-Sinhc short_sinhc(double z) noexcept {
-  constexpr double c3 = 1.0 / 6, c5 = 1.0 / 20, c7 = 1.0 / 42, c9 = 1.0 / 72;  // ratios of successive terms
-  constexpr double d1 = 1.0 / 3, d3 = 1.0 / 10, d5 = 1.0 / 28, d7 = 1.0 / 54;
-  const double z2 = z * z;
-  return {1 + z2 * c3 * (1 + z2 * c5 * (1 + z2 * c7 * (1 + z2 * c9))), z * d1 * (1 + z2 * d3 * (1 + z2 * d5 * (1 + z2 * d7)))};
-}
+using Sinhc = series::SinhcOf<double>;
 
 Sinhc sinhc(double z) noexcept {
-  if (std::abs(z) < kShort) return short_sinhc(z);
+  if (std::abs(z) < series::kShort) return series::sinhc(z);
   const Hyperbolic h = hyperbolic(z);
   const double value = h.sinh / z;
   return {value, (h.cosh - value) / z};
-}
-
-/// cosh z − 1 for |z| < 0.1, as above.
-double short_cosh_less_1(double z) noexcept {
-  constexpr double c2 = 1.0 / 2, c4 = 1.0 / 12, c6 = 1.0 / 30, c8 = 1.0 / 56, c10 = 1.0 / 90;
-  const double z2 = z * z;
-  return z2 * c2 * (1 + z2 * c4 * (1 + z2 * c6 * (1 + z2 * c8 * (1 + z2 * c10))));
-}
-
-/// At u + z from u, for |z| < 0.1.
-Hyperbolic moved(double sinh, double less_1, double sinh_z, double z) noexcept {
-  const double up = short_cosh_less_1(z);
-  const double moved_sinh = sinh + (sinh * up + (1.0 + less_1) * sinh_z);
-  const double moved_less_1 = less_1 + (up + less_1 * up + sinh * sinh_z);
-  return {moved_sinh, 1.0 + moved_less_1, moved_less_1};
 }
 
 }  // namespace
@@ -121,28 +93,10 @@ double TwoSinh::energy(const Positions& at) const noexcept { return energy_of(or
 
 std::array<double, 2> TwoSinh::signed_energies(const Positions& at) const noexcept { return signed_energies_of(origin(at)); }
 
-inline void TwoSinh::add(std::size_t i, const Mean& m, SegmentMean& to) noexcept {
-  to.torque -= m.torque;
-  to.load[i] = m.torque;
-  to.slope.qq += m.slope;
-  to.slope.qx[i] = -m.slope;
-  (i == 0 ? to.slope.x0x0 : to.slope.x1x1) = m.slope;
-}
-
 SegmentMean TwoSinh::mean_over(const Positions& from, const Positions& to) const noexcept {
   SegmentMean mean;
   for (std::size_t i = 0; i < 2; ++i) add(i, this->mean(i, from.q - from.x[i], to.q - to.x[i]), mean);
   return mean;
-}
-
-/// Whether the addition theorems' short series hold.
-inline bool TwoSinh::near(std::size_t i, double begin, double move) const noexcept {
-  const double d = params_.linear_beyond_rad;
-  return std::abs(params_.a_per_rad[i] * move) < kShort && std::abs(begin) <= d && std::abs(begin + move) <= d;
-}
-
-bool TwoSinh::near_ahead(std::size_t i, double begin, double move, double ahead) const noexcept {
-  return near(i, begin, ahead) && near(i, begin, move + ahead);
 }
 
 Origin TwoSinh::origin(const Positions& at) const noexcept {
@@ -157,71 +111,17 @@ Origin TwoSinh::origin(const Positions& at) const noexcept {
   return here;
 }
 
-Origin TwoSinh::moved(const Origin& from, const Positions& to) const noexcept {
-  Origin here{to, {}, from.moves + 1};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double begin = from.at.q - from.at.x[i], move = (to.q - to.x[i]) - begin;
-    if (here.moves >= kMoves || !near(i, begin, move)) return origin(to);
-    const double z = params_.a_per_rad[i] * move;
-    const Hyperbolic h = elastic::moved(from.kept[2 * i], from.kept[2 * i + 1], z * short_sinhc(z).value, z);
-    here.kept[2 * i] = h.sinh;
-    here.kept[2 * i + 1] = h.cosh_less_1;
-  }
-  return here;
-}
-
-inline TwoSinh::Mean TwoSinh::mean_near(std::size_t i, const Origin& from, double begin, double move, double ahead) const noexcept {
-  const double k = params_.k_Nm[i], a = params_.a_per_rad[i], half_c = 0.5 * params_.c_Nm_per_rad[i];
-  const double half = 0.5 * a * move;
-  const Sinhc s = short_sinhc(half);
-  double middle = half, sinh_middle = half * s.value;
-  if (ahead != 0.0) {
-    middle += a * ahead;
-    sinh_middle = middle * short_sinhc(middle).value;
-    begin += ahead;
-  }
-  const Hyperbolic h = elastic::moved(from.kept[2 * i], from.kept[2 * i + 1], sinh_middle, middle);
-  return {k * h.sinh * s.value + half_c * (begin + begin + move), 0.5 * a * k * (h.cosh * s.value + h.sinh * s.slope) + half_c};
-}
+Origin TwoSinh::moved(const Origin& from, const Positions& to) const noexcept { return moved_lanes(from, to); }
 
 SegmentMean TwoSinh::mean_from(const Origin& from, const Positions& to, double ahead) const noexcept {
-  SegmentMean mean;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double begin = from.at.q - from.at.x[i], end = to.q - to.x[i];
-    const bool close = near(i, begin, end - begin) && (ahead == 0.0 || near_ahead(i, begin, end - begin, ahead));
-    add(i, close ? mean_near(i, from, begin, end - begin, ahead) : this->mean(i, begin + ahead, end + ahead), mean);
-  }
-  return mean;
+  return mean_lanes(from, to, ahead);
 }
 
-Tangent TwoSinh::tangent_of(const Origin& here) const noexcept {
-  Tangent t;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double k = params_.k_Nm[i], a = params_.a_per_rad[i], c = params_.c_Nm_per_rad[i];
-    const double deflection = here.at.q - here.at.x[i], beyond = std::abs(deflection) - params_.linear_beyond_rad;
-    if (beyond > 0) {
-      t.stiffness += edge_[i].stiffness;
-      t.tension[i] = edge_[i].torque + beyond * edge_[i].stiffness;
-    } else {
-      t.stiffness += a * k * (1.0 + here.kept[2 * i + 1]) + c;
-      t.tension[i] = std::abs(k * here.kept[2 * i] + c * deflection);
-    }
-  }
-  return t;
-}
-
-inline double TwoSinh::energy_of(std::size_t i, const Origin& here) const noexcept {
-  const double deflection = here.at.q - here.at.x[i];
-  const double beyond = std::abs(deflection) - params_.linear_beyond_rad;
-  if (beyond > 0) return edge_[i].energy + beyond * (edge_[i].torque + 0.5 * beyond * edge_[i].stiffness);
-  return params_.k_Nm[i] / params_.a_per_rad[i] * here.kept[2 * i + 1] + 0.5 * params_.c_Nm_per_rad[i] * deflection * deflection;
-}
+Tangent TwoSinh::tangent_of(const Origin& here) const noexcept { return tangent_lanes(here); }
 
 double TwoSinh::energy_of(const Origin& here) const noexcept { return energy_of(0, here) + energy_of(1, here); }
 
-std::array<double, 2> TwoSinh::signed_energies_of(const Origin& here) const noexcept {
-  return {std::copysign(energy_of(0, here), here.at.q - here.at.x[0]), std::copysign(energy_of(1, here), here.at.q - here.at.x[1])};
-}
+std::array<double, 2> TwoSinh::signed_energies_of(const Origin& here) const noexcept { return signed_energies_lanes(here); }
 
 bool TwoSinh::equals(const Transmission& other) const noexcept {
   const auto* same = dynamic_cast<const TwoSinh*>(&other);

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world_check.hpp"
-#include "world_impl.hpp"
+#include "engine/world_check.hpp"
+#include "engine/world_impl.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -28,7 +28,6 @@ const std::string& World::name() const { return impl_->world->name; }
 double World::step_s() const { return static_cast<double>(impl_->dt_ns) * 1e-9; }
 int World::substeps() const { return impl_->substeps; }
 std::int64_t World::time_ns() const { return impl_->time_ns; }
-double World::time_s() const { return static_cast<double>(impl_->time_ns) * 1e-9; }
 const std::vector<std::string>& World::warnings() const { return impl_->warnings; }
 
 const std::vector<ActuatorRef>& World::actuators() const { return impl_->actuators; }
@@ -83,8 +82,7 @@ std::vector<std::size_t> World::Impl::links_of(std::string_view model) const {
 }
 
 std::array<double, 3> World::center_of_mass(std::string_view model) const {
-  const Vec3 c = impl_->physics->center_of_mass(impl_->links_of(model));
-  return {c.X(), c.Y(), c.Z()};
+  return impl_->physics->center_of_mass(impl_->links_of(model));
 }
 
 void World::displace_model(std::string_view model, double yaw_rad, std::array<double, 3> t) {
@@ -93,7 +91,7 @@ void World::displace_model(std::string_view model, double yaw_rad, std::array<do
       throw InputError(
           Problem{"", "model", std::string(model), fmt::format("can't be displaced by {}", x), fmt::format("±{}", kFurthest)});
   }
-  if (!impl_->physics->displace(impl_->links_of(model), yaw_rad, {t[0], t[1], t[2]})) {
+  if (!impl_->physics->displace(impl_->links_of(model), yaw_rad, t)) {
     throw InputError(Problem{"", "model", std::string(model), "is fixed to the world and can't be moved", "a free model"});
   }
   impl_->forget_mobility();

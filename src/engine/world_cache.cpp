@@ -1,11 +1,13 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "world_cache.hpp"
+#include "engine/world_cache.hpp"
 
 #include <algorithm>
 #include <list>
 #include <mutex>
 
-#include "finder.hpp"
+#include "vsa/description/capabilities.hpp"
+#include "vsa/physics/mujoco.hpp"
+#include "vsa/sdf/finder.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -15,21 +17,28 @@ constexpr std::size_t kMost = 8;  // files kept; a world of many large meshes ho
 struct Key {
   std::filesystem::path path, directory;
   std::string text;
-  SearchPath search;
+  reader::SearchPath search;
   Concave concave;
+  std::shared_ptr<const physics::Engine> engine;
   [[nodiscard]] bool operator==(const Key&) const = default;
 };
 
 struct Entry {
   Key key;
   std::shared_ptr<ReadWorld> file;
-  SeenFiles seen;
+  reader::SeenFiles seen;
 };
 
-Key key_of(const SdfSource& source, const WorldOptions& options) {
+const std::shared_ptr<const physics::Engine> default_engine = physics::mujoco();
+
+Key key_of(const reader::SdfSource& source, const WorldOptions& options) {
   std::error_code ignored;
-  return {source.path, std::filesystem::current_path(ignored), std::string(source.text), SearchPath(options.model_path),
-          options.concave};
+  return {source.path,
+          std::filesystem::current_path(ignored),
+          std::string(source.text),
+          reader::SearchPath(options.model_path),
+          options.concave,
+          options.physics ? options.physics : default_engine};
 }
 
 /// The one used last stands first.
@@ -68,23 +77,25 @@ std::mutex reading;
 
 }  // namespace
 
-std::shared_ptr<const CompiledWorld> ReadWorld::compiled(double step_s, std::string_view file, Problems& problems) {
+std::shared_ptr<const physics::CompiledWorld> ReadWorld::compiled(double step_s, std::string_view file, Problems& problems) {
   const std::scoped_lock lock(compiling_);
   if (compiled_ == nullptr || step_s_ != step_s) {
-    compiled_ = compile_mujoco(world, step_s, file, problems);
+    compiled_ = engine->compile(world, step_s, file, problems);
     step_s_ = step_s;
   }
   return compiled_;
 }
 
-std::shared_ptr<ReadWorld> read_world(const SdfSource& source, const WorldOptions& options, Problems& problems) {
+std::shared_ptr<ReadWorld> read_world(const reader::SdfSource& source, const WorldOptions& options, Problems& problems) {
   Key key = key_of(source, options);
   if (const auto known = cache.find(key)) return known->file;
   const std::scoped_lock lock(reading);
   if (const auto known = cache.find(key)) return known->file;  // read while this thread waited
   const auto entry = std::make_shared<Entry>(Entry{std::move(key), std::make_shared<ReadWorld>(), {}});
-  entry->file->world = std::make_shared<const WorldDescription>(
-      read_sdf(source, options, Finder(entry->key.search, entry->seen), entry->seen, entry->file->warnings, problems));
+  entry->file->engine = entry->key.engine;
+  entry->file->world = std::make_shared<const description::World>(
+      reader::read_sdf(source, {entry->key.engine->capabilities(), options.concave}, reader::Finder(entry->key.search, entry->seen),
+                       entry->seen, entry->file->warnings, problems));
   if (problems.empty() && entry->seen.settled()) cache.keep(entry);
   return entry->file;
 }

@@ -11,6 +11,8 @@
 
 namespace vsa::engine {
 
+inline constexpr double kMostState = 1e12;  ///< of what is set of bodies; beyond 1e10 the next step is a blow-up
+
 inline void check_size(const char* what, std::size_t given, std::size_t wanted) {
   if (given != wanted)
     throw InputError(Problem{"", what, fmt::format("{} numbers", given), "wrong size", fmt::format("{}", wanted)});

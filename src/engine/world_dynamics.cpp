@@ -1,8 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // What a controller asks of a World: velocities, mass matrix, bias torques, Jacobians.
-#include "world_check.hpp"
-#include "world_impl.hpp"
+#include "engine/world_check.hpp"
+#include "engine/world_impl.hpp"
 
 namespace vsa::engine {
 

@@ -5,17 +5,17 @@
 
 #include <map>
 
-#include "description.hpp"
-#include "physics.hpp"
+#include "vsa/description/world.hpp"
+#include "vsa/engine/world.hpp"
+#include "vsa/physics/physics.hpp"
+#include "vsa/sdf/read.hpp"
 #include "vsa/seat/seat.hpp"
 
 namespace vsa::engine {
 
-struct SdfSource;
-
 struct World::Snapshot {
-  std::shared_ptr<const WorldDescription> world;
-  PhysicsState physics;
+  std::shared_ptr<const description::World> world;
+  std::vector<double> physics;
   std::int64_t time_ns = 0, steps = 0;
   std::vector<std::shared_ptr<const seat::Seat::Snapshot>> robots;
 };
@@ -23,8 +23,8 @@ struct World::Snapshot {
 /// One <plugin>: a robot and its joints in the engine.
 struct RobotSlot {
   std::unique_ptr<seat::Seat> seat;
-  std::vector<std::size_t> joints;              ///< of its actuators, into WorldDescription::joints
-  std::vector<std::vector<std::size_t>> trees;  ///< of joints, by index into WorldDescription::joints
+  std::vector<std::size_t> joints;              ///< of its actuators, into description::World::joints
+  std::vector<std::vector<std::size_t>> trees;  ///< of joints, by index into description::World::joints
 
   [[nodiscard]] host::Robot& robot() const { return seat->robot(); }
 };
@@ -40,16 +40,16 @@ struct WorldNames {
 };
 
 /// Throws InputError where the two differ in what a snapshot's numbers stand for.
-void check_same_world(const WorldDescription& theirs, const WorldDescription& ours);
-[[nodiscard]] std::uint32_t tag_of(const WorldDescription& world);
+void check_same_world(const description::World& theirs, const description::World& ours);
+[[nodiscard]] std::uint32_t tag_of(const description::World& world);
 [[nodiscard]] std::string list(std::vector<std::string> names);  ///< "a, b, c" without doubles
 
 struct World::Impl {
   WorldOptions options;
-  std::shared_ptr<const WorldDescription> world;
+  std::shared_ptr<const description::World> world;
   std::shared_ptr<const WorldNames> names;
   std::vector<std::string> warnings;
-  std::unique_ptr<Physics> physics;
+  std::unique_ptr<physics::Physics> physics;
   std::vector<RobotSlot> robots;
   std::vector<ActuatorRef> actuators;
   std::vector<Pull> pulls;
@@ -58,15 +58,15 @@ struct World::Impl {
   std::int64_t dt_ns = 0, time_ns = 0, steps = 0;        ///< dt_ns: of a step of `substeps`
   int substeps = 1;
   std::shared_ptr<const Snapshot> initial;
-  PhysicsState before;  ///< the step under way, where physics takes back only the last of its substeps
+  std::vector<double> before;  ///< physics: the step under way, where physics takes back only the last of its substeps
 
-  [[nodiscard]] static std::unique_ptr<Impl> load(const SdfSource& source, WorldOptions options);
+  [[nodiscard]] static std::unique_ptr<Impl> load(const reader::SdfSource& source, WorldOptions options);
   void add_robots(const std::string& file, Problems& problems);
   void find_substeps(const std::string& file, Problems& problems);
   [[nodiscard]] std::int64_t substep_ns() const { return dt_ns / substeps; }
   [[nodiscard]] double substep_s() const { return static_cast<double>(substep_ns()) * 1e-9; }
   void step();
-  [[nodiscard]] std::optional<Fault> substep();
+  [[nodiscard]] std::optional<physics::Refusal> substep();
   void keep();     ///< what a fault goes back to
   void go_back();  ///< to it
   void join_trees();
@@ -83,6 +83,10 @@ struct World::Impl {
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
   void check(const Snapshot& s) const;  ///< throws InputError where restore() would be wrong
   void restore(const Snapshot& s);
+  [[nodiscard]] StateLayout state_layout() const;
+  [[nodiscard]] std::size_t state_size() const;
+  void save(std::span<double> out) const;
+  void restore(std::span<const double> in);
 };
 
 }  // namespace vsa::engine

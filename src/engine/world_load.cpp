@@ -6,15 +6,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world_cache.hpp"
-#include "world_impl.hpp"
+#include "engine/world_cache.hpp"
+#include "engine/world_impl.hpp"
+#include "vsa/config/find_file.hpp"
 
 namespace vsa::engine {
 namespace {
 
+using description::Joint;
+
 constexpr double kStepMin_s = 1e-6, kStepMax_s = host::kLongestStep_s;
 
-std::int64_t step_ns(const WorldOptions& options, const WorldDescription& world, const std::string& file, Problems& problems) {
+std::int64_t step_ns(const WorldOptions& options, const description::World& world, const std::string& file, Problems& problems) {
   const double step_s = options.step_s.value_or(world.step_s);
   if (!(step_s >= kStepMin_s && step_s <= kStepMax_s)) {
     problems.add({options.step_s ? "" : file, options.step_s ? "step_s" : "physics/max_step_size", fmt::format("{}", step_s),
@@ -25,10 +28,10 @@ std::int64_t step_ns(const WorldOptions& options, const WorldDescription& world,
 }
 
 /// The laws' positions are angles, their outputs torques. Empty: an actuator can drive it.
-std::string refusal_of(const WorldDescription& world, std::size_t joint) {
+std::string refusal_of(const description::World& world, std::size_t joint) {
   const Joint& j = world.joints[joint];
-  const bool follows =
-      std::any_of(world.couplings.begin(), world.couplings.end(), [&](const Coupling& k) { return k.follower == joint; });
+  const bool follows = std::any_of(world.couplings.begin(), world.couplings.end(),
+                                   [&](const description::Coupling& k) { return k.follower == joint; });
   return j.kind == Joint::Kind::fixed   ? "can't move: it is fixed, or its limits leave it no room"
          : j.kind == Joint::Kind::slide ? "is prismatic: the actuators' laws are for angles and torques"
          : !j.one_axis()                ? "isn't a joint with one axis"
@@ -37,7 +40,7 @@ std::string refusal_of(const WorldDescription& world, std::size_t joint) {
 }
 
 /// Joints as a plugin in `model` may name them: relative to that model. `index`: of each in the world, which `owner` steps.
-std::vector<seat::Joint> joints_under(const WorldDescription& world, const void* owner, const std::string& model,
+std::vector<seat::Joint> joints_under(const description::World& world, const void* owner, const std::string& model,
                                       std::vector<std::size_t>& index) {
   std::vector<seat::Joint> out;
   const std::vector<Joint>& joints = world.joints;
@@ -55,8 +58,8 @@ std::vector<seat::Joint> joints_under(const WorldDescription& world, const void*
 
 void World::Impl::add_robots(const std::string& file, Problems& problems) {
   if (!options.actuators) return;
-  const seat::Options with{options.presets, options.actuator, {}, true, false};
-  for (const Plugin& plugin : world->plugins) {
+  const seat::Options with{options.types, options.actuator, {}, true, false};
+  for (const description::Plugin& plugin : world->plugins) {
     try {
       std::vector<std::size_t> index;
       const std::vector<seat::Joint> joints = joints_under(*world, this, plugin.model, index);
@@ -65,6 +68,13 @@ void World::Impl::add_robots(const std::string& file, Problems& problems) {
       for (const std::size_t j : slot.seat->joints()) slot.joints.push_back(index[j]);
       for (std::size_t i = 0; i < slot.joints.size(); ++i)
         actuators.push_back({plugin.top_model, slot.robot().config().actuators[i].name, robots.size(), i});
+      if (slot.robot().config().record)
+        warnings.push_back(plugin.model + ": <record> is for a Gazebo: here `vsa run --record` does it");
+      if (slot.robot().config().view_port)
+        warnings.push_back(plugin.model + ": <view> is for a Gazebo: here `vsa run --view` does it");
+      for (const std::string& notice : slot.robot().config().notices) {
+        if (std::find(warnings.begin(), warnings.end(), notice) == warnings.end()) warnings.push_back(notice);
+      }
       robots.push_back(std::move(slot));
     } catch (const InputError& error) {
       problems.add_all(error);
@@ -93,7 +103,7 @@ void World::Impl::find_substeps(const std::string& file, Problems& problems) {
                 fmt::format("what leaves whole nanoseconds, at least {}", least_ns)});
 }
 
-std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOptions options) {
+std::unique_ptr<World::Impl> World::Impl::load(const reader::SdfSource& source, WorldOptions options) {
   auto impl = std::make_unique<World::Impl>();
   impl->options = std::move(options);
   Problems problems;
@@ -107,9 +117,10 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
   const auto compiled = file->compiled(impl->substep_s(), source.label(), problems);
   problems.throw_if_any();
   impl->physics = compiled->start();
+  impl->before.resize(impl->physics->state_size());
   impl->join_trees();
   for (std::size_t j = 0; j < impl->world->joints.size(); ++j) {
-    const Joint& joint = impl->world->joints[j];
+    const description::Joint& joint = impl->world->joints[j];
     if (joint.one_axis() && joint.axes[0].start) impl->physics->set_joint(j, {*joint.axes[0].start, 0});
   }
   impl->index_names();
@@ -118,12 +129,7 @@ std::unique_ptr<World::Impl> World::Impl::load(const SdfSource& source, WorldOpt
 }
 
 World World::load(const std::filesystem::path& sdf, WorldOptions options) {
-  std::filesystem::path file = sdf;
-  // A bare name that is no file here may be a built-in world's.
-  if (!sdf.has_parent_path() && !std::filesystem::exists(sdf)) {
-    if (auto built_in = config::find_data("models/worlds" / sdf)) file = *built_in;
-  }
-  return World(Impl::load({file, {}}, std::move(options)));
+  return World(Impl::load({config::find_file(sdf.string(), "world", "models/worlds", ".sdf"), {}}, std::move(options)));
 }
 
 World World::load_string(std::string_view sdf, WorldOptions options) { return World(Impl::load({{}, sdf}, std::move(options))); }

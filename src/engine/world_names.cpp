@@ -5,16 +5,21 @@
 
 #include <algorithm>
 
+#include "engine/world_check.hpp"
+#include "engine/world_impl.hpp"
 #include "vsa/host/topics.hpp"
-#include "world_check.hpp"
-#include "world_impl.hpp"
 
 namespace vsa::engine {
 namespace {
 
+using description::Axis;
+using description::Joint;
+using description::Link;
+
 JointInfo info_of(const Joint& joint) {
   using Type = JointInfo::Type;
-  JointInfo info{joint.name, Type::fixed, std::nullopt, std::nullopt, std::nullopt};
+  JointInfo info;
+  info.name = joint.name;
   switch (joint.kind) {
     case Joint::Kind::fixed:
       break;
@@ -31,7 +36,13 @@ JointInfo info_of(const Joint& joint) {
       info.type = Type::universal;
       break;
   }
-  if (joint.one_axis()) info.range = joint.axes.front().range;
+  if (!joint.one_axis()) return info;
+  const Axis& axis = joint.axes.front();
+  info.range = axis.range;
+  info.damping = axis.damping;
+  info.stiffness = axis.stiffness;
+  info.rest = axis.rest;
+  info.dry_friction = axis.friction;
   return info;
 }
 
@@ -41,6 +52,19 @@ JointInfo info_of(const Joint& joint) {
   std::vector<std::string> names;
   for (const auto& [known, index] : there) names.push_back(known);
   throw InputError(Problem{"", key, std::string(name), message, list(std::move(names))});
+}
+
+/// joint_2 before joint_10: where both have a number at the same place, the longer number is the larger.
+bool counted_before(const std::string& a, const std::string& b) {
+  const auto digit = [](const std::string& s, std::size_t i) { return i < s.size() && s[i] >= '0' && s[i] <= '9'; };
+  std::size_t same = 0;
+  while (same < a.size() && same < b.size() && a[same] == b[same]) ++same;
+  std::size_t a_end = same, b_end = same;
+  while (digit(a, a_end)) ++a_end;
+  while (digit(b, b_end)) ++b_end;
+  const bool both = a_end > same && b_end > same, within = same > 0 && digit(a, same - 1) && (a_end > same || b_end > same);
+  if ((both || within) && a_end != b_end) return a_end < b_end;
+  return a < b;
 }
 
 void hash(std::uint32_t& sum, std::string_view text) {
@@ -82,12 +106,12 @@ void check_parts(const char* what, const std::vector<Part>& theirs, const std::v
 }  // namespace
 
 std::string list(std::vector<std::string> names) {
-  std::sort(names.begin(), names.end());
+  std::sort(names.begin(), names.end(), counted_before);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::uint32_t tag_of(const WorldDescription& world) {
+std::uint32_t tag_of(const description::World& world) {
   std::uint32_t sum = 2166136261;
   for (const Link& l : world.links) hash(sum, l.name);
   for (const Joint& j : world.joints) {
@@ -97,7 +121,7 @@ std::uint32_t tag_of(const WorldDescription& world) {
   return std::max<std::uint32_t>(sum, 1);
 }
 
-void check_same_world(const WorldDescription& theirs, const WorldDescription& ours) {
+void check_same_world(const description::World& theirs, const description::World& ours) {
   if (&theirs == &ours) return;
   check_parts("links", theirs.links, ours.links);
   check_parts("joints", theirs.joints, ours.joints);
@@ -117,6 +141,7 @@ void World::Impl::index_names() {
     made->joints.back().dof = physics->joint_dof(j);
     if (world->joints[j].one_axis()) made->joint.emplace(world->joints[j].name, j);
   }
+  for (const description::Coupling& c : world->couplings) made->joints[c.follower].follows = c.leader;
   for (std::size_t l = 0; l < world->links.size(); ++l) made->link.emplace(world->links[l].name, l);
   made->first_actuator.resize(robots.size());
   for (std::size_t a = 0; a < actuators.size(); ++a) {

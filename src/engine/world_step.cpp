@@ -11,13 +11,13 @@
 
 #include <cmath>
 
-#include "world_impl.hpp"
+#include "engine/run_length.hpp"
+#include "engine/world_impl.hpp"
 
 namespace vsa::engine {
 namespace {
 
 constexpr double kNanosecond = 1e-9;
-constexpr double kLongestRun_s = 1e9;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void World::Impl::placed(std::size_t joint) {
 
 void World::Impl::tell_joints(const RobotSlot& slot) const {
   for (std::size_t i = 0; i < slot.joints.size(); ++i) {
-    const JointState state = physics->joint(slot.joints[i]);
+    const physics::JointState state = physics->joint(slot.joints[i]);
     slot.seat->in()[i].angle_rad = state.position;
     slot.seat->in()[i].speed_rad_per_s = state.speed;
   }
@@ -79,11 +79,11 @@ void World::Impl::observe() {
   }
 }
 
-std::optional<Fault> World::Impl::substep() {
+std::optional<physics::Refusal> World::Impl::substep() {
   physics->prepare();
   drive();
   apply_hands();
-  if (std::optional<Fault> fault = physics->advance()) return fault;
+  if (std::optional<physics::Refusal> fault = physics->advance()) return fault;
   observe();
   time_ns += substep_ns();
   return std::nullopt;
@@ -104,7 +104,7 @@ void World::Impl::step() {
   const std::int64_t begin_ns = time_ns;
   keep();
   for (int k = 0; k < substeps; ++k) {
-    const std::optional<Fault> fault = substep();
+    const std::optional<physics::Refusal> fault = substep();
     if (!fault) continue;
     const double at_s = static_cast<double>(time_ns) * kNanosecond;
     time_ns = begin_ns;
@@ -118,6 +118,7 @@ void World::Impl::step() {
 std::shared_ptr<const World::Snapshot> World::Impl::snapshot() const {
   auto out = std::make_shared<Snapshot>();
   out->world = world;
+  out->physics.resize(physics->state_size());
   physics->save(out->physics);
   out->time_ns = time_ns;
   out->steps = steps;
@@ -135,11 +136,7 @@ void World::Impl::restore(const Snapshot& s) {
 void World::step() { impl_->step(); }
 
 void World::run(double duration_s) {
-  if (!(duration_s >= 0 && duration_s <= kLongestRun_s)) {
-    throw InputError(
-        Problem{"", "duration_s", fmt::format("{}", duration_s), "out of range", fmt::format("0 … {} s", kLongestRun_s)});
-  }
-  const std::int64_t end = impl_->time_ns + std::llround(duration_s / kNanosecond);
+  const std::int64_t end = run_end_ns(impl_->time_ns, duration_s);
   while (impl_->time_ns < end) impl_->step();
 }
 

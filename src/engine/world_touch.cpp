@@ -1,16 +1,15 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// How a user touches a World: commands, joints, hands; and its clones.
+// How a user or a gait touches a World: commands, joints, hands; and its clones.
 #include <algorithm>
 
-#include "world_check.hpp"
-#include "world_impl.hpp"
+#include "engine/world_check.hpp"
+#include "engine/world_impl.hpp"
 
 namespace vsa::engine {
 namespace {
 
 constexpr double kMostForce = 1e9, kFurthestPoint_m = 1e4;
-constexpr double kMostState = 1e12;  // beyond 1e10 the next step is a blow-up
 
 /// Sets what belongs to `key`; nothing where it is none.
 template <class Value>
@@ -44,6 +43,19 @@ void World::place(const ActuatorRef& ref, const host::Placement& to) {
   impl_->robots[ref.robot].robot().place(ref.index, to, impl_->substep_s());
   impl_->physics->set_joint(joint, {to.angle_rad, to.speed_rad_per_s});
   impl_->forget_mobility();
+}
+
+std::size_t World::find_actuator(std::string_view name) const {
+  return static_cast<std::size_t>(&actuator(name) - impl_->actuators.data());
+}
+const std::string& World::model_of(std::size_t actuator) const { return impl_->actuators.at(actuator).model; }
+void World::send(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset) {
+  const ActuatorRef& ref = impl_->actuators.at(actuator);
+  impl_->robots[ref.robot].robot().command(ref.index, equilibrium_rad, preset);
+}
+motion::Commanded World::commanded(std::size_t actuator) const {
+  const host::ActuatorReading now = read(impl_->actuators.at(actuator));
+  return {now.equilibrium_command_rad, now.preset_command};
 }
 
 host::ActuatorReading World::read(std::string_view name) const { return read(actuator(name)); }
@@ -130,6 +142,7 @@ World World::clone() const {
   to->time_ns = impl_->time_ns;
   to->steps = impl_->steps;
   to->initial = impl_->initial;
+  to->before = impl_->before;
   return World(std::move(to));
 }
 

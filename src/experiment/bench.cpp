@@ -55,8 +55,8 @@ void check(const Specimen& specimen, const PresetStepOptions& o) {
   require(problems, "hold_s", o.hold_s, 0.05, 1e4, "s");
   require_sampling(problems, o.sample_s, o.hold_s);
   problems.throw_if_any();
-  if (specimen.library.load(specimen.preset, specimen.overrides).unit.actuator.transmission->preset_unit().empty()) {
-    throw InputError({"", "preset step", specimen.preset, "this actuator has no stiffness preset, so there is none to step",
+  if (specimen.library.load(specimen.type, specimen.overrides).unit.actuator.transmission->preset_unit().empty()) {
+    throw InputError({"", "preset step", specimen.type, "this actuator has no stiffness preset, so there is none to step",
                       "the other experiments"});
   }
   if (o.preset == 0) throw InputError({"", "preset", "0", "a step from 0 to 0 is none", "above 0"});
@@ -113,13 +113,13 @@ Lifted lift_lever(Bench& bench, double preset) {
 }  // namespace
 
 void check_preset(const Specimen& specimen, double preset) {
-  const device::UnitConfig unit = specimen.library.load(specimen.preset, specimen.overrides).unit;
+  const device::UnitConfig unit = specimen.library.load(specimen.type, specimen.overrides).unit;
   const std::string preset_unit(unit.actuator.transmission->preset_unit());
   if (preset_unit.empty() && preset != 0) {
-    throw InputError({"", "preset", fmt::format("{}", preset), specimen.preset + " has no stiffness preset", "none, or 0"});
+    throw InputError({"", "preset", fmt::format("{}", preset), specimen.type + " has no stiffness preset", "none, or 0"});
   }
   if (!(preset >= 0 && preset <= unit.preset_max)) {
-    throw InputError({"", "preset", fmt::format("{}", preset), "beyond what " + specimen.preset + " accepts",
+    throw InputError({"", "preset", fmt::format("{}", preset), "beyond what " + specimen.type + " accepts",
                       fmt::format("0 … {} {}", unit.preset_max, preset_unit)});
   }
 }

@@ -17,8 +17,8 @@ engine::World load_bench(const Specimen& specimen, const char* world) {
   if (!file) throw InputError({"", "bench", world, "the data directories have no such world", "set VSA_DATA_DIR"});
   engine::WorldOptions options;
   options.step_s = specimen.step_s;
-  options.presets = specimen.library;
-  options.actuator = {specimen.preset, specimen.overrides};
+  options.types = specimen.library;
+  options.actuator = {specimen.type, specimen.overrides};
   return engine::World::load(*file, std::move(options));
 }
 

@@ -1,121 +1,62 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/experiment/bounds.hpp"
 
-#include <fmt/format.h>
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "vsa/config/text.hpp"
+#include "vsa/config/toml_section.hpp"
 #include "vsa/errors.hpp"
-#include "vsa/files.hpp"
 
 namespace vsa::experiment {
 namespace {
 
-/// One table of an array of tables, its keys read once each; those never asked for are unknown.
-class Item {
- public:
-  Item(const toml::table& table, std::string place, Problems& problems)
-      : table_(table), place_(std::move(place)), problems_(problems) {}
+using Item = config::TomlSection;
 
-  std::optional<double> number(const char* key, bool required) {
-    return read<double>(key, required, "a number", [](double v) { return std::isfinite(v); });
-  }
-  std::string text(const char* key) {
-    return read<std::string>(key, true, "some text", [](const std::string& v) { return !v.empty(); }).value_or("");
-  }
-  std::optional<std::string> optional_text(const char* key) {
-    return read<std::string>(key, false, "some text", [](const std::string& v) { return !v.empty(); });
-  }
-  [[nodiscard]] std::string place() const { return place_ + ':' + std::to_string(table_.source().begin.line); }
-  void refuse_others() {
-    for (const auto& [key, node] : table_) {
-      const std::string name(key.str());
-      if (std::find(asked_.begin(), asked_.end(), name) == asked_.end()) add(name, "", "unknown key", config::join(asked_));
-    }
-  }
-  void add(const std::string& key, const std::string& value, const std::string& message, const std::string& allowed) {
-    problems_.add({place(), key, value, message, allowed});
-  }
-
- private:
-  template <class T, class Fine>
-  std::optional<T> read(const char* key, bool required, const char* what, Fine fine) {
-    asked_.emplace_back(key);
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) {
-      if (required) add(key, "", "is missing", what);
-      return std::nullopt;
-    }
-    std::optional<T> value = node->value<T>();
-    if (value && fine(*value)) return value;
-    add(key, "", "isn't what it should be", what);
-    return std::nullopt;
-  }
-
-  const toml::table& table_;
-  std::string place_;
-  Problems& problems_;
-  std::vector<std::string> asked_;
-};
-
-toml::table parse(const std::filesystem::path& file) {
-  const auto text = read_file(file);
-  if (!text) throw InputError({file.string(), "", "", "can't be read", "a TOML file"});
-  try {
-    return toml::parse(*text, file.string());
-  } catch (const toml::parse_error& e) {
-    throw InputError({fmt::format("{}:{}", file.string(), e.source().begin.line), "", "", std::string(e.description()), "TOML"});
-  }
-}
-
+constexpr double kAny = std::numeric_limits<double>::max();
 constexpr const char* kCalibrated = "calibrated";
 constexpr const char* kPredicted = "predicted";
 
-Bound read_bound(Item& item) {
+std::string needed(Item& item, const char* key) { return item.need(key, "some text").text(key).value_or(""); }
+double number(Item& item, const char* key) { return item.need(key, "a number").number(key, -kAny, kAny).value_or(0); }
+
+Bound read_bound(Item& item, const std::string& place) {
   Bound b;
-  b.place = item.place();
-  b.quantity = item.text("quantity");
-  b.min = item.number("min", false);
-  b.max = item.number("max", false);
-  b.why = item.text("why");
-  if (const auto kind = item.optional_text("kind")) {
+  b.place = place;
+  b.quantity = needed(item, "quantity");
+  b.min = item.number("min", -kAny, kAny);
+  b.max = item.number("max", -kAny, kAny);
+  b.why = needed(item, "why");
+  if (const auto kind = item.text("kind")) {
     if (*kind == kCalibrated) b.kind = Kind::calibrated;
     if (*kind == kPredicted) b.kind = Kind::predicted;
-    if (!b.kind) item.add("kind", '"' + *kind + '"', "is no kind", "calibrated, predicted; left out: by the preset's [evidence]");
+    if (!b.kind) item.add("kind", '"' + *kind + '"', "is no kind", "calibrated, predicted; left out: by the type's [evidence]");
   }
-  item.refuse_others();
   if (!b.min && !b.max) item.add(b.quantity, "", "has no bound", "min, max or both");
   if (b.min && b.max && *b.min > *b.max) item.add(b.quantity, bound_text(b), "no value can hold it", "min up to max");
   return b;
 }
 
-Published read_published(Item& item) {
+Published read_published(Item& item, const std::string&) {
   Published p;
-  p.preset = item.number("preset", true).value_or(0);
-  p.rms_2015_rad = item.number("rms_2015_rad", true).value_or(0);
-  p.rms_2015_branches_rad = item.number("rms_2015_branches_rad", true).value_or(0);
-  p.repeatability_rad = item.number("repeatability_rad", true).value_or(0);
-  p.source = item.text("source");
-  item.refuse_others();
+  p.preset = number(item, "preset");
+  p.rms_2015_rad = number(item, "rms_2015_rad");
+  p.rms_2015_branches_rad = number(item, "rms_2015_branches_rad");
+  p.repeatability_rad = number(item, "repeatability_rad");
+  p.source = needed(item, "source");
   return p;
 }
 
-template <class Read>
-auto read_all(const toml::table& root, const char* key, const std::string& place, Problems& problems, Read read) {
-  Item dummy(root, place, problems);
-  std::vector<decltype(read(dummy))> out;
-  const toml::node* node = root.get(key);
-  if (node == nullptr) return out;
-  if (!node->is_array_of_tables()) {
-    problems.add({place, key, "", "isn't an array of tables", fmt::format("[[{}]]", key)});
-    return out;
-  }
-  for (const toml::node& element : *node->as_array()) {
-    Item item(*element.as_table(), place, problems);
-    out.push_back(read(item));
+template <class What>
+std::vector<What> read_all(Item& top, const char* key, const std::string& file, Problems& problems,
+                           What (*read)(Item&, const std::string&)) {
+  std::vector<What> out;
+  for (const toml::table* table : top.tables(key)) {
+    const std::string place = file + ':' + std::to_string(table->source().begin.line);
+    Item item(table, place, "", problems);
+    out.push_back(read(item, place));
+    item.refuse_others();
   }
   return out;
 }
@@ -123,14 +64,12 @@ auto read_all(const toml::table& root, const char* key, const std::string& place
 }  // namespace
 
 BoundsFile read_bounds(const std::filesystem::path& file) {
-  const toml::table root = parse(file);
+  const toml::table root = config::parse_toml(file);
   Problems problems;
-  for (const auto& [key, node] : root) {
-    const std::string name(key.str());
-    if (name != "bound" && name != "published") problems.add({file.string(), name, "", "unknown key", "[[bound]], [[published]]"});
-  }
-  BoundsFile out{read_all(root, "bound", file.string(), problems, read_bound),
-                 read_all(root, "published", file.string(), problems, read_published)};
+  Item top(&root, file.string(), "", problems);
+  BoundsFile out{read_all(top, "bound", file.string(), problems, read_bound),
+                 read_all(top, "published", file.string(), problems, read_published)};
+  top.refuse_others();
   problems.throw_if_any();
   return out;
 }
@@ -145,7 +84,7 @@ void check_kinds(const std::vector<Bound>& bounds, const std::optional<config::E
   Problems problems;
   for (const Bound& b : bounds) {
     if (b.kind != Kind::predicted || !evidence || !config::covers(*evidence, b.quantity)) continue;
-    problems.add({b.place, "kind", std::string(kPredicted), "the preset was calibrated on " + b.quantity + ", by its [evidence]",
+    problems.add({b.place, "kind", std::string(kPredicted), "the type was calibrated on " + b.quantity + ", by its [evidence]",
                   "calibrated, or no kind"});
   }
   problems.throw_if_any();

@@ -47,12 +47,12 @@ LoopErrors loop_errors(const device::UnitConfig& unit, const MotorLine& line) {
 
 }  // namespace
 
-DataSheet data_sheet(const config::Preset& preset) {
-  const Workspace workspace(preset.unit);
+DataSheet data_sheet(const config::ActuatorType& type) {
+  const Workspace workspace(type.unit);
   DataSheet sheet;
-  sheet.preset = preset;
+  sheet.type = type;
   sheet.line = workspace.line();
-  sheet.errors = loop_errors(preset.unit, sheet.line);
+  sheet.errors = loop_errors(type.unit, sheet.line);
   sheet.attainable_preset = workspace.attainable_preset();
   sheet.stiffest_Nm_per_rad = workspace.stiffness_at_rest(sheet.attainable_preset);
   const bool one = sheet.attainable_preset == 0;

@@ -2,26 +2,19 @@
 #include "vsa/firmware/controller.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
-#include "vsa/firmware/arithmetic.hpp"
+#include "vsa/firmware/loop_steps.hpp"
 
 namespace vsa::firmware {
 namespace {
 
-constexpr std::int32_t kPwmMax = 100;
-constexpr std::int32_t kFarError = 131072;  // 2¹⁷: beyond it the P product is shifted early
+using steps::kPwmMax;
+using steps::proportional;
 
 constexpr std::int32_t kCurrentSumMax = 100000;
 
 std::int32_t add_clamped(std::int32_t& sum, std::int32_t error, std::int32_t most = kCurrentSumMax) noexcept {
-  sum = std::clamp(wrap_add(sum, error), -most, most);
-  return sum;
-}
-
-std::int32_t proportional(std::int32_t k, std::int32_t error) noexcept {
-  const bool far = error > kFarError || error < -kFarError;
-  return far ? wrap_mul(k, error >> 8) >> 8 : wrap_mul(k, error) >> 16;
+  return sum = steps::limited_sum(sum, error, most);
 }
 
 /// The program tests the upper bound first and looks at the lower one only if that held; a negative limit turns it inside out.
@@ -50,9 +43,7 @@ std::int32_t Controller::position_law(LoopMemory m, ControllerState& s, int i) c
     const std::int32_t pi = wrap_add(wrap_mul(k.p, error) >> 16, wrap_mul(k.i, s.error_sum[i]) >> 16);
     return wrap_add(pi, wrap_mul(k.d, wrap_sub(s.meas_driven[i], s.meas[i])) >> 16);
   }
-  const std::int32_t integral = wrap_mul(k.i >> 6, s.error_sum[i]) >> 10;
-  const std::int32_t derivative = wrap_mul(k.d, wrap_sub(s.meas_old[i], s.meas[i])) >> 16;
-  return wrap_add(wrap_add(proportional(k.p, error), integral), derivative);
+  return steps::position_pwm(k.p, k.i, k.d, error, s.error_sum[i], wrap_sub(s.meas_old[i], s.meas[i]));
 }
 
 std::int32_t Controller::double_law(LoopMemory m, ControllerState& s, int i) const noexcept {
@@ -129,10 +120,10 @@ void Controller::drive_motor(LoopMemory m, ControllerState& s, int i) const noex
   if (advanced()) limit_rate(m, s, i);
   // The limit in force is the one that the last tick's supply reading chose.
   const std::int32_t scaled = ((s.pwm[i] * 1024) / kPwmMax) * s.limit_pct;
-  const std::int32_t limited = loop_facts(generation).plain_products ? scaled / 1024 : scaled >> 10;
+  const std::int32_t limited = loop_facts(generation).plain_products ? scaled / 1024 : steps::limited_pwm(s.pwm[i], s.limit_pct);
   const std::int32_t out = mode == ControlMode::pwm ? s.pwm[i] : limited;
   s.current_sign[i] = out >= 0 ? 1 : -1;
-  s.duty[i] = s.forward[i] ? std::abs(out) : -std::abs(out);
+  s.duty[i] = steps::signed_duty(s.forward[i], out);
 }
 
 void Controller::drive_motors(LoopMemory m, ControllerState& s) const noexcept {

@@ -1,20 +1,15 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "vsa/firmware/arithmetic.hpp"
 #include "vsa/firmware/controller.hpp"
+#include "vsa/firmware/loop_steps.hpp"
 
 namespace vsa::firmware {
 namespace {
 
-constexpr std::int32_t kTurnJump = 49152;     // a jump past this is the wrap of the turn
-constexpr std::int32_t kSuspectJump = 16384;  // a quarter turn in a tick is not believed …
-constexpr std::uint8_t kBelieveAfter = 10;    // … unless it stays for ten ticks
-constexpr std::int32_t kAdcOffset = 1638;
-constexpr std::int32_t kFilterAlpha = 3;  // of 1024 a tick: τ ≈ 341 ms
-
 /// Percent PWM of version 3.0, by supply in steps of 500 mV above 8 V.
 constexpr std::array<std::int32_t, 10> kFirstPwm{80, 76, 75, 74, 72, 71, 69, 68, 66, 64};
 
-/// Percent PWM that gives about 8 V, by supply in steps of 512 mV from 8 V. The makers measured these; the last is never reached.
+/// Percent PWM of version 6.1, by supply in steps of 512 mV from 8 V: 6.4 … 10.6 V at the motor. The makers measured these; the
+/// last is never reached.
 constexpr std::array<std::uint8_t, 36> kEightVoltPwm{100, 76, 71, 69, 67, 65, 63, 61, 60, 58, 57, 56, 55, 54, 53, 52, 51, 50,
                                                      49,  49, 48, 47, 47, 46, 45, 45, 45, 44, 44, 43, 43, 43, 43, 42, 42, 42};
 
@@ -25,7 +20,7 @@ std::int32_t with_offset(bool advanced, std::int32_t sample, std::int32_t offset
   return cut_16(i == 2 ? wrap_sub(0, value) : value);
 }
 
-std::int32_t adc_counts(int adc) noexcept { return cut_16(adc - kAdcOffset); }
+std::int32_t adc_counts(int adc) noexcept { return cut_16(adc - steps::kAdcOffset); }
 
 }  // namespace
 
@@ -40,25 +35,15 @@ void Controller::read_encoder(LoopMemory m, ControllerState& s, const TickInputs
     s.last_sample[i] = sample;
     s.first_tick = i != 2;
   }
-  const std::int32_t jump = sample - s.last_sample[i];
-  const std::int32_t size = repairs.jump_check_in_16_bits ? (jump < 0 ? -jump : jump) : abs_16(jump);
-  if (jump > kTurnJump) {
-    s.turns[i] = static_cast<std::int8_t>(s.turns[i] - 1);
-  } else if (jump < -kTurnJump) {
-    s.turns[i] = static_cast<std::int8_t>(s.turns[i] + 1);
-  } else if (size > kSuspectJump && ++s.rejected[i] < kBelieveAfter) {
-    return;
-  }
-  s.rejected[i] = 0;
-  s.last_sample[i] = sample;
-  std::int32_t position = wrap_add(sample, wrap_shl(s.turns[i], 16));
+  if (!steps::follow_word(sample, repairs.jump_check_in_16_bits, s.last_sample[i], s.turns[i], s.rejected[i])) return;
+  std::int32_t position = steps::unwrapped(sample, s.turns[i]);
   const float multiplier = m.current.multiplier[i];
   if (multiplier != 1.0F) position = truncate(static_cast<float>(position) * multiplier);
   s.meas[i] = position;
 }
 
 void Controller::read_analog(ControllerState& s, const TickInputs& in) const noexcept {
-  s.supply = {wrap_mul(adc_counts(in.supply_adc), 1952) >> 7};
+  s.supply = supply_reading(in.supply_adc);
   if (s.supply.value <= 0) {
     s.current = {};
     return;
@@ -66,12 +51,12 @@ void Controller::read_analog(ControllerState& s, const TickInputs& in) const noe
   s.supply_seen = true;
   s.limit_pct = supply_table ? supply_limit_pct(s.supply, generation) : 100;
   for (int i = 0; i < 2; ++i) {
-    const std::int32_t mA = s.current_sign[i] * (wrap_mul(adc_counts(in.current_adc[i]), 25771) >> 13);
-    const std::int32_t old = wrap_mul(s.current_filter[i], 1024 - kFilterAlpha);
-    s.current_filter[i] = wrap_add(old, wrap_mul(wrap_shl(mA, 6), kFilterAlpha)) >> 10;
+    s.current_filter[i] = steps::filtered(s.current_filter[i], s.current_sign[i], in.current_adc[i]);
     s.current[i] = {s.current_filter[i] >> 6};
   }
 }
+
+MilliVolt supply_reading(int adc) noexcept { return {wrap_mul(adc_counts(adc), 1952) >> 7}; }
 
 std::int32_t supply_limit_pct(MilliVolt supply, Generation generation) noexcept {
   const std::int32_t over = supply.value - 8000;

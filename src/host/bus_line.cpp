@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "host/state.hpp"
-#include "vsa/firmware/exchange.hpp"
+#include "vsa/device/reading.hpp"
 #include "vsa/owner.hpp"
 
 namespace vsa::host {
@@ -101,10 +101,17 @@ void BusLine::set_unit(const ActuatorSlot& slot, device::Unit& unit) noexcept {
 
 std::array<Ticks, 3> BusLine::measured(const ActuatorSlot& slot, const device::Unit& unit) const {
   if (!port_) return slot.measured;
-  return port_->locked([&] {
-    const firmware::ProgramState& s = slot.unit.program;
-    return firmware::positions(unit.config().program.model, s.memory.stored, s.loop);
-  });
+  return port_->locked([&] { return device::measured(unit, slot.unit); });
+}
+
+const char* BusLine::impossible(const BusState& state, std::int64_t time_ns) const noexcept {
+  constexpr std::int64_t kSlack_ns = 1'000'000'000;
+  const int frames = 2 * static_cast<int>(members_.size());
+  if (state.master.frame < 0 || state.master.frame >= std::max(frames, 1)) return "master.frame below two a unit";
+  if (port_ || frames == 0) return nullptr;
+  const std::int64_t near_ns = master_.schedule().cycle_ns + kSlack_ns;
+  const std::int64_t start_ns = state.master.cycle_start_ps / bus::kPsPerNs;
+  return start_ns >= time_ns - near_ns && start_ns <= time_ns + near_ns ? nullptr : "a master.cycle_start near the robot's time";
 }
 
 void BusLine::restore(const BusState& state) {

@@ -30,6 +30,7 @@ struct BusMember {
 struct BusState {
   device::ChainState chain;
   bus::MasterState master;
+  static auto fields(auto& s, auto&& visit) { return visit("chain", "", s.chain, "master", "", s.master); }
 };
 
 class BusLine final : private bus::MasterClient {
@@ -60,6 +61,10 @@ class BusLine final : private bus::MasterClient {
   void unlock() const {
     if (port_) port_->unlock();
   }
+  [[nodiscard]] const device::ChainState& chain_state() const noexcept { return chain_.state(); }
+  [[nodiscard]] const bus::MasterState& master_state() const noexcept { return master_.state(); }
+  /// What is wrong with a state of this bus at that time of the robot; null: nothing.
+  [[nodiscard]] const char* impossible(const BusState& state, std::int64_t time_ns) const noexcept;
   [[nodiscard]] BusState state() const { return {chain_.state(), master_.state()}; }
   /// The same into what was saved to before, without allocating.
   void save(BusState& into) const {

@@ -44,23 +44,10 @@ void check_whole(const RobotConfig& config) {
   problems.throw_if_any();
 }
 
-constexpr std::int64_t kLatestNs = 4'000'000'000'000'000'000;
-constexpr double kLongestPath_s = 1e9;
-
 /// Whether a joint can be worked with.
 bool told(const JointIn& joint) noexcept {
   const double a = joint.inverse_inertia.value_or(0.0);
   return std::isfinite(joint.angle_rad) && std::isfinite(joint.speed_rad_per_s) && a >= 0 && std::isfinite(a);
-}
-
-/// Whether a channel can follow these: some, finite, times that grow.
-bool in_order(const std::vector<Robot::Knot>& knots) noexcept {
-  double last = -1.0;
-  for (const Robot::Knot& k : knots) {
-    if (!std::isfinite(k.value) || !(k.time_s >= 0 && k.time_s > last && k.time_s <= kLongestPath_s)) return false;
-    last = k.time_s;
-  }
-  return !knots.empty();
 }
 
 }  // namespace
@@ -161,8 +148,8 @@ bool Robot::follow(std::size_t actuator, Channel channel, std::vector<Knot> knot
 }
 
 bool Robot::follow(std::vector<Path> paths) {
-  if (!std::all_of(paths.begin(), paths.end(), [this](const Path& p) { return p.actuator < size() && in_order(p.knots); }))
-    return false;
+  const auto good = [this](const Path& p) { return p.actuator < size() && !p.knots.empty() && in_order(p.knots); };
+  if (!std::all_of(paths.begin(), paths.end(), good)) return false;
   std::vector<Order> orders;
   orders.reserve(paths.size());
   for (Path& p : paths)
@@ -203,7 +190,7 @@ void Robot::restore(const Snapshot& snapshot) {
   impl_->restore(snapshot);
 }
 
-void Robot::keep() { impl_->keep(); }
+void Robot::keep() { impl_->keep(impl_->kept); }
 void Robot::go_back() { impl_->restore(impl_->kept); }
 
 void Robot::reset() {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "host/cluster.hpp"
 #include "host/command_queue.hpp"
 #include "host/state.hpp"
+#include "vsa/errors.hpp"
 #include "vsa/host/robot.hpp"
 
 namespace vsa::host {
@@ -21,6 +23,9 @@ namespace vsa::host {
 inline constexpr std::int64_t kLookSteps = 128;
 inline constexpr double kCreated = 0.01;  ///< energy out of nothing, over what moved, that is told
 inline constexpr double kCreatedLeast_J = 1e-3;
+
+/// Adds what a unit's state can't cross.
+void check_kind(const std::string& name, const UnitConfig& from, const UnitConfig& to, Problems& problems);
 
 struct Robot::Impl {
   explicit Impl(RobotConfig c) : config(std::move(c)) {
@@ -43,8 +48,11 @@ struct Robot::Impl {
     initial.made_of = made_of;
     initial.state = state;
     for (const auto& bus : buses) initial.buses.push_back(bus->state());
-    kept = initial;
-    keep();
+    for (Snapshot* room : {&kept, &loaded}) {
+      *room = initial;
+      keep(*room);
+    }
+    numbers = size_as_numbers();
   }
 
   /// Where the shaft is will be known at the first step.
@@ -83,16 +91,19 @@ struct Robot::Impl {
   }
 
   /// Units with equal parameters share one instance: a thousand of them then fit the processor's cache. States are their own.
-  std::shared_ptr<device::Unit> unit_for(const UnitConfig& unit) {
+  std::shared_ptr<device::Unit> unit_for(const UnitConfig& unit, const actuator::Actuator* prepared = nullptr) {
     for (const auto& known : distinct)
       if (known->config() == unit) return known;
     distinct.push_back(std::make_shared<device::Unit>(unit));
+    if (prepared != nullptr) distinct.back()->physics() = *prepared;
     return distinct.back();
   }
 
   void take_commands() noexcept {
     queue.drain([this](Order& c) {
       ActuatorSlot& slot = state.actuators[c.actuator];
+      const BusConfig& bus = config.buses[config.actuators[c.actuator].bus];
+      if (bus.serial_port) return notice(c.actuator, slot.noted_port, true, NoticeKind::port, 0);  // its client commands
       Track& track = c.channel == Channel::equilibrium ? slot.equilibrium : slot.preset;
       if (c.knots) {
         track.begin(std::move(c.knots), state.time_ns);
@@ -121,7 +132,6 @@ struct Robot::Impl {
     const UnitConfig& unit = config.actuators[i].unit;
     const double limit = unit.preset_max;
     const double q = slot.equilibrium.last(), p = slot.preset.last();
-    if (config.buses[config.actuators[i].bus].serial_port) return notice(i, slot.noted_port, true, NoticeKind::port, 0);
     notice(i, slot.noted_preset, std::abs(p) > limit, NoticeKind::preset, p);
     const auto x = unit.actuator.transmission->references({q, std::clamp(p, -limit, limit)});
     bool out = false;
@@ -144,6 +154,7 @@ struct Robot::Impl {
     actuator::Ledger sum;
     for (std::size_t i = 0; i < units.size(); ++i) {
       ActuatorSlot& slot = state.actuators[i];
+      for (Track* track : {&slot.equilibrium, &slot.preset}) track->settle(state.time_ns);
       notice(i, slot.noted_unresolved, slot.unit.unresolved > 0, NoticeKind::unresolved, slot.unit.unresolved);
       sum += slot.unit.actuator.ledger;
     }
@@ -159,11 +170,11 @@ struct Robot::Impl {
     state.time_ns = t_ns;
   }
 
-  void keep() {
+  void keep(Snapshot& into) const {
     const QuietBuses quiet(buses);
-    kept.made_of = made_of;
-    kept.state = state;
-    for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->save(kept.buses[b]);
+    into.made_of = made_of;
+    into.state = state;
+    for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->save(into.buses[b]);
   }
 
   void restore(const Snapshot& from) {
@@ -177,6 +188,11 @@ struct Robot::Impl {
 
   void adopt(const RobotConfig& from) noexcept;  ///< the state came from a robot with these parameters
   void set_parameters(std::size_t actuator, const UnitConfig& unit);
+  void use(const std::shared_ptr<const RobotConfig>& to);
+  void drop_unused();
+  [[nodiscard]] std::size_t size_as_numbers() const;
+  [[nodiscard]] StateLayout layout() const;
+  void read_numbers(std::span<const double> in);  ///< into `loaded`; throws what Robot::restore does
 
   RobotConfig config;
   std::shared_ptr<const RobotConfig> made_of;  ///< the same, for snapshots
@@ -188,7 +204,8 @@ struct Robot::Impl {
   std::vector<Cluster> clusters;
   std::vector<std::vector<std::size_t>> trees;  ///< as the host joined them
   std::size_t mobility_size = 0;
-  Snapshot initial, kept;  ///< kept: has room for all that a state may grow to
+  Snapshot initial, kept, loaded;  ///< the last two have room for all that a state may grow to
+  std::size_t numbers = 0;         ///< of a state
   CommandQueue queue;
   FaultQueue faults;
   NoticeList notices;

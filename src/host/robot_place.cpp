@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Putting an actuator somewhere, giving it other parameters, copying a robot, and whose snapshots it takes.
+// Putting an actuator somewhere, copying a robot, and whose snapshots it takes.
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -15,17 +15,6 @@ namespace {
 
 void check_same(const std::string& key, const std::string& theirs, const std::string& ours, Problems& problems) {
   if (theirs != ours) problems.add({"", key, theirs, "the snapshot is of another robot", ours});
-}
-
-/// What a unit's state can't cross.
-void check_kind(const std::string& name, const UnitConfig& from, const UnitConfig& to, Problems& problems) {
-  const auto number = [](auto value) { return std::to_string(static_cast<int>(value)); };
-  const auto same = [&](const char* key, const std::string& theirs, const std::string& ours) {
-    if (theirs != ours) problems.add({"", name + ": " + key, theirs, "a unit's state can't go over to this", ours});
-  };
-  same("firmware.model", number(from.program.model), number(to.program.model));
-  same("firmware.dialect", number(from.program.dialect), number(to.program.dialect));
-  same("number of motors", number(from.actuator.transmission->motor_count()), number(to.actuator.transmission->motor_count()));
 }
 
 /// With which the springs leave a shaft at q alone: q itself, but where the two are unequal.
@@ -64,42 +53,6 @@ void Robot::place(std::size_t actuator, const Placement& at, double step_s) {
   const BusLine& bus = *d.buses[d.config.actuators[actuator].bus];
   const std::lock_guard quiet(bus);
   unit.place(slot.unit, there);
-}
-
-void Robot::set_parameters(std::size_t actuator, const UnitConfig& unit) {
-  const ActuatorConfig& now = impl_->config.actuators[known(actuator)];
-  Problems problems;
-  device::check(unit, now.name + ": ", problems);
-  problems.throw_if_any();
-  check_kind(now.name, unit, now.unit, problems);
-  problems.throw_if_any();
-  impl_->set_parameters(actuator, unit);
-}
-
-void Robot::Impl::set_parameters(std::size_t i, const UnitConfig& unit) {
-  const UnitConfig before = config.actuators[i].unit;
-  BusLine& bus = *buses[config.actuators[i].bus];
-  const std::shared_ptr<device::Unit> next = unit_for(unit);
-  config.actuators[i].unit = unit;
-  made_of = std::make_shared<const RobotConfig>(config);
-  {
-    const std::lock_guard quiet(bus);
-    bus.set_unit(state.actuators[i], *next);
-    units[i] = next;
-    next->adopt(state.actuators[i].unit, before);
-  }
-  make_clusters(std::vector(trees));
-  initial.state.actuators[i].unit = first_state(i);
-  initial.made_of = made_of;
-  distinct.erase(std::remove_if(distinct.begin(), distinct.end(), [](const auto& u) { return u.use_count() == 1; }),
-                 distinct.end());
-}
-
-void Robot::Impl::adopt(const RobotConfig& from) noexcept {
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    if (!device::alike(from.actuators[i].unit, config.actuators[i].unit))
-      units[i]->adopt(state.actuators[i].unit, from.actuators[i].unit);
-  }
 }
 
 void Robot::check(const Snapshot& snapshot) const {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/robot_impl.hpp"
+#include "vsa/device/reading.hpp"
 #include "vsa/firmware/arithmetic.hpp"
 #include "vsa/host/resolution.hpp"
 
@@ -27,26 +28,22 @@ std::string rounded(double value) {
 ActuatorReading Robot::read(std::size_t actuator) const {
   const ActuatorSlot& slot = impl_->state.actuators[known(actuator)];
   const device::Unit& unit = *impl_->units[actuator];
-  const device::UnitState& u = slot.unit;
   ActuatorReading r;
   r.equilibrium_command_rad = slot.equilibrium.at(impl_->state.time_ns);
   r.preset_command = slot.preset.at(impl_->state.time_ns);
-  const auto attained = unit.config().actuator.transmission->attained({u.actuator.motor[0].angle, u.actuator.motor[1].angle});
-  r.equilibrium_rad = attained.equilibrium;
-  r.preset = attained.preset;
-  r.shaft_rad = u.reached.angle;
-  r.shaft_speed_rad_per_s = u.reached.speed;
+  const device::UnitReading now = device::read(unit, slot.unit);
+  r.equilibrium_rad = now.equilibrium_rad;
+  r.preset = now.preset;
+  r.shaft_rad = now.shaft_rad;
+  r.shaft_speed_rad_per_s = now.shaft_speed_rad_per_s;
   r.deflection_rad = r.shaft_rad - r.equilibrium_rad;
-  const elastic::Response now = unit.physics().response(u.actuator, r.shaft_rad);
-  r.stiffness_Nm_per_rad = now.curvature.qq;
-  r.torque_Nm = now.torque;
-  r.mean_torque_Nm = u.applied_torque;
-  for (int m = 0; m < unit.physics().motors(); ++m) {
-    r.motor_rad[m] = u.actuator.motor[m].angle;
-    r.motor_speed_rad_per_s[m] = u.actuator.motor[m].speed;
-    r.motor_torque_Nm[m] = now.load[m];
-    r.current_A[m] = unit.physics().motor_current(u.actuator, m, u.held.voltage[m], u.held.terminal[m], u.held.supply_V);
-  }
+  r.stiffness_Nm_per_rad = now.stiffness_Nm_per_rad;
+  r.torque_Nm = now.torque_Nm;
+  r.mean_torque_Nm = now.mean_torque_Nm;
+  r.motor_rad = now.motor_rad;
+  r.motor_speed_rad_per_s = now.motor_speed_rad_per_s;
+  r.motor_torque_Nm = now.motor_torque_Nm;
+  r.current_A = now.current_A;
   r.measured = impl_->buses[impl_->config.actuators[actuator].bus]->measured(slot, unit);
   return r;
 }
@@ -84,8 +81,7 @@ std::vector<Notice> Robot::take_notices() {
         break;
       }
       case NoticeKind::unsettled:
-        text = "the joints' solution did not settle in " + std::to_string(static_cast<long long>(n.value)) +
-               " steps: shorter steps are needed";
+        text = "the joints' solution did not settle in a step; where that comes again, shorter steps are needed";
         break;
       case NoticeKind::energy:
         text = "energy out of nothing: " + rounded(100 * n.value) +

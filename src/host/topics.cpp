@@ -31,7 +31,7 @@ void send(const DoublePublisher& publisher, std::int64_t time_ns, double value) 
   if (publisher && publisher->wanted()) publisher->publish(time_ns, value);
 }
 
-/// A port may keep its handlers longer than RobotTopics lives, above all where its constructor throws: they go through here.
+/// A transport may keep its handlers longer than RobotTopics lives, above all where its constructor throws: they go through here.
 class Gate {
  public:
   explicit Gate(TopicCommands& commands) : commands_(&commands) {}
@@ -76,8 +76,8 @@ struct RobotTopics::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  void connect(TopicPort& port);
-  void connect_commands(TopicPort& port, Problems& problems);
+  void connect(TopicTransport& transport);
+  void connect_commands(TopicTransport& transport, Problems& problems);
   void fill(std::int64_t time_ns);
   void publish(std::int64_t time_ns);
   void report_notices();
@@ -93,7 +93,7 @@ struct RobotTopics::Impl {
   JointStates message;
 };
 
-void RobotTopics::Impl::connect_commands(TopicPort& port, Problems& problems) {
+void RobotTopics::Impl::connect_commands(TopicTransport& transport, Problems& problems) {
   const auto check = [&problems](Outcome outcome, const std::string& topic) {
     if (outcome == Outcome::refused)
       problems.add({"", "topic", topic, "the transport takes no such name", "letters, digits, _ and /"});
@@ -107,20 +107,20 @@ void RobotTopics::Impl::connect_commands(TopicPort& port, Problems& problems) {
       const auto handler = [gate = gate, topic, i, c = channel](double value) {
         gate->pass([&](TopicCommands& to) { to.single(topic, i, c, value); });
       };
-      check(port.on_double(topic, handler), topic);
+      check(transport.on_double(topic, handler), topic);
     }
   }
   const std::string cmd = model_topic(model, "vsa/cmd");
   const auto on_trajectory = [gate = gate, cmd](const Trajectory& m) {
     gate->pass([&](TopicCommands& to) { to.trajectory(cmd, m); });
   };
-  check(port.on_trajectory(cmd, on_trajectory), cmd);
+  check(transport.on_trajectory(cmd, on_trajectory), cmd);
   const std::string array = model_topic(model, "vsa/cmd_array");
   const auto on_array = [gate = gate, array](const ActuatorsCmd& m) { gate->pass([&](TopicCommands& to) { to.array(array, m); }); };
-  check(port.on_actuators(array, on_array), array);
+  check(transport.on_actuators(array, on_array), array);
 }
 
-void RobotTopics::Impl::connect(TopicPort& port) {
+void RobotTopics::Impl::connect(TopicTransport& transport) {
   Problems problems;
   const auto check_name = [&problems](const std::string& name, std::string_view what) {
     try {
@@ -133,12 +133,12 @@ void RobotTopics::Impl::connect(TopicPort& port) {
   for (const auto& actuator : robot.config().actuators) check_name(actuator.name, "actuator");
   problems.throw_if_any();
 
-  connect_commands(port, problems);
+  connect_commands(transport, problems);
   problems.throw_if_any();
-  states = port.advertise_states(model_topic(message.model, "vsa/joint_state"));
+  states = transport.advertise_states(model_topic(message.model, "vsa/joint_state"));
   for (const auto& actuator : robot.config().actuators) {
     const auto advertise = [&](std::string_view leaf) {
-      return port.advertise_double(joint_topic(message.model, actuator.name, leaf));
+      return transport.advertise_double(joint_topic(message.model, actuator.name, leaf));
     };
     Channels c{advertise("stiffness"), advertise("deflection"), advertise("preset"), advertise("current_1"), nullptr};
     if (motors_of(actuator) > 1) c.current_2 = advertise("current_2");
@@ -189,9 +189,9 @@ void RobotTopics::Impl::report_notices() {
   }
 }
 
-RobotTopics::RobotTopics(Robot& robot, std::string model, TopicPort& port, Report report)
+RobotTopics::RobotTopics(Robot& robot, std::string model, TopicTransport& transport, Report report)
     : impl_("vsa::host::RobotTopics", std::make_unique<Impl>(robot, std::move(model), std::move(report))) {
-  impl_->connect(port);
+  impl_->connect(transport);
 }
 RobotTopics::~RobotTopics() = default;
 RobotTopics::RobotTopics(RobotTopics&&) noexcept = default;

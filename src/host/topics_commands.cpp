@@ -41,7 +41,7 @@ TopicCommands::TopicCommands(Robot& robot, RobotTopics::Report report) : robot_(
   problems.throw_if_any();
 }
 
-void TopicCommands::refuse(const std::string& topic, Fault fault, const std::string& text) {
+void TopicCommands::refuse(const std::string& topic, Refusal fault, const std::string& text) {
   refused_.fetch_add(1);
   {
     const std::lock_guard lock(mutex_);
@@ -52,7 +52,7 @@ void TopicCommands::refuse(const std::string& topic, Fault fault, const std::str
 
 void TopicCommands::single(const std::string& topic, std::size_t actuator, Robot::Channel channel, double value) {
   if (!std::isfinite(value)) {
-    refuse(topic, Fault::not_finite, "it isn't a finite number");
+    refuse(topic, Refusal::not_finite, "it isn't a finite number");
     return;
   }
   apply_point({{actuator, channel}}, {value});
@@ -62,11 +62,11 @@ void TopicCommands::array(const std::string& topic, const ActuatorsCmd& message)
   const std::size_t n = robot_.size();
   const auto& values = message.positions;
   if (values.size() != 2 * n) {
-    refuse(topic, Fault::wrong_length, length_text(values.size(), 2 * n, "all equilibria, then all presets"));
+    refuse(topic, Refusal::wrong_length, length_text(values.size(), 2 * n, "all equilibria, then all presets"));
     return;
   }
   if (const auto bad = first_not_finite(values)) {
-    refuse(topic, Fault::not_finite, not_finite_text(*bad));
+    refuse(topic, Refusal::not_finite, not_finite_text(*bad));
     return;
   }
   std::vector<Robot::Command> commands;
@@ -80,7 +80,7 @@ bool TopicCommands::find_targets(const std::string& topic, const Trajectory& mes
     if (found == targets_.end()) {
       std::string known;
       for (const auto& actuator : robot_.config().actuators) known += (known.empty() ? "" : ", ") + actuator.name;
-      refuse(topic, Fault::unknown_name, "no actuator '" + name + "' (allowed: " + known + ", each also with _preset)");
+      refuse(topic, Refusal::unknown_name, "no actuator '" + name + "' (allowed: " + known + ", each also with _preset)");
       return false;
     }
     targets.push_back(found->second);
@@ -88,7 +88,7 @@ bool TopicCommands::find_targets(const std::string& topic, const Trajectory& mes
   std::set<Target> seen;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     if (seen.insert(targets[i]).second) continue;
-    refuse(topic, Fault::repeated_name, "'" + message.names[i] + "' is named twice");
+    refuse(topic, Refusal::repeated_name, "'" + message.names[i] + "' is named twice");
     return false;
   }
   return true;
@@ -100,16 +100,16 @@ bool TopicCommands::check_points(const std::string& topic, const Trajectory& mes
     const auto& point = message.points[p];
     const std::string where = "point " + std::to_string(p) + ": ";
     if (point.positions.size() != message.names.size()) {
-      refuse(topic, Fault::wrong_length, where + length_text(point.positions.size(), message.names.size(), "one a joint name"));
+      refuse(topic, Refusal::wrong_length, where + length_text(point.positions.size(), message.names.size(), "one a joint name"));
       return false;
     }
     if (const auto bad = first_not_finite(point.positions)) {
-      refuse(topic, Fault::not_finite, where + not_finite_text(*bad));
+      refuse(topic, Refusal::not_finite, where + not_finite_text(*bad));
       return false;
     }
     const double time = point.time_from_start_s;
     if (!(time >= 0 && time > last && time <= kLongest_s)) {
-      refuse(topic, Fault::bad_times, where + "time_from_start must grow from point to point, within 0 … 1e9 s");
+      refuse(topic, Refusal::bad_times, where + "time_from_start must grow from point to point, within 0 … 1e9 s");
       return false;
     }
     last = time;
@@ -119,7 +119,7 @@ bool TopicCommands::check_points(const std::string& topic, const Trajectory& mes
 
 void TopicCommands::trajectory(const std::string& topic, const Trajectory& message) {
   if (message.names.empty() || message.points.empty()) {
-    refuse(topic, Fault::empty, "it has no joint names or no points");
+    refuse(topic, Refusal::empty, "it has no joint names or no points");
     return;
   }
   std::vector<Target> targets;

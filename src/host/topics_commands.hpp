@@ -15,7 +15,7 @@
 
 namespace vsa::host {
 
-enum class Fault { not_finite, wrong_length, unknown_name, repeated_name, empty, bad_times };
+enum class Refusal { not_finite, wrong_length, unknown_name, repeated_name, empty, bad_times };
 
 class TopicCommands {
  public:
@@ -34,7 +34,7 @@ class TopicCommands {
     bool operator<(const Target& other) const { return std::pair(actuator, channel) < std::pair(other.actuator, other.channel); }
   };
 
-  void refuse(const std::string& topic, Fault fault, const std::string& text);
+  void refuse(const std::string& topic, Refusal fault, const std::string& text);
   [[nodiscard]] bool find_targets(const std::string& topic, const Trajectory& message, std::vector<Target>& targets);
   [[nodiscard]] bool check_points(const std::string& topic, const Trajectory& message);
   void apply_point(const std::vector<Target>& targets, const std::vector<double>& values);
@@ -44,7 +44,7 @@ class TopicCommands {
   std::map<std::string, Target, std::less<>> targets_;
   std::atomic<std::uint64_t> refused_{0};
   std::mutex mutex_;  // guards reported_
-  std::set<std::pair<std::string, Fault>> reported_;
+  std::set<std::pair<std::string, Refusal>> reported_;
 };
 
 }  // namespace vsa::host

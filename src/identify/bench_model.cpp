@@ -60,7 +60,7 @@ class Surrogate {
  public:
   Surrogate(const Task& task, const experiment::Specimen& specimen, const SweepOptions& sweep, experiment::Watch* watch)
       : specimen_(specimen), parameters_(task.parameters), watch_(watch), load_peak_Nm_(experiment::bench_load_peak_Nm(specimen)) {
-    const device::UnitConfig unit = specimen.library.load(specimen.preset, specimen.overrides).unit;
+    const device::UnitConfig unit = specimen.library.load(specimen.type, specimen.overrides).unit;
     const std::string_view preset_unit = unit.actuator.transmission->preset_unit();
     for (const Observation& o : task.observations) {
       presets_.push_back(o.preset);
@@ -98,7 +98,7 @@ class Surrogate {
       }
     }
     const device::UnitConfig unit =
-        specimen_.library.load(specimen_.preset, overrides(parameters_, values, specimen_.overrides)).unit;
+        specimen_.library.load(specimen_.type, overrides(parameters_, values, specimen_.overrides)).unit;
     if (const auto why = unsupported(unit)) throw std::runtime_error(*why);
     auto made = std::make_shared<const Known>(Known{values, QuasiStatic(unit, load_peak_Nm_)});
     const std::lock_guard lock(mutex_);
@@ -119,7 +119,7 @@ class Surrogate {
 };
 
 void use_quasi_static(Task& task, const experiment::Specimen& specimen, const SweepOptions& sweep, experiment::Watch* watch) {
-  const auto why = unsupported(specimen.library.load(specimen.preset, specimen.overrides).unit);
+  const auto why = unsupported(specimen.library.load(specimen.type, specimen.overrides).unit);
   task.no_surrogate = why.value_or("");
   task.surrogate = nullptr;
   if (why) return;

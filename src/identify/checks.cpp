@@ -39,6 +39,9 @@ std::vector<LeftOut> leave_one_preset_out(const Task& task, const Fit& fit, cons
       t.parameters = task.parameters;
       for (std::size_t o : which) t.observations.push_back(task.observations[o]);
       t.model = [&task, which](const std::vector<double>& values, std::size_t o) { return task.model(values, which[o]); };
+      if (task.surrogate)
+        t.surrogate = [&task, which](const std::vector<double>& values, std::size_t o) { return task.surrogate(values, which[o]); };
+      t.no_surrogate = task.no_surrogate;
       t.prepare = task.prepare;
       return t;
     };
@@ -47,7 +50,7 @@ std::vector<LeftOut> leave_one_preset_out(const Task& task, const Fit& fit, cons
     LeftOut result{preset, {}, {}, 0, 0};
     if (task.prepare) task.prepare(fit.values);
     result.rms_rad_of_all = rms(test_residuals.at(fit.values));
-    result.values = solve(training_residuals, fit.values, std::vector<bool>(fit.values.size(), false), options).to;
+    result.values = identify::fit(training_residuals, options).values;
     if (task.prepare) task.prepare(result.values);
     const std::vector<double> residuals = test_residuals.at(result.values);
     result.rms_rad = rms(residuals);

@@ -37,8 +37,8 @@ std::string text_of(const Observation& o) {
 
 /// What is the same for all fits of a hypothesis.
 std::string text_of(const Comparison& c, const Hypothesis& h) {
-  std::string out = "fit 2\nlaw " + h.preset.law + '\n';
-  for (const config::Entry& e : h.preset.entries) out += e.key + " = " + e.value + '\n';
+  std::string out = "fit 2\nlaw " + h.type.law + '\n';
+  for (const config::Entry& e : h.type.entries) out += e.key + " = " + e.value + '\n';
   for (const Parameter& p : h.free) out += fmt::format("free {} {} {} {}\n", p.name, p.start, p.min, p.max);
   out +=
       fmt::format("sweep {} {} {} {}\n", c.sweep.period_s, c.sweep.amplitude_rad.value_or(0.0), c.sweep.cycles, c.sweep.sample_s);

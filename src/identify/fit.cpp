@@ -43,7 +43,7 @@ void tell(const FitOptions& o, const std::string& text) {
   if (o.progress) o.progress(text);
 }
 
-/// The best of the trials about the preset's values.
+/// The best of the trials about the type's values.
 void add_trials(std::vector<std::vector<double>>& to, const Residuals& residuals, std::size_t starts) {
   const auto trials = candidates(residuals.task(), 4 * (static_cast<int>(starts) - 1));
   const auto found = residuals.at_all(trials);
@@ -111,7 +111,7 @@ Fit fit(const Residuals& residuals, const FitOptions& o) {
   std::vector<double> first;
   for (const Parameter& p : task.parameters) first.push_back(p.start);
   if (task.prepare) task.prepare(first);
-  (void)residuals.at(first);  // what is wrong with the preset's own values is told before anything else
+  (void)residuals.at(first);  // what is wrong with the type's own values is told before anything else
   Fit out;
   for (const std::vector<double>& from : starting_points(residuals, o)) {
     try {
@@ -120,7 +120,7 @@ Fit fit(const Residuals& residuals, const FitOptions& o) {
       out.starts.push_back(solve(residuals, near, none, o));
       out.starts.back().from = from;
     } catch (const InputError&) {
-      if (out.starts.empty()) throw;  // a trial's values may make no sense together; the preset's do
+      if (out.starts.empty()) throw;  // a trial's values may make no sense together; the type's do
       continue;
     }
     tell(o, fmt::format("start {}: RMS {:.5f} rad after {} iterations", out.starts.size(), out.starts.back().rms_rad,

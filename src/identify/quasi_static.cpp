@@ -42,10 +42,14 @@ double root(const Function& f, double guess) {
 }
 
 /// A bristle's bend after friction let go of what it can't hold.
-double bent(const drive::Friction& p, double u) { return std::clamp(u, -p.presliding_rad, p.presliding_rad); }
+template <class Friction>
+double bent(const Friction& p, double u) {
+  return std::clamp(u, -p.presliding_rad, p.presliding_rad);
+}
 
 /// Torque against a motion that bends the bristle to `u`; without one, against its sense.
-double friction_at(const drive::Friction& p, double u, double sense) {
+template <class Friction>
+double friction_at(const Friction& p, double u, double sense) {
   return p.stiffness > 0 ? p.stiffness * bent(p, u) : sense * p.coulomb_Nm;
 }
 
@@ -75,7 +79,7 @@ double QuasiStatic::rub(const Step& s, int spring, double w) const {
   return friction_at(tendon_, s.from.tendon_u[n] + w - s.from.w[n], -s.sense);
 }
 
-drive::Friction QuasiStatic::gear(double load, double sense) const {
+drive::FrictionOf<double> QuasiStatic::gear(double load, double sense) const {
   return drive::at_load(gear_, load * sense > 0 ? back_loss_ : unit_.actuator.gearbox.load_loss, load);
 }
 

@@ -5,71 +5,47 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "vsa/config/schema.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::identify {
 namespace {
 
-struct Range {
-  double min, max;
-};
-
-/// "0 … 100", as config::range_text writes it.
-std::optional<Range> read_range(std::string_view text) {
-  constexpr std::string_view kMark = " … ";
-  const std::size_t at = text.find(kMark);
-  if (at == std::string_view::npos) return std::nullopt;
-  const auto min = config::parse_number(text.substr(0, at)), max = config::parse_number(text.substr(at + kMark.size()));
-  return min && max ? std::optional<Range>({*min, *max}) : std::nullopt;
+const config::Entry* find(const config::ActuatorType& type, const std::string& key) {
+  const auto it = std::find_if(type.entries.begin(), type.entries.end(), [&](const config::Entry& e) { return e.key == key; });
+  return it == type.entries.end() ? nullptr : &*it;
 }
 
-const config::Entry* find(const config::Preset& preset, const std::string& key) {
-  const auto it = std::find_if(preset.entries.begin(), preset.entries.end(), [&](const config::Entry& e) { return e.key == key; });
-  return it == preset.entries.end() ? nullptr : &*it;
-}
-
-/// Words, switches and whole numbers have no derivative. A law's keys aren't in the table: all of them are numbers.
-bool real_number(const std::string& key) {
-  for (const config::Parameter& p : config::parameters()) {
-    if (p.key == key) return p.kind == config::Kind::number;
-  }
-  return true;
-}
-
-std::vector<std::string> keys_of(const config::Preset& preset) {
+std::vector<std::string> keys_of(const config::ActuatorType& type) {
   std::vector<std::string> keys;
-  for (const config::Entry& e : preset.entries) keys.push_back(e.key);
+  for (const config::Entry& e : type.entries) keys.push_back(e.key);
   return keys;
 }
 
-/// Adds one key of the preset to a parameter: the first gives start and unit.
-void add_key(Parameter& parameter, const std::string& key, const config::Preset& preset, Problems& problems) {
-  const config::Entry* entry = find(preset, key);
+/// Adds one key of the type to a parameter: the first gives start and unit.
+void add_key(Parameter& parameter, const std::string& key, const config::ActuatorType& type, Problems& problems) {
+  const config::Entry* entry = find(type, key);
   if (entry == nullptr) {
-    problems.add({"--parameters", key, "", "preset " + preset.name + " has no such key", config::nearest(key, keys_of(preset))});
+    problems.add({"--parameters", key, "", "type " + type.name + " has no such key", config::nearest(key, keys_of(type))});
     return;
   }
-  const auto value = config::parse_number(entry->value);
-  const auto range = read_range(entry->bounds);
-  if (!real_number(key) || !value || !range) {
+  // Words, switches and whole numbers have no derivative.
+  if (entry->kind != config::Kind::number) {
     problems.add(
         {"--parameters", key, entry->value, "isn't a real number, so it can't be identified", "keys with a unit and bounds"});
     return;
   }
   if (parameter.keys.empty()) {
     parameter.unit = entry->unit;
-    parameter.start = *value;
-    parameter.min = range->min;
-    parameter.max = range->max;
+    parameter.start = entry->number;
+    parameter.min = entry->min;
+    parameter.max = entry->max;
   } else if (parameter.unit != entry->unit) {
     problems.add({"--parameters", key, entry->unit, "tied to a key of another unit", parameter.unit});
   }
-  parameter.min = std::max(parameter.min, range->min);
-  parameter.max = std::min(parameter.max, range->max);
+  parameter.min = std::max(parameter.min, entry->min);
+  parameter.max = std::min(parameter.max, entry->max);
   parameter.keys.push_back(key);
 }
 
@@ -84,7 +60,7 @@ double Parameter::value_at(double coordinate) const {
   return std::clamp(logarithmic() ? std::exp(coordinate) : coordinate, min, max);
 }
 
-std::vector<Parameter> parse_parameters(const std::string& text, const config::Preset& preset) {
+std::vector<Parameter> parse_parameters(const std::string& text, const config::ActuatorType& type) {
   Problems problems;
   std::vector<Parameter> out;
   std::vector<std::string> seen;
@@ -98,7 +74,7 @@ std::vector<Parameter> parse_parameters(const std::string& text, const config::P
       } else if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
         problems.add({"--parameters", key, "", "named twice", "once"});
       } else {
-        add_key(parameter, key, preset, problems);
+        add_key(parameter, key, type, problems);
       }
       seen.push_back(key);
     }
@@ -127,13 +103,13 @@ std::vector<config::Override> overrides(const std::vector<Parameter>& parameters
   return out;
 }
 
-Observation read_observation(const std::filesystem::path& file, const config::Preset& preset) {
+Observation read_observation(const std::filesystem::path& file, const config::ActuatorType& type) {
   constexpr std::string_view kBranches = "_branches.csv";
   const std::string path = file.string();
   const experiment::NamedPreset named = experiment::preset_of_name(file);
-  const std::string unit(preset.unit.actuator.transmission->preset_unit());
+  const std::string unit(type.unit.actuator.transmission->preset_unit());
   if (named.unit != unit) {
-    throw InputError({path, "file name", named.unit, "the preset isn't in the unit of " + preset.name,
+    throw InputError({path, "file name", named.unit, "the preset isn't in the unit of " + type.name,
                       unit.empty() ? "an actuator with a preset" : unit});
   }
   const bool means = path.size() >= kBranches.size() && path.substr(path.size() - kBranches.size()) == kBranches;

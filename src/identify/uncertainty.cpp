@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
@@ -73,7 +74,7 @@ bool undetermined(const Uncertainty& u, std::size_t parameter) {
 
 void fill(Uncertainty& out, const Scaled& s, const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& white, const Fit& fit,
           const std::vector<Parameter>& parameters) {
-  const double t = student_quantile(0.975, out.degrees_of_freedom);
+  const double t = boost::math::quantile(boost::math::students_t(out.degrees_of_freedom), 0.975);
   for (std::size_t j = 0; j < s.free.size(); ++j) {
     const std::size_t k = s.free[j];
     const bool none = undetermined(out, k);

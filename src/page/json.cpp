@@ -1,11 +1,13 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/page/json.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
+
+#include "vsa/bits.hpp"
 
 namespace vsa::page {
 
@@ -17,17 +19,13 @@ Json number(double value) {
 }
 
 Json number(float value) {
-  char text[32];
-  double same = value;
-  std::from_chars(text, std::to_chars(text, text + sizeof text, value).ptr, same);
-  return number(same);
+  if (!std::isfinite(value)) return nullptr;
+  return number(Json::parse(fmt::format("{}", value)).get<double>());
 }
 
 Json number(double value, int digits) {
-  char text[32];
-  double rounded = value;
-  std::from_chars(text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr, rounded);
-  return number(rounded);
+  if (!std::isfinite(value)) return nullptr;
+  return number(Json::parse(fmt::format("{:.{}g}", value, digits)).get<double>());
 }
 
 std::string text(const Json& json) {
@@ -53,6 +51,18 @@ std::string text(const Json& json) {
   return out;
 }
 
+Json real(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json reals(const std::vector<double>& values) {
+  Json out = Json::array();
+  for (const double v : values) out.push_back(real(v));
+  return out;
+}
+
+Json results_head(const std::string& command) { return {{"program", "vsa " VSA_VERSION}, {"command", command}}; }
+
+std::string results_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+
 std::string well_formed(std::string_view value) {
   return Json::parse(Json(value).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
@@ -61,7 +71,8 @@ std::string base64(const std::vector<float>& values) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   const std::size_t bytes = values.size() * 4;
   const auto byte = [&](std::size_t i) -> std::uint32_t {
-    return i < bytes ? (std::bit_cast<std::uint32_t>(values[i / 4]) >> (8 * (i % 4))) & 0xFFU : 0U;
+    if (i >= bytes) return 0;
+    return (bits_as<std::uint32_t>(values[i / 4]) >> (8 * (i % 4))) & 0xFFU;
   };
   std::string out;
   out.reserve((bytes + 2) / 3 * 4);

@@ -2,6 +2,7 @@
 #include "vsa/record/csv.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 #include <utility>
 
@@ -134,7 +135,10 @@ struct CsvFiles::Impl {
 
   void write_energy(const Sample& sample) {
     text = time;
-    for (const EnergyColumn& c : kEnergyColumns) cell(text, c.value(sample));
+    for (const EnergyColumn& c : kEnergyColumns) {
+      const double value = c.value(sample);
+      std::isnan(value) ? void(text += ',') : cell(text, value);
+    }
     text += '\n';
     files[robots.size() + 1].append(text);
   }

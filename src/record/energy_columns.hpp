@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string_view>
 
 #include "vsa/record/run_data.hpp"
@@ -14,6 +15,11 @@ struct EnergyColumn {
   std::string_view name;  // without the unit, J
   double (*value)(const Sample&);
 };
+
+/// NaN where the simulator doesn't tell it: an empty cell.
+inline double body(const Sample& sample, double scene::Energy::*entry) {
+  return sample.bodies ? (*sample.bodies).*entry : std::numeric_limits<double>::quiet_NaN();
+}
 
 // "motor_kinetic" is the ledger's own kinetic energy (motors); "kinetic" is that of the bodies.
 inline constexpr std::array<EnergyColumn, 23> kEnergyColumns{{
@@ -38,8 +44,8 @@ inline constexpr std::array<EnergyColumn, 23> kEnergyColumns{{
     {"stored_at_start", [](const Sample& s) { return s.ledger.stored_at_start; }},
     {"supply_moved", [](const Sample& s) { return s.ledger.supply_moved; }},
     {"delivered_moved", [](const Sample& s) { return s.ledger.delivered_moved; }},
-    {"kinetic", [](const Sample& s) { return s.kinetic_J; }},
-    {"gravitational", [](const Sample& s) { return s.gravitational_J; }},
+    {"kinetic", [](const Sample& s) { return body(s, &scene::Energy::kinetic); }},
+    {"gravitational", [](const Sample& s) { return body(s, &scene::Energy::gravitational); }},
 }};
 
 }  // namespace vsa::record

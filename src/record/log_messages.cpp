@@ -103,9 +103,9 @@ std::string column_name(const EnergyColumn& c) { return std::string(c.name) + "_
 
 std::string actuators_schema() {
   Json fields{{"name", of_type("string", "the actuator's name")}};
-  for (const Number& n : kNumbers) fields[n.name] = of_type("number", n.description);
+  for (const Number& n : kNumbers) fields[std::string(n.name)] = of_type("number", n.description);
   fields["preset_unit"] = of_type("string", "of the preset; it belongs to the actuator's law; empty: no unit");
-  for (const MotorNumber& n : kMotorNumbers) fields[n.name] = array_of(of_type("number"), n.description);
+  for (const MotorNumber& n : kMotorNumbers) fields[std::string(n.name)] = array_of(of_type("number"), n.description);
   fields["measured_motor_ticks"] = array_of(of_type("integer"), "the unit's own reading of each motor, as its master last read it");
   fields["measured_shaft_ticks"] = of_type("integer", "the same of the shaft");
   return object("vsasim.ActuatorStates",

@@ -29,9 +29,9 @@ void energy_message(std::string& out, const Sample& sample);
 
 [[nodiscard]] std::string transforms_schema();
 void transforms_message(std::string& out, std::int64_t time_ns, const std::vector<LogLink>& links,
-                        const std::vector<engine::Pose>& poses);
+                        const std::vector<scene::Pose>& poses);
 
 [[nodiscard]] std::string scene_schema();
-[[nodiscard]] std::string scene_message(std::int64_t time_ns, const std::vector<engine::LinkInfo>& links);
+[[nodiscard]] std::string scene_message(std::int64_t time_ns, const std::vector<scene::LinkInfo>& links);
 
 }  // namespace vsa::record

@@ -3,8 +3,6 @@
 // Poses and shapes in Foxglove's well-known schemas (docs.foxglove.dev, "Message schemas": FrameTransforms, SceneUpdate). Viewers
 // know them by their names; the schemas here describe the part of them that is written, and lists that are always empty without
 // their items.
-#include <cmath>
-
 #include "record/log_messages.hpp"
 #include "record/number_text.hpp"
 #include "record/schema.hpp"
@@ -12,9 +10,9 @@
 namespace vsa::record {
 namespace {
 
-using engine::Pose;
-using engine::Shape;
 using page::Json;
+using scene::Pose;
+using scene::Shape;
 using schema::array_of;
 using schema::object;
 using schema::of_type;
@@ -43,13 +41,6 @@ void rotation(std::string& out, const std::array<double, 4>& q) {
   out += "\"w\":";
   put(out, q[0]);
   out += '}';
-}
-
-bool finite(const Pose& p) {
-  bool all = true;
-  for (const double v : p.position) all = all && std::isfinite(v);
-  for (const double v : p.quaternion) all = all && std::isfinite(v);
-  return all;
 }
 
 std::string pose_text(const Pose& p) {
@@ -137,7 +128,7 @@ struct Primitives {
   }
 };
 
-std::string entity(const engine::LinkInfo& link, const std::string& time) {
+std::string entity(const scene::LinkInfo& link, const std::string& time) {
   const std::string name = page::json_string(link.name);
   Primitives p;
   for (const Shape& s : link.visuals) p.add(s);
@@ -219,10 +210,10 @@ std::string scene_schema() {
   return object("foxglove.SceneUpdate", {{"deletions", none("foxglove.SceneEntityDeletion")}, {"entities", array_of(one)}}).dump();
 }
 
-std::string scene_message(std::int64_t time_ns, const std::vector<engine::LinkInfo>& links) {
+std::string scene_message(std::int64_t time_ns, const std::vector<scene::LinkInfo>& links) {
   const std::string time = time_text(time_ns);
   std::string out;
-  for (const engine::LinkInfo& link : links) {
+  for (const scene::LinkInfo& link : links) {
     if (!link.visuals.empty()) (out += out.empty() ? "" : ",") += entity(link, time);
   }
   return "{\"deletions\":[],\"entities\":[" + out + "]}";

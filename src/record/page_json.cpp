@@ -25,14 +25,14 @@ Json array(const Range& range, F&& f) {
   return out;
 }
 
-Json pose(const engine::Pose& p) {
+Json pose(const scene::Pose& p) {
   Json out = numbers(p.position);
   for (const double v : p.quaternion) out.push_back(page::number(v));
   return out;
 }
 
-std::string_view kind_name(engine::Shape::Kind kind) {
-  using K = engine::Shape::Kind;
+std::string_view kind_name(scene::Shape::Kind kind) {
+  using K = scene::Shape::Kind;
   switch (kind) {
     case K::box:
       return "box";
@@ -55,7 +55,7 @@ std::string_view kind_name(engine::Shape::Kind kind) {
 /// Triangles are written once, however many links show them.
 class Geometries {
  public:
-  std::size_t index(const engine::Shape& shape) {
+  std::size_t index(const scene::Shape& shape) {
     const auto [at, fresh] = known_.try_emplace({shape.vertices, shape.indices}, known_.size());
     if (fresh) {
       // Indices as floats stay exact up to 2^24 corners.
@@ -71,13 +71,13 @@ class Geometries {
   Json json_ = Json::array();
 };
 
-Json visual(const engine::Shape& s, Geometries& geometries) {
+Json visual(const scene::Shape& s, Geometries& geometries) {
   Json out{{"kind", kind_name(s.kind)}, {"pose", pose(s.pose)}, {"size", numbers(s.size)}, {"rgba", numbers(s.rgba)}};
   if (!s.vertices.empty()) out["geometry"] = geometries.index(s);
   return out;
 }
 
-Json link(const engine::LinkInfo& l, const engine::Pose* fixed, Geometries& geometries) {
+Json link(const scene::LinkInfo& l, const scene::Pose* fixed, Geometries& geometries) {
   Json out{{"name", l.name}, {"model", l.model}, {"mass_kg", page::number(l.mass_kg)}};
   if (fixed != nullptr) out["pose"] = pose(*fixed);
   out["visuals"] = array(l.visuals, [&](const auto& s) { return visual(s, geometries); });
@@ -85,17 +85,17 @@ Json link(const engine::LinkInfo& l, const engine::Pose* fixed, Geometries& geom
 }
 
 Json actuator(const ActuatorInfo& a) {
-  return {{"name", a.name},     {"joint", a.joint}, {"preset", a.preset}, {"preset_unit", a.preset_unit},
+  return {{"name", a.name},     {"joint", a.joint}, {"type", a.type}, {"preset_unit", a.preset_unit},
           {"motors", a.motors}, {"links", a.links}};
 }
 
 }  // namespace
 
-Json page_header(const RunInfo& info, const PageText& text, const std::vector<engine::Pose>& first) {
+Json page_header(const RunInfo& info, const PageText& text, const std::vector<scene::Pose>& first) {
   Geometries geometries;
   Json links = Json::array();
   for (std::size_t i = 0; i < info.links.size(); ++i) {
-    const engine::Pose* fixed = info.links[i].is_static && i < first.size() ? &first[i] : nullptr;
+    const scene::Pose* fixed = info.links[i].is_static && i < first.size() ? &first[i] : nullptr;
     links.push_back(link(info.links[i], fixed, geometries));
   }
   const auto robot = [](const RobotInfo& r) { return Json{{"model", r.model}, {"actuators", array(r.actuators, actuator)}}; };

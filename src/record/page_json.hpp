@@ -9,6 +9,6 @@
 namespace vsa::record {
 
 /// The members of the page's JSON object that aren't frames. `first`: poses of the links that don't move (all links' first sample).
-[[nodiscard]] page::Json page_header(const RunInfo& info, const PageText& text, const std::vector<engine::Pose>& first);
+[[nodiscard]] page::Json page_header(const RunInfo& info, const PageText& text, const std::vector<scene::Pose>& first);
 
 }  // namespace vsa::record

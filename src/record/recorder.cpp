@@ -9,7 +9,7 @@ namespace vsa::record {
 namespace {
 
 ActuatorInfo describe(const host::ActuatorConfig& config) {
-  ActuatorInfo info{config.name, config.joint, config.preset, "", 2, {}};
+  ActuatorInfo info{config.name, config.joint, config.type, "", 2, {}};
   if (const auto& law = config.unit.actuator.transmission) {
     info.preset_unit = law->preset_unit();
     info.motors = law->motor_count();
@@ -22,7 +22,7 @@ void add_faults(const ActuatorInfo& actuator, const device::Faults& faults, std:
   (all += all.empty() ? "" : "; ") += actuator.name + " " + config::faults_text(faults);
 }
 
-RunInfo info_of(const engine::World& world, const RecorderOptions& options) {
+RunInfo info_of(const host::Simulation& world, const RecorderOptions& options) {
   RunInfo info = record::describe(world);
   if (!options.faults.empty()) info.faults = options.faults;
   return info;
@@ -30,21 +30,20 @@ RunInfo info_of(const engine::World& world, const RecorderOptions& options) {
 
 }  // namespace
 
-void read(const engine::World& world, Sample& sample) {
+void read(const host::Simulation& world, Sample& sample) {
   sample.time_ns = world.time_ns();
   sample.actuators.clear();
+  sample.ledger = {};
   for (std::size_t r = 0; r < world.robot_count(); ++r) {
     for (std::size_t i = 0; i < world.robot(r).size(); ++i) sample.actuators.push_back(world.robot(r).read(i));
+    sample.ledger += world.robot(r).ledger();
   }
   sample.poses.resize(world.links().size());
   world.poses(sample.poses);
-  sample.ledger = world.ledger();
-  const engine::World::Energy energy = world.energy();
-  sample.kinetic_J = energy.kinetic;
-  sample.gravitational_J = energy.gravitational;
+  sample.bodies = world.body_energy();
 }
 
-RunInfo describe(const engine::World& world) {
+RunInfo describe(const host::Simulation& world) {
   RunInfo info{world.name(), world.step_s(), {}, world.links()};
   for (std::size_t r = 0; r < world.robot_count(); ++r) {
     RobotInfo robot{world.robot_model(r), {}};
@@ -59,13 +58,13 @@ RunInfo describe(const engine::World& world) {
   return info;
 }
 
-Recorder::Recorder(const engine::World& world, const std::filesystem::path& directory, RecorderOptions options)
+Recorder::Recorder(const host::Simulation& world, const std::filesystem::path& directory, RecorderOptions options)
     : record_{info_of(world, options), directory, std::move(options)} {
   read(world, sample_);
   record_.add(sample_);
 }
 
-void Recorder::sample(const engine::World& world) {
+void Recorder::sample(const host::Simulation& world) {
   if (!record_.due(world.time_ns())) return;
   read(world, sample_);
   record_.add(sample_);

@@ -61,9 +61,9 @@ struct RunLog::Impl {
                     {"foxglove.SceneUpdate", scene_schema()}},
                    {}};
     for (const RobotInfo& robot : info.robots) {
-      McapMap presets;
-      for (const ActuatorInfo& a : robot.actuators) presets.emplace_back(a.name, a.preset);
-      c.channels.push_back({kActuators, unused(c, "/model/" + host::slashed(robot.model), "/actuators"), presets});
+      McapMap types;
+      for (const ActuatorInfo& a : robot.actuators) types.emplace_back(a.name, a.type);
+      c.channels.push_back({kActuators, unused(c, "/model/" + host::slashed(robot.model), "/actuators"), types});
     }
     const std::string world = "/world/" + host::slashed(info.world);
     c.channels.push_back({kEnergy, world + "/energy"});

@@ -69,13 +69,8 @@ struct BlockJson {
     return {{"kind", "table"}, {"title", t.title}, {"head", t.head}, {"rows", t.rows}, {"caption", t.caption}};
   }
   Json operator()(const Chart& c) const {
-    return {{"kind", "chart"},
-            {"title", c.title},
-            {"x_label", c.x_label},
-            {"y_label", c.y_label},
-            {"y_log", c.y_log},
-            {"caption", c.caption},
-            {"curves", array(c.curves, curve)}};
+    return {{"kind", "chart"},  {"title", c.title}, {"x_label", c.x_label}, {"y_label", c.y_label},
+            {"y_log", c.y_log}, {"x_log", c.x_log}, {"caption", c.caption}, {"curves", array(c.curves, curve)}};
   }
   Json operator()(const Figures& f) const { return {{"kind", "figures"}, {"figures", array(f.figures, figure)}}; }
 };

@@ -6,7 +6,11 @@ namespace {
 
 std::string row(const std::vector<std::string>& cells) {
   std::string out = "|";
-  for (const std::string& cell : cells) out += ' ' + cell + " |";
+  for (const std::string& cell : cells) {
+    out += ' ';
+    for (const char c : cell) out += c == '|' ? "\\|" : std::string(1, c);  // a bar would begin another cell
+    out += " |";
+  }
   return out + '\n';
 }
 

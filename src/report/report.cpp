@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/page/page.hpp"
 

@@ -11,7 +11,6 @@
 #include <stdexcept>
 
 #include "vsa/report/report.hpp"
-#include "vsa/xml_escape.hpp"
 
 namespace vsa::report {
 namespace {
@@ -21,6 +20,17 @@ constexpr double kLeft = 74, kRight = 16, kTop = 66, kBottom = 54;
 constexpr double kLetter = 6.6;  // px, about a letter's width at 12 px
 constexpr const char* kGrey = "#6b7680";
 constexpr std::array<const char*, 6> kColors{"#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9"};  // Okabe and Ito
+
+/// Text in an element: control characters, of which XML allows few, are spaces.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const char* entity = c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : nullptr;
+    if (entity != nullptr) out += entity;
+    if (entity == nullptr) out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return out;
+}
 
 std::string px(double v) {
   char text[32];
@@ -78,9 +88,11 @@ class Axis {
 
  private:
   [[nodiscard]] std::vector<Mark> decades() const {
+    constexpr double kFew = 2.2;  // decades; over more of them 2 and 5 would run into each other
     std::vector<Mark> out;
     for (double k = std::floor(low_); k <= high_; k += 1) {
       for (const double m : {1.0, 2.0, 5.0}) {
+        if (m > 1 && high_ - low_ > kFew) continue;
         const double value = m * std::pow(10, k);
         if (std::log10(value) < low_ || std::log10(value) > high_) continue;
         char text[32];
@@ -109,8 +121,7 @@ struct Range {
 };
 
 std::string text_at(double x, double y, const std::string& text, const char* anchor, const char* more = "") {
-  return "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" + xml_escaped(text) +
-         "</text>\n";
+  return "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" + escaped(text) + "</text>\n";
 }
 
 std::string line(double x1, double y1, double x2, double y2, const std::string& color, const char* more = "") {
@@ -136,8 +147,7 @@ class Drawing {
     const std::string size = "width=\"" + px(kWidth) + "\" height=\"" + px(kHeight) + "\"";
     std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" " + size + " viewBox=\"0 0 " + px(kWidth) + ' ' + px(kHeight) +
                       "\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" fill=\"#1d242b\">\n";
-    out +=
-        "<title>" + xml_escaped(chart_.title) + "</title>\n<rect " + size + " fill=\"#ffffff\"/>\n";  // readable on a dark page too
+    out += "<title>" + escaped(chart_.title) + "</title>\n<rect " + size + " fill=\"#ffffff\"/>\n";  // readable on a dark page too
     out += text_at(kLeft, 22, chart_.title, "start", " font-size=\"14\" font-weight=\"bold\"") + legend() + frame();
     for (const bool bands : {true, false}) {
       for (const Curve& c : chart_.curves) {
@@ -152,10 +162,10 @@ class Drawing {
     Range r;
     for (const Curve& c : chart_.curves) {
       for (std::size_t i = 0; i < c.x.size(); ++i) {
-        if (std::isfinite(c.y[i])) r.add(c.x[i], false);
+        if (std::isfinite(c.y[i])) r.add(c.x[i], chart_.x_log);
       }
     }
-    return r.axis(kLeft, kWidth - kRight, false);
+    return r.axis(kLeft, kWidth - kRight, chart_.x_log);
   }
   [[nodiscard]] Axis y_axis() const {
     Range r;
@@ -208,7 +218,7 @@ class Drawing {
     return out;
   }
 
-  [[nodiscard]] bool draws(const Curve& c, std::size_t i) const { return std::isfinite(c.x[i]) && y_.draws(c.y[i]); }
+  [[nodiscard]] bool draws(const Curve& c, std::size_t i) const { return x_.draws(c.x[i]) && y_.draws(c.y[i]); }
 
   [[nodiscard]] std::string curve(const Curve& c) const {
     if (c.style == Curve::Style::band) return band(c);

@@ -9,6 +9,7 @@
 
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/state_io.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::seat {
@@ -46,7 +47,7 @@ void start_with_joints(host::RobotConfig& config, const Model& model, Problems& 
 }
 
 host::Robot make_robot(const Model& model, const Options& options) {
-  host::RobotConfig config = config::parse_plugin(model.xml, model.where, options.presets, options.actuator);
+  host::RobotConfig config = config::parse_plugin(model.xml, model.where, options.types, options.actuator);
   Problems problems;
   check_joints(config, model, problems);
   start_with_joints(config, model, problems);
@@ -80,10 +81,13 @@ Seat::Seat(const Model& model, const Options& options)
       driven_(model.where, driven(robot_, model, joints_)),
       report_(options.report),
       watches_pace_(options.watches_pace),
-      now_{0, false, std::vector<host::JointIn>(robot_.size())},
-      kept_(now_),
+      own_{{0, false, std::vector<host::JointIn>(robot_.size())}, {}, host::MobilityWatch(robot_.size())},
+      kept_(own_),
+      loaded_(own_),
       torques_(robot_.size(), 0.0),
-      watch_(robot_.size()) {}
+      own_size_(state::size_of(own_)) {
+  for (const std::string& notice : robot_.config().notices) tell(notice);
+}
 
 Seat::Seat(const Seat& other, host::Robot robot)
     : model_(other.model_),
@@ -91,11 +95,11 @@ Seat::Seat(const Seat& other, host::Robot robot)
       joints_(other.joints_),
       driven_("", {}),
       watches_pace_(other.watches_pace_),
-      now_(other.now_),
+      own_(other.own_),
       kept_(other.kept_),
+      loaded_(other.own_),
       torques_(other.torques_),
-      mobility_(other.mobility_),
-      watch_(other.watch_) {}
+      own_size_(other.own_size_) {}
 
 Seat::~Seat() { disconnect(); }
 
@@ -113,79 +117,119 @@ void Seat::join(const std::vector<std::vector<std::size_t>>& trees) {
     return;
   }
   robot_.join(trees);
-  mobility_.resize(robot_.mobility_size());
+  own_.mobility.resize(robot_.mobility_size());
+  kept_ = loaded_ = own_;
+  own_size_ = state::size_of(own_);
 }
 
 void Seat::stop(const std::string& why) {
-  now_.stopped = true;
+  own_.now.stopped = true;
   std::fill(torques_.begin(), torques_.end(), 0.0);
   tell(model_ + ": " + why + ": its actuators give no torque until the world is reset");
 }
 
 void Seat::step(std::int64_t dt_ns) {
-  if (now_.stopped) return;
+  if (own_.now.stopped) return;
   if (dt_ns <= 0 || dt_ns > host::kLongestStep_ns)
     return stop("a step of " + std::to_string(dt_ns) + " ns is outside 1 ns … 16 ms");
-  for (std::size_t i = 0; i < now_.in.size(); ++i) {
-    if (std::isfinite(now_.in[i].angle_rad) && std::isfinite(now_.in[i].speed_rad_per_s)) continue;
+  for (std::size_t i = 0; i < own_.now.in.size(); ++i) {
+    if (std::isfinite(own_.now.in[i].angle_rad) && std::isfinite(own_.now.in[i].speed_rad_per_s)) continue;
     return stop("joint " + robot_.config().actuators[i].joint + " is no longer at a finite angle or speed");
   }
-  robot_.advance(now_.time_ns, dt_ns, now_.in, torques_, mobility_);
-  for (host::JointIn& joint : now_.in) joint.placed = false;
-  now_.time_ns += dt_ns;
-  if (watches_pace_ && !ports_.all().empty() && pace_.fell_behind(Clock::now(), now_.time_ns))
+  robot_.advance(own_.now.time_ns, dt_ns, own_.now.in, torques_, own_.mobility);
+  for (host::JointIn& joint : own_.now.in) joint.placed = false;
+  own_.now.time_ns += dt_ns;
+  if (watches_pace_ && !ports_.all().empty() && pace_.fell_behind(Clock::now(), own_.now.time_ns))
     tell(model_ + ": slower than real time: units on serial ports answer in time, but move more slowly than a client expects");
 }
 
 void Seat::moved(std::size_t actuator) {
-  if (actuator >= now_.in.size())
+  if (actuator >= own_.now.in.size())
     throw InputError(Problem{"", "actuator", std::to_string(actuator), "there is no such actuator",
-                             "0 … " + std::to_string(now_.in.size() - 1)});
-  now_.in[actuator].placed = true;
-  watch_.again();
+                             "0 … " + std::to_string(own_.now.in.size() - 1)});
+  own_.now.in[actuator].placed = true;
+  own_.watch.again();
 }
 
 void Seat::reset() {
   robot_.reset();
   pace_.stood();
-  now_.time_ns = 0;
-  now_.stopped = false;
-  watch_.again();
+  own_.now.time_ns = 0;
+  own_.now.stopped = false;
+  own_.watch.again();
   std::fill(torques_.begin(), torques_.end(), 0.0);
 }
 
 struct Seat::Snapshot {
   std::shared_ptr<const host::Robot::Snapshot> robot;
-  Moment now;
-  std::vector<double> mobility;
-  host::MobilityWatch watch;
+  Own own;
 };
 
 std::shared_ptr<const Seat::Snapshot> Seat::snapshot() const {
-  return std::make_shared<const Snapshot>(Snapshot{robot_.snapshot(), now_, mobility_, watch_});
+  return std::make_shared<const Snapshot>(Snapshot{robot_.snapshot(), own_});
 }
 
 void Seat::check(const Snapshot& snapshot) const { robot_.check(*snapshot.robot); }
 
 void Seat::restore(const Snapshot& snapshot) {
   robot_.restore(*snapshot.robot);
-  now_ = snapshot.now;
-  mobility_ = snapshot.mobility;
-  watch_ = snapshot.watch;
+  set_own(snapshot.own);
+}
+
+void Seat::set_own(const Own& own) {
+  own_ = own;
   std::fill(torques_.begin(), torques_.end(), 0.0);  // the next step's; one that has stopped makes none
   last_told_ = -1;
   pace_.stood();
 }
 
+const char* Seat::Moment::impossible() const noexcept {
+  constexpr std::int64_t kLatestNs = 4'000'000'000'000'000'000 - host::kLongestStep_ns;
+  return time_ns >= 0 && time_ns <= kLatestNs ? nullptr : "a time of 0 … 4e18 ns";
+}
+
+StateLayout Seat::state_layout() const {
+  StateLayout out = robot_.state_layout();
+  out.append("host.", state::layout_of(own_));
+  return out;
+}
+
+void Seat::save(std::span<double> out) const {
+  check_state_size(out.size(), state_size());
+  robot_.save(out.first(robot_.state_size()));
+  state::Writer writer(out.last(own_size_));
+  state::walk_fields(writer, own_);
+}
+
+void Seat::read_own(std::span<const double> in) {
+  check_state_size(in.size(), state_size());
+  state::Reader reader(in.last(own_size_));
+  state::walk_fields(reader, loaded_);
+  StateFault fault = reader.fault();
+  if (!fault.there()) return;
+  fault.offset += robot_.state_size();
+  throw_if_any(fault, state_layout());
+}
+
+void Seat::check(std::span<const double> in) {
+  read_own(in);
+  robot_.check(in.first(robot_.state_size()));
+}
+
+void Seat::restore(std::span<const double> in) {
+  read_own(in);
+  robot_.restore(in.first(robot_.state_size()));
+  set_own(loaded_);
+}
+
 void Seat::keep() {
   robot_.keep();
-  kept_ = now_;
+  kept_ = own_;
 }
 
 void Seat::go_back() {
   robot_.go_back();
-  now_ = kept_;
-  watch_.again();
+  own_ = kept_;
 }
 
 }  // namespace vsa::seat

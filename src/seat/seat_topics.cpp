@@ -18,7 +18,7 @@ constexpr std::int64_t kNoticesEvery_ns = 100'000'000;  // where no topics tell 
 
 }  // namespace
 
-/// A port may keep its handlers longer than the seat lives, or is connected: they go through here.
+/// A transport may keep its handlers longer than the seat lives, or is connected: they go through here.
 struct Seat::Desk {
   explicit Desk(Seat& the_seat) : seat(&the_seat) {}
 
@@ -44,14 +44,14 @@ void Seat::open_ports() {
   ports_.open(robot_, model_, [this](const std::string& line) { tell(line); });
 }
 
-void Seat::connect(std::shared_ptr<host::TopicPort> port) {
-  host::RobotTopics topics(robot_, model_, *port, report_);
+void Seat::connect(std::shared_ptr<host::TopicTransport> transport) {
+  host::RobotTopics topics(robot_, model_, *transport, report_);
   if (!desk_) desk_ = std::make_shared<Desk>(*this);
   const std::string service = host::model_topic(model_, "vsa/faults");
   const auto answer = [desk = desk_, service](const std::string& words) { return desk->answer(words, service); };
-  if (port->serve_text(service, answer) == host::Outcome::refused)
+  if (transport->serve_text(service, answer) == host::Outcome::refused)
     throw InputError({"", "service", service, "the transport takes no such name", "letters, digits, _ and /"});
-  connections_.push_back({std::move(port), std::move(topics)});
+  connections_.push_back({std::move(transport), std::move(topics)});
 }
 
 void Seat::disconnect() {

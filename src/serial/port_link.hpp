@@ -1,11 +1,11 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The stable name of a pseudo-terminal: a symbolic link, and elsewhere (serial::lock_path) a locked file that says its owner lives.
+// The stable name of a pseudo-terminal: a symbolic link, and elsewhere a locked file (PortLock) that says its owner lives.
 #pragma once
 
 #include <string>
 
-#include "serial/descriptor.hpp"
+#include "serial/port_lock.hpp"
 
 namespace vsa::serial {
 
@@ -22,11 +22,8 @@ class PortLink {
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
  private:
-  void take_lock();
-
-  std::string path_, lock_path_, target_;
-  Descriptor lock_;
-  bool lock_is_new_ = false;
+  std::string path_, target_;
+  PortLock lock_;  // goes after the link
 };
 
 }  // namespace vsa::serial

@@ -31,7 +31,7 @@ Descriptor open_port(const std::string& path) {
   Descriptor fd(open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (fd) return fd;
   if (errno == EBUSY) refuse(path, "another program has it open for itself", "a free port, or end that program first");
-  if (errno == ENOENT) refuse(path, "no such port", "a port that exists; vsa ping lists them");
+  if (errno == ENOENT) refuse(path, "no such port", "a port that exists");
   refuse(path, std::string("can't be opened: ") + std::strerror(errno), "a serial port that may be read and written");
 }
 

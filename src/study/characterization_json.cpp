@@ -1,29 +1,33 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/page/json.hpp"
 #include "vsa/study/characterization.hpp"
-#include "vsa/study/json.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::study {
 namespace {
+
+using page::Json;
+using page::real;
+using page::reals;
 
 Json range(const Range& r) { return {r.least, r.most}; }
 
 /// `unit` is what y is measured in.
 Json step_json(const experiment::StepMeasures& m, const std::string& unit) {
   Json out;
-  out["rise_10_90_s"] = json_number(m.rise_s);
-  out["mean_speed_" + unit + "_per_s"] = json_number(m.mean_speed);
-  out["peak_slope_" + unit + "_per_s"] = json_number(m.peak_slope);
-  out["overshoot_pct"] = json_number(m.overshoot_pct);
-  out["ringing_Hz"] = json_number(m.ringing_Hz);
-  out["damping_ratio"] = json_number(m.damping_ratio);
-  out["steady_error_" + unit] = json_number(m.steady_error);
+  out["rise_10_90_s"] = real(m.rise_s);
+  out["mean_speed_" + unit + "_per_s"] = real(m.mean_speed);
+  out["peak_slope_" + unit + "_per_s"] = real(m.peak_slope);
+  out["overshoot_pct"] = real(m.overshoot_pct);
+  out["ringing_Hz"] = real(m.ringing_Hz);
+  out["damping_ratio"] = real(m.damping_ratio);
+  out["steady_error_" + unit] = real(m.steady_error);
   return out;
 }
 
 Json step_with_final(const experiment::StepMeasures& m, const std::string& unit) {
   Json out = step_json(m, unit);
-  out["final_" + unit] = json_number(m.final_value);
+  out["final_" + unit] = real(m.final_value);
   return out;
 }
 
@@ -47,18 +51,18 @@ Json stiffness_json(const Characterization& c, const StiffnessResult& r) {
   out["measured_deflection_range_rad"] = range(r.deflection_rad);
   if (!c.preset_unit().empty()) out["attained_preset_range_" + c.preset_unit()] = range(r.preset);
   const experiment::Loop& l = r.loop;
-  out["loop"] = {{"area_Nm_rad", json_number(l.area_Nm_rad)},
-                 {"mean_width_rad", json_number(l.mean_width_rad)},
-                 {"mean_abs_width_rad", json_number(l.mean_abs_width_rad)},
-                 {"largest_width_rad", json_number(l.largest_width_rad)},
-                 {"smallest_width_rad", json_number(l.smallest_width_rad)},
-                 {"peak_rising_rad", json_number(l.peak_rising_rad)},
-                 {"peak_falling_rad", json_number(l.peak_falling_rad)}};
+  out["loop"] = {{"area_Nm_rad", real(l.area_Nm_rad)},
+                 {"mean_width_rad", real(l.mean_width_rad)},
+                 {"mean_abs_width_rad", real(l.mean_abs_width_rad)},
+                 {"largest_width_rad", real(l.largest_width_rad)},
+                 {"smallest_width_rad", real(l.smallest_width_rad)},
+                 {"peak_rising_rad", real(l.peak_rising_rad)},
+                 {"peak_falling_rad", real(l.peak_falling_rad)}};
   out["branches"] = {{"load_torque_Nm", r.branches.torque_Nm},
-                     {"deflection_rising_rad", json_numbers(r.branches.rising_rad)},
-                     {"deflection_falling_rad", json_numbers(r.branches.falling_rad)},
-                     {"sd_rising_rad", json_numbers(r.branches.sd_rising_rad)},
-                     {"sd_falling_rad", json_numbers(r.branches.sd_falling_rad)}};
+                     {"deflection_rising_rad", reals(r.branches.rising_rad)},
+                     {"deflection_falling_rad", reals(r.branches.falling_rad)},
+                     {"sd_rising_rad", reals(r.branches.sd_rising_rad)},
+                     {"sd_falling_rad", reals(r.branches.sd_falling_rad)}};
   Json& curve = out["stiffness"] = Json::array();
   for (const experiment::StiffnessPoint& p : r.curve) {
     curve.push_back({{"load_torque_Nm", p.torque_Nm},
@@ -98,8 +102,8 @@ Json preset_step_json(const Characterization& c, const PresetStepResult& r) {
   out["equilibrium_command_rad"] = r.run.amplitude_rad;
   out["load_peak_Nm"] = r.run.load_peak_Nm;
   out["measured_load_range_Nm"] = range(r.load_Nm);
-  out["attained_preset_" + c.preset_unit()] = json_number(r.up.final_value);
-  out["resting_preset_" + c.preset_unit()] = json_number(r.down.final_value);
+  out["attained_preset_" + c.preset_unit()] = real(r.up.final_value);
+  out["resting_preset_" + c.preset_unit()] = real(r.down.final_value);
   out["up"] = step_json(r.up, c.preset_unit());
   out["down"] = step_json(r.down, c.preset_unit());
   return out;
@@ -107,7 +111,7 @@ Json preset_step_json(const Characterization& c, const PresetStepResult& r) {
 
 Json actuator_json(const Characterization& c) {
   Json out;
-  out["preset"] = c.actuator.name;
+  out["type"] = c.actuator.name;
   out["title"] = c.actuator.title;
   out["law"] = c.actuator.law;
   Json& overrides = out["overrides"] = Json::object();
@@ -125,13 +129,13 @@ double step_of(const Characterization& c) {
 }  // namespace
 
 std::string to_json(const Characterization& c, const std::string& command) {
-  Json out = json_head(command);
+  Json out = page::results_head(command);
   out["actuator"] = actuator_json(c);
   out["engine_step_s"] = step_of(c);
   for (const StiffnessResult& r : c.stiffness) out["stiffness"].push_back(stiffness_json(c, r));
   for (const SpeedResult& r : c.speed) out["speed"].push_back(speed_json(c, r));
   for (const PresetStepResult& r : c.preset_step) out["preset_step"].push_back(preset_step_json(c, r));
-  return json_text(out);
+  return page::results_text(out);
 }
 
 }  // namespace vsa::study

@@ -26,7 +26,7 @@ class Planner {
  public:
   explicit Planner(const CharacterizationOptions& options) : options_(options) {
     plan_.specimen = options.specimen;
-    plan_.actuator = plan_.specimen.library.load(plan_.specimen.preset, plan_.specimen.overrides);
+    plan_.actuator = plan_.specimen.library.load(plan_.specimen.type, plan_.specimen.overrides);
     has_preset_ = !plan_.preset_unit().empty();
   }
 
@@ -34,7 +34,7 @@ class Planner {
     check_presets();
     check_sweep();
     if (wants(Experiment::preset_step) && !has_preset_ && !options_.experiments.empty()) {
-      add("--experiment", word(Experiment::preset_step), plan_.specimen.preset + " has no stiffness preset to step",
+      add("--experiment", word(Experiment::preset_step), plan_.specimen.type + " has no stiffness preset to step",
           "stiffness, speed");
     }
     problems_.throw_if_any();
@@ -57,14 +57,14 @@ class Planner {
   void check_presets() {
     const double limit = plan_.actuator.unit.preset_max;
     if (!has_preset_ && !options_.preset.empty()) {
-      add("--preset-rad", fmt::format("{}", fmt::join(options_.preset, " ")), plan_.specimen.preset + " has no stiffness preset",
+      add("--preset-rad", fmt::format("{}", fmt::join(options_.preset, " ")), plan_.specimen.type + " has no stiffness preset",
           "leave it out");
       return;
     }
     std::set<std::string> names;
     for (const double p : options_.preset) {
       if (!(p >= 0 && p <= limit)) {
-        add("--preset-rad", fmt::format("{}", p), "beyond what " + plan_.specimen.preset + " accepts",
+        add("--preset-rad", fmt::format("{}", p), "beyond what " + plan_.specimen.type + " accepts",
             fmt::format("0 … {} rad", limit));
       } else if (!names.insert(fmt::format("{:.4f}", p)).second) {
         add("--preset-rad", fmt::format("{}", p), "is there twice; files are named by four decimals", "different presets");

@@ -20,7 +20,7 @@ std::optional<double> DataSheet::nominal_load_Nm() const {
 DataSheet plan_data_sheet(const experiment::Specimen& specimen) {
   Characterization plan;
   plan.specimen = specimen;
-  plan.actuator = specimen.library.load(specimen.preset, specimen.overrides);
+  plan.actuator = specimen.library.load(specimen.type, specimen.overrides);
   const bool has_preset = !plan.preset_unit().empty() && plan.actuator.unit.preset_max > 0;
   const double full = std::min(kPaperPreset, plan.actuator.unit.preset_max);
   for (const double share : {0.0, 0.15, 0.4, 1.0}) {

@@ -2,7 +2,6 @@
 #include "vsa/study/leave_one_out.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -74,20 +73,16 @@ void add_parameter(LeaveOneOut& out, const Json& parameter) {
   }
 }
 
-/// A fitted value is what the data leave open: another one within the interval is the same finding.
-bool within_interval(const LeaveOneOut& record, const config::Entry& e) {
-  const auto same = [&](const LeaveOneOut::Interval& i) { return i.key == e.key; };
+/// None: it was held.
+const LeaveOneOut::Interval* fitted(const LeaveOneOut& record, const std::string& key) {
+  const auto same = [&](const LeaveOneOut::Interval& i) { return i.key == key; };
   const auto it = std::find_if(record.intervals.begin(), record.intervals.end(), same);
-  if (it == record.intervals.end()) return false;
-  const double value = std::strtod(e.value.c_str(), nullptr);
-  return value >= it->low && value <= it->high;
+  return it == record.intervals.end() ? nullptr : &*it;
 }
 
 }  // namespace
 
-std::filesystem::path record_name(const std::string& preset) {
-  return std::filesystem::path("data") / preset / "leave_one_out.json";
-}
+std::filesystem::path record_name(const std::string& type) { return std::filesystem::path("data") / type / "leave_one_out.json"; }
 
 LeaveOneOut read_leave_one_out(const std::filesystem::path& file) {
   const Json root = parse(file);
@@ -111,19 +106,28 @@ LeaveOneOut read_leave_one_out(const std::filesystem::path& file) {
   return out;
 }
 
-std::vector<std::string> differences(const LeaveOneOut& record, const config::Preset& preset) {
+std::vector<std::string> differences(const LeaveOneOut& record, const config::ActuatorType& type) {
   std::vector<std::string> changed, unknown;
-  for (const config::Entry& e : preset.entries) {
+  for (const config::Entry& e : type.entries) {
     const auto same = [&](const LeaveOneOut::Value& v) { return v.key == e.key; };
     const auto it = std::find_if(record.values.begin(), record.values.end(), same);
     if (it == record.values.end()) {
       unknown.push_back(e.key + " isn't in the record");
-    } else if (it->text != e.value && !within_interval(record, e)) {
+    } else if (it->text != e.value && fitted(record, e.key) == nullptr) {
       changed.push_back(e.key + " was " + it->text + " and is " + e.value);
     }
   }
   changed.insert(changed.end(), unknown.begin(), unknown.end());
   return changed;
+}
+
+std::vector<std::string> fitted_elsewhere(const LeaveOneOut& record, const config::ActuatorType& type) {
+  std::vector<std::string> out;
+  for (const config::Entry& e : type.entries) {
+    const LeaveOneOut::Interval* const i = fitted(record, e.key);
+    if (i != nullptr && (e.number < i->low || e.number > i->high)) out.push_back(e.key);
+  }
+  return out;
 }
 
 }  // namespace vsa::study

@@ -80,7 +80,8 @@ Recording read(const Found& f, const fs::path& data) {
 
 }  // namespace
 
-std::vector<Recording> read_recordings(const fs::path& data, const std::vector<fs::path>& more, const config::Preset& actuator) {
+std::vector<Recording> read_recordings(const fs::path& data, const std::vector<fs::path>& more,
+                                       const config::ActuatorType& actuator) {
   FoundFiles found;
   search(data, "data", found);
   for (const fs::path& directory : more) search(directory, "--recordings", found);

@@ -15,6 +15,6 @@ namespace vsa::study {
 /// actuator's: all such problems at once, as InputError.
 [[nodiscard]] std::vector<Recording> read_recordings(const std::filesystem::path& data,
                                                      const std::vector<std::filesystem::path>& more,
-                                                     const config::Preset& actuator);
+                                                     const config::ActuatorType& actuator);
 
 }  // namespace vsa::study

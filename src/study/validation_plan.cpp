@@ -24,10 +24,10 @@ fs::path bounds_file(const ValidationOptions& o) {
   return *found;
 }
 
-/// The record of the preset; none where none is kept and none was asked for.
+/// The record of the type; none where none is kept and none was asked for.
 std::optional<LeaveOneOut> find_record(const ValidationOptions& o) {
   if (!o.leave_one_out.empty()) return read_leave_one_out(o.leave_one_out);
-  const fs::path name = record_name(o.specimen.preset);
+  const fs::path name = record_name(o.specimen.type);
   const auto file = config::find_data(name);
   if (!file) return std::nullopt;
   LeaveOneOut out = read_leave_one_out(*file);
@@ -62,7 +62,7 @@ ValidationPlan plan_validation(const ValidationOptions& o) {
   out.bounds = experiment::read_bounds(bounds_file(o));
   out.left_out = find_record(o);
   out.runs.specimen = o.specimen;
-  out.runs.actuator = o.specimen.library.load(o.specimen.preset, o.specimen.overrides);
+  out.runs.actuator = o.specimen.library.load(o.specimen.type, o.specimen.overrides);
   if (o.specimen.overrides.empty()) experiment::check_kinds(out.bounds.bounds, out.runs.actuator.evidence);
   const fs::path data = data_directory();
   out.recordings = read_recordings(data, o.recordings, out.runs.actuator);

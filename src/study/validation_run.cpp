@@ -146,7 +146,7 @@ std::map<std::string, double> quantities(const Validation& v) {
 }
 
 std::string recording_kind(const Validation& v, const RecordingCheck& r) {
-  return v.evidence ? experiment::kind_text(r.kind) : "not told";
+  return v.evidence ? experiment::kind_text(r.kind) : "not stated";
 }
 
 std::optional<Validation> run(ValidationPlan plan, const OnProgress& on_progress, unsigned threads) {

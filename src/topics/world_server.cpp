@@ -16,7 +16,7 @@
 
 #include "messages.hpp"
 #include "vsa/seat/seat.hpp"
-#include "vsa/topics/ignition_port.hpp"
+#include "vsa/topics/ignition_transport.hpp"
 #include "vsa/topics/transport.hpp"
 
 namespace vsa::topics {
@@ -36,7 +36,7 @@ constexpr auto kIdleEvery = 100ms;
 /// Answers the control service from the transport's threads, and answers no more once it is closed.
 class ControlService {
  public:
-  ControlService(RunControl& control, host::RobotTopics::Report report, std::string topic)
+  ControlService(seat::RunControl& control, host::RobotTopics::Report report, std::string topic)
       : control_(control), report_(std::move(report)), topic_(std::move(topic)) {}
 
   bool serve(const msgs::WorldControl& request, msgs::Boolean& reply) {
@@ -48,7 +48,7 @@ class ControlService {
       if (reported_.insert(fault).second && report_) report_(topic_ + ": request refused: " + fault);
       return true;
     }
-    ControlRequest out;
+    seat::ControlRequest out;
     out.reset = request.reset().all();
     out.pause = request.pause();
     out.steps = request.multi_step() != 0 ? request.multi_step() : (request.step() ? 1U : 0U);
@@ -72,7 +72,7 @@ class ControlService {
     return nullptr;
   }
 
-  RunControl& control_;
+  seat::RunControl& control_;
   host::RobotTopics::Report report_;
   std::string topic_;
   std::mutex mutex_;
@@ -84,7 +84,7 @@ class ControlService {
 }  // namespace
 
 struct WorldServer::Impl {
-  Impl(engine::World& the_world, RunControl& the_control) : world(the_world), control(the_control) {}
+  Impl(engine::World& the_world, seat::RunControl& the_control) : world(the_world), control(the_control) {}
   ~Impl() {
     if (service) service->close();
     for (std::size_t i = 0; i < world.robot_count(); ++i) {
@@ -99,9 +99,9 @@ struct WorldServer::Impl {
   void refresh(steady_clock::time_point now);
 
   engine::World& world;
-  RunControl& control;
+  seat::RunControl& control;
   std::shared_ptr<ControlService> service;
-  std::shared_ptr<IgnitionPort> port = std::make_shared<IgnitionPort>();
+  std::shared_ptr<IgnitionTransport> transport = std::make_shared<IgnitionTransport>();
   Node node;
   Node::Publisher clock, stats;
   bool clock_wanted = false, stats_wanted = false;
@@ -160,13 +160,13 @@ void WorldServer::Impl::refresh(steady_clock::time_point now) {
   stats_wanted = stats.HasConnections();
 }
 
-WorldServer::WorldServer(engine::World& world, RunControl& control, host::RobotTopics::Report report) {
+WorldServer::WorldServer(engine::World& world, seat::RunControl& control, host::RobotTopics::Report report) {
   prefer_loopback();
   impl_ = std::make_unique<Impl>(world, control);
   impl_->advertise(report);
   for (std::size_t i = 0; i < world.robot_count(); ++i) {
     world.seat(i).report_to(report);
-    world.seat(i).connect(impl_->port);
+    world.seat(i).connect(impl_->transport);
   }
   impl_->rate_mark.sim_ns = world.time_ns();
 }
@@ -203,5 +203,7 @@ std::uint64_t WorldServer::refused() const noexcept {
   for (std::size_t i = 0; i < impl_->world.robot_count(); ++i) sum += impl_->world.seat(i).refused();
   return sum;
 }
+
+std::uint64_t WorldServer::heard() const { return impl_->transport->heard(); }
 
 }  // namespace vsa::topics

@@ -24,11 +24,11 @@ void put(std::string& out, const std::vector<float>& values) {
   out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
 }
 
-double strength(const engine::Contact& c) {
+double strength(const scene::Contact& c) {
   return c.force_N[0] * c.force_N[0] + c.force_N[1] * c.force_N[1] + c.force_N[2] * c.force_N[2];
 }
 
-void keep_strongest(std::vector<engine::Contact>& contacts) {
+void keep_strongest(std::vector<scene::Contact>& contacts) {
   if (contacts.size() <= kContactsMax) return;
   const auto stronger = [](const auto& a, const auto& b) { return strength(a) > strength(b); };
   std::nth_element(contacts.begin(), contacts.begin() + kContactsMax, contacts.end(), stronger);
@@ -37,7 +37,7 @@ void keep_strongest(std::vector<engine::Contact>& contacts) {
 
 }  // namespace
 
-std::shared_ptr<const std::string> FrameMaker::make(const engine::World& world, const FrameInfo& info) {
+std::shared_ptr<const std::string> FrameMaker::make(const host::Simulation& world, const FrameInfo& info) {
   record::read(world, sample_);
   frame_.clear();
   frame_.append(sample_, moving_);
@@ -47,8 +47,8 @@ std::shared_ptr<const std::string> FrameMaker::make(const engine::World& world, 
   const auto add = [this](const std::array<double, 3>& v) {
     for (const double x : v) touches_.push_back(static_cast<float>(x));
   };
-  for (const engine::Contact& c : contacts_) add(c.position), add(c.force_N);
-  for (const engine::Pull& p : world.pulls()) {
+  for (const scene::Contact& c : contacts_) add(c.position), add(c.force_N);
+  for (const scene::Pull& p : world.hands()) {
     touches_.push_back(static_cast<float>(p.link));
     add(p.point_m), add(p.target_m);
   }
@@ -57,7 +57,7 @@ std::shared_ptr<const std::string> FrameMaker::make(const engine::World& world, 
   put(*out, static_cast<float>(info.factor));
   put(*out, static_cast<std::uint32_t>((info.paused ? 1 : 0) | (info.recording ? 2 : 0) | (info.gait ? 4 : 0)));
   put(*out, static_cast<std::uint32_t>(contacts_.size()));
-  put(*out, static_cast<std::uint32_t>(world.pulls().size()));
+  put(*out, static_cast<std::uint32_t>(world.hands().size()));
   for (const auto* part : {&frame_.poses, &frame_.readings, &frame_.energy, &touches_}) put(*out, *part);
   return out;
 }

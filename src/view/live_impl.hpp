@@ -41,7 +41,7 @@ class Factor {
 };
 
 struct LiveView::Impl final : Host {
-  Impl(engine::World& the_world, engine::Gait* the_gait, topics::RunControl& the_control, LiveOptions options);
+  Impl(host::Simulation& the_world, motion::Gait* the_gait, seat::RunControl* the_control, LiveOptions options);
 
   // The server's thread
   std::optional<Download> get(std::string_view path) override;
@@ -59,11 +59,16 @@ struct LiveView::Impl final : Host {
   void set_pulls();
   template <class Work>
   void guarded(Work&& work);
-  void operator()(const Play&) { control.request({false, false, 0, std::nullopt}); }
-  void operator()(const Pause&) { control.request({false, true, 0, std::nullopt}); }
-  void operator()(const Step& r) { control.request({false, true, r.steps, std::nullopt}); }
-  void operator()(const Reset&) { control.request({true, std::nullopt, 0, std::nullopt}); }
+  void operator()(const Play&) { control->request({false, false, 0, std::nullopt}); }
+  void operator()(const Pause&) { control->request({false, true, 0, std::nullopt}); }
+  void operator()(const Step& r) { control->request({false, true, r.steps, std::nullopt}); }
+  void operator()(const Reset&) { control->request({true, std::nullopt, 0, std::nullopt}); }
   void operator()(const Speed& r) { speed = r.factor, ++speed_changes; }
+  struct Actuator {
+    std::string name, model;  ///< model: top-level
+    std::size_t robot = 0, index = 0;
+  };
+  [[nodiscard]] static std::vector<Actuator> actuators_of(const host::Simulation& world);
   void operator()(const Command& r);
   void operator()(const PullLink& r);
   void operator()(const Release&);
@@ -73,10 +78,11 @@ struct LiveView::Impl final : Host {
   void operator()(const GiveBack&);
   void operator()(const Next&) {}
 
-  engine::World& world;
-  engine::Gait* gait;
-  topics::RunControl& control;
+  host::Simulation& world;
+  motion::Gait* gait;
+  seat::RunControl* control;
   const Rules rules;
+  const std::vector<Actuator> actuators;
   const std::string page;
   const std::string run = std::to_string(std::chrono::system_clock::now().time_since_epoch().count());  ///< unlike any other's
   std::vector<std::string> gait_names;  ///< one an actuator; empty: not the gait's
@@ -85,7 +91,8 @@ struct LiveView::Impl final : Host {
   Factor factor;
   std::optional<double> speed;
   std::uint64_t speed_changes = 0;
-  std::map<ViewerId, engine::Pull> pulls;
+  bool stands = false;  ///< a world without control
+  std::map<ViewerId, scene::Pull> pulls;
   ViewerId asking = 0;  ///< whose request is being done
 
   std::mutex mutex;

@@ -18,18 +18,17 @@ constexpr double kHandWeights = 3;    // force_max in weights of the model
 
 void LiveView::Impl::operator()(const Command& r) {
   for (const std::size_t i : r.actuators) {
-    const engine::ActuatorRef& ref = world.actuators()[i];
-    host::Robot& robot = world.robot(ref.robot);
-    const auto& config = robot.config();
+    const Actuator& ref = actuators[i];
+    const auto& config = world.robot(ref.robot).config();
     if (config.buses[config.actuators[ref.index].bus].serial_port) {
       throw InputError({"", "command", ref.name, "belongs to the client on its bus's serial port", ""});
     }
   }
   for (const std::size_t i : r.actuators) {
-    const engine::ActuatorRef& ref = world.actuators()[i];
+    const Actuator& ref = actuators[i];
     world.robot(ref.robot).command(ref.index, r.equilibrium_rad, r.preset);
     if (gait_names[i].empty()) continue;
-    const engine::ByHand before = gait->by_hand(gait_names[i]);
+    const motion::ByHand before = gait->by_hand(gait_names[i]);
     gait->leave(gait_names[i], {before.equilibrium || r.equilibrium_rad, before.preset || r.preset});
   }
 }
@@ -42,7 +41,7 @@ void LiveView::Impl::operator()(const GiveBack&) {
 
 void LiveView::Impl::operator()(const PullLink& r) {
   double mass = 0;
-  for (const engine::LinkInfo& link : world.links()) {
+  for (const scene::LinkInfo& link : world.links()) {
     if (link.model == world.links()[r.link].model && !link.is_static) mass += link.mass_kg;
   }
   constexpr double kWeight = 9.81;
@@ -61,7 +60,7 @@ void LiveView::Impl::operator()(const Release&) {
 }
 
 void LiveView::Impl::set_pulls() {
-  std::vector<engine::Pull> all;
+  std::vector<scene::Pull> all;
   for (const auto& [viewer, pull] : pulls) all.push_back(pull);
   world.pull(std::move(all));
 }

@@ -1,8 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/view/live_view.hpp"
 
+#include <algorithm>
+
 #include "live_impl.hpp"
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/page/page.hpp"
 #include "vsa/record/page.hpp"
 #include "vsa/record/recorder.hpp"
@@ -19,7 +21,7 @@ fs::path or_built_in(const fs::path& given, const char* name) {
   return given.empty() ? config::data_directory() / "web" / name : given;
 }
 
-std::string page_of(const engine::World& world, const fs::path& file) {
+std::string page_of(const host::Simulation& world, const fs::path& file) {
   const record::RunInfo info = record::describe(world);
   record::PageData data(info, 1, 2);
   record::Sample first;
@@ -30,24 +32,38 @@ std::string page_of(const engine::World& world, const fs::path& file) {
 
 }  // namespace
 
-LiveView::Impl::Impl(engine::World& the_world, engine::Gait* the_gait, topics::RunControl& the_control, LiveOptions options)
+LiveView::Impl::Impl(host::Simulation& the_world, motion::Gait* the_gait, seat::RunControl* the_control, LiveOptions options)
     : world(the_world),
       gait(the_gait),
       control(the_control),
-      rules(rules_of(the_world, the_gait)),
+      rules(rules_of(the_world, the_gait, the_control != nullptr)),
+      actuators(actuators_of(the_world)),
       page(page_of(the_world, or_built_in(options.page_template, "live.html"))),
       gait_names(rules.actuators.size()),
       recordings(std::move(options.records), or_built_in(options.replay_template, "replay.html")),
       frames(record::describe(the_world)),
       speed(options.speed) {
-  for (const engine::GaitGroup& group : gait != nullptr ? gait->params().groups : std::vector<engine::GaitGroup>{}) {
+  for (const auto& group : gait != nullptr ? gait->params().groups : std::vector<motion::GaitGroup>{}) {
     for (const std::string& name : group.actuators) {
-      const engine::ActuatorRef& ref = world.actuator(name);
-      gait_names[static_cast<std::size_t>(&ref - world.actuators().data())] = name;
+      const auto named = [&](const Actuator& a) { return a.name == name || a.model + '/' + a.name == name; };
+      const auto at = std::find_if(actuators.begin(), actuators.end(), named);
+      if (at != actuators.end()) gait_names[static_cast<std::size_t>(at - actuators.begin())] = name;
     }
   }
   changed();
   server = std::make_unique<Server>(*this, options.server);
+}
+
+std::vector<LiveView::Impl::Actuator> LiveView::Impl::actuators_of(const host::Simulation& world) {
+  std::vector<Actuator> out;
+  for (std::size_t r = 0; r < world.robot_count(); ++r) {
+    const std::string& model = world.robot_model(r);
+    for (const host::ActuatorConfig& a : world.robot(r).config().actuators) {
+      const std::size_t index = out.empty() || out.back().robot != r ? 0 : out.back().index + 1;
+      out.push_back({a.name, model.substr(0, model.find("::")), r, index});
+    }
+  }
+  return out;
 }
 
 std::optional<Download> LiveView::Impl::get(std::string_view path) {
@@ -72,7 +88,7 @@ bool LiveView::Impl::ask(ViewerId viewer, Request request, std::size_t limit) {
     requests.emplace_back(viewer, std::move(request));
     pending = true;
   }
-  control.wake();
+  if (control != nullptr) control->wake();
   return true;
 }
 
@@ -103,7 +119,7 @@ void LiveView::Impl::serve() {
     now.swap(requests);
     pending = false;
   }
-  if (world.pulls().empty()) pulls.clear();  // a reset let go
+  if (world.hands().empty()) pulls.clear();  // a reset let go
   for (const auto& [viewer, request] : now) {
     asking = viewer;
     guarded([&, &what = request] { std::visit(*this, what); });
@@ -112,8 +128,8 @@ void LiveView::Impl::serve() {
 }
 
 void LiveView::Impl::changed() {
-  std::vector<engine::ByHand> hands;
-  for (const std::string& name : gait_names) hands.push_back(name.empty() ? engine::ByHand{} : gait->by_hand(name));
+  std::vector<motion::ByHand> hands;
+  for (const std::string& name : gait_names) hands.push_back(name.empty() ? motion::ByHand{} : gait->by_hand(name));
   std::string text = state_text({speed, gait, std::move(hands), &recordings});
   {
     const std::lock_guard lock(mutex);
@@ -136,12 +152,12 @@ void LiveView::Impl::sample() {
 
 void LiveView::Impl::publish(bool now) {
   if (!server->wanted() && !now) return;
-  const FrameInfo info{world.time_s(), factor.update(world.time_s()), control.paused(), recordings.running(),
-                       gait != nullptr && !gait->held()};
+  const FrameInfo info{world.time_s(), factor.update(world.time_s()), control != nullptr ? control->paused() : stands,
+                       recordings.running(), gait != nullptr && !gait->held()};
   server->show(frames.make(world, info));
 }
 
-LiveView::LiveView(engine::World& world, engine::Gait* gait, topics::RunControl& control, LiveOptions options)
+LiveView::LiveView(host::Simulation& world, motion::Gait* gait, seat::RunControl* control, LiveOptions options)
     : impl_(std::make_unique<Impl>(world, gait, control, std::move(options))) {}
 LiveView::~LiveView() = default;
 
@@ -152,6 +168,7 @@ std::optional<double> LiveView::speed() const noexcept { return impl_->speed; }
 std::uint64_t LiveView::speed_changes() const noexcept { return impl_->speed_changes; }
 
 void LiveView::stepped() {
+  impl_->stands = false;
   impl_->sample();
   impl_->publish(false);
 }
@@ -159,6 +176,11 @@ void LiveView::stepped() {
 void LiveView::idle() {
   impl_->sample();
   impl_->publish(true);
+}
+
+void LiveView::standing() {
+  impl_->stands = true;
+  impl_->publish(false);
 }
 
 std::vector<fs::path> LiveView::finish(const std::string& why) {

@@ -25,18 +25,18 @@ std::string free_name(const fs::path& under) {
 
 }  // namespace
 
-void Recordings::start(const engine::World& world) {
+void Recordings::start(const host::Simulation& world) {
   name_ = free_name(under_);
   record::RecorderOptions options;
   options.page_template = template_;
   recorder_.emplace(world, under_ / name_, options);
 }
 
-void Recordings::sample(const engine::World& world) {
+void Recordings::sample(const host::Simulation& world) {
   if (recorder_) recorder_->sample(world);
 }
 
-void Recordings::stop(const engine::World& world, std::string_view note) {
+void Recordings::stop(const host::Simulation& world, std::string_view note) {
   if (!recorder_) return;
   const std::vector<record::Statistic> summary{{"until", fmt::format("{:.2f} s", world.time_s())}};
   auto write = [given = std::move(*recorder_), summary, why = std::string(note)]() mutable {

@@ -27,11 +27,11 @@ class Recordings {
   };
 
   /// Throws InputError, RecordError.
-  void start(const engine::World& world);
-  void sample(const engine::World& world);
+  void start(const host::Simulation& world);
+  void sample(const host::Simulation& world);
   /// The recording is over; what is left of the files and the page are written behind the caller's back. Throws RecordError where
   /// no thread can be had for that.
-  void stop(const engine::World& world, std::string_view note);
+  void stop(const host::Simulation& world, std::string_view note);
   /// Whether a page was finished or failed since the last call. What failed goes to `problems`.
   bool collect(std::vector<std::string>& problems);
   /// Until every page is written.

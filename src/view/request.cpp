@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -122,11 +123,11 @@ Request pull(Fields& in, const Rules& rules) {
   return out;
 }
 
-Span in_rad(const engine::GaitRange& degrees) { return {degrees.min * kPi / 180, degrees.max * kPi / 180}; }
-Span span(const engine::GaitRange& range) { return {range.min, range.max}; }
+Span in_rad(const motion::GaitRange& degrees) { return {degrees.min * kPi / 180, degrees.max * kPi / 180}; }
+Span span(const motion::GaitRange& range) { return {range.min, range.max}; }
 
 Request change_gait(Fields& in, const Rules& rules) {
-  const engine::GaitBounds& bounds = engine::kGaitBounds;
+  const motion::GaitBounds& bounds = motion::kGaitBounds;
   ChangeGait out;
   out.to.frequency_rad_per_s = in.number("frequency_rad_per_s", span(bounds.frequency_rad_per_s));
   const json& list = in.list("groups");
@@ -174,14 +175,23 @@ std::map<std::string, Reader, std::less<>> readers() {
 }
 const std::map<std::string, Reader, std::less<>> kReaders = readers();
 
-bool about_gait(std::string_view what) { return what == "gait" || what == "gait_play" || what == "give_back"; }
+bool one_of(std::string_view what, std::initializer_list<std::string_view> these) {
+  return std::find(these.begin(), these.end(), what) != these.end();
+}
+
+void check_offered(const std::string& what, const Rules& rules) {
+  if (!rules.gait && one_of(what, {"gait", "gait_play", "give_back"})) throw Refused{what + ": this run plays no gait"};
+  if (!rules.control && one_of(what, {"play", "pause", "step", "reset", "speed"}))
+    throw Refused{what + ": the simulator's own controls do that"};
+  if (!rules.hands && what == "pull") throw Refused{what + ": this simulator takes no hands"};
+}
 
 Request read(const json& object, const Rules& rules) {
   Fields in(object, "");
   const std::string what = in.text("do");
   const auto reader = kReaders.find(what);
   if (reader == kReaders.end()) throw Refused{"do = " + what.substr(0, kShown) + ": unknown"};
-  if (about_gait(what) && !rules.gait) throw Refused{what + ": this run plays no gait"};
+  check_offered(what, rules);
   Request out = reader->second(in, rules);
   in.done();
   return out;

@@ -19,7 +19,7 @@ Span equilibrium_span(const device::UnitConfig& unit, int motors) {
 
 }  // namespace
 
-Rules rules_of(const engine::World& world, const engine::Gait* gait) {
+Rules rules_of(const host::Simulation& world, const motion::Gait* gait, bool control) {
   Rules out;
   for (std::size_t r = 0; r < world.robot_count(); ++r) {
     for (const host::ActuatorConfig& a : world.robot(r).config().actuators) {
@@ -28,10 +28,13 @@ Rules rules_of(const engine::World& world, const engine::Gait* gait) {
       out.actuators.push_back({equilibrium_span(a.unit, law ? law->motor_count() : 1), {0, has_preset ? a.unit.preset_max : 0}});
     }
   }
-  for (const engine::LinkInfo& link : world.links()) out.moves.push_back(!link.is_static);
+  for (const scene::LinkInfo& link : world.links()) out.moves.push_back(!link.is_static);
   out.gait = gait != nullptr;
+  out.control = control;
+  out.hands = world.has_hands();
+  out.contacts = world.has_contacts();
   if (gait == nullptr) return out;
-  for (const engine::GaitGroup& group : gait->params().groups) out.gait_groups.push_back(group.name);
+  for (const motion::GaitGroup& group : gait->params().groups) out.gait_groups.push_back(group.name);
   return out;
 }
 

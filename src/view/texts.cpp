@@ -11,11 +11,11 @@ using nlohmann::json;
 /// Names and paths may hold any bytes.
 std::string dumped(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
-json gait_json(const engine::Gait& gait) {
-  const engine::GaitChange values = gait.values();
+json gait_json(const motion::Gait& gait) {
+  const motion::GaitChange values = gait.values();
   json groups = json::array();
   for (std::size_t g = 0; g < values.groups.size(); ++g) {
-    const engine::WaveParams& w = values.groups[g];
+    const motion::WaveParams& w = values.groups[g];
     groups.push_back({{"name", gait.params().groups[g].name},
                       {"actuators", gait.params().groups[g].actuators},
                       {"amplitude_rad", w.amplitude_rad},
@@ -41,13 +41,13 @@ json recordings_json(const Recordings& recordings) {
 }
 
 json span_json(const Span& span) { return {span.min, span.max}; }
-json span_json(const engine::GaitRange& range) { return {range.min, range.max}; }
+json span_json(const motion::GaitRange& range) { return {range.min, range.max}; }
 
 }  // namespace
 
 std::string state_text(const State& state) {
   json hands = json::array();
-  for (const engine::ByHand& hand : state.by_hand) hands.push_back({hand.equilibrium, hand.preset});
+  for (const motion::ByHand& hand : state.by_hand) hands.push_back({hand.equilibrium, hand.preset});
   return dumped({{"type", "state"},
                  {"speed", state.speed ? json(*state.speed) : json(nullptr)},
                  {"gait", state.gait != nullptr ? gait_json(*state.gait) : json(nullptr)},
@@ -60,7 +60,7 @@ std::string hello_text(const Rules& rules, const std::string& run, const std::st
   for (const Rules::Actuator& a : rules.actuators) {
     actuators.push_back({{"equilibrium_rad", span_json(a.equilibrium_rad)}, {"preset", span_json(a.preset)}});
   }
-  const engine::GaitBounds& b = engine::kGaitBounds;
+  const motion::GaitBounds& b = motion::kGaitBounds;
   const json bounds = {{"frequency_rad_per_s", span_json(b.frequency_rad_per_s)},
                        {"amplitude_deg", span_json(b.amplitude_deg)},
                        {"offset_deg", span_json(b.offset_deg)},
@@ -69,6 +69,7 @@ std::string hello_text(const Rules& rules, const std::string& run, const std::st
                        {"preset_deg", span_json(b.preset_deg)}};
   return dumped({{"type", "hello"},
                  {"run", run},
+                 {"offers", {{"contacts", rules.contacts}, {"control", rules.control}, {"hands", rules.hands}}},
                  {"actuators", std::move(actuators)},
                  {"gait_bounds", bounds},
                  {"state", json::parse(state, nullptr, false)}});

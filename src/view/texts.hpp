@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "recordings.hpp"
-#include "vsa/engine/gait.hpp"
+#include "vsa/motion/gait.hpp"
 #include "vsa/view/request.hpp"
 
 namespace vsa::view {
 
 struct State {
   std::optional<double> speed;
-  const engine::Gait* gait = nullptr;
-  std::vector<engine::ByHand> by_hand;  ///< one an actuator
+  const motion::Gait* gait = nullptr;
+  std::vector<motion::ByHand> by_hand;  ///< one an actuator
   const Recordings* recordings = nullptr;
 };
 

@@ -106,9 +106,34 @@ TEST(Characterize, AnActuatorWithoutAPresetHasOneRunAnExperiment) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(fs::exists(scratch / "out" / "stiffness.csv"));
   EXPECT_TRUE(fs::exists(scratch / "out" / "speed.csv"));
+  EXPECT_NE(result.out.find("The encoders resolve the loop to ±0.0086 N·m·rad"), std::string::npos) << result.out;
   EXPECT_EQ(read_file(scratch / "out" / "stiffness.csv").find("preset"), std::string::npos);
   expect_refused({"characterize", "sea_example", "--experiment", "preset-step", "--preset-rad", "0.2"},
                  {"--experiment = preset-step", "--preset-rad = 0.2", "no stiffness preset"});
+}
+
+TEST(Characterize, AShorterStepIsTakenAndEndsTheWarningOfOneThatIsTooLong) {
+  const Scratch scratch;
+  const auto speed = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"characterize", "qbmove_maker_pro_6_1", "--experiment", "speed", "--preset-rad", "0.75",
+                                 "--out",        scratch / "out"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run_vsa(all);
+  };
+  const Result own = speed({}), shorter = speed({"--step-s", "0.00025"});
+  EXPECT_NE(own.err.find("steps shorter by"), std::string::npos) << own.err;
+  ASSERT_EQ(shorter.exit_code, 0) << shorter.err;
+  EXPECT_EQ(shorter.err, "");
+  EXPECT_NE(read_file(scratch / "out" / "results.json").find("--step-s 0.00025"), std::string::npos);
+  EXPECT_NE(shorter.out, own.out);
+  expect_refused({"characterize", "qbmove_maker_pro", "--step-s", "1"}, {"step out of range"});
+}
+
+TEST(Characterize, APresetThatStaysIsOneNumber) {
+  const Scratch scratch;
+  const Result result = run_vsa(stiffness("qbmove_maker_pro", scratch / "out", {"--preset-rad", "0", "0.6903"}));
+  EXPECT_EQ(result.out.find("0.000 … 0.000"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" … "), std::string::npos) << "a preset that doesn't is a range\n" << result.out;
 }
 
 TEST(Characterize, BadInputIsToldTogetherBeforeAnythingRuns) {
@@ -120,7 +145,7 @@ TEST(Characterize, BadInputIsToldTogetherBeforeAnythingRuns) {
   expect_refused({"characterize", "qbmove_maker_pro", "--set", "friction", "--set", "=1"}, {"\"friction\"", "\"=1\"", "key=value"});
   expect_refused({"characterize", "qbmove_maker_pro", "--set", "drive.friktion_Nm=1", "--set", "drive.supply_V=99"},
                  {"did you mean drive.friction_Nm", "drive.supply_V"});
-  expect_refused({"characterize", "nosuch"}, {"unknown preset", "qbmove_maker_pro"});
+  expect_refused({"characterize", "nosuch"}, {"unknown actuator type", "qbmove_maker_pro"});
   expect_refused({"characterize", "qbmove_maker_pro", "--experiment", "dance"}, {"dance", "stiffness"});
   expect_refused({"characterize", "qbmove_maker_pro", "--experiment", "speed", "--cycles", "3"}, {"--cycles", "stiffness"});
   expect_refused({"characterize", "qbmove_maker_pro", "--experiment", "preset-step", "--preset-rad", "0"}, {"0 to 0"});
@@ -167,7 +192,7 @@ TEST(Report, WhoseTemplateIsNowhereIsToldBeforeTheWork) {
   const std::string recording = std::string(VSA_SOURCE_DIR) + "/data/qbmove_maker_pro/stiffness_preset_0.6903rad_branches.csv";
   const std::vector<std::vector<std::string>> commands{
       {"characterize", "qbmove_maker_pro", "--period-s", "3600", "--cycles", "1000", "--out", scratch / "out"},
-      {"identify", recording, "--preset", "qbmove_maker_pro", "--parameters", "shaft.friction_Nm", "--period-s", "3600", "--out",
+      {"identify", recording, "--type", "qbmove_maker_pro", "--parameters", "shaft.friction_Nm", "--period-s", "3600", "--out",
        scratch / "out"},
       {"validate", "--out", scratch / "out"},
       {"datasheet", "sea_example", "--out", scratch / "sheet.html"}};
@@ -182,13 +207,19 @@ TEST(Report, WhoseTemplateIsNowhereIsToldBeforeTheWork) {
 
 TEST(Run, AnotherActuatorCanBePutOnAWorld) {
   const Scratch scratch;
-  const Result result = run_vsa({"run", "bench_free", "--no-topics", "--duration-s", "0.02", "--preset", "sea_example", "--set",
+  const Result result = run_vsa({"run", "bench_free", "--no-topics", "--duration-s", "0.02", "--type", "sea_example", "--set",
                                  "elastic.stiffness_Nm_per_rad=12.5", "--record", scratch / "out"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(read_file(scratch / "out" / "qbmove_bench_free_actuators.csv").find(",12.5,"), std::string::npos);
-  expect_refused({"run", "bench_free", "--no-topics", "--duration-s", "0.02", "--preset", "nosuch"}, {"unknown preset"});
+  expect_refused({"run", "bench_free", "--no-topics", "--duration-s", "0.02", "--type", "nosuch"}, {"unknown actuator type"});
   expect_refused({"run", "bench_free", "--no-topics", "--duration-s", "0.02", "--set", "drive.friction_Nm"},
                  {"--set", "key=value"});
+}
+
+TEST(Run, UnderstandsTheOldSpellingOfTypeAndSaysSo) {
+  const Result result = run_vsa({"run", "bench_free", "--no-topics", "--duration-s", "0.02", "--preset=sea_example"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("--preset is called --type now"), std::string::npos) << result.err;
 }
 
 }  // namespace

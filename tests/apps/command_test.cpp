@@ -60,6 +60,9 @@ TEST_F(Command, NamesTheJointsThereAreWhereOneIsUnknown) {
   const auto known = run_vsa({"command", "10", "30", "--joint", "joint_11", "--timeout-s", "120"}, around);
   EXPECT_EQ(known.exit_code, 0) << known.err;
   EXPECT_NE(known.out.find("joint_11 follows"), std::string::npos) << known.out;
+  EXPECT_NE(known.out.find("as far as its limits"), std::string::npos) << known.out;
+  const auto all = run_vsa({"command", "10", "30", "--timeout-s", "120"}, around);
+  EXPECT_NE(all.out.find("as far as their limits"), std::string::npos) << all.out;
 }
 
 TEST_F(Command, SaysThatNobodyRuns) {

@@ -90,10 +90,10 @@ TEST(Compare, RefusesWhatDoesntGoTogetherAndWritesNothing) {
   write_file(scratch / "two.toml", comparison(hypothesis("one", "\"tendon.friction\" = 5")));
   refused(compare(scratch), "tendon.friction");
   write_file(scratch / "two.toml", comparison(hypothesis("one", "")));
-  refused(compare(scratch, {"--preset", "qbmove_maker_pro"}), "--preset");
+  refused(compare(scratch, {"--type", "qbmove_maker_pro"}), "--type");
   refused(compare(scratch, {"--jobs", "-1"}), "--jobs");
   refused(compare(scratch, {"--jobs", ""}), "--jobs");
-  refused(run_vsa({"identify", kData + "stiffness_preset_0.0000rad_branches.csv", "--jobs", "2", "--preset", "qbmove_maker_pro",
+  refused(run_vsa({"identify", kData + "stiffness_preset_0.0000rad_branches.csv", "--jobs", "2", "--type", "qbmove_maker_pro",
                    "--parameters", "tendon.friction", "--out", (scratch / "out").string()}),
           "--jobs");
 }

@@ -96,7 +96,7 @@ TEST(Datasheet, RefusesBadInputAndWritesNothing) {
     EXPECT_EQ(result.exit_code, 2) << result.err;
     expect_holds(result.err, parts);
   };
-  refused({"datasheet"}, {"PRESET"});
+  refused({"datasheet"}, {"TYPE"});
   refused({"datasheet", "qbmove_9000"}, {"qbmove_9000", "sea_example"});
   refused({"datasheet", "sea_example", "--set", "drive.supply_V", "--out", scratch / "s.html"}, {"--set", "key=value"});
   refused({"datasheet", "sea_example", "--set", "drive.supply_V=many", "--out", scratch / "s.html"}, {"drive.supply_V", "many"});

@@ -28,7 +28,7 @@ struct Machine {
     write_file(scratch / "dev" / "cpu_dma_latency", "");
     for (const char* unset : {"GAZEBO_PLUGIN_PATH", "GAZEBO_MODEL_PATH", "GZ_SIM_SYSTEM_PLUGIN_PATH", "GZ_SIM_RESOURCE_PATH",
                               "IGN_GAZEBO_SYSTEM_PLUGIN_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "IGN_PARTITION",
-                              "GZ_PARTITION", "IGN_IP", "GZ_IP", "VSA_DATA_DIR", "VSA_PRESET_PATH"})
+                              "GZ_PARTITION", "IGN_IP", "GZ_IP", "VSA_DATA_DIR", "VSA_ACTUATOR_PATH"})
       set(unset, "");
     set("GZ_CONFIG_PATH", (scratch / "share").string());
     set("IGN_CONFIG_PATH", (scratch / "share").string());
@@ -58,7 +58,7 @@ void expect_none(const Result& result, const std::string& part) {
 TEST(Doctor, FindsNothingWrongWhereOnlyTheCommandIs) {
   const Result result = Machine().doctor();
   expect(result, 0,
-         {"ok: data directory: ", "ok: presets: ", "ok: built-in worlds: ", "ok: partition: ", "ok: address: ",
+         {"ok: data directory: ", "ok: actuator types: ", "ok: built-in worlds: ", "ok: partition: ", "ok: address: ",
           "ok: serial port: no ttyUSB", "ok: --low-latency: ", "0 problems"});
   EXPECT_EQ(result.err, "");
   expect_none(result, "\033");
@@ -70,11 +70,11 @@ TEST(Doctor, ADataDirectoryThatIsNoneIsAProblem) {
   expect(machine.doctor(), 1, {"problem: data directory: ", "/nowhere", "set VSA_DATA_DIR", "1 problem,"});
 }
 
-TEST(Doctor, ABrokenPresetIsToldByItsName) {
+TEST(Doctor, ABrokenTypeIsToldByItsName) {
   Machine machine;
   write_file(machine.scratch / "broken.toml", "[preset\n");
-  machine.set("VSA_PRESET_PATH", (machine.scratch / "").string());
-  expect(machine.doctor(), 1, {"problem: preset broken: "});
+  machine.set("VSA_ACTUATOR_PATH", (machine.scratch / "").string());
+  expect(machine.doctor(), 1, {"problem: actuator type broken: "});
 }
 
 TEST(Doctor, AGazeboWithoutThePluginInIsToldWhatToSource) {
@@ -218,13 +218,21 @@ TEST(Doctor, AWorldWithoutARobotOrThatDoesNotLoadIsAProblem) {
   expect(machine.doctor({file}), 1, {"problem: world: "});
 }
 
+TEST(Doctor, WhatIsWrongWithTheWorldComesFirst) {
+  const Machine machine;
+  const std::string file = (machine.scratch / "w.sdf").string();
+  write_file(file, world(kModel, "1"));
+  const std::string out = machine.doctor({file}).out;
+  EXPECT_LT(out.find("problem: time step"), out.find("data directory")) << out;
+}
+
 TEST(Doctor, ElementsOfOlderPluginsAreWrittenAnew) {
   const Machine machine;
   const std::string file = (machine.scratch / "w.sdf").string();
   write_file(file, world("<model name='m'><link name='l'/>\n<plugin name='c' filename='libsea_plugin.so'><joint>j</joint>"
                          "<spring_k>12</spring_k><pub_state>true</pub_state></plugin></model>"));
   expect(machine.doctor({file}), 1,
-         {"problem: older plug-in: line 2: plugin libsea_plugin.so", "<joint>j</joint><preset>sea_example</preset>",
+         {"problem: older plug-in: line 2: plugin libsea_plugin.so", "<joint>j</joint><type>sea_example</type>",
           "<override key=\"elastic.stiffness_Nm_per_rad\" value=\"12\"/>", "plugin/pub_state true", "joint_state"});
 }
 
@@ -239,14 +247,14 @@ Result doctor_alone(const Machine& machine, const std::vector<std::string>& argu
 TEST(DoctorAlone, LooksAtTheSameAndReadsTheElementsOfAWorld) {
   Machine machine;
   machine.set("IGN_IP", "localhost");
-  expect(doctor_alone(machine, {}), 1, {"ok: data directory: ", "ok: presets: ", "problem: IGN_IP: "});
+  expect(doctor_alone(machine, {}), 1, {"ok: data directory: ", "ok: actuator types: ", "problem: IGN_IP: "});
   machine.set("IGN_IP", "127.0.0.1");
   const std::string model = std::string(VSA_SOURCE_DIR) + "/models/qbmove_snake/model.sdf";
   expect(doctor_alone(machine, {model}), 0, {"ok: robot: " + model + ":", "12 actuators"});
   const std::string file = (machine.scratch / "w.sdf").string();
-  write_file(file, world("<model name='m'><plugin name='vsa::Robot'><actuator><joint>j</joint><preset>qbmov</preset></actuator>"
+  write_file(file, world("<model name='m'><plugin name='vsa::Robot'><actuator><joint>j</joint><type>qbmov</type></actuator>"
                          "</plugin></model>"));
-  expect(doctor_alone(machine, {file}), 1, {"problem: robot: " + file + ":1", "unknown preset"});
+  expect(doctor_alone(machine, {file}), 1, {"problem: robot: " + file + ":1", "unknown actuator type"});
 }
 
 TEST(DoctorAlone, RefusesWhatItDoesNotKnow) {

@@ -28,7 +28,7 @@ void expect_refused(const Result& r, const std::string& part) {
 }
 
 TEST(Identify, RefusesKeysThatCantBeIdentified) {
-  const std::vector<std::string> preset{"--preset", "qbmove_maker_pro", "--parameters"};
+  const std::vector<std::string> preset{"--type", "qbmove_maker_pro", "--parameters"};
   const auto with = [&](const std::string& keys) {
     auto all = preset;
     all.push_back(keys);
@@ -42,13 +42,13 @@ TEST(Identify, RefusesKeysThatCantBeIdentified) {
 }
 
 TEST(Identify, RefusesPresetsRecordingsAndNumbersThatArentFine) {
-  const std::vector<std::string> fine{"--preset", "qbmove_maker_pro", "--parameters", "shaft.friction_Nm"};
+  const std::vector<std::string> fine{"--type", "qbmove_maker_pro", "--parameters", "shaft.friction_Nm"};
   const auto with = [&](std::vector<std::string> more, const std::string& recording = kRecording) {
     more.insert(more.begin(), fine.begin(), fine.end());
     return identify(more, recording);
   };
-  expect_refused(run_vsa({"identify", "--preset", "qbmove_maker_pro", "--parameters", "shaft.friction_Nm"}), "RECORDING");
-  expect_refused(identify({"--preset", "qbmove_maker_por", "--parameters", "shaft.friction_Nm"}), "qbmove_maker_por");
+  expect_refused(run_vsa({"identify", "--type", "qbmove_maker_pro", "--parameters", "shaft.friction_Nm"}), "RECORDING");
+  expect_refused(identify({"--type", "qbmove_maker_por", "--parameters", "shaft.friction_Nm"}), "qbmove_maker_por");
   expect_refused(with({}, "no_such_preset_0.1rad.csv"), "no such file");
   expect_refused(with({"--set", "shaft.friction_Nm=-1"}), "shaft.friction_Nm");
   expect_refused(with({"--set", "shaft.friction_Nm"}), "--set");
@@ -66,15 +66,15 @@ TEST(Identify, RefusesBadRecordingsAllAtOnceAndWritesNothing) {
              far = scratch / "c_preset_9.0000rad_branches.csv";
   write_file(empty, "");
   write_file(unit, "load_torque,deflection_rad\n0,0\n1,1\n");
-  const auto r = run_vsa({"identify", empty.string(), unit.string(), "--preset", "qbmove_maker_pro", "--parameters",
+  const auto r = run_vsa({"identify", empty.string(), unit.string(), "--type", "qbmove_maker_pro", "--parameters",
                           "shaft.friction_Nm,shaft.nothing", "--out", (scratch / "out").string()});
   expect_refused(r, "empty");
   expect_refused(r, "load_torque_Nm");
   expect_refused(r, "shaft.nothing");
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
   std::filesystem::copy_file(kRecording, far);
-  const auto beyond = run_vsa({"identify", far.string(), "--preset", "qbmove_maker_pro", "--parameters", "shaft.friction_Nm",
-                               "--out", (scratch / "out").string()});
+  const auto beyond = run_vsa({"identify", far.string(), "--type", "qbmove_maker_pro", "--parameters", "shaft.friction_Nm", "--out",
+                               (scratch / "out").string()});
   expect_refused(beyond, "beyond what");
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }

@@ -135,6 +135,8 @@ TEST(Ping, ListsTheUnitsThatAnswerAndFailsForOthers) {
   expect(run_vsa({"ping", units.path, "--id", "7,9"}), 1, {"no answer from unit 9"});
   Emulated seven({"--dialect", "7"});
   expect(seven.vsa({"ping", "--id", "1"}), 0, {"1     7"});
+  Emulated of_its_type({"--set", "firmware.dialect=7"});
+  expect(of_its_type.vsa({"ping", "--id", "1"}), 0, {"1     7"});
 }
 
 TEST(Ping, NeedsAPortThatExistsAndIdsThatCanBe) {

@@ -13,7 +13,7 @@ using vsa::test::run_vsa;
 using vsa::test::Scratch;
 using vsa::test::write_file;
 
-const fs::path kFiles = fs::path(VSA_SOURCE_DIR) / "tests/engine/robot_files";
+const fs::path kFiles = fs::path(VSA_SOURCE_DIR) / "tests/sdf/robot_files";
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;

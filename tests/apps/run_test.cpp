@@ -78,6 +78,24 @@ TEST(Run, TellsWhatHappenedAndWhereTheRecordLies) {
   expect_readable_record(scratch / "out", 300);
 }
 
+TEST(Run, ARecordOfAnotherWorldInTheSameDirectoryIsTold) {
+  const Scratch scratch;
+  const auto into = [&](const char* world) {
+    return run_vsa({"run", world, "--no-topics", "--duration-s", "0.05", "--record", (scratch / "out").string()});
+  };
+  EXPECT_EQ(into("bench_free").err.find("earlier"), std::string::npos);
+  EXPECT_EQ(into("bench_free").err.find("earlier"), std::string::npos) << "its own is overwritten";
+  const auto other = into("bench_load");
+  EXPECT_EQ(other.exit_code, 0);
+  EXPECT_NE(other.err.find("out keeps an earlier run's qbmove_bench_free_actuators.csv"), std::string::npos) << other.err;
+}
+
+TEST(Run, ARobotThatIsBoltedDownHasNoDistance) {
+  const auto result = run_vsa({"run", "bench_load", "--no-topics", "--duration-s", "2"});
+  EXPECT_EQ(result.out.find("distance"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("energy from supply"), std::string::npos);
+}
+
 TEST(Run, TwoProcessesWithAGaitWriteTheSameBytes) {
   const Scratch scratch;
   for (const char* name : {"a", "b"}) {

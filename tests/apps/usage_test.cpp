@@ -40,11 +40,46 @@ TEST(Usage, WrongArgumentsAreBadUsage) {
   EXPECT_EQ(run_vsa({"command", "", "20"}).exit_code, 2);
 }
 
+TEST(Usage, AFlagThatIsGivenAgainAndAgainLeavesTheWorldAlone) {
+  const std::string gain = "firmware.kp_pct_per_tick=0.03";
+  EXPECT_EQ(run_vsa({"run", "--set", gain, "bench_free", "--no-topics", "--duration-s", "0.01"}).exit_code, 0);
+  expect_bad_input(run_vsa({"run", "--set", "firmware.kp=0.03", "bench_free", "--no-topics", "--duration-s", "0.01"}),
+                   {"vsa: --set firmware.kp = \"0.03\": unknown key, did you mean firmware.kp_pct_per_tick?"});
+}
+
+TEST(Usage, ANumberWithoutAUnitIsBoundedWithoutOne) {
+  expect_bad_input(run_vsa({"run", "bench_free", "--no-topics", "--set", "tendon.friction=2"}), {"0 … 0.99)"});
+}
+
+TEST(Usage, AnActuatorWithoutAPresetSaysSo) {
+  EXPECT_NE(run_vsa({"actuators", "sea_example"}).out.find("at rest, no stiffness preset"), std::string::npos);
+}
+
+TEST(Usage, RepairsThatAreOffAreListedOnRequest) {
+  EXPECT_EQ(run_vsa({"actuators", "sea_example"}).out.find("firmware.repair_list_mode_5"), std::string::npos);
+  EXPECT_NE(run_vsa({"actuators", "sea_example"}).out.find("firmware.supply_limit"), std::string::npos);
+  EXPECT_NE(run_vsa({"actuators", "sea_example", "--all"}).out.find("firmware.repair_list_mode_5"), std::string::npos);
+}
+
+TEST(Usage, AWordLikeNoOtherIsNotGuessed) {
+  for (const char* word : {"frobnicate", "nonsense"})
+    EXPECT_EQ(run_vsa({word}).err.find("did you mean"), std::string::npos) << word;
+  EXPECT_EQ(run_vsa({"actuators", "nonsense"}).err.find("did you mean"), std::string::npos);
+}
+
+TEST(Usage, HelpIsACommandToo) {
+  EXPECT_EQ(run_vsa({"help"}).out, run_vsa({"--help"}).out);
+  EXPECT_EQ(run_vsa({"help", "run"}).out, run_vsa({"run", "--help"}).out);
+  EXPECT_EQ(run_vsa({"help", "run"}).exit_code, 0);
+  expect_bad_input(run_vsa({"help", "rnu"}), {"vsa: rnu: no such command, did you mean run?"});
+}
+
 TEST(Usage, AWordNobodyKnowsIsNamedWithTheNearestThatMeansSomething) {
   expect_bad_input(run_vsa({"rnu", "snake_flat"}), {"vsa: rnu: no such command, did you mean run?", "doctor"});
   expect_bad_input(run_vsa({"run", "bench_free", "--duratoin-s", "3"}),
                    {"vsa: run: --duratoin-s: no such option, did you mean --duration-s?"});
   expect_bad_input(run_vsa({"run", "bench_free", "--duratoin-s=3"}), {"--duratoin-s: no such option"});
+  expect_bad_input(run_vsa({"run", "snake_flatt"}), {"no such file, did you mean snake_flat?", "bench_free"});
   expect_bad_input(run_vsa({"actuators", "qbmove_maker_pro_6_1", "twice"}), {"vsa: actuators: twice: one word too many"});
 }
 
@@ -83,6 +118,8 @@ TEST(Usage, AGaitForAnotherRobotIsBadInputBeforeAnythingRuns) {
   const Scratch scratch;
   const auto result = run_vsa({"run", "bench_free", "--no-topics", "--gait", "sidewind", "--record", (scratch / "out").string()});
   expect_bad_input(result, {"joint_2"});
+  const auto wide = run_vsa({"run", "snake_flat", "--no-topics", "--gait", "frank_wave"});
+  EXPECT_LT(wide.err.find("joint_9,"), wide.err.find("joint_10,")) << wide.err;
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }
 

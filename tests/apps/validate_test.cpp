@@ -84,7 +84,7 @@ TEST(Validate, CountsAnUnseenRecordingAsPredictedAndEndsWithOneWhereABoundIsBrok
                           (scratch / "doc.md").string(), "--recordings", (scratch / "mine").string(), "--leave-one-out",
                           (scratch / "loo.json").string()});
   EXPECT_EQ(r.exit_code, 1) << r.err;
-  has(r.err, {"broken"});
+  has(r.err, {"bounds broken: stiffness.0.4602.rms_rad = ", "(at most 1e-06)"});
   has(r.out, {"The recording (preset 0.4602 rad) is of an origin that nobody states", "STALE",
               "drive.load_loss was fitted again and every other value held", "drive.friction_Nm was 9 and is", "0.0412",
               "Predictions held: 0 of 1; calibrated figures within their guard: 1 of 1."});
@@ -118,8 +118,8 @@ TEST(Validate, RefusesBadInputBeforeItSimulates) {
   refused({"--bounds", (scratch / "none.toml").string()}, "can't be read");
   refused({"--bounds", (scratch / "claim.toml").string()}, "calibrated on stiffness.0.6903.rms_rad");
   refused({"--markdown", (scratch / "plain.md").string()}, "vsa validate: tables");
-  refused({"--preset", "nobody"}, "nobody");
-  refused({"--preset", "sea_example"}, "isn't in the unit of sea_example");
+  refused({"--type", "nobody"}, "nobody");
+  refused({"--type", "sea_example"}, "isn't in the unit of sea_example");
   refused({"--set", "shaft.friction_Nm"}, "--set");
 }
 
@@ -173,7 +173,7 @@ TEST(Validate, RefusesALeaveOneOutRecordThatIsNone) {
   EXPECT_EQ(r.exit_code, 2);
 }
 
-TEST(Validate, TakesARecordForStaleWhereAHeldValueOrAFittedOneBeyondItsIntervalDiffers) {
+TEST(Validate, TakesARecordForStaleWhereAHeldValueDiffersAndTellsWhereAFittedOneEndedElsewhere) {
   const Scratch scratch;
   const std::string shipped = read_file(std::filesystem::path(VSA_SOURCE_DIR) / "data/qbmove_maker_pro/leave_one_out.json");
   const auto stale = [&](const std::string& from, const std::string& to) {
@@ -184,12 +184,12 @@ TEST(Validate, TakesARecordForStaleWhereAHeldValueOrAFittedOneBeyondItsIntervalD
     write_file(scratch / "r.json", text);
     const auto r = run_vsa({"validate", "--leave-one-out", (scratch / "r.json").string(), "--out", (scratch / "out").string()});
     EXPECT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_NE(r.out.find("ended at other values of elastic.k1_Nm"), std::string::npos) << r.out;
     return r.out.find("STALE") != std::string::npos;
   };
   EXPECT_FALSE(stale("\"drive.supply_V\": \"8", "\"drive.supply_V\": \"8"));
   EXPECT_TRUE(stale("\"drive.supply_V\": \"8", "\"drive.supply_V\": \"9"));
-  EXPECT_FALSE(
-      stale("\"drive.resistance_Ohm\": \"6.", "\"drive.resistance_Ohm\": \"7."));  // within the interval is the preset's own
+  EXPECT_FALSE(stale("\"drive.resistance_Ohm\": \"5.", "\"drive.resistance_Ohm\": \"7."));
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ TEST(Messages, AnyRequestComesBackThroughTheUnitsReceiver) {
 template <class R>
 void expect_back(Wire wire, const R& reply, Command command) {
   const FrameBytes bytes = encode_reply(wire, 200, reply);
-  HostReceiver host;
+  MasterReceiver host;
   host.push(bytes.view());
   Frame frame;
   ASSERT_TRUE(host.next(frame));

@@ -150,7 +150,7 @@ std::vector<Frame> broadcast_replies(const std::vector<FrameBytes>& replies, std
   std::vector<Burst> speakers;
   for (std::size_t i = 0; i < replies.size(); ++i)
     speakers.push_back({static_cast<std::int64_t>(i) * spread_ps, replies[i].view()});
-  HostReceiver host;
+  MasterReceiver host;
   std::vector<Frame> frames;
   Frame frame;
   for (const HeardByte& h : heard(speakers)) {

@@ -68,9 +68,9 @@ TEST(SignalChain, MeetsTheCouplingCriterionInTheEmbeddedEngine) {
 TEST(SignalChain, ABareFlangeKickedFarStaysBoundedAtEveryStep) {
   for (const double step : {0.5e-3, 1e-3, 2e-3, 4e-3}) {
     for (const bool losses : {false, true}) {
-      for (const char* preset : {"qbmove_maker_pro_6_1", "qbmove_maker_pro_paper"}) {
+      for (const char* type : {"qbmove_maker_pro_6_1", "qbmove_maker_pro_paper"}) {
         FlangeWorld f;
-        f.preset = preset;
+        f.type = type;
         f.inertia_kgm2 = 1e-4;
         f.preset_rad = 0.785;
         f.step_s = step;
@@ -85,15 +85,15 @@ TEST(SignalChain, ABareFlangeKickedFarStaysBoundedAtEveryStep) {
           w.step();
           worst = std::max(worst, beyond_supply() - first);
         }
-        EXPECT_LT(worst, 1e-3 * first) << preset << ' ' << step << (losses ? " with losses" : " without");
+        EXPECT_LT(worst, 1e-3 * first) << type << ' ' << step << (losses ? " with losses" : " without");
       }
     }
   }
 }
 
-void keeps_its_energy(const char* preset) {
+void keeps_its_energy(const char* type) {
   FlangeWorld f;
-  f.preset = preset;
+  f.type = type;
   f.inertia_kgm2 = 1e-4;
   f.preset_rad = 0.785;
   f.step_s = 5e-4;
@@ -108,8 +108,8 @@ void keeps_its_energy(const char* preset) {
     crossings += (last < 0) != (w.joint_angle(kShaft) < 0);
     ASSERT_LT(w.time_s(), 1.0);
   }
-  EXPECT_GT(stored(w) / before, 0.9) << preset;
-  EXPECT_LT(stored(w) / before, 1.01) << preset;
+  EXPECT_GT(stored(w) / before, 0.9) << type;
+  EXPECT_LT(stored(w) / before, 1.01) << type;
 }
 
 TEST(SignalChain, KeepsItsEnergyOverTenPeriodsAtHalfAMillisecond) {
@@ -120,7 +120,7 @@ TEST(SignalChain, KeepsItsEnergyOverTenPeriodsAtHalfAMillisecond) {
 TEST(SignalChain, StaticDeflectionUnderALoadFollowsTheClosedForm) {
   // The housing is upright, the lever hangs; commanded to the horizontal it sags by the spring's deflection.
   FlangeWorld f;
-  f.preset = "qbmove_maker_pro_paper";  // whose springs have a closed form
+  f.type = "qbmove_maker_pro_paper";  // whose springs have a closed form
   f.gravity = true;
   f.mass_kg = 0.3;
   f.arm_m = 0.15;
@@ -153,7 +153,7 @@ TEST(SignalChain, EquilibriumDoesNotDependOnThePreset) {
 TEST(SignalChain, MotorReachesItsSteadySpeed) {
   FlangeWorld f;
   f.inertia_kgm2 = 4e-4;
-  f.preset = "qbmove_maker_pro_paper";
+  f.type = "qbmove_maker_pro_paper";
   World w = World::load_string(flange_world(f));
   w.run(0.05);
   w.command("a", 2.0, 0.611);

@@ -102,8 +102,11 @@ TEST(Rest, EveryShippedRobotIsQuietInItsWorld) {
     if (world.actuators().empty()) continue;
     ++robots;
     const Rest rest = rest_of(world, 5);
-    // Frank and the 3R arm rest on edges of encoder counts: 0.02 rad/s.
-    EXPECT_LT(rest.rms_speed, 1.5 * kQuiet_rad_per_s) << file.path().filename();
+    // Frank and the 3R arm rest on edges of encoder counts: 0.02 rad/s. The pole stands on a hinge without friction or actuator: it
+    // falls and swings for ever.
+    if (file.path().stem() != "bench_pole") {
+      EXPECT_LT(rest.rms_speed, 1.5 * kQuiet_rad_per_s) << file.path().filename();
+    }
     EXPECT_GT(rest.coupling_part, kCreated) << file.path().filename();
   }
   EXPECT_GE(robots, 10);

@@ -37,7 +37,7 @@ inline std::string named(const RestCase& c) {
 
 /// Parallel and alternating axes; no gravity, hanging, held aside; supply on and off; all of these presets (a series elastic type
 /// has none) and steps.
-inline void for_every_rest_case(SerialWorld chain, const std::vector<double>& presets, const std::vector<double>& steps_s,
+inline void for_every_rest_case(const SerialWorld& chain, const std::vector<double>& presets, const std::vector<double>& steps_s,
                                 const std::function<void(const RestCase&)>& each) {
   const bool sea = chain.type.rfind("sea_", 0) == 0;
   for (const double preset : sea ? std::vector<double>{0} : presets) {
@@ -142,7 +142,8 @@ class RestTable {
 /// The same posture, aside by up to 8 times 0.3 mrad to both sides: an encoder count of the qbmove is 0.77 mrad.
 inline std::optional<RestCase> nearby(RestCase c, int attempt) {
   if (attempt > 16) return std::nullopt;
-  c.held_rad += 3e-4 * ((attempt + 1) / 2) * (attempt % 2 == 0 ? -1 : 1);
+  const int farther = (attempt + 1) / 2;
+  c.held_rad += 3e-4 * farther * (attempt % 2 == 0 ? -1 : 1);
   return c;
 }
 

@@ -14,7 +14,7 @@ namespace {
 using vsa::engine::World;
 
 /// `links` links of 80 mm hanging on each other sideways, about parallel axes, every joint an unpowered unit at the largest preset.
-std::string chain(const std::string& preset, int links, double inertia_kgm2, double step_s) {
+std::string chain(const std::string& type, int links, double inertia_kgm2, double step_s) {
   std::ostringstream s;
   s << "<sdf version='1.7'><world name='w'><gravity>0 0 0</gravity><physics name='p' type='ode'><max_step_size>" << step_s
     << "</max_step_size></physics><model name='m'><link name='l0'><inertial><mass>1</mass></inertial></link>"
@@ -27,7 +27,7 @@ std::string chain(const std::string& preset, int links, double inertia_kgm2, dou
   }
   s << "<plugin name='vsa::Robot' filename='libvsa-robot.so'>";
   for (int i = 1; i <= links; ++i) {
-    s << "<actuator><joint>j" << i << "</joint><preset>" << preset << "</preset><bus id='" << i
+    s << "<actuator><joint>j" << i << "</joint><type>" << type << "</type><bus id='" << i
       << "'>b</bus><initial equilibrium_rad='0' preset_rad='0.785'/></actuator>";
   }
   s << "<bus name='b'/></plugin></model></world></sdf>";
@@ -35,8 +35,8 @@ std::string chain(const std::string& preset, int links, double inertia_kgm2, dou
 }
 
 /// The largest energy there ever was over what the kick put into the springs.
-double growth(const std::string& preset, int links, double inertia_kgm2, double step_s, double kick_rad) {
-  World w = World::load_string(chain(preset, links, inertia_kgm2, step_s));
+double growth(const std::string& type, int links, double inertia_kgm2, double step_s, double kick_rad) {
+  World w = World::load_string(chain(type, links, inertia_kgm2, step_s));
   w.robot(0).set_supply(false);
   for (int i = 1; i <= links; ++i) w.set_joint("m::j" + std::to_string(i), i % 2 ? kick_rad : -kick_rad, 0);
   const auto energy = [&] { return w.energy().kinetic + w.ledger().stored(); };
@@ -52,20 +52,20 @@ double growth(const std::string& preset, int links, double inertia_kgm2, double 
 
 TEST(SerialChain, OfModulesKickedHardAtTheLargestPresetNeverGainsEnergy) {
   // 1e-3 kg·m², 0.2 kg: lighter than a qbmove. Half a radian at p = 0.785 rad is 11 J a joint.
-  for (const char* preset : {"qbmove_maker_pro_6_1", "qbmove_maker_pro_paper"}) {
+  for (const char* type : {"qbmove_maker_pro_6_1", "qbmove_maker_pro_paper"}) {
     for (const int links : {2, 4, 8}) {
-      EXPECT_LE(growth(preset, links, 1e-3, 1e-3, 0.5), 1.0) << preset << ' ' << links;
-      EXPECT_LE(growth(preset, links, 1e-3, 2e-3, 0.2), 1.0) << preset << ' ' << links;
+      EXPECT_LE(growth(type, links, 1e-3, 1e-3, 0.5), 1.0) << type << ' ' << links;
+      EXPECT_LE(growth(type, links, 1e-3, 2e-3, 0.2), 1.0) << type << ' ' << links;
     }
   }
 }
 
 TEST(SerialChain, OfBareFlangesGainsNoMoreThanTheStepsInWhichItFolds) {
   // 0.02 kg: speeds of 100 rad/s fold the chain within few steps, and with it B.
-  for (const char* preset : {"qbmove_maker_pro_6_1", "qbmove_maker_pro_paper"}) {
+  for (const char* type : {"qbmove_maker_pro_6_1", "qbmove_maker_pro_paper"}) {
     for (const int links : {2, 4, 8}) {
       for (const double step_s : {0.5e-3, 1e-3, 4e-3})
-        EXPECT_LE(growth(preset, links, 1e-4, step_s, 0.2), 1.01) << preset << ' ' << links;
+        EXPECT_LE(growth(type, links, 1e-4, step_s, 0.2), 1.01) << type << ' ' << links;
     }
   }
 }

@@ -37,7 +37,7 @@ inline std::string serial_model(const SerialWorld& w) {
   }
   s << "<plugin name='vsa::Robot' filename='libvsa-robot.so'>";
   for (int i = 1; i <= w.joints; ++i) {
-    s << "<actuator><joint>j" << i << "</joint><preset>" << w.type << "</preset><bus id='" << i
+    s << "<actuator><joint>j" << i << "</joint><type>" << w.type << "</type><bus id='" << i
       << "'>b</bus><initial equilibrium_rad='0'";
     if (w.type.rfind("sea_", 0) != 0) s << " preset_rad='" << w.preset << "'";  // a series elastic type has none
     s << "/>" << w.overrides << "</actuator>";

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <vector>
 
-#include "vsa/config/preset.hpp"
-#include "vsa/engine/gait.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/engine/world.hpp"
+#include "vsa/motion/gait.hpp"
 
 namespace {
 
-using vsa::engine::Gait;
 using vsa::engine::World;
+using vsa::motion::Gait;
 
 std::filesystem::path model(const char* path) { return vsa::config::data_directory() / "models" / path; }
 

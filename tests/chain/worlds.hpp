@@ -13,7 +13,7 @@ struct FlangeWorld {
   double preset_rad = 0.611;
   double step_s = 1e-3;
   bool losses = true;
-  std::string preset = "qbmove_maker_pro_6_1";
+  std::string type = "qbmove_maker_pro_6_1";
   bool gravity = false;
   double mass_kg = 0.05, arm_m = 0.0;  ///< centre of mass of the flange from the axis
   double friction_Nm = 0.8;
@@ -38,8 +38,8 @@ inline std::string flange_world(const FlangeWorld& w) {
     << "<link name='flange'><inertial><pose>0 0 " << -w.arm_m << " 0 0 0</pose><mass>" << w.mass_kg << "</mass><inertia><ixx>"
     << about_com << "</ixx><iyy>" << about_com << "</iyy><izz>" << about_com << "</izz></inertia></inertial></link>"
     << "<joint name='shaft' type='revolute'><parent>housing</parent><child>flange</child><axis><xyz>0 -1 0</xyz></axis></joint>"
-    << "<plugin name='vsa::Robot' filename='libvsa-robot.so'><actuator name='a'><joint>shaft</joint><preset>" << w.preset
-    << "</preset><bus id='1'>b</bus><initial equilibrium_rad='0' preset_rad='" << w.preset_rad << "'/>";
+    << "<plugin name='vsa::Robot' filename='libvsa-robot.so'><actuator name='a'><joint>shaft</joint><type>" << w.type
+    << "</type><bus id='1'>b</bus><initial equilibrium_rad='0' preset_rad='" << w.preset_rad << "'/>";
   if (!w.losses) {
     // Locked pulleys: the bounds don't allow infinite inertia, so the gear ratio multiplies it.
     s << over("drive.friction_Nm", 0) << over("drive.load_loss", 0) << over("tendon.friction", 0)

@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// [evidence]: what a preset was calibrated on.
+// [evidence]: what a type was calibrated on.
 #include "support.hpp"
 
 namespace vsa::test {
@@ -13,7 +13,7 @@ using config::names_experiment;
 /// sea_example, whose file has the table, with another one.
 std::vector<Problem> told(const std::string& table) {
   const Directory directory("evidence");
-  const std::string good = read(source_dir() / "presets/sea_example.toml");
+  const std::string good = read(source_dir() / "actuators/sea_example.toml");
   const auto file = directory.write("sea_example.toml", good.substr(0, good.find("[evidence]")) + table);
   return problems_of([&] { (void)shipped().load_file(file); });
 }
@@ -38,10 +38,10 @@ TEST(Evidence, NamesAnExperimentAsItsMeasuresAreNamed) {
 }
 
 TEST(Evidence, IsReadWithItsSource) {
-  const config::Preset preset = shipped().load("qbmove_maker_pro");
-  ASSERT_TRUE(preset.evidence.has_value());
-  EXPECT_FALSE(preset.evidence->source.empty());
-  for (const char* fitted : {"stiffness.0.0000.rms_rad", "stiffness.0.6903.rms_rad"}) EXPECT_TRUE(covers(*preset.evidence, fitted));
+  const config::ActuatorType type = shipped().load("qbmove_maker_pro");
+  ASSERT_TRUE(type.evidence.has_value());
+  EXPECT_FALSE(type.evidence->source.empty());
+  for (const char* fitted : {"stiffness.0.0000.rms_rad", "stiffness.0.6903.rms_rad"}) EXPECT_TRUE(covers(*type.evidence, fitted));
 }
 
 TEST(Evidence, MayBeLeftOutAndMayBeEmpty) {

@@ -89,19 +89,19 @@ bool answers(Call&& call) {
   return problems.empty();
 }
 
-bool load_text(const config::PresetLibrary& library, const std::string& name, const std::string& text,
+bool load_text(const config::TypeLibrary& library, const std::string& name, const std::string& text,
                const std::vector<config::Override>& overrides = {}) {
   return answers([&] { (void)library.load_text(text, name + ".toml", overrides); });
 }
 
-std::string preset_text(const std::string& name) { return read(source_dir() / "presets" / (name + ".toml")); }
+std::string type_text(const std::string& name) { return read(source_dir() / "actuators" / (name + ".toml")); }
 
 TEST(Fuzz, MutatedPresetsAreReadOrRefused) {
   Mutator mutator(1);
-  const config::PresetLibrary library = shipped();
+  const config::TypeLibrary library = shipped();
   int read_well = 0;
   for (const std::string name : {"qbmove_maker_pro_6_1", "sea_example"}) {
-    const std::string good = preset_text(name);
+    const std::string good = type_text(name);
     for (int i = 0; i < kRounds; ++i) read_well += load_text(library, name, mutator.mutate(good)) ? 1 : 0;
   }
   EXPECT_GT(read_well, kRounds / 50);  // mutations in comments, titles, sources: else the loop only meets the parser
@@ -117,7 +117,7 @@ TEST(Fuzz, DeeplyNestedTomlIsRefused) { EXPECT_FALSE(load_text(shipped(), "x", "
 
 TEST(Fuzz, MutatedOverridesAreReadOrRefused) {
   Mutator mutator(3);
-  const std::string good = preset_text("qbmove_maker_pro_6_1");
+  const std::string good = type_text("qbmove_maker_pro_6_1");
   for (int i = 0; i < kRounds / 4; ++i) {
     (void)load_text(shipped(), "qbmove_maker_pro_6_1", good, {{mutator.mutate("drive.friction_Nm"), mutator.mutate("0.7")}});
   }
@@ -125,14 +125,14 @@ TEST(Fuzz, MutatedOverridesAreReadOrRefused) {
 
 TEST(Fuzz, MutatedPluginsAreReadOrRefused) {
   Mutator mutator(4);
-  const config::PresetLibrary presets = shipped();
+  const config::TypeLibrary types = shipped();
   const std::string documentation = read(source_dir() / "docs/reference/config.md");
   const std::size_t from = documentation.find("<plugin");
   const std::string good = documentation.substr(from, documentation.find("</plugin>", from) + 9 - from);
   int read_well = 0;
   for (int i = 0; i < kRounds; ++i) {
     const std::string xml = mutator.mutate(good);
-    read_well += answers([&] { (void)config::parse_plugin(xml, "fuzz", presets); }) ? 1 : 0;
+    read_well += answers([&] { (void)config::parse_plugin(xml, "fuzz", types); }) ? 1 : 0;
   }
   EXPECT_GT(read_well, kRounds / 100);
   EXPECT_LT(read_well, kRounds / 2);
@@ -140,14 +140,14 @@ TEST(Fuzz, MutatedPluginsAreReadOrRefused) {
 
 TEST(Fuzz, NoiseAndDeepNestingAreNoPlugin) {
   Mutator mutator(5);
-  const config::PresetLibrary presets = shipped();
+  const config::TypeLibrary types = shipped();
   for (int i = 0; i < kRounds; ++i) {
     const std::string xml = mutator.noise();
-    EXPECT_FALSE(answers([&] { (void)config::parse_plugin(xml, "fuzz", presets); }));
+    EXPECT_FALSE(answers([&] { (void)config::parse_plugin(xml, "fuzz", types); }));
   }
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "<a>";
-  EXPECT_FALSE(answers([&] { (void)config::parse_plugin(deep, "fuzz", presets); }));
+  EXPECT_FALSE(answers([&] { (void)config::parse_plugin(deep, "fuzz", types); }));
 }
 
 }  // namespace

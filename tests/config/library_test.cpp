@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <clocale>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 #include "support.hpp"
+#include "vsa/config/installed.hpp"
 #include "vsa/config/schema.hpp"
 #include "vsa/config/text.hpp"
 
@@ -15,12 +18,12 @@ namespace vsa::test {
 namespace {
 
 using config::Override;
-using config::PresetLibrary;
+using config::TypeLibrary;
 
-const config::Entry& entry(const config::Preset& preset, const std::string& key) {
+const config::Entry& entry(const config::ActuatorType& type, const std::string& key) {
   const auto same = [&](const config::Entry& e) { return e.key == key; };
-  const auto at = std::find_if(preset.entries.begin(), preset.entries.end(), same);
-  EXPECT_NE(at, preset.entries.end()) << key;
+  const auto at = std::find_if(type.entries.begin(), type.entries.end(), same);
+  EXPECT_NE(at, type.entries.end()) << key;
   return *at;
 }
 
@@ -37,24 +40,38 @@ class Environment {
 };
 
 TEST(Override, ReplacesAValueAndSaysSoInTheSource) {
-  const auto preset = shipped().load("qbmove_maker_pro_paper", {{"drive.friction_Nm", "0.7"}, {"elastic.k1_Nm", "0.03"}});
-  EXPECT_EQ(preset.unit.actuator.gearbox.friction.coulomb_Nm, 0.7);
-  EXPECT_EQ(entry(preset, "drive.friction_Nm").value, "0.7");
-  expect_pieces(entry(preset, "drive.friction_Nm").source, {"override", "the preset has 0.8", "Table I"});
-  EXPECT_EQ(entry(preset, "elastic.k1_Nm").value, "0.03");
+  const auto type = shipped().load("qbmove_maker_pro_paper", {{"drive.friction_Nm", "0.7"}, {"elastic.k1_Nm", "0.03"}});
+  EXPECT_EQ(type.unit.actuator.gearbox.friction.coulomb_Nm, 0.7);
+  EXPECT_EQ(entry(type, "drive.friction_Nm").value, "0.7");
+  expect_pieces(entry(type, "drive.friction_Nm").source, {"override", "the type has 0.8", "Table I"});
+  EXPECT_EQ(entry(type, "elastic.k1_Nm").value, "0.03");
+}
+
+TEST(Entry, HasTheNumbersOfItsTexts) {
+  const auto preset = shipped().load("qbmove_maker_pro", {{"drive.off_mode", "coast"}, {"firmware.limits_on", "true"}});
+  for (const config::Entry& e : preset.entries) {
+    if (e.kind != config::Kind::number && e.kind != config::Kind::integer) continue;
+    EXPECT_EQ(config::number_text(e.number), e.value) << e.key;
+    EXPECT_EQ(config::range_text(e.min, e.max), e.bounds) << e.key << ": the file's own, not the table's";
+  }
+  EXPECT_EQ(entry(preset, "sensor.encoder_bits").kind, config::Kind::integer);
+  EXPECT_EQ(entry(preset, "drive.off_mode").kind, config::Kind::word);
+  EXPECT_EQ(entry(preset, "drive.off_mode").number, 1) << "the second word";
+  EXPECT_EQ(entry(preset, "firmware.limits_on").number, 1);
+  EXPECT_EQ(entry(preset, "elastic.k1_Nm").kind, config::Kind::number) << "a law's own";
 }
 
 TEST(Override, WorksForWordsSwitchesWholeNumbersAndAbsentOptionalKeys) {
-  const auto preset = shipped().load("qbmove_maker_pro", {{"drive.off_mode", "coast"},
-                                                          {"firmware.limits_on", "false"},
-                                                          {"drive.polarity", "-1"},
-                                                          {"sensor.encoder_bits", "14"},
-                                                          {"drive.inductance_H", "1e-3"}});
-  EXPECT_FALSE(preset.unit.actuator.bridge.brake_when_off);
-  EXPECT_EQ(preset.unit.memory.limits_on, 0);
-  EXPECT_EQ(preset.unit.polarity, -1);
-  EXPECT_EQ(preset.unit.actuator.encoder.bits, 14);
-  EXPECT_EQ(preset.unit.actuator.motor.inductance_H, 1e-3);
+  const auto type = shipped().load("qbmove_maker_pro", {{"drive.off_mode", "coast"},
+                                                        {"firmware.limits_on", "false"},
+                                                        {"drive.polarity", "-1"},
+                                                        {"sensor.encoder_bits", "14"},
+                                                        {"drive.inductance_H", "1e-3"}});
+  EXPECT_FALSE(type.unit.actuator.bridge.brake_when_off);
+  EXPECT_EQ(type.unit.memory.limits_on, 0);
+  EXPECT_EQ(type.unit.polarity, -1);
+  EXPECT_EQ(type.unit.actuator.encoder.bits, 14);
+  EXPECT_EQ(type.unit.actuator.motor.inductance_H, 1e-3);
 }
 
 TEST(Override, TurnsOnTheBridgeAsACircuitAndAnOlderLoop) {
@@ -99,8 +116,8 @@ TEST(Override, ThatIsBadIsRefusedByNameOfTheOverride) {
       {{"drive.friction_Nm", "0x10"}, "must be a number"},
       {{"drive.friction_Nm", "0,7"}, "must be a number"},
       {{"drive.friction_Nm", "-0.1"}, "is outside of what the model accepts"},
-      {{"drive.friction_Nm", "11"}, "is outside of the preset's own bounds"},
-      {{"drive.inductance_H", "1e9"}, "is outside of what the model accepts"},  // the preset has none, so no bounds of its own
+      {{"drive.friction_Nm", "11"}, "is outside of the type's own bounds"},
+      {{"drive.inductance_H", "1e9"}, "is outside of what the model accepts"},  // the type has none, so no bounds of its own
       {{"drive.frction_Nm", "0.7"}, "did you mean drive.friction_Nm?"},
       {{"elastic.k3_Nm", "0.7"}, "did you mean elastic.k1_Nm?"},
       {{"elastic.law", "series_spring"}, "can't be overridden"},
@@ -124,14 +141,14 @@ TEST(Override, GivenTwiceIsRefused) {
 
 TEST(Default, StandsInForAKeyThatTheFileLeavesOutAndIsListedAsOne) {
   const Directory directory("defaults");
-  std::string text = read(source_dir() / "presets/qbmove_maker_pro.toml");
+  std::string text = read(source_dir() / "actuators/qbmove_maker_pro.toml");
   const std::size_t from = text.find("[firmware]"), to = text.find("[limits]");
   text.erase(from, to - from);
-  const auto preset = shipped().load_file(directory.write("qbmove_maker_pro.toml", text));
-  EXPECT_EQ(preset.unit.memory.position.p, 6553);
-  EXPECT_EQ(preset.unit.memory, firmware::initial_memory(firmware::Model::maker_pro));
-  EXPECT_EQ(entry(preset, "firmware.kp_pct_per_tick").value, "0.1");
-  expect_pieces(entry(preset, "firmware.kp_pct_per_tick").source, {"default: ", "6.1"});
+  const auto type = shipped().load_file(directory.write("qbmove_maker_pro.toml", text));
+  EXPECT_EQ(type.unit.memory.position.p, 6553);
+  EXPECT_EQ(type.unit.memory, firmware::initial_memory(firmware::Model::maker_pro));
+  EXPECT_EQ(entry(type, "firmware.kp_pct_per_tick").value, "0.1");
+  expect_pieces(entry(type, "firmware.kp_pct_per_tick").source, {"default: ", "6.1"});
 }
 
 TEST(Default, OfEveryDefaultedParameterIsWithinItsOwnBoundsAndHasASource) {
@@ -146,28 +163,48 @@ TEST(Default, OfEveryDefaultedParameterIsWithinItsOwnBoundsAndHasASource) {
   }
 }
 
-TEST(PresetLibrary, AnUnknownNameIsRefusedWithTheNamesThereAre) {
-  for (const char* name : {"qbmove", "", "../presets/sea_example", "sea_example.toml", "/etc/passwd"}) {
+TEST(TypeLibrary, AnUnknownNameIsRefusedWithTheNamesThereAre) {
+  for (const char* name : {"qbmove", "", "../actuators/sea_example", "sea_example.toml", "/etc/passwd"}) {
     const auto problems = problems_of([&] { (void)shipped().load(name); });
     ASSERT_EQ(problems.size(), 1u);
-    expect_pieces(problems[0].text(), {"unknown preset", "qbmove_advanced, qbmove_maker_pro,", "searched", "presets"});
+    expect_pieces(problems[0].text(), {"unknown actuator type", "qbmove_advanced, qbmove_maker_pro,", "searched", "actuators"});
   }
 }
 
-TEST(PresetLibrary, TheFirstDirectoryWinsAndPresetPathComesBeforeTheShippedOnes) {
+TEST(TypeLibrary, TheFirstDirectoryWinsAndActuatorPathComesBeforeTheShippedOnes) {
   const Directory directory("path");
-  directory.write("sea_example.toml", replaced(read(source_dir() / "presets/sea_example.toml"), "value = 10.0", "value = 20.0"));
-  const Environment path("VSA_PRESET_PATH", "/nowhere::" + directory.path().string());
+  directory.write("sea_example.toml", replaced(read(source_dir() / "actuators/sea_example.toml"), "value = 10.0", "value = 20.0"));
+  const Environment path("VSA_ACTUATOR_PATH", "/nowhere::" + directory.path().string());
   const Environment data("VSA_DATA_DIR", VSA_SOURCE_DIR);
-  const PresetLibrary library;
+  const TypeLibrary library;
   EXPECT_EQ(library.load("sea_example").unit.actuator.transmission->evaluate({}).curvature.qq, 20.0);
   EXPECT_EQ(library.load("qbmove_maker_pro").name, "qbmove_maker_pro");
   EXPECT_EQ(library.directories().size(), 3u);
 }
 
+TEST(TypeLibrary, OldSpellingsAreUnderstoodAndTold) {
+  const Directory data("data"), own("own");
+  std::string text = read(source_dir() / "actuators/sea_example.toml");
+  text = replaced(text, "[type]", "[preset]");
+  std::filesystem::create_directory(data.path() / "presets");
+  std::ofstream(data.path() / "presets" / "sea_example.toml") << text;
+  const Environment set("VSA_DATA_DIR", data.path().string()), path("VSA_PRESET_PATH", own.path().string());
+  EXPECT_EQ(config::data_directory(), data.path());
+  const TypeLibrary library;
+  ASSERT_EQ(library.notices().size(), 2u);
+  expect_pieces(library.notices()[0], {"VSA_PRESET_PATH is called VSA_ACTUATOR_PATH now"});
+  expect_pieces(library.notices()[1], {"presets is called actuators now"});
+  const config::ActuatorType type = library.load("sea_example");
+  EXPECT_FALSE(type.title.empty());
+  ASSERT_EQ(type.notices.size(), 1u);
+  expect_pieces(type.notices[0], {"sea_example.toml:", "[preset] is called [type] now"});
+  EXPECT_TRUE(shipped().load("sea_example").notices.empty());
+  EXPECT_TRUE(shipped().notices().empty());
+}
+
 TEST(DataDirectory, IsFoundFromAnExecutableInTheBuildTreeThroughTheSourceTree) {
-  EXPECT_TRUE(std::filesystem::exists(config::data_directory() / "presets"));
-  ASSERT_TRUE(config::find_data("presets/sea_example.toml").has_value());
+  EXPECT_TRUE(std::filesystem::exists(config::data_directory() / "actuators"));
+  ASSERT_TRUE(config::find_data("actuators/sea_example.toml").has_value());
   EXPECT_FALSE(config::find_data("no such thing").has_value());
   EXPECT_EQ(config::data_directories().front().filename(), "vsa");
   EXPECT_EQ(config::data_directories().front().parent_path().filename(), "share");
@@ -177,8 +214,19 @@ TEST(DataDirectory, FromTheEnvironmentIsTheOnlyOne) {
   const Environment data("VSA_DATA_DIR", "/nowhere");
   EXPECT_EQ(config::data_directories(), std::vector<std::filesystem::path>{"/nowhere"});
   const auto problems = problems_of([] { (void)config::data_directory(); });
-  expect_pieces(text_of(problems), {"VSA_DATA_DIR", "/nowhere", "has no presets/"});
-  EXPECT_TRUE(PresetLibrary().names().empty());
+  expect_pieces(text_of(problems), {"VSA_DATA_DIR", "/nowhere", "has no actuators/"});
+  EXPECT_TRUE(TypeLibrary().names().empty());
+}
+
+TEST(DataDirectory, OfAModuleIsItsOwnAndTheEnvironmentStillComesFirst) {
+  config::loaded_with("/a/module");
+  EXPECT_EQ(config::data_directories(), std::vector<std::filesystem::path>{"/a/module"});
+  {
+    const Environment data("VSA_DATA_DIR", "/nowhere");
+    EXPECT_EQ(config::data_directories(), std::vector<std::filesystem::path>{"/nowhere"});
+  }
+  config::loaded_with(nullptr);
+  EXPECT_GT(config::data_directories().size(), 1u);
 }
 
 TEST(LawRegistry, HasTheStandardLawsAndTakesMore) {
@@ -189,15 +237,15 @@ TEST(LawRegistry, HasTheStandardLawsAndTakesMore) {
   EXPECT_EQ(laws.find("yours"), nullptr);
 }
 
-TEST(LawRegistry, AFactorysOwnComplaintIsAProblemOfThePreset) {
+TEST(LawRegistry, AFactorysOwnComplaintIsAProblemOfTheType) {
   const Directory directory("complaint");
-  const auto file = directory.write("sea_example.toml", read(source_dir() / "presets/sea_example.toml"));
+  const auto file = directory.write("sea_example.toml", read(source_dir() / "actuators/sea_example.toml"));
   config::LawRegistry laws = config::LawRegistry::standard();
   laws.add("series_spring", [](config::LawReader& reader) -> std::shared_ptr<const elastic::Transmission> {
     (void)reader.number("stiffness_Nm_per_rad", "N·m/rad", 0, 1e6, "stiffness");
     throw InputError(Problem{"", "stiffness_Nm_per_rad", "10", "is too soft for this test", "11"});
   });
-  const auto problems = problems_of([&] { (void)PresetLibrary({directory.path()}, laws).load("sea_example"); });
+  const auto problems = problems_of([&] { (void)TypeLibrary({directory.path()}, laws).load("sea_example"); });
   ASSERT_EQ(problems.size(), 1u) << text_of(problems);
   EXPECT_EQ(problems[0].key, "elastic.stiffness_Nm_per_rad");
   EXPECT_EQ(problems[0].file, file.string() + ":11");
@@ -205,7 +253,7 @@ TEST(LawRegistry, AFactorysOwnComplaintIsAProblemOfThePreset) {
     (void)reader.number("stiffness_Nm_per_rad", "N·m/rad", 0, 1e6, "stiffness");
     return nullptr;
   });
-  expect_pieces(text_of(problems_of([&] { (void)PresetLibrary({directory.path()}, laws).load("sea_example"); })),
+  expect_pieces(text_of(problems_of([&] { (void)TypeLibrary({directory.path()}, laws).load("sea_example"); })),
                 {"returned nothing"});
 }
 

@@ -15,8 +15,8 @@ namespace {
 
 const std::string kHead = R"(<plugin name="vsa::Robot" filename="libvsa-robot.so">)";
 
-std::string actuator(const std::string& preset, const std::string& more) {
-  return kHead + "<actuator><joint>elbow</joint><preset>" + preset + "</preset>" + more + "</actuator></plugin>";
+std::string actuator(const std::string& type, const std::string& more) {
+  return kHead + "<actuator><joint>elbow</joint><type>" + type + "</type>" + more + "</actuator></plugin>";
 }
 
 host::RobotConfig parse(const std::string& xml) { return config::parse_plugin(xml, "arm.sdf", shipped()); }
@@ -34,16 +34,16 @@ std::vector<std::string> code_words(const std::string& cell) {
 
 struct Row {
   std::vector<std::string> tags;
-  std::string preset, value, outcome, spelling;
+  std::string type, value, outcome, spelling;
 };
 
-/// The table whose header starts with "tag" and "preset".
+/// The table whose header starts with "tag" and "type".
 std::vector<Row> rows() {
   std::istringstream lines(read(source_dir() / "docs/howto/migration.md"));
   std::vector<Row> out;
   bool inside = false;
   for (std::string line; std::getline(lines, line);) {
-    if (line.rfind("| tag | preset", 0) == 0) inside = true;
+    if (line.rfind("| tag | type", 0) == 0) inside = true;
     if (line.empty()) inside = false;
     if (!inside || line.rfind("| `", 0) != 0) continue;
     std::vector<std::string> cells;
@@ -88,12 +88,12 @@ TEST(Migration, EveryTakenRowOfTheTableGivesTheUnitOfTheNewSpelling) {
     if (row.outcome != "taken") continue;
     ++taken;
     const std::string what = row.tags.front() + " = " + row.value;
-    const auto problems = problems_in(actuator(row.preset, tags_of(row)));
+    const auto problems = problems_in(actuator(row.type, tags_of(row)));
     ASSERT_TRUE(problems.empty()) << what << ": " << text_of(problems);
-    const auto expected = shipped().load(row.preset, overrides_of(row)).unit;
-    EXPECT_TRUE(same(parse(actuator(row.preset, tags_of(row))).actuators.at(0).unit, expected)) << what;
+    const auto expected = shipped().load(row.type, overrides_of(row)).unit;
+    EXPECT_TRUE(same(parse(actuator(row.type, tags_of(row))).actuators.at(0).unit, expected)) << what;
     if (!overrides_of(row).empty()) {
-      EXPECT_FALSE(same(shipped().load(row.preset).unit, expected)) << what << " changes nothing, so the row proves nothing";
+      EXPECT_FALSE(same(shipped().load(row.type).unit, expected)) << what << " changes nothing, so the row proves nothing";
     }
   }
   EXPECT_EQ(taken, 11);
@@ -104,7 +104,7 @@ TEST(Migration, EveryAnsweredRowOfTheTableIsRefusedWithTheNewSpelling) {
   for (const Row& row : rows()) {
     if (row.outcome != "answered") continue;
     ++answered;
-    const auto problems = problems_in(actuator(row.preset, tags_of(row)));
+    const auto problems = problems_in(actuator(row.type, tags_of(row)));
     ASSERT_EQ(problems.size(), row.tags.size()) << row.tags.front() << ": " << text_of(problems);
     std::string spelling = row.spelling;
     const auto words = code_words(spelling);
@@ -147,7 +147,7 @@ TEST(Migration, AnElementOfTheToolboxIsAnsweredWithAWholeElementThatWorks) {
   const std::string fresh = said.substr(0, said.find("</plugin>") + 9);
   const host::RobotConfig robot = parse(fresh);
   EXPECT_EQ(robot.actuators.at(0).joint, "elbow");
-  EXPECT_EQ(robot.actuators[0].preset, "qbmove_advanced");
+  EXPECT_EQ(robot.actuators[0].type, "qbmove_advanced");
   EXPECT_EQ(robot.actuators[0].unit.actuator.gearbox.friction.coulomb_Nm, 0.6);
   EXPECT_EQ(robot.actuators[0].unit.actuator.gearbox.friction.presliding_rad, 0.0006);
 }
@@ -168,10 +168,10 @@ TEST(Migration, EachLibraryIsAnsweredWithItsPreset) {
   const auto answer = [](const std::string& file) {
     return text_of(problems_in("<plugin name='x' filename='" + file + "'><joint>j</joint></plugin>"));
   };
-  expect_pieces(answer("libsea_plugin.so"), {"<preset>sea_example</preset>"});
-  expect_pieces(answer("libadvanced_plugin.so"), {"<preset>qbmove_advanced</preset>"});
-  expect_pieces(answer("libvsa-robot.so"), {"<joint>j</joint><preset>qbmove_advanced</preset>"});
-  expect_pieces(answer("libbavs_plugin.so"), {"YOUR_PRESET_OF_A_BAVS"});
+  expect_pieces(answer("libsea_plugin.so"), {"<type>sea_example</type>"});
+  expect_pieces(answer("libadvanced_plugin.so"), {"<type>qbmove_advanced</type>"});
+  expect_pieces(answer("libvsa-robot.so"), {"<joint>j</joint><type>qbmove_advanced</type>"});
+  expect_pieces(answer("libbavs_plugin.so"), {"YOUR_TYPE_OF_A_BAVS"});
 }
 
 TEST(Migration, MotorsThatDifferOrComeAloneAreRefused) {
@@ -183,7 +183,7 @@ TEST(Migration, MotorsThatDifferOrComeAloneAreRefused) {
 }
 
 TEST(Migration, ATakenTagIsCheckedLikeTheOverrideItStandsFor) {
-  const auto told = [](const std::string& preset, const std::string& tags) { return text_of(problems_in(actuator(preset, tags))); };
+  const auto told = [](const std::string& type, const std::string& tags) { return text_of(problems_in(actuator(type, tags))); };
   expect_pieces(told("qbmove_advanced", "<spring_k1>-1</spring_k1>"), {"actuator[1]/spring_k1", "elastic.k1_Nm", "outside"});
   expect_pieces(told("sea_example", "<spring_k1>0.002</spring_k1>"), {"actuator[1]/spring_k1", "elastic.k1_Nm", "unknown key"});
   expect_pieces(told("qbmove_advanced", "<spring_k1>1.6*pow(10,5)</spring_k1>"), {"spring_k1", "must be a finite number"});
@@ -198,7 +198,7 @@ TEST(Migration, MotorValuesOfTheToolboxNeedAPresetWithoutAGearbox) {
 }
 
 TEST(Migration, TheShaftOf2015IsTakenAndItsMotorsAreAnswered) {
-  const std::string tail = "</joint><preset>qbmove_maker_pro_6_1</preset></actuator></plugin>";
+  const std::string tail = "</joint><type>qbmove_maker_pro_6_1</type></actuator></plugin>";
   const host::RobotConfig shaft = parse(kHead + "<actuator><joint>qbmove_1::output_shaft_joint" + tail);
   Problems none, left, motor;
   config::check_joints(shaft, {"qbmove_1::output_shaft_joint"}, "snake.sdf", none);
@@ -214,7 +214,7 @@ TEST(Migration, TheShaftOf2015IsTakenAndItsMotorsAreAnswered) {
 
 TEST(Migration, AMotorsNameOfAnotherModelIsAnyJoint) {
   Problems problems;
-  config::check_joints(parse(kHead + "<actuator><joint>motor1_joint</joint><preset>sea_example</preset></actuator></plugin>"),
+  config::check_joints(parse(kHead + "<actuator><joint>motor1_joint</joint><type>sea_example</type></actuator></plugin>"),
                        {"motor1_joint", "motor2_joint"}, "m.sdf", problems);
   EXPECT_TRUE(problems.empty()) << text_of(problems.list());
 }
@@ -228,7 +228,7 @@ TEST(Migration, ElementsOf2015AreAnsweredWithAWholeElementThatWorks) {
     ASSERT_EQ(problems.size(), 1u) << text_of(problems);
     const host::RobotConfig robot = parse(problems[0].allowed.substr(0, problems[0].allowed.find("</plugin>") + 9));
     EXPECT_EQ(robot.actuators.at(0).joint, joint);
-    EXPECT_EQ(robot.actuators[0].preset, "qbmove_maker_pro_6_1");
+    EXPECT_EQ(robot.actuators[0].type, "qbmove_maker_pro_6_1");
   }
 }
 

@@ -9,13 +9,13 @@ namespace vsa::test {
 namespace {
 
 const std::string kHead = R"(<plugin name="vsa::Robot" filename="libvsa-robot.so">)";
-const std::string kElbow = "<actuator><joint>elbow</joint><preset>sea_example</preset></actuator>";
+const std::string kElbow = "<actuator><joint>elbow</joint><type>sea_example</type></actuator>";
 
 std::string plugin(const std::string& inside) { return kHead + inside + "</plugin>"; }
 
 /// An actuator of the maker pro on joint `joint` with more elements.
 std::string maker_pro(const std::string& joint, const std::string& more = "", const std::string& attributes = "") {
-  return "<actuator" + attributes + "><joint>" + joint + "</joint><preset>qbmove_maker_pro_6_1</preset>" + more + "</actuator>";
+  return "<actuator" + attributes + "><joint>" + joint + "</joint><type>qbmove_maker_pro_6_1</type>" + more + "</actuator>";
 }
 
 host::RobotConfig parse(const std::string& xml) { return config::parse_plugin(xml, "arm.sdf", shipped()); }
@@ -34,7 +34,7 @@ TEST(Plugin, TheFullExampleOfTheDocumentationIsRead) {
   const host::ActuatorConfig& shoulder = robot.actuators[0];
   EXPECT_EQ(shoulder.name, "shoulder");
   EXPECT_EQ(shoulder.joint, "module_1::shaft");
-  EXPECT_EQ(shoulder.preset, "qbmove_maker_pro_6_1");
+  EXPECT_EQ(shoulder.type, "qbmove_maker_pro_6_1");
   EXPECT_EQ(shoulder.id, 1);
   EXPECT_EQ(shoulder.initial_preset, 0.2);
   EXPECT_EQ(shoulder.unit.actuator.gearbox.friction.coulomb_Nm, 0.7);
@@ -47,6 +47,21 @@ TEST(Plugin, TheFullExampleOfTheDocumentationIsRead) {
   EXPECT_EQ(robot.state_rate_Hz, 100);
 }
 
+TEST(Plugin, TheOldSpellingOfATypeIsUnderstoodAndToldOnce) {
+  const std::string old = "<actuator><joint>elbow</joint><preset>sea_example</preset></actuator>";
+  const std::string another = "<actuator><joint>wrist</joint><preset>sea_example</preset></actuator>";
+  const host::RobotConfig robot = parse(plugin(old + another));
+  EXPECT_EQ(robot.actuators.at(1).type, "sea_example");
+  ASSERT_EQ(robot.notices.size(), 1u);
+  expect_pieces(robot.notices[0], {"<preset> is called <type> now"});
+  EXPECT_TRUE(parse(plugin(kElbow)).notices.empty());
+  const auto both =
+      problems_in(plugin("<actuator><joint>elbow</joint><type>sea_example</type><preset>sea_example</preset></actuator>"));
+  expect_pieces(text_of(both), {"actuator[1]/preset", "is an old name of type"});
+  expect_pieces(text_of(problems_in(plugin("<actuator joint='elbow' preset='sea_example'/>"))),
+                {"actuator[1]@preset", "<type>sea_example</type>", "<joint>elbow</joint>"});
+}
+
 TEST(Plugin, AReplacementPutsAnotherActuatorOnEveryJoint) {
   const std::string xml = plugin(maker_pro("a",
                                            "<initial equilibrium_rad='0.1' preset_rad='0.2'/>"
@@ -56,8 +71,8 @@ TEST(Plugin, AReplacementPutsAnotherActuatorOnEveryJoint) {
   const host::RobotConfig robot = config::parse_plugin(xml, "arm.sdf", shipped(), other);
   const device::UnitConfig expected = shipped().load("qbmove_advanced", other.overrides).unit;
   for (const host::ActuatorConfig& a : robot.actuators) {
-    EXPECT_EQ(a.preset, "qbmove_advanced");
-    EXPECT_EQ(a.unit.actuator.gearbox, expected.actuator.gearbox) << "the element's override belongs to its own preset";
+    EXPECT_EQ(a.type, "qbmove_advanced");
+    EXPECT_EQ(a.unit.actuator.gearbox, expected.actuator.gearbox) << "the element's override belongs to its own type";
     EXPECT_EQ(a.unit.actuator.shaft_friction.coulomb_Nm, 0.02);
   }
   EXPECT_EQ(robot.actuators[0].initial_preset, 0.2);
@@ -69,7 +84,7 @@ TEST(Plugin, ReplacingValuesKeepThePresetAndWinOverTheElements) {
                                            "<override key='drive.friction_Nm' value='0.7'/>"
                                            "<override key='shaft.friction_Nm' value='0.02'/>"));
   const auto robot = config::parse_plugin(xml, "arm.sdf", shipped(), {std::nullopt, {{"drive.friction_Nm", "0.4"}}});
-  EXPECT_EQ(robot.actuators[0].preset, "qbmove_maker_pro_6_1");
+  EXPECT_EQ(robot.actuators[0].type, "qbmove_maker_pro_6_1");
   EXPECT_EQ(robot.actuators[0].unit.actuator.gearbox.friction.coulomb_Nm, 0.4);
   EXPECT_EQ(robot.actuators[0].unit.actuator.shaft_friction.coulomb_Nm, 0.02);
 }
@@ -90,7 +105,11 @@ TEST(Plugin, AReplacementsProblemsAreTold) {
     const auto list = problems_of([&] { (void)config::parse_plugin(xml, "arm.sdf", shipped(), r); });
     return list.empty() ? std::string() : list[0].text();
   };
-  EXPECT_NE(told({"nosuch", {}}).find("unknown preset"), std::string::npos);
+  EXPECT_NE(told({"nosuch", {}}).find("unknown actuator type"), std::string::npos);
+  EXPECT_EQ(told({std::nullopt, {{"drive.friction_Nm", "much"}}, "--set"})
+                .rfind("--set drive.friction_Nm = \"much\": must be a number", 0),
+            0u)
+      << "not the robot's file, which is right";
   EXPECT_NE(told({std::nullopt, {{"drive.friktion_Nm", "1"}}}).find("did you mean drive.friction_Nm"), std::string::npos);
 }
 
@@ -144,7 +163,7 @@ TEST(Plugin, AThousandEqualActuatorsOnFourBusesAreReadOnce) {
 
 TEST(Plugin, TheProblemsOfAPresetThatManyUseAreToldOnce) {
   std::string inside;
-  for (int i = 0; i < 12; ++i) inside += "<actuator><joint>j" + std::to_string(i) + "</joint><preset>qbmov</preset></actuator>";
+  for (int i = 0; i < 12; ++i) inside += "<actuator><joint>j" + std::to_string(i) + "</joint><type>qbmov</type></actuator>";
   EXPECT_EQ(problems_in(plugin(inside)).size(), 1u);
 }
 
@@ -157,7 +176,7 @@ TEST(Plugin, AllProblemsComeTogetherAndLeadWithWhere) {
 }
 
 TEST(Plugin, ChildrenGivenAsAttributesAreToldOnceEachAndNothingElse) {
-  EXPECT_EQ(problems_in(plugin("<actuator joint='elbow' preset='qbmove_maker_pro'/>")).size(), 2u);
+  EXPECT_EQ(problems_in(plugin("<actuator joint='elbow' type='qbmove_maker_pro'/>")).size(), 2u);
   EXPECT_EQ(problems_in("<plugin name='vsa::Robot' substeps='2' state_rate_Hz='50'>" + maker_pro("a") + "</plugin>").size(), 2u);
 }
 
@@ -174,6 +193,17 @@ TEST(Plugin, ABusMayHearClientsAtAnyRate) {
 TEST(Plugin, SubstepsAreKnownOrLeftToTheHost) {
   EXPECT_EQ(parse(plugin(kElbow)).substeps, std::nullopt);
   EXPECT_EQ(parse(plugin(kElbow + "<substeps>64</substeps>")).substeps, 64);
+}
+
+TEST(Plugin, WhatIsWrittenAndShownIsOrderedOrOff) {
+  EXPECT_FALSE(parse(plugin(kElbow)).record);
+  EXPECT_FALSE(parse(plugin(kElbow)).view_port);
+  const host::RobotConfig robot = parse(plugin(kElbow + "<record directory='runs/1' rate_Hz='250'/><view port='8080'/>"));
+  EXPECT_EQ(robot.record->directory, "runs/1");
+  EXPECT_EQ(robot.record->rate_Hz, 250);
+  EXPECT_EQ(robot.view_port, 8080);
+  EXPECT_EQ(parse(plugin(kElbow + "<record directory='r'/>")).record->rate_Hz, 100);
+  EXPECT_EQ(parse(plugin(kElbow + "<view/>")).view_port, 0);
 }
 
 TEST(Plugin, AHostThatCantMakeSubstepsSaysWhatToSetInstead) {
@@ -229,10 +259,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadPlugin{"unknown_attribute", plugin(maker_pro("a", "", " nam='x'")), {"actuator[1]@nam = x", "did you mean name?"}},
         BadPlugin{"stray_text", plugin("hello" + kElbow), {"plugin = hello: text is not allowed here"}},
         BadPlugin{"element_in_text", plugin(maker_pro("a<b/>")), {"actuator[1]/joint/b", "only text"}},
-        BadPlugin{"no_joint", plugin("<actuator><preset>sea_example</preset></actuator>"), {"actuator[1]/joint: is missing"}},
+        BadPlugin{"no_joint", plugin("<actuator><type>sea_example</type></actuator>"), {"actuator[1]/joint: is missing"}},
         BadPlugin{"empty_joint", plugin(maker_pro(" ")), {"actuator[1]/joint: is empty"}},
-        BadPlugin{"no_preset", plugin("<actuator><joint>a</joint></actuator>"), {"actuator[1]/preset: is missing"}},
-        BadPlugin{"two_presets", plugin(maker_pro("a", "<preset>sea_example</preset>")), {"preset: is given more than once"}},
+        BadPlugin{"no_type", plugin("<actuator><joint>a</joint></actuator>"), {"actuator[1]/type: is missing"}},
+        BadPlugin{"two_types", plugin(maker_pro("a", "<type>sea_example</type>")), {"type: is given more than once"}},
         BadPlugin{
             "two_rates", plugin(kElbow + "<state_rate_Hz>1</state_rate_Hz><state_rate_Hz>2</state_rate_Hz>"), {"more than once"}},
         BadPlugin{
@@ -245,6 +275,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadPlugin{"substeps_high", plugin(kElbow + "<substeps>65</substeps>"), {"substeps = \"65\": is out of range", "1 … 64"}},
         BadPlugin{"substeps_part", plugin(kElbow + "<substeps>2.5</substeps>"), {"substeps = \"2.5\"", "whole"}},
         BadPlugin{"substeps_empty", plugin(kElbow + "<substeps/>"), {"substeps"}},
+        BadPlugin{"record_nowhere", plugin(kElbow + "<record/>"), {"record@directory", "is missing"}},
+        BadPlugin{"record_empty", plugin(kElbow + "<record directory=''/>"), {"record@directory", "is empty"}},
+        BadPlugin{"record_rate", plugin(kElbow + "<record directory='r' rate_Hz='0'/>"), {"record@rate_Hz = 0: is out of range"}},
+        BadPlugin{"record_hertz", plugin(kElbow + "<record directory='r' rate_hz='9'/>"), {"rate_hz", "rate_Hz"}},
+        BadPlugin{"record_text", plugin(kElbow + "<record directory='r'>runs</record>"), {"record = runs", "not allowed"}},
+        BadPlugin{"two_records", plugin(kElbow + "<record directory='r'/><record directory='s'/>"), {"record", "more than once"}},
+        BadPlugin{"view_port", plugin(kElbow + "<view port='65536'/>"), {"view@port = \"65536\": is out of range", "65535"}},
         BadPlugin{"substeps_unit", plugin(kElbow + "<substeps unit='1'>2</substeps>"), {"substeps@unit"}}),
     [](const auto& test) { return test.param.name; });
 
@@ -295,10 +332,15 @@ INSTANTIATE_TEST_SUITE_P(
                   plugin("<bus name='b' cycle_s='0.00013'/>" + maker_pro("a")),
                   {"is shorter than the time on the wire of 1 units", "at least 0.00014 s"}},
         BadPlugin{"children_as_attributes",
-                  kHead + "<actuator joint='elbow' preset='qbmove_maker_pro' bus='arm'/><bus name='arm' serial_port='p'/></plugin>",
+                  kHead + "<actuator joint='elbow' type='qbmove_maker_pro' bus='arm'/><bus name='arm' serial_port='p'/></plugin>",
                   {"actuator[1]@joint = \"elbow\": is an element, not an attribute (allowed: <joint>elbow</joint>)",
-                   "<preset>qbmove_maker_pro</preset>", "<bus>arm</bus>", "<serial_port>p</serial_port>"},
+                   "<type>qbmove_maker_pro</type>", "<bus>arm</bus>", "<serial_port>p</serial_port>"},
                   4},
+        BadPlugin{"texts_as_attributes",
+                  replaced(plugin(kElbow), "<joint>elbow</joint>", "<joint name='elbow'/>"),
+                  {"/joint@name = \"elbow\": is no attribute: the value is the element's text (allowed: <joint>elbow</joint>)",
+                   "/joint: is empty"},
+                  2},
         BadPlugin{"port_any_rate_not_a_switch",
                   plugin("<bus name='b'><serial_port any_rate='yes'>p</serial_port></bus>" + maker_pro("a")),
                   {"bus[b]/serial_port@any_rate = \"yes\"", "true, false"}},
@@ -319,8 +361,8 @@ INSTANTIATE_TEST_SUITE_P(
     Values, PluginBadInput,
     testing::Values(
         BadPlugin{"unknown_preset",
-                  plugin("<actuator><joint>a</joint><preset>qbmove</preset></actuator>"),
-                  {"actuator[1]/preset = \"qbmove\": unknown preset", "sea_example"}},
+                  plugin("<actuator><joint>a</joint><type>qbmove</type></actuator>"),
+                  {"actuator[1]/type = \"qbmove\": unknown actuator type, did you mean qbmove_advanced?", "sea_example"}},
         BadPlugin{"preset_high",
                   plugin(maker_pro("a", "<initial preset_rad='0.8'/>")),
                   {"initial@preset_rad = 0.8", "-0.785 … 0.785 rad"}},

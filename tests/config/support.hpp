@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/config/plugin_xml.hpp"
-#include "vsa/config/preset.hpp"
 
 namespace vsa::test {
 
@@ -26,7 +26,7 @@ inline std::string read(const std::filesystem::path& file) {
 }
 
 /// The library of the presets that the project ships.
-inline config::PresetLibrary shipped() { return config::PresetLibrary({source_dir() / "presets"}); }
+inline config::TypeLibrary shipped() { return config::TypeLibrary({source_dir() / "actuators"}); }
 
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);

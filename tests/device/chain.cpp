@@ -264,7 +264,7 @@ TEST(Chain, AUnitThatWasSetToAnotherRateIsHeardAtThatRateOnly) {
   rig.run_to(2'500'000);
   ASSERT_EQ(rig.frames().size(), 1U);
   EXPECT_EQ(rig.frames()[0].id, 2);
-  rig.chain.set_host_rate({460'800});
+  rig.chain.set_master_rate({460'800});
   rig.host.heard.clear();
   rig.say_bytes(3'000'000, Bytes(130, 0x55));  // whatever the two rates made of it before
   rig.say(7'000'000, 1, bus::Ping{});

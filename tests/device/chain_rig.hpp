@@ -13,7 +13,7 @@ namespace vsa::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-class ScriptHost : public bus::LineHost {
+class ScriptMaster : public bus::LineMaster {
  public:
   struct Heard {
     std::uint8_t byte;
@@ -72,7 +72,7 @@ struct ChainRig {
   }
   /// Whole frames that the host made of what it heard.
   [[nodiscard]] std::vector<bus::Frame> frames() const {
-    bus::HostReceiver receiver;
+    bus::MasterReceiver receiver;
     std::vector<bus::Frame> out;
     bus::Frame frame;
     for (const auto& h : host.heard) {
@@ -84,7 +84,7 @@ struct ChainRig {
 
   firmware::Program program;
   std::vector<firmware::ProgramState> states;
-  ScriptHost host;
+  ScriptMaster host;
   device::Chain chain;
   firmware::TickInputs in{{160, -160, 80}, {1638, 1638}, 1638 + 787};
   std::int64_t next_tick_ns = 1'000'000;

@@ -8,6 +8,7 @@
 
 #include "support/one_joint.hpp"
 #include "vsa/elastic/series_spring.hpp"
+#include "vsa/errors.hpp"
 
 namespace {
 
@@ -30,6 +31,19 @@ TEST(Unit, FollowsACommandedEquilibriumWithinItsDeadBand) {
   run(joint, 2.0);
   EXPECT_NEAR(joint.q, 1.0, 0.1) << "the position loop's dead band is 0.03 rad, friction adds to it";
   EXPECT_GT(joint.q, 0.85);
+}
+
+TEST(Unit, ForgottenNumbersAreRefusedByName) {
+  vsa::device::UnitConfig config = maker_pro();
+  config.actuator.motor = {};
+  config.actuator.motor.inertia_kgm2 = 0.001;
+  try {
+    const vsa::device::Unit unit(config);
+    ADD_FAILURE() << "a motor without resistance";
+  } catch (const vsa::InputError& error) {
+    EXPECT_EQ(error.problems().size(), 4U) << error.what();
+    EXPECT_NE(std::string(error.what()).find("drive.resistance_Ohm = nan: is out of range"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Unit, HoldsStillWithoutACommand) {

@@ -11,6 +11,7 @@ namespace {
 
 using vsa::drive::bristle_energy;
 using vsa::drive::follow_friction;
+using vsa::drive::Friction;
 using vsa::drive::friction_heat;
 using vsa::drive::FrictionParams;
 using vsa::drive::FrictionStep;
@@ -19,8 +20,9 @@ using vsa::drive::solve_friction;
 TEST(Friction, IsPassiveInEveryBranch) {
   std::mt19937 rng(7);
   std::uniform_real_distribution<double> unit(-1, 1);
-  for (const FrictionParams p : {FrictionParams{0.8, 0.03}, FrictionParams{0.8, 0.0}, FrictionParams{0.0, 0.03},
-                                 FrictionParams{0, 0}, FrictionParams{0.01, 1e-9}}) {
+  for (const FrictionParams& params : {FrictionParams{0.8, 0.03}, FrictionParams{0.8, 0.0}, FrictionParams{0.0, 0.03},
+                                       FrictionParams{0, 0}, FrictionParams{0.01, 1e-9}}) {
+    const Friction p(params);
     for (int n = 0; n < 5000; ++n) {
       const double u = p.coulomb_Nm > 0 ? p.presliding_rad * unit(rng) : 0.0;
       const double free = std::pow(10.0, -6 + 6 * std::abs(unit(rng))) * unit(rng);
@@ -41,7 +43,7 @@ TEST(Friction, IsPassiveInEveryBranch) {
 TEST(Friction, SolvingAndFollowingAgree) {
   std::mt19937 rng(8);
   std::uniform_real_distribution<double> unit(-1, 1);
-  const FrictionParams p{0.8, 0.03};
+  const Friction p(FrictionParams{0.8, 0.03});
   for (int n = 0; n < 2000; ++n) {
     const double u = 0.03 * unit(rng);
     const FrictionStep a = solve_friction(p, u, 0.2 * unit(rng), 1e-2);
@@ -52,22 +54,22 @@ TEST(Friction, SolvingAndFollowingAgree) {
 }
 
 TEST(Friction, CoulombHoldsUpToItsTorqueAndThenSlides) {
-  const FrictionParams p{0.5, 0.0};
-  EXPECT_EQ(solve_friction(p, 0, 0.4e-3, 1e-3).displacement, 0.0);
-  EXPECT_DOUBLE_EQ(solve_friction(p, 0, 0.4e-3, 1e-3).torque, -0.4);
-  EXPECT_NEAR(solve_friction(p, 0, 0.7e-3, 1e-3).displacement, 0.2e-3, 1e-18);
-  EXPECT_DOUBLE_EQ(solve_friction(p, 0, -0.7e-3, 1e-3).torque, 0.5);
+  const Friction p(FrictionParams{0.5, 0.0});
+  EXPECT_EQ(solve_friction(p, 0.0, 0.4e-3, 1e-3).displacement, 0.0);
+  EXPECT_DOUBLE_EQ(solve_friction(p, 0.0, 0.4e-3, 1e-3).torque, -0.4);
+  EXPECT_NEAR(solve_friction(p, 0.0, 0.7e-3, 1e-3).displacement, 0.2e-3, 1e-18);
+  EXPECT_DOUBLE_EQ(solve_friction(p, 0.0, -0.7e-3, 1e-3).torque, 0.5);
 }
 
 TEST(Friction, TheAnchorStaysWhileTheBristleBends) {
-  const FrictionParams p{0.8, 0.03};
+  const Friction p(FrictionParams{0.8, 0.03});
   EXPECT_EQ(follow_friction(p, 0.0, 0.029).anchor_travel, 0.0);
   EXPECT_NEAR(follow_friction(p, 0.0, 0.05).anchor_travel, 0.02, 1e-15);
   EXPECT_EQ(follow_friction(p, 0.03, -0.06).anchor_travel, 0.0) << "reversal takes up twice the bristle first";
 }
 
 TEST(Friction, ThatLeadsIsTheMeanBlendedWithWhereThePartIsAtTheEndOfTheStep) {
-  const vsa::drive::Friction p(FrictionParams{0.8, 0.04});
+  const Friction p(FrictionParams{0.8, 0.04});
   std::mt19937 rng(11);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int n = 0; n < 200; ++n) {
@@ -83,7 +85,7 @@ TEST(Friction, ThatLeadsIsTheMeanBlendedWithWhereThePartIsAtTheEndOfTheStep) {
 
 TEST(Friction, HasNoStepLimit) {
   // Explicitly this would need (τ_c/z_max) dt²/J < 4; here it is 2.7e7.
-  const FrictionParams p{0.8, 3e-8};
+  const Friction p(FrictionParams{0.8, 3e-8});
   double x = 0, v = 1.0, z = 0;
   const double dt = 1e-3, inertia = 1e-3 * 1e-3, c = dt * dt / (2 * inertia);
   for (int n = 0; n < 100; ++n) {

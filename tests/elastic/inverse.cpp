@@ -45,7 +45,7 @@ class Plain final : public Transmission {
   TwoSinh law_;
 };
 
-/// What the shipped types have (their numbers are presets/*.toml's kinds: Table I, data sheet, identified, unequal springs).
+/// What the shipped types have (their numbers are actuators/*.toml's kinds: Table I, data sheet, identified, unequal springs).
 const TwoSinhParams kLaws[] = {{{0.022, 0.022}, {6.85, 6.85}},
                                {{0.022, 0.0197}, {6.85, 6.85}},
                                {{0.0216, 0.0227}, {6.7, 7.1}},

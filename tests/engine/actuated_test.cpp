@@ -11,14 +11,14 @@ namespace {
 
 WorldOptions options() {
   WorldOptions o;
-  o.presets = config::PresetLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "presets"});
+  o.types = config::TypeLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "actuators"});
   o.model_path.push_back(std::filesystem::path(VSA_SOURCE_DIR) / "models");
   return o;
 }
 
 std::string actuator(const std::string& joint, int id, const std::string& more = {}) {
-  return "<actuator><joint>" + joint + "</joint><preset>qbmove_maker_pro_6_1</preset><bus id='" + std::to_string(id) +
-         "'>arm</bus>" + more + "</actuator>";
+  return "<actuator><joint>" + joint + "</joint><type>qbmove_maker_pro_6_1</type><bus id='" + std::to_string(id) + "'>arm</bus>" +
+         more + "</actuator>";
 }
 
 std::string plugin(const std::string& content) {
@@ -62,10 +62,10 @@ TEST(Actuated, AnotherActuatorCanBePutOnAWorld) {
   WorldOptions o = options();
   o.actuator = {"sea_example", {{"elastic.stiffness_Nm_per_rad", "20"}}};
   World w = World::load_string(sdf, o);
-  EXPECT_EQ(w.robot(0).config().actuators[0].preset, "sea_example");
+  EXPECT_EQ(w.robot(0).config().actuators[0].type, "sea_example");
   EXPECT_EQ(w.read(w.actuators()[0]).stiffness_Nm_per_rad, 20);
   o.actuator = {"nosuch", {}};
-  EXPECT_NE(problems_of(sdf, o).find("unknown preset"), std::string::npos);
+  EXPECT_NE(problems_of(sdf, o).find("unknown actuator type"), std::string::npos);
 }
 
 std::vector<std::uint64_t> bits(const World& w) {

@@ -32,9 +32,8 @@ inline std::string arm_links() {
          hinge("shoulder", "base", "upper", "<limit><lower>-3</lower><upper>2.5</upper></limit>") + hinge("elbow", "upper", "fore");
 }
 
-inline std::string actuator(const std::string& joint, const std::string& preset = "qbmove_maker_pro_6_1") {
-  return "<actuator name='" + joint + "'><joint>" + joint + "</joint><preset>" + preset +
-         "</preset><bus id='1'>arm</bus></actuator>";
+inline std::string actuator(const std::string& joint, const std::string& type = "qbmove_maker_pro_6_1") {
+  return "<actuator name='" + joint + "'><joint>" + joint + "</joint><type>" + type + "</type><bus id='1'>arm</bus></actuator>";
 }
 
 inline std::string plugin(const std::string& actuators) {
@@ -50,8 +49,8 @@ inline std::string floor_model() {
          "<size>9 9</size></plane></geometry></collision></link></model>";
 }
 
-inline std::string arm(const std::string& preset = "qbmove_maker_pro_6_1", const std::string& gravity = "0 0 -9.81") {
-  return world(floor_model() + "<model name='arm'>" + arm_links() + plugin(actuator("shoulder", preset)) + "</model>" + ball(),
+inline std::string arm(const std::string& type = "qbmove_maker_pro_6_1", const std::string& gravity = "0 0 -9.81") {
+  return world(floor_model() + "<model name='arm'>" + arm_links() + plugin(actuator("shoulder", type)) + "</model>" + ball(),
                gravity);
 }
 

@@ -98,11 +98,11 @@ TEST(Clone, SnapshotsCrossBetweenWorldsOfTheSameFileBitForBit) {
 }
 
 TEST(Placed, EveryShippedActuatorStaysWhereItIsPutWithoutGravity) {
-  const config::PresetLibrary presets({std::filesystem::path(VSA_SOURCE_DIR) / "presets"});
+  const config::TypeLibrary types({std::filesystem::path(VSA_SOURCE_DIR) / "actuators"});
   constexpr double kResolution_rad = 2 * kPi / 4096;
-  ASSERT_GE(presets.names().size(), 6U);
-  for (const std::string& name : presets.names()) {
-    const double preset = presets.load(name).unit.preset_max > 0 ? 0.6 : 0.0;
+  ASSERT_GE(types.names().size(), 6U);
+  for (const std::string& name : types.names()) {
+    const double preset = types.load(name).unit.preset_max > 0 ? 0.6 : 0.0;
     World w = World::load_string(arm(name, "0 0 0"));
     w.run(0.02);
     w.place("shoulder", 1.0, preset);

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "arm.hpp"
-#include "vsa/engine/gait.hpp"
+#include "vsa/motion/gait.hpp"
 
 namespace vsa::engine::testing {
 namespace {
@@ -28,6 +28,8 @@ TEST(Hostile, LoadRefusesStepsAndFilesThatAreNone) {
   EXPECT_THROW((void)World::load(""), InputError);
   EXPECT_THROW((void)World::load("/"), InputError);
   EXPECT_THROW((void)World::load("no such file.sdf"), InputError);
+  EXPECT_EQ(World::load("bench_free").name(), World::load("bench_free.sdf").name());
+  EXPECT_THROW((void)World::load_string(""), InputError);
 }
 
 TEST(Hostile, RunWantsATime) {
@@ -253,6 +255,15 @@ TEST(Hostile, AWorldThatWasMovedFromSaysSo) {
   EXPECT_EQ(w.time_ns(), 0) << "and works again once it is given a world";
 }
 
+using motion::Gait;
+using motion::GaitGroup;
+using motion::GaitParams;
+using motion::motion_time;
+using motion::motion_value;
+using motion::MotionParams;
+using motion::steer;
+using motion::SteeringState;
+
 GaitParams wave() {
   GaitParams params;
   params.frequency_rad_per_s = 3;
@@ -299,8 +310,8 @@ TEST(Hostile, MotionsWithoutKeysOrTimeGiveNoNumberOrTheLast) {
   MotionParams motion;
   motion.loop_from_s = 0;
   static_cast<void>(motion_time(motion, 5));
-  SteeringState state;
-  for (int i = 0; i < 3; ++i) steer({}, state, {kNan, kNan}, 0, kNan, true);
+  motion::SteeringState state;
+  for (int i = 0; i < 3; ++i) motion::steer({}, state, {kNan, kNan}, 0, kNan, true);
 }
 
 }  // namespace

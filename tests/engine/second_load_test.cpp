@@ -185,19 +185,19 @@ TEST(SecondLoad, AnEditedMeshIsReadAnew) {
 }
 
 TEST(SecondLoad, AnEditedPresetIsReadAnewThoughTheWorldIsKept) {
-  const TempDir dir("preset");
-  std::ifstream shipped(VSA_SOURCE_DIR "/presets/qbmove_maker_pro_6_1.toml");
-  std::string preset{std::istreambuf_iterator<char>(shipped), {}};
+  const TempDir dir("type");
+  std::ifstream shipped(VSA_SOURCE_DIR "/actuators/qbmove_maker_pro_6_1.toml");
+  std::string type{std::istreambuf_iterator<char>(shipped), {}};
   const std::string line = "resistance_Ohm = { value = 6.64,";
-  ASSERT_NE(preset.find(line), std::string::npos);
-  dir.write("qbmove_maker_pro_6_1.toml", preset);
+  ASSERT_NE(type.find(line), std::string::npos);
+  dir.write("qbmove_maker_pro_6_1.toml", type);
   WorldOptions options;
-  options.presets = config::PresetLibrary({dir.path()});
+  options.types = config::TypeLibrary({dir.path()});
   const std::string text = fresh(arm());
   const auto resistance = [](const World& w) { return w.robot(0).config().actuators[0].unit.actuator.motor.resistance_Ohm; };
   const World before = World::load_string(text, options);
-  preset.replace(preset.find(line), line.size(), "resistance_Ohm = { value = 4.0,");
-  dir.write("qbmove_maker_pro_6_1.toml", preset);
+  type.replace(type.find(line), line.size(), "resistance_Ohm = { value = 4.0,");
+  dir.write("qbmove_maker_pro_6_1.toml", type);
   const World after = World::load_string(text, options);
   EXPECT_TRUE(share(before, after));
   EXPECT_EQ(resistance(before), 6.64);

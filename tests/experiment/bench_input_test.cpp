@@ -49,7 +49,7 @@ TEST(Bench, PresetsThatTheActuatorDoesNotHaveAreRefused) {
             std::string::npos);
   EXPECT_NE(problems_of([] { return run_preset_step(specimen("sea_example"), {}); }).find("no stiffness preset"),
             std::string::npos);
-  EXPECT_NE(problems_of([] { return run_speed(specimen("nosuch"), {}); }).find("unknown preset"), std::string::npos);
+  EXPECT_NE(problems_of([] { return run_speed(specimen("nosuch"), {}); }).find("unknown actuator type"), std::string::npos);
 }
 
 TEST(LawDeflection, IsTheLawTurnedRound) {

@@ -10,11 +10,11 @@
 
 namespace vsa::experiment {
 
-inline Specimen specimen(const std::string& preset = "qbmove_maker_pro", std::vector<config::Override> overrides = {}) {
+inline Specimen specimen(const std::string& type = "qbmove_maker_pro", std::vector<config::Override> overrides = {}) {
   Specimen s;
-  s.preset = preset;
+  s.type = type;
   s.overrides = std::move(overrides);
-  s.library = config::PresetLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "presets"});
+  s.library = config::TypeLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "actuators"});
   return s;
 }
 

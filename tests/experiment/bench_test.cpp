@@ -207,5 +207,16 @@ TEST(Bench, AStepOfTheCallersIsTaken) {
   EXPECT_EQ(run.samples.size(), 1201u) << "sampled at the same times";
 }
 
+TEST(Bench, NoStepOfABareFlangeIsLeftUnsettled) {
+  // A pulley's last correction that crossed an edge of its tendon's bristle was taken as found: the torque then depended on where the
+  // solver came from, and ten steps of this run ended between two answers.
+  for (const char* type : {"qbmove_maker_pro_6_1", "qbmove_maker_pro"}) {
+    SpeedOptions o = short_square();
+    o.preset = 0.75;
+    const BenchRun run = run_speed(specimen(type), o);
+    for (const std::string& notice : run.notices) EXPECT_EQ(notice.find("settle"), std::string::npos) << type << ": " << notice;
+  }
+}
+
 }  // namespace
 }  // namespace vsa::experiment

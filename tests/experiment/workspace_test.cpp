@@ -216,35 +216,35 @@ TEST(Workspace, IsWhatTheSimulatedUnitGivesToAShaftThatTurnsSteadily) {
 }
 
 TEST(DataSheet, StoresTheMostEnergyAtItsCorners) {
-  config::Preset preset;
-  preset.unit = qbmove();
-  const DataSheet sheet = data_sheet(preset);
+  config::ActuatorType type;
+  type.unit = qbmove();
+  const DataSheet sheet = data_sheet(type);
   ASSERT_EQ(sheet.columns.size(), 5U);
   EXPECT_EQ(sheet.columns.front().preset, 0);
   EXPECT_NEAR(sheet.columns.back().preset, 0.9 * sheet.attainable_preset, 1e-12);
   const double corner = 2 * kK / kA * (std::cosh(std::asinh(kMost / kK)) - 1);
   EXPECT_NEAR(sheet.most_energy_J, corner, 1e-9);
-  const Workspace w(preset.unit);
+  const Workspace w(type.unit);
   EXPECT_NEAR(w.energy_at_rest(sheet.attainable_preset), corner, 1e-9) << "wound up instead of deflected";
   EXPECT_NEAR(w.reach(sheet.attainable_preset, 0).torque_Nm, -0.01, 1e-6) << "nothing is left for a load";
   EXPECT_NEAR(sheet.stiffest_Nm_per_rad, 2 * kA * kK * std::cosh(std::asinh(kMost / kK)), 1e-6);
 }
 
 TEST(DataSheet, ErrorsOfThePositionLoopFollowFromItsGainDeadBandAndFriction) {
-  config::Preset preset;
-  preset.unit = qbmove();
-  const LoopErrors e = data_sheet(preset).errors;
+  config::ActuatorType type;
+  type.unit = qbmove();
+  const LoopErrors e = data_sheet(type).errors;
   const double full = 100 / (6553 / 65536.0) * 2 * 3.14159265358979 / 65536;
   EXPECT_NEAR(e.full_rad, full, 1e-9);
   EXPECT_NEAR(e.moves_rad, full * (0.3 + 0.7 * 0.8 / kStall), 1e-9);
-  preset.unit.actuator.bridge.supply_V = 1;
-  EXPECT_TRUE(std::isnan(data_sheet(preset).errors.moves_rad));
+  type.unit.actuator.bridge.supply_V = 1;
+  EXPECT_TRUE(std::isnan(data_sheet(type).errors.moves_rad));
 }
 
 TEST(DataSheet, OfAnActuatorWithoutPresetHasOneColumn) {
-  config::Preset preset;
-  preset.unit = series(10);
-  const DataSheet sheet = data_sheet(preset);
+  config::ActuatorType type;
+  type.unit = series(10);
+  const DataSheet sheet = data_sheet(type);
   ASSERT_EQ(sheet.columns.size(), 1U);
   EXPECT_NEAR(sheet.most_energy_J, 0.5 * kMost * kMost / 10, 1e-9);
 }

@@ -71,7 +71,7 @@ class UnitBench {
   }
   template <class Reply>
   std::optional<Reply> read(bus::Command command, const Bytes& bytes) {
-    bus::HostReceiver receiver;
+    bus::MasterReceiver receiver;
     bus::Frame frame;
     receiver.push(bytes);
     if (!receiver.next(frame)) return std::nullopt;

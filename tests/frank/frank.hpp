@@ -7,10 +7,13 @@
 #include <filesystem>
 #include <string>
 
-#include "vsa/engine/gait.hpp"
+#include "vsa/engine/world.hpp"
+#include "vsa/motion/gait.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::engine {
+
+using motion::Gait;
 
 inline World world(const std::string& name) {
   return World::load(std::filesystem::path(VSA_SOURCE_DIR) / "models/worlds" / (name + ".sdf"));

@@ -47,7 +47,7 @@ void unit_side(Wire wire, std::uint8_t id, Input bytes) {
 }
 
 void host_side(Wire wire, Input bytes) {
-  HostReceiver host;
+  MasterReceiver host;
   Frame frame;
   std::size_t accepted = 0;
   const auto take = [&] {

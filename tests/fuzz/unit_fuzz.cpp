@@ -22,7 +22,7 @@ void require(bool ok) {
   if (!ok) __builtin_trap();
 }
 
-class Host final : public bus::LineHost {
+class Host final : public bus::LineMaster {
  public:
   std::deque<std::pair<std::int64_t, bus::FrameBytes>> script;
   std::int64_t last_ps = 0;

@@ -110,7 +110,7 @@ TEST(GazeboClassic, ABareFlangeKickedAtTheStiffestPresetStaysBounded) {
 
 TEST(GazeboClassic, ABadElementIsOneMessageAndAModelWithoutTorques) {
   std::string model = bench_model("<joint>shaft</joint>", "<joint>shift</joint>");
-  model = replaced(model, "<preset>qbmove_maker_pro_6_1</preset>", "<preset>qbmove_maker_pro_6_1</preset><stifness>3</stifness>");
+  model = replaced(model, "<type>qbmove_maker_pro_6_1</type>", "<type>qbmove_maker_pro_6_1</type><stifness>3</stifness>");
   testing::internal::CaptureStderr();
   ClassicWorld w(world_sdf("bad", model));
   w.run(1);

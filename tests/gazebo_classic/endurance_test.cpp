@@ -144,26 +144,28 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 struct Case {
   std::string model, engine;
   [[nodiscard]] bool is_snake() const { return model == "qbmove_snake"; }
+  /// Whether contacts come out alike each time. DART takes them in an order that addresses decide, and at times its first contact has
+  /// no solution ("The solution of LCP includes NAN values"), with or without a plug-in: there runs are compared in the air.
+  [[nodiscard]] bool has_same_contacts() const { return engine != "dart"; }
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.model << ", " << c.engine; }
 
 class Endurance : public testing::TestWithParam<Case> {};
 
-template <class Run>
-double two_fresh_runs(const Case& c, double seconds) {
+template <class Run, class... Where>
+double two_fresh_runs(const Case& c, double seconds, Where... where) {
   std::vector<double> runs[2];
   for (auto& values : runs) {
-    Run run(c.model, c.engine);
+    Run run(c.model, c.engine, where...);
     run.run(seconds);
     values = run.samples.values;
   }
   return largest_difference(runs[0], runs[1]);
 }
 
-template <class Run>
 double before_and_after_a_reset(const Case& c, double seconds, bool on_ground) {
-  Run run(c.model, c.engine, on_ground);
+  Moving run(c.model, c.engine, on_ground);
   run.run(seconds);
   const auto fresh = run.samples.values;
   run.reset();
@@ -188,24 +190,21 @@ TEST_P(Endurance, MovesForMinutesWithoutNaNOrGrowthOfMemory) {
 }
 
 TEST_P(Endurance, TwoFreshRunsGiveTheSameBits) {
-  const double host = two_fresh_runs<Pushed>(GetParam(), 5);
-  const double ours = two_fresh_runs<Moving>(GetParam(), long_run() ? 60 : 5);
-  std::cout << GetParam() << ": two runs differ by " << host << " without the plug-in, by " << ours << " with it\n";
-  if (host > 0 || (GetParam().is_snake() && GetParam().engine == "dart"))
-    GTEST_SKIP() << "DART takes contacts in an order that addresses decide: the snake's runs may differ, with or without a plug-in";
-  EXPECT_EQ(ours, 0.0);
+  if (GetParam().has_same_contacts()) EXPECT_EQ(two_fresh_runs<Pushed>(GetParam(), 5), 0.0) << "the host's own";
+  EXPECT_EQ(two_fresh_runs<Moving>(GetParam(), long_run() ? 60 : 5, GetParam().has_same_contacts()), 0.0);
 }
 
 TEST_P(Endurance, AfterAResetTheRunIsThatOfAFreshWorld) {
   const auto compare = [](double seconds, bool on_ground, double allowed) {
-    const double ours = before_and_after_a_reset<Moving>(GetParam(), seconds, on_ground);
+    const double ours = before_and_after_a_reset(GetParam(), seconds, on_ground);
     std::cout << GetParam() << ": after a reset differs by " << ours << " in " << seconds << " s\n";
     EXPECT_LE(ours, allowed) << (on_ground ? "on the ground" : "in the air");
   };
-  if (!GetParam().is_snake()) return compare(3, true, 0.0);
+  const bool on_ground = GetParam().has_same_contacts();
+  if (!GetParam().is_snake()) return compare(3, on_ground, 0.0);
   // A chain's reset turns its links by a rounding error, which contacts multiply by hundreds every 50 ms.
   compare(3, false, 1e-11);
-  compare(0.1, true, 1e-11);
+  if (on_ground) compare(0.1, true, 1e-11);
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, Endurance,

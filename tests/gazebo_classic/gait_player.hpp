@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Plays a gait file of models/gaits through a robot's commands, the paper's eq. (10) as include/vsa/engine/gait.hpp writes it:
+// Plays a gait file of models/gaits through a robot's commands, the paper's eq. (10) as include/vsa/motion/gait.hpp writes it:
 // files without a base and without steering only.
 #pragma once
 

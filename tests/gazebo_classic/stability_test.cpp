@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Every preset on a light flange (1e-4 kg·m²), kicked and run into hard stops, at Gazebo's own step of 1 ms: what the joint and the
+// Every type on a light flange (1e-4 kg·m²), kicked and run into hard stops, at Gazebo's own step of 1 ms: what the joint and the
 // springs hold never grows beyond what they were given.
 #include <gtest/gtest.h>
 
@@ -19,22 +19,22 @@ constexpr double kInertia_kgm2 = 1e-4, kStep_s = 1e-3;
 
 std::vector<std::string> shipped_presets() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(VSA_SOURCE_DIR "/presets")) {
+  for (const auto& entry : std::filesystem::directory_iterator(VSA_SOURCE_DIR "/actuators")) {
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
   return names;
 }
 
-/// The free bench with this preset, its flange's inertia, at its stiffest or at its softest.
-std::string flange(const std::string& preset, bool stiffest = true) {
+/// The free bench with this type, its flange's inertia, at its stiffest or at its softest.
+std::string flange(const std::string& type, bool stiffest = true) {
   std::string model = replaced(model_text("qbmove_bench_free"), "<izz>2.25e-05</izz>", "<izz>1e-4</izz>");
   const auto at = model.find("<ixx>1.16666667e-05</ixx>");
   model = model.substr(0, at) +
           replaced(replaced(model.substr(at), "1.16666667e-05</ixx>", "6e-5</ixx>"), "1.16666667e-05</iyy>", "6e-5</iyy>");
-  const bool has_presets = read_file(VSA_SOURCE_DIR "/presets/" + preset + ".toml").find("preset_max") != std::string::npos;
+  const bool has_presets = read_file(VSA_SOURCE_DIR "/actuators/" + type + ".toml").find("preset_max") != std::string::npos;
   model = replaced(model, "preset_rad=\"0.2\"", !has_presets ? "" : stiffest ? "preset_rad=\"0.785\"" : "preset_rad=\"0\"");
-  return replaced(model, "<preset>qbmove_maker_pro_6_1</preset>", "<preset>" + preset + "</preset>");
+  return replaced(model, "<type>qbmove_maker_pro_6_1</type>", "<type>" + type + "</type>");
 }
 
 /// Follows a flange through the run: the most that its speed and its spring have held, less what the supply has given since.
@@ -70,13 +70,13 @@ class Watch {
 
 class Stability : public testing::TestWithParam<std::tuple<std::string, std::string>> {
  protected:
-  [[nodiscard]] std::string preset() const { return std::get<0>(GetParam()); }
+  [[nodiscard]] std::string type() const { return std::get<0>(GetParam()); }
   [[nodiscard]] std::string engine() const { return std::get<1>(GetParam()); }
 };
 
 TEST_P(Stability, ALightFlangeKickedFarNeverGainsEnergy) {
   for (const double kick_rad : {0.2, 0.8}) {
-    RobotWorld w("kicked", flange(preset()), engine(), "", false);
+    RobotWorld w("kicked", flange(type()), engine(), "", false);
     const auto shaft = w.joint("qbmove_bench_free");
     shaft->SetPosition(0, kick_rad);
     Watch watch(w, shaft);
@@ -84,7 +84,7 @@ TEST_P(Stability, ALightFlangeKickedFarNeverGainsEnergy) {
     const double first_rad = std::exchange(watch.farthest_rad, 0.0);
     w.run(1000);
     EXPECT_TRUE(watch.finite) << kick_rad;
-    std::cout << preset() << ' ' << engine() << ' ' << kick_rad << ": " << watch.first_J << " J, grows to "
+    std::cout << type() << ' ' << engine() << ' ' << kick_rad << ": " << watch.first_J << " J, grows to "
               << watch.most_J / watch.first_J << ", swings to " << first_rad << ", then to " << watch.farthest_rad << '\n';
     EXPECT_LT(watch.most_J, watch.first_J * 1.005) << kick_rad;
     // The springs' kilonewton metres drag the pulleys along, and the shaft swings about where these are then.
@@ -95,7 +95,7 @@ TEST_P(Stability, ALightFlangeKickedFarNeverGainsEnergy) {
 
 TEST_P(Stability, AHardStopIsHitAndLeanedOnWithoutGain) {
   for (const bool stiffest : {false, true}) {
-    const std::string stopped = replaced(replaced(flange(preset(), stiffest), "<lower>-1e16</lower>", "<lower>-0.1</lower>"),
+    const std::string stopped = replaced(replaced(flange(type(), stiffest), "<lower>-1e16</lower>", "<lower>-0.1</lower>"),
                                          "<upper>1e16</upper>", "<upper>0.1</upper>");
     RobotWorld w("stopped", stopped, engine(), "", false);
     const auto shaft = w.joint("qbmove_bench_free");
@@ -103,7 +103,7 @@ TEST_P(Stability, AHardStopIsHitAndLeanedOnWithoutGain) {
     {
       Watch watch(w, shaft);
       w.run(2000);
-      std::cout << preset() << ' ' << engine() << " hit: " << watch.first_J << " J, grows to " << watch.most_J / watch.first_J
+      std::cout << type() << ' ' << engine() << " hit: " << watch.first_J << " J, grows to " << watch.most_J / watch.first_J
                 << ", from " << watch.lowest_rad << " to " << watch.highest_rad << '\n';
       EXPECT_TRUE(watch.finite);
       EXPECT_LT(watch.most_J, watch.first_J * 1.05);
@@ -116,7 +116,7 @@ TEST_P(Stability, AHardStopIsHitAndLeanedOnWithoutGain) {
     const double highest = std::exchange(watch.highest_rad, 0.0);
     watch.lowest_rad = 1;
     w.run(3000);
-    std::cout << preset() << ' ' << engine() << " lean: up to " << highest << ", then from " << watch.lowest_rad << " to "
+    std::cout << type() << ' ' << engine() << " lean: up to " << highest << ", then from " << watch.lowest_rad << " to "
               << watch.highest_rad << ", " << shaft->GetVelocity(0) << " rad/s, " << w.robot().read(0).torque_Nm << " N·m\n";
     EXPECT_TRUE(watch.finite);
     EXPECT_LT(highest, 0.15);

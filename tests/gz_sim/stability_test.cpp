@@ -6,17 +6,17 @@
 #include <cmath>
 
 #include "gz_world.hpp"
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 
 namespace vsa::test {
 namespace {
 
 /// The bench without a load, with another actuator at its stiffest.
-std::string flange(const std::string& preset) {
-  const bool has_preset = preset != "sea_example";
+std::string flange(const std::string& type) {
+  const bool has_preset = type != "sea_example";
   std::string model = model_text("qbmove_bench_free", "flange");
   model = replaced(model, "preset_rad=\"0.2\"", has_preset ? "preset_rad=\"0.785\"" : "");
-  return replaced(model, "<preset>qbmove_maker_pro_6_1<", "<preset>" + preset + "<");
+  return replaced(model, "<type>qbmove_maker_pro_6_1<", "<type>" + type + "<");
 }
 
 /// Of 1e-4 kg·m².
@@ -63,7 +63,7 @@ TEST_P(Presets, ABareFlangeThrownAtItsStiffestStaysBounded) {
   EXPECT_LT(std::abs(w.speed("flange")), 3.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Presets, testing::ValuesIn(config::PresetLibrary().names()), [](const auto& c) { return c.param; });
+INSTANTIATE_TEST_SUITE_P(All, Presets, testing::ValuesIn(config::TypeLibrary().names()), [](const auto& c) { return c.param; });
 
 TEST(GzSimStability, AFlangeThrownAgainstItsJointsLimitStaysBounded) {
   std::string model = light(flange("qbmove_maker_pro_6_1"));

@@ -228,6 +228,7 @@ TEST(RobotPort, AClientMovesTheUnitsAndCommandsAreNotTaken) {
   bench.robot.command(0, 1.0, std::nullopt);
   bench.run(500);
   EXPECT_NEAR(bench.robot.read(0).equilibrium_rad, 0.0, 0.02);
+  EXPECT_EQ(bench.robot.read(0).equilibrium_command_rad, 0.0) << "and the state doesn't say that they were";
   const auto notices = bench.robot.take_notices();
   ASSERT_EQ(notices.size(), 1U);
   EXPECT_NE(notices[0].text.find("vsa-test"), std::string::npos);
@@ -238,7 +239,7 @@ TEST(RobotPort, AClientMovesTheUnitsAndCommandsAreNotTaken) {
   EXPECT_NEAR(bench.robot.read(0).motor_rad[0], 3000 * kPi / 16384, 0.06);
   EXPECT_NEAR(bench.robot.read(1).motor_rad[0], 0.3, 0.06) << "the other one holds what it began with";
   bench.robot.serial_line(0)->exchange(bus::encode_request({}, 2, bus::GetMeasurements{}).view(), answer);
-  bus::HostReceiver receiver;
+  bus::MasterReceiver receiver;
   bus::Frame frame;
   receiver.push(answer);
   ASSERT_TRUE(receiver.next(frame));

@@ -191,9 +191,9 @@ TEST(HostileTopics, NamesAndObjectsThatWereMovedFrom) {
   EXPECT_THROW((void)vsa::host::model_topic("", ""), InputError);
   EXPECT_THROW((void)vsa::host::joint_topic("m", "::", ""), InputError);
   Robot robot(chain(1));
-  vsa::test::FakePort port;
-  EXPECT_THROW(vsa::host::RobotTopics(robot, "bad name", port, nullptr), InputError);
-  vsa::host::RobotTopics topics(robot, "m", port, nullptr);
+  vsa::test::FakeTransport transport;
+  EXPECT_THROW(vsa::host::RobotTopics(robot, "bad name", transport, nullptr), InputError);
+  vsa::host::RobotTopics topics(robot, "m", transport, nullptr);
   topics.update(std::numeric_limits<std::int64_t>::min());
   topics.publish(std::numeric_limits<std::int64_t>::max());
   vsa::host::RobotTopics taken = std::move(topics);

@@ -20,8 +20,8 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 class HostTopics : public testing::Test, public TopicsFixture {
  protected:
   void SetUp() override { connect(); }
-  void send(const Trajectory& trajectory) { port.trajectories.at("/model/lab/arm/vsa/cmd")(trajectory); }
-  void send_array(std::vector<double> positions) { port.actuators.at("/model/lab/arm/vsa/cmd_array")({std::move(positions)}); }
+  void send(const Trajectory& trajectory) { transport.trajectories.at("/model/lab/arm/vsa/cmd")(trajectory); }
+  void send_array(std::vector<double> positions) { transport.actuators.at("/model/lab/arm/vsa/cmd_array")({std::move(positions)}); }
   void expect_untouched() {
     step();
     EXPECT_EQ(commanded(0), (Pair{0.0, 0.2}));
@@ -31,20 +31,20 @@ class HostTopics : public testing::Test, public TopicsFixture {
 };
 
 TEST_F(HostTopics, AnEquilibriumCommandLeavesThePresetAndTheOtherActuatorsAlone) {
-  port.doubles.at("/model/lab/arm/joint/shoulder/cmd_equilibrium")(0.5);
+  transport.doubles.at("/model/lab/arm/joint/shoulder/cmd_equilibrium")(0.5);
   step();
   EXPECT_EQ(commanded(0), (Pair{0.5, 0.2}));
   EXPECT_EQ(commanded(1), (Pair{0.1, 0.3}));
 }
 
 TEST_F(HostTopics, APresetCommandLeavesTheEquilibriumAlone) {
-  port.doubles.at("/model/lab/arm/joint/arm/elbow/cmd_preset")(0.6);
+  transport.doubles.at("/model/lab/arm/joint/arm/elbow/cmd_preset")(0.6);
   step();
   EXPECT_EQ(commanded(1), (Pair{0.1, 0.6}));
 }
 
 TEST_F(HostTopics, ACommandReachesTheMotorsAndNotOnlyTheReading) {
-  port.doubles.at("/model/lab/arm/joint/shoulder/cmd_equilibrium")(0.5);
+  transport.doubles.at("/model/lab/arm/joint/shoulder/cmd_equilibrium")(0.5);
   step(1000);
   const auto moved = robot.read(0).motor_rad;
   EXPECT_GT(0.5 * (moved[0] + moved[1]), 0.2);
@@ -102,7 +102,7 @@ TEST_F(HostTopics, ATrajectoryOfSeveralPointsIsTakenWholeOrNotAtAllWhereverMemor
 TEST_F(HostTopics, ACommandReplacesATrajectoryOnItsOwnChannelOnly) {
   send({{"shoulder", "shoulder_preset"}, {{{0.0, 0.2}, 0.0}, {{1.0, 0.6}, 1.0}}});
   step(100);
-  port.doubles.at("/model/lab/arm/joint/shoulder/cmd_equilibrium")(-0.2);
+  transport.doubles.at("/model/lab/arm/joint/shoulder/cmd_equilibrium")(-0.2);
   step(400);
   EXPECT_EQ(commanded(0)[0], -0.2);
   EXPECT_NEAR(commanded(0)[1], 0.4, 1e-12) << "half way at half time";
@@ -110,8 +110,8 @@ TEST_F(HostTopics, ACommandReplacesATrajectoryOnItsOwnChannelOnly) {
 
 TEST_F(HostTopics, NumbersThatAreNotFiniteAreRefusedOnEveryTopic) {
   for (const double bad : {kNan, kInf, -kInf}) {
-    port.doubles.at("/model/lab/arm/joint/shoulder/cmd_equilibrium")(bad);
-    port.doubles.at("/model/lab/arm/joint/shoulder/cmd_preset")(bad);
+    transport.doubles.at("/model/lab/arm/joint/shoulder/cmd_equilibrium")(bad);
+    transport.doubles.at("/model/lab/arm/joint/shoulder/cmd_preset")(bad);
     send_array({0.1, 0.1, 0.1, 0.1, 0.1, bad});
     send({{"shoulder", "wrist"}, {{{0.1, bad}, 0.0}}});
     send({{"shoulder", "wrist"}, {{{0.1, 0.1}, 0.0}, {{0.2, 0.2}, bad}}});
@@ -160,7 +160,7 @@ TEST_F(HostTopics, AnEmptyTrajectoryIsRefused) {
 
 TEST_F(HostTopics, AClampedCommandIsReportedOnceWithTheModelsName) {
   for (int k = 0; k < 5; ++k) {
-    port.doubles.at("/model/lab/arm/joint/shoulder/cmd_preset")(1.5);
+    transport.doubles.at("/model/lab/arm/joint/shoulder/cmd_preset")(1.5);
     step(20);
   }
   ASSERT_EQ(lines.size(), 1U);
@@ -169,8 +169,8 @@ TEST_F(HostTopics, AClampedCommandIsReportedOnceWithTheModelsName) {
 }
 
 TEST_F(HostTopics, ATransportWithoutTrajectoriesStillHasTheOthers) {
-  port.knows_trajectories = false;
-  port.trajectories.clear();
+  transport.knows_trajectories = false;
+  transport.trajectories.clear();
   EXPECT_NO_THROW(connect());
   send_array({0.11, 0.12, 0.13, 0.21, 0.22, 0.23});
   step();
@@ -199,24 +199,24 @@ TEST(HostTopicsNames, AllNamesThatCannotBeTopicsAreToldAtOnce) {
 
 TEST(HostTopicsNames, ANameThatTheTransportRefusesIsBadInput) {
   TopicsFixture robot;
-  robot.port.outcome = vsa::host::Outcome::refused;
+  robot.transport.outcome = vsa::host::Outcome::refused;
   EXPECT_THROW(robot.connect(), vsa::InputError);
 }
 
 TEST(HostTopicsNames, HandlersOfTopicsThatThrewOrAreGoneReachNothing) {
   TopicsFixture robot;
-  robot.port.outcome = vsa::host::Outcome::refused;  // after every handler was handed over
+  robot.transport.outcome = vsa::host::Outcome::refused;  // after every handler was handed over
   EXPECT_THROW(robot.connect(), vsa::InputError);
   const auto say_all = [&robot] {
-    robot.port.doubles.at("/model/lab/arm/joint/shoulder/cmd_equilibrium")(0.5);
-    robot.port.trajectories.at("/model/lab/arm/vsa/cmd")({{"shoulder"}, {{{0.5}, 0.0}}});
-    robot.port.actuators.at("/model/lab/arm/vsa/cmd_array")({{0.5, 0.5, 0.5, 0.5, 0.5, 0.5}});
+    robot.transport.doubles.at("/model/lab/arm/joint/shoulder/cmd_equilibrium")(0.5);
+    robot.transport.trajectories.at("/model/lab/arm/vsa/cmd")({{"shoulder"}, {{{0.5}, 0.0}}});
+    robot.transport.actuators.at("/model/lab/arm/vsa/cmd_array")({{0.5, 0.5, 0.5, 0.5, 0.5, 0.5}});
     robot.step();
   };
   say_all();
   EXPECT_EQ(robot.commanded(0), (Pair{0.0, 0.2}));
 
-  robot.port.outcome = vsa::host::Outcome::ok;
+  robot.transport.outcome = vsa::host::Outcome::ok;
   robot.connect();
   robot.topics.reset();
   say_all();

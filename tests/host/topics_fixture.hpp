@@ -19,7 +19,7 @@
 
 namespace vsa::test {
 
-/// Publishers may outlive the port, so what they write to is shared.
+/// Publishers may outlive the transport, so what they write to is shared.
 struct Wire {
   std::map<std::string, std::vector<std::pair<std::int64_t, double>>> numbers;
   std::vector<host::JointStates> states;
@@ -45,7 +45,7 @@ class FakePublisher final : public host::Publisher<Message> {
   std::string topic_;
 };
 
-class FakePort final : public host::TopicPort {
+class FakeTransport final : public host::TopicTransport {
  public:
   using Outcome = host::Outcome;
   Outcome on_double(const std::string& topic, std::function<void(double)> handler) override {
@@ -100,8 +100,8 @@ struct TopicsFixture {
   explicit TopicsFixture(host::RobotConfig config = three_actuators()) : robot(std::move(config)) {}
 
   void connect() {
-    topics =
-        std::make_unique<host::RobotTopics>(robot, "lab::arm", port, [this](const std::string& line) { lines.push_back(line); });
+    topics = std::make_unique<host::RobotTopics>(robot, "lab::arm", transport,
+                                                 [this](const std::string& line) { lines.push_back(line); });
   }
 
   void step(int count = 1) {
@@ -121,7 +121,7 @@ struct TopicsFixture {
 
   static constexpr std::int64_t kStep_ns = 1'000'000;
   host::Robot robot;
-  FakePort port;
+  FakeTransport transport;
   std::vector<std::string> lines;
   std::int64_t time_ns = 0;
   std::unique_ptr<host::RobotTopics> topics;

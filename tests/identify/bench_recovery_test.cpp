@@ -14,7 +14,7 @@
 namespace vsa::identify {
 namespace {
 
-constexpr const char* kPreset = "qbmove_maker_pro_6_1";
+constexpr const char* kType = "qbmove_maker_pro_6_1";
 constexpr const char* kKeys = "tendon.friction,sensor.shaft_zero_rad";
 
 SweepOptions fast() {
@@ -26,14 +26,14 @@ SweepOptions fast() {
 
 experiment::Specimen specimen() {
   experiment::Specimen s;
-  s.preset = kPreset;
+  s.type = kType;
   s.library = test::shipped();
   return s;
 }
 
 Observation noisy_recording(const std::vector<double>& truth, double preset, unsigned seed) {
   experiment::Specimen unit = specimen();
-  unit.overrides = overrides(parse_parameters(kKeys, test::shipped().load(kPreset)), truth);
+  unit.overrides = overrides(parse_parameters(kKeys, test::shipped().load(kType)), truth);
   experiment::LoadRecording r = simulated_recording(unit, preset, fast());
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, 0.002);
@@ -46,7 +46,7 @@ Observation noisy_recording(const std::vector<double>& truth, double preset, uns
 TEST(BenchRecovery, FindsKnownParametersWithinFourOfItsStandardErrors) {
   const std::vector<double> truth{0.10, 0.004};
   Task task;
-  task.parameters = parse_parameters(kKeys, test::shipped().load(kPreset));
+  task.parameters = parse_parameters(kKeys, test::shipped().load(kType));
   ASSERT_GT(std::abs(task.parameters[0].start - truth[0]), 0.02) << "the start must not be the answer";
   for (double preset : {0.0, 0.6}) task.observations.push_back(noisy_recording(truth, preset, 7));
   use_bench(task, specimen(), fast());
@@ -67,7 +67,7 @@ TEST(BenchRecovery, FindsKnownParametersWithinFourOfItsStandardErrors) {
 
 TEST(BenchModel, RefusesASweepWithoutAWholeCycleAndAPresetBeyondTheUnit) {
   Task task;
-  task.parameters = parse_parameters(kKeys, test::shipped().load(kPreset));
+  task.parameters = parse_parameters(kKeys, test::shipped().load(kType));
   task.observations = {{"x", 0.0, test::closed_form(test::kTruth, 0), 1}};
   SweepOptions o = fast();
   o.cycles = 1.0;

@@ -42,9 +42,9 @@ inline experiment::Branches closed_form(const std::vector<double>& v, double pre
   return b;
 }
 
-inline config::PresetLibrary shipped() { return config::PresetLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "presets"}); }
-/// The paper's parameters: a preset that identification doesn't write.
-inline config::Preset paper_preset() { return shipped().load("qbmove_maker_pro_datasheet"); }
+inline config::TypeLibrary shipped() { return config::TypeLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "actuators"}); }
+/// The paper's parameters: a type that identification doesn't write.
+inline config::ActuatorType paper_type() { return shipped().load("qbmove_maker_pro_datasheet"); }
 
 inline identify::Task task_of(std::vector<identify::Parameter> parameters, const std::vector<double>& presets,
                               const std::vector<experiment::Branches>& data) {

@@ -79,8 +79,8 @@ TEST_F(ComparisonFile, GivesItsSettingsAndItsHypotheses) {
   ASSERT_EQ(c.recordings.size(), 2u);
   EXPECT_GT(c.recordings[1].weight, 100) << "by its scatter";
   ASSERT_EQ(c.hypotheses.size(), 2u);
-  EXPECT_EQ(c.hypotheses[0].preset.unit.memory.max_stiffness, 32000);
-  EXPECT_FALSE(c.hypotheses[0].preset.unit.actuator.bridge.brake_when_off);
+  EXPECT_EQ(c.hypotheses[0].type.unit.memory.max_stiffness, 32000);
+  EXPECT_FALSE(c.hypotheses[0].type.unit.actuator.bridge.brake_when_off);
   EXPECT_EQ(c.hypotheses[0].free.size(), 1u);
   EXPECT_EQ(c.hypotheses[1].title, "nothing free");
   EXPECT_TRUE(c.hypotheses[1].free.empty());
@@ -89,17 +89,17 @@ TEST_F(ComparisonFile, GivesItsSettingsAndItsHypotheses) {
 }
 
 TEST_F(ComparisonFile, TakesAPresetBesideItAndStartsOfFreeKeysThatThePresetLacks) {
-  std::ifstream shipped(fs::path(VSA_SOURCE_DIR) / "presets" / "qbmove_maker_pro.toml");
-  std::string preset{std::istreambuf_iterator<char>(shipped), {}};
-  preset.replace(preset.find("\"qbmove_maker_pro\""), 18, "\"mine\"");
-  std::ofstream(directory_ / "mine.toml") << preset;
+  std::ifstream shipped(fs::path(VSA_SOURCE_DIR) / "actuators" / "qbmove_maker_pro.toml");
+  std::string type{std::istreambuf_iterator<char>(shipped), {}};
+  type.replace(type.find("\"qbmove_maker_pro\""), 18, "\"mine\"");
+  std::ofstream(directory_ / "mine.toml") << type;
   const Comparison c = read(std::string(kSettings) + R"([[hypothesis]]
 name = "back"
 base = "mine.toml"
 start = { "drive.back_loss" = 0.25 }
 free = ["drive.back_loss"]
 )");
-  EXPECT_EQ(c.hypotheses[0].preset.name, "mine");
+  EXPECT_EQ(c.hypotheses[0].type.name, "mine");
   EXPECT_EQ(c.hypotheses[0].free[0].start, 0.25);
   std::ofstream(directory_ / "mine.toml") << "nonsense";
   EXPECT_TOLD(problems(std::string(kSettings) + "[[hypothesis]]\nname = \"a\"\nbase = \"mine.toml\"\nfree = []\n"), "mine.toml");

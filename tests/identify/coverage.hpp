@@ -18,19 +18,19 @@
 namespace vsa::test {
 
 constexpr const char* kCoverageKeys = "elastic.k1_Nm=elastic.k2_Nm,tendon.friction,shaft.friction_Nm,sensor.shaft_zero_rad";
-inline const std::vector<double> kCoverageTruth{0.00075, 0.13, 0.03, 0.004};  // the preset: 0.00062, 0.1535, 0.02525, 0.00763
+inline const std::vector<double> kCoverageTruth{0.00075, 0.13, 0.03, 0.004};  // the type: 0.00062, 0.1535, 0.02525, 0.00763
 
 /// The shipped unit on a sweep four times as fast as the recordings', exact branches of the truth at two presets as data.
 /// `quasi_static`: the model is the surrogate, which costs a hundredth.
 inline identify::Task coverage_task(bool quasi_static) {
   experiment::Specimen unit;
-  unit.preset = "qbmove_maker_pro_6_1";
+  unit.type = "qbmove_maker_pro_6_1";
   unit.library = shipped();
   identify::SweepOptions sweep;
   sweep.period_s = 9.5;
   sweep.amplitude_rad = 2.0;
   identify::Task task;
-  task.parameters = identify::parse_parameters(kCoverageKeys, shipped().load(unit.preset));
+  task.parameters = identify::parse_parameters(kCoverageKeys, shipped().load(unit.type));
   for (const double preset : {0.0, 0.55}) task.observations.push_back({"synthetic", preset, closed_form(kTruth, preset), 1});
   identify::use_bench(task, unit, sweep);
   if (quasi_static) task.model = task.surrogate;

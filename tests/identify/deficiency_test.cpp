@@ -15,7 +15,7 @@ namespace {
 
 using test::closed_form;
 using test::kTruth;
-using test::paper_preset;
+using test::paper_type;
 using test::task_of;
 
 const std::vector<double> kPresets{0.0, 0.45, 0.69};
@@ -34,7 +34,7 @@ std::vector<experiment::Branches> noisy(const std::vector<double>& presets, doub
 
 /// k1 and k2 apart, where only their sum acts; the rest known.
 Task untied() {
-  Task task = task_of(parse_parameters("elastic.k1_Nm,elastic.k2_Nm,shaft.friction_Nm", paper_preset()), kPresets, noisy(kPresets));
+  Task task = task_of(parse_parameters("elastic.k1_Nm,elastic.k2_Nm,shaft.friction_Nm", paper_type()), kPresets, noisy(kPresets));
   task.model = [](const std::vector<double>& v, std::size_t o) {
     return closed_form({0.5 * (v[0] + v[1]), kTruth[1], v[2], kTruth[3]}, kPresets[o]);
   };
@@ -57,7 +57,7 @@ TEST(Deficiency, TwoParametersOfWhichOnlyTheSumActsAreNamed) {
 
 TEST(Deficiency, AtOnePresetTheShortfallAndTheSpringAreOne) {
   const std::vector<double> one{0.69};
-  const Task task = task_of(parse_parameters(test::kFour, paper_preset()), one, noisy(one));
+  const Task task = task_of(parse_parameters(test::kFour, paper_type()), one, noisy(one));
   const Residuals residuals(task, 2);
   const Uncertainty u = uncertainty(residuals, fit(residuals, {}));
   ASSERT_EQ(u.unseparated.size(), 1u);
@@ -65,7 +65,7 @@ TEST(Deficiency, AtOnePresetTheShortfallAndTheSpringAreOne) {
 }
 
 TEST(Deficiency, AParameterWithoutEffectIsNamed) {
-  Task task = task_of(parse_parameters("elastic.k1_Nm=elastic.k2_Nm,drive.supply_V", paper_preset()), kPresets, noisy(kPresets));
+  Task task = task_of(parse_parameters("elastic.k1_Nm=elastic.k2_Nm,drive.supply_V", paper_type()), kPresets, noisy(kPresets));
   task.model = [](const std::vector<double>& v, std::size_t o) {
     return closed_form({v[0], kTruth[1], kTruth[2], kTruth[3]}, kPresets[o]);
   };
@@ -77,7 +77,7 @@ TEST(Deficiency, AParameterWithoutEffectIsNamed) {
 }
 
 TEST(Deficiency, AWellPosedTaskHasNone) {
-  const Task task = task_of(parse_parameters(test::kFour, paper_preset()), kPresets, noisy(kPresets));
+  const Task task = task_of(parse_parameters(test::kFour, paper_type()), kPresets, noisy(kPresets));
   const Residuals residuals(task, 2);
   const Uncertainty u = uncertainty(residuals, fit(residuals, {}));
   EXPECT_FALSE(u.deficient());
@@ -89,7 +89,7 @@ TEST(Deficiency, AWellPosedTaskHasNone) {
 }
 
 TEST(Profile, IsLowestAtTheEstimateAndRisesToBothSides) {
-  const Task task = task_of(parse_parameters(test::kFour, paper_preset()), kPresets, noisy(kPresets, 0.003));
+  const Task task = task_of(parse_parameters(test::kFour, paper_type()), kPresets, noisy(kPresets, 0.003));
   const Residuals residuals(task, 2);
   const Fit f = fit(residuals, {});
   const Uncertainty u = uncertainty(residuals, f);
@@ -103,11 +103,12 @@ TEST(Profile, IsLowestAtTheEstimateAndRisesToBothSides) {
 }
 
 TEST(CrossValidation, OfATrueModelPredictsTheLeftOutPresetAboutAsWellAsTheRest) {
-  const Task task = task_of(parse_parameters(test::kFour, paper_preset()), kPresets, noisy(kPresets, 0.003));
+  const std::vector<double> presets{0.0, 0.1, 0.45, 0.69};  // without either of the first two, the other still tells k from a
+  const Task task = task_of(parse_parameters(test::kFour, paper_type()), presets, noisy(presets, 0.003));
   const Residuals residuals(task, 2);
   const Fit f = fit(residuals, {});
   const auto left = leave_one_preset_out(task, f, {}, 2);
-  ASSERT_EQ(left.size(), 3u);
+  ASSERT_EQ(left.size(), 4u);
   for (const LeftOut& l : left) {
     EXPECT_LT(l.rms_rad, 2 * l.rms_rad_of_all) << l.preset << " " << l.rms_rad_of_all;
     EXPECT_EQ(l.misfits.size(), 1u);
@@ -118,16 +119,33 @@ TEST(CrossValidation, OfAWrongModelFails) {
   std::vector<experiment::Branches> data = noisy(kPresets);
   for (double& v : data[2].rising_rad) v *= 1.5;  // one preset that obeys another law
   for (double& v : data[2].falling_rad) v *= 1.5;
-  const Task task = task_of(parse_parameters(test::kFour, paper_preset()), kPresets, data);
+  const Task task = task_of(parse_parameters(test::kFour, paper_type()), kPresets, data);
   const Residuals residuals(task, 2);
   const auto left = leave_one_preset_out(task, fit(residuals, {}), {}, 2);
   EXPECT_GT(left[2].rms_rad, 10 * 0.001);
   EXPECT_GT(left[2].rms_rad, left[2].rms_rad_of_all);
 }
 
+TEST(CrossValidation, OfATrueModelThatTheRestDoesNotDetermineSaysSo) {
+  const Task task = task_of(parse_parameters(test::kFour, paper_type()), kPresets, noisy(kPresets, 0.003));
+  const Residuals residuals(task, 2);
+  const auto left = leave_one_preset_out(task, fit(residuals, {}), {}, 2);
+  EXPECT_GT(left[0].rms_rad, 5 * left[0].rms_rad_of_all) << "two stiff presets fit k·e^(a·preset), not k and a";
+}
+
+TEST(CrossValidation, BeginsNothingAtTheFitToEverything) {
+  const Task task = task_of(parse_parameters(test::kFour, paper_type()), kPresets, noisy(kPresets, 0.003));
+  const Residuals residuals(task, 2);
+  Fit f = fit(residuals, {});
+  const auto left = leave_one_preset_out(task, f, {}, 2);
+  for (double& v : f.values) v *= 1.05;
+  const auto again = leave_one_preset_out(task, f, {}, 2);
+  for (std::size_t i = 0; i < left.size(); ++i) EXPECT_EQ(left[i].values, again[i].values) << left[i].preset;
+}
+
 TEST(CrossValidation, NeedsTwoPresetsAndTakesTwoRecordingsOfOne) {
   const std::vector<double> twice{0.45, 0.45};
-  const Task one = task_of(parse_parameters("shaft.friction_Nm", paper_preset()), twice, noisy(twice));
+  const Task one = task_of(parse_parameters("shaft.friction_Nm", paper_type()), twice, noisy(twice));
   Task task = one;
   task.model = [](const std::vector<double>& v, std::size_t) { return closed_form({kTruth[0], kTruth[1], v[0], kTruth[3]}, 0.45); };
   const Residuals residuals(task, 2);
@@ -138,7 +156,7 @@ TEST(CrossValidation, NeedsTwoPresetsAndTakesTwoRecordingsOfOne) {
 }
 
 TEST(Failures, OfTheModelAtTheStartAreToldAndElsewhereSteppedAround) {
-  Task task = task_of(parse_parameters(test::kFour, paper_preset()), kPresets, noisy(kPresets));
+  Task task = task_of(parse_parameters(test::kFour, paper_type()), kPresets, noisy(kPresets));
   const Model fine = task.model;
   task.model = [fine](const std::vector<double>& v, std::size_t o) {
     if (v[2] > 0.035) throw InputError({"", "shaft.friction_Nm", "", "too much", "less"});
@@ -151,7 +169,7 @@ TEST(Failures, OfTheModelAtTheStartAreToldAndElsewhereSteppedAround) {
 }
 
 TEST(Failures, ARecordingWithoutBranchesAndNoneAtAllAreTold) {
-  Task task = task_of(parse_parameters(test::kFour, paper_preset()), {0.0}, noisy({0.0}));
+  Task task = task_of(parse_parameters(test::kFour, paper_type()), {0.0}, noisy({0.0}));
   for (double& v : task.observations[0].data.rising_rad) v = std::nan("");
   for (double& v : task.observations[0].data.falling_rad) v = std::nan("");
   EXPECT_THROW(Residuals(task, 1), InputError);

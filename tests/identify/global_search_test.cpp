@@ -94,7 +94,7 @@ TEST(Fit, GoesDownTheSurrogateBeforeItPaysForASimulationsSlopes) {
   // The surrogate is the truth with other zeros: how far they are apart is the same everywhere, so it leads all the way.
   const std::vector<double> presets{0.0, 0.45, 0.69};
   Task task = test::task_of(
-      parse_parameters(test::kFour, test::paper_preset()), presets,
+      parse_parameters(test::kFour, test::paper_type()), presets,
       {test::closed_form(test::kTruth, 0.0), test::closed_form(test::kTruth, 0.45), test::closed_form(test::kTruth, 0.69)});
   task.parameters[0].start = 0.9;
   task.parameters[1].start = 0.5;
@@ -139,12 +139,12 @@ TEST(GlobalSearch, SaysWhyThereIsNone) {
 /// A task on the bench's surrogate, with recordings that the surrogate itself made.
 Task bench_task(const std::vector<double>& truth) {
   experiment::Specimen unit;
-  unit.preset = "qbmove_maker_pro_6_1";
+  unit.type = "qbmove_maker_pro_6_1";
   unit.library = test::shipped();
   Task task;
   task.parameters = parse_parameters(
       "elastic.k1_Nm=elastic.k2_Nm,elastic.a1_per_rad=elastic.a2_per_rad,tendon.friction,drive.viscous_Nms_per_rad",
-      test::shipped().load(unit.preset));
+      test::shipped().load(unit.type));
   for (const double preset : {0.0, 0.5})
     task.observations.push_back({"made", preset, test::closed_form(test::kTruth, preset), 1000});
   use_bench(task, unit, {});
@@ -176,10 +176,10 @@ TEST(GlobalSearch, FindsAUnitsParametersFromFarAwayWithAnyNumberOfThreads) {
 
 TEST(GlobalSearch, EndsWhenItsWatchIsStopped) {
   experiment::Specimen unit;
-  unit.preset = "qbmove_maker_pro_6_1";
+  unit.type = "qbmove_maker_pro_6_1";
   unit.library = test::shipped();
   Task task;
-  task.parameters = parse_parameters("tendon.friction", test::shipped().load(unit.preset));
+  task.parameters = parse_parameters("tendon.friction", test::shipped().load(unit.type));
   task.observations.push_back({"made", 0, test::closed_form(test::kTruth, 0), 1});
   experiment::Watch watch;
   use_bench(task, unit, {}, &watch);

@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The --parameters text and the preset file that comes out.
+// The --parameters text and the type's file that comes out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,18 +8,18 @@
 
 #include "closed_form.hpp"
 #include "vsa/errors.hpp"
-#include "vsa/identify/preset_file.hpp"
+#include "vsa/identify/type_file.hpp"
 
 namespace vsa::identify {
 namespace {
 
-using test::paper_preset;
+using test::paper_type;
 using test::shipped;
 
 std::vector<std::string> told(const std::string& text) {
   std::vector<std::string> out;
   try {
-    (void)parse_parameters(text, paper_preset());
+    (void)parse_parameters(text, paper_type());
   } catch (const InputError& error) {
     for (const Problem& p : error.problems()) out.push_back(p.text());
   }
@@ -29,7 +29,7 @@ std::vector<std::string> told(const std::string& text) {
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Parameters, HaveStartUnitAndBoundsOfThePreset) {
-  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm, shaft.friction_Nm", paper_preset());
+  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm, shaft.friction_Nm", paper_type());
   ASSERT_EQ(p.size(), 2u);
   EXPECT_EQ(p[0].keys, (std::vector<std::string>{"elastic.k1_Nm", "elastic.k2_Nm"}));
   EXPECT_EQ(p[0].unit, "N·m");
@@ -52,7 +52,7 @@ TEST(Parameters, ThatAreWrongAreAllToldAtOnce) {
 }
 
 TEST(Parameters, AreCountedInTheirLogarithmWhereTheirBoundsSpanDecades) {
-  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm,shaft.friction_Nm", paper_preset());
+  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm,shaft.friction_Nm", paper_type());
   ASSERT_TRUE(p[0].logarithmic());
   EXPECT_FALSE(p[1].logarithmic()) << "its bound is 0";
   EXPECT_NEAR(p[0].value_at(p[0].coordinate(1e-3) + std::log(2.0)), 2e-3, 1e-12);
@@ -62,7 +62,7 @@ TEST(Parameters, AreCountedInTheirLogarithmWhereTheirBoundsSpanDecades) {
 }
 
 TEST(Parameters, BecomeOverridesOfEveryTiedKey) {
-  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm,shaft.friction_Nm", paper_preset());
+  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm,shaft.friction_Nm", paper_type());
   const auto o = overrides(p, {0.03, 0.02});
   ASSERT_EQ(o.size(), 3u);
   EXPECT_EQ(o[1].key, "elastic.k2_Nm");
@@ -71,7 +71,7 @@ TEST(Parameters, BecomeOverridesOfEveryTiedKey) {
 }
 
 TEST(Parameters, TakeThePlaceOfOverridesOfTheirKeys) {
-  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm", paper_preset());
+  const auto p = parse_parameters("elastic.k1_Nm=elastic.k2_Nm", paper_type());
   const auto o = overrides(p, {0.03}, {{"elastic.k2_Nm", "0.5"}, {"shaft.friction_Nm", "0.1"}});
   ASSERT_EQ(o.size(), 3u);
   EXPECT_EQ(o[0].key, "shaft.friction_Nm");
@@ -89,12 +89,12 @@ TEST(ScatterWeight, IsTheInverseOfTheScatter) { EXPECT_NEAR(scatter_weight(test:
 
 const config::Evidence kFitted{{"stiffness.0.6903", "stiffness.0.4602"}, "vsa identify \"a.csv\""};
 
-TEST(PresetFile, SaysWhatItWasFittedToBesideWhatThePresetHadBeen) {
-  const config::PresetLibrary library = shipped();
-  const auto written = [&](const config::Preset& before) {
-    return library.load_text(preset_text(before, "new_one", {}, kFitted, library), "new_one.toml").evidence.value();
+TEST(TypeFile, SaysWhatItWasFittedToBesideWhatThePresetHadBeen) {
+  const config::TypeLibrary library = shipped();
+  const auto written = [&](const config::ActuatorType& before) {
+    return library.load_text(type_text(before, "new_one", {}, kFitted, library), "new_one.toml").evidence.value();
   };
-  config::Preset before = library.load("sea_example");
+  config::ActuatorType before = library.load("sea_example");
   before.evidence = config::Evidence{{"speed.0.7500", "stiffness.0.6903"}, "by hand"};
   EXPECT_EQ(written(before).calibrated_on, (std::vector<std::string>{"speed.0.7500", "stiffness.0.6903", "stiffness.0.4602"}));
   EXPECT_EQ(written(before).source, "by hand; vsa identify \"a.csv\"");
@@ -105,14 +105,14 @@ TEST(PresetFile, SaysWhatItWasFittedToBesideWhatThePresetHadBeen) {
   EXPECT_NE(written(before).source.find("doesn't say"), std::string::npos);
 }
 
-/// Every shipped preset can be written with a changed value and reads back equal in all else.
-TEST(PresetFile, KeepsWhatWasntIdentified) {
-  const config::PresetLibrary library = shipped();
+/// Every shipped type can be written with a changed value and reads back equal in all else.
+TEST(TypeFile, KeepsWhatWasntIdentified) {
+  const config::TypeLibrary library = shipped();
   for (const std::string& name : library.names()) {
-    const config::Preset before = library.load(name);
+    const config::ActuatorType before = library.load(name);
     const std::string text =
-        preset_text(before, "new_one", {{"shaft.friction_Nm", 0.0123, "identified: vsa \"identify\" \\ x"}}, kFitted, library);
-    const config::Preset after = library.load_text(text, "new_one.toml");
+        type_text(before, "new_one", {{"shaft.friction_Nm", 0.0123, "identified: vsa \"identify\" \\ x"}}, kFitted, library);
+    const config::ActuatorType after = library.load_text(text, "new_one.toml");
     ASSERT_EQ(after.entries.size(), before.entries.size()) << name;
     EXPECT_EQ(after.law, before.law);
     EXPECT_EQ(after.name, "new_one");
@@ -129,8 +129,8 @@ TEST(PresetFile, KeepsWhatWasntIdentified) {
   }
 }
 
-TEST(PresetFile, OfAValueBeyondItsBoundsIsRefused) {
-  EXPECT_THROW((void)preset_text(paper_preset(), "new_one", {{"shaft.friction_Nm", -1.0, "x"}}, kFitted, shipped()), InputError);
+TEST(TypeFile, OfAValueBeyondItsBoundsIsRefused) {
+  EXPECT_THROW((void)type_text(paper_type(), "new_one", {{"shaft.friction_Nm", -1.0, "x"}}, kFitted, shipped()), InputError);
 }
 
 }  // namespace

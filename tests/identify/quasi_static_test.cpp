@@ -14,8 +14,8 @@
 namespace vsa::identify {
 namespace {
 
-device::UnitConfig unit(const std::string& preset, const std::vector<config::Override>& overrides = {}) {
-  return test::shipped().load(preset, overrides).unit;
+device::UnitConfig unit(const std::string& type, const std::vector<config::Override>& overrides = {}) {
+  return test::shipped().load(type, overrides).unit;
 }
 
 constexpr double kTurn_rad = 1.6;
@@ -131,7 +131,7 @@ TEST(QuasiStatic, IsWithinSomeMilliradiansOfTheSimulatedBench) {
                         {"qbmove_maker_pro_6_1", {{"drive.supply_V", "24"}, {"drive.back_loss", "0.8"}}, 0.006}};
   for (const Case& c : cases) {
     experiment::Specimen specimen;
-    specimen.preset = c.type;
+    specimen.type = c.type;
     specimen.overrides = c.overrides;
     specimen.library = test::shipped();
     const QuasiStatic model(unit(c.type, c.overrides), experiment::bench_load_peak_Nm(specimen));

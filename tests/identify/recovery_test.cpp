@@ -13,7 +13,7 @@ namespace {
 using test::closed_form;
 using test::kFour;
 using test::kTruth;
-using test::paper_preset;
+using test::paper_type;
 using test::task_of;
 
 const std::vector<double> kPresets{0.0, 0.45, 0.69};
@@ -32,7 +32,7 @@ FitOptions quick() {
 }
 
 TEST(Recovery, FromExactBranchesIsExact) {
-  const Task task = task_of(parse_parameters(kFour, paper_preset()), kPresets, exact());
+  const Task task = task_of(parse_parameters(kFour, paper_type()), kPresets, exact());
   const Residuals residuals(task, 2);
   const Fit f = fit(residuals, quick());
   for (std::size_t k = 0; k < kTruth.size(); ++k) EXPECT_NEAR(f.values[k], kTruth[k], 1e-4 * std::abs(kTruth[k]) + 1e-7) << k;
@@ -46,7 +46,7 @@ TEST(Recovery, FromQuantisedNoisyRecordingsLiesInItsOwnIntervals) {
     for (double p : kPresets)
       data.push_back(
           experiment::branches(test::quantised_recording(kTruth, p, 0.003, 100 * seed + static_cast<unsigned>(data.size()))));
-    Task task = task_of(parse_parameters(kFour, paper_preset()), kPresets, data);
+    Task task = task_of(parse_parameters(kFour, paper_type()), kPresets, data);
     // As on the bench: the model is quantised and averaged as the recording was, without its noise.
     task.model = [](const std::vector<double>& v, std::size_t o) {
       return experiment::branches(test::quantised_recording(v, kPresets[o], 0, 1));
@@ -63,13 +63,13 @@ TEST(Recovery, FromQuantisedNoisyRecordingsLiesInItsOwnIntervals) {
 }
 
 TEST(Recovery, TheSameInputsGiveTheSameBitsOnOneAndTwoThreads) {
-  const Task task = task_of(parse_parameters(kFour, paper_preset()), kPresets, exact());
+  const Task task = task_of(parse_parameters(kFour, paper_type()), kPresets, exact());
   const Residuals one(task, 1), two(task, 2);
   EXPECT_EQ(fit(one, quick()).values, fit(two, quick()).values);
 }
 
 TEST(Recovery, ReachesTheBoundWhereTheTruthLiesBeyond) {
-  std::vector<Parameter> parameters = parse_parameters(kFour, paper_preset());
+  std::vector<Parameter> parameters = parse_parameters(kFour, paper_type());
   parameters[2].max = 0.02;
   const Task task = task_of(parameters, kPresets, exact());
   const Residuals residuals(task, 2);
@@ -117,7 +117,7 @@ Coverage coverage(double rho, int seeds) {
       test::add_errors(b.rising_rad, 0.003, rho, random);
       test::add_errors(b.falling_rad, 0.003, rho, random);
     }
-    std::vector<Parameter> parameters = parse_parameters(kFour, paper_preset());
+    std::vector<Parameter> parameters = parse_parameters(kFour, paper_type());
     for (std::size_t k = 0; k < kTruth.size(); ++k) parameters[k].start = kTruth[k];
     const Task task = task_of(parameters, kPresets, data);
     const Residuals residuals(task, 1);
@@ -156,7 +156,7 @@ TEST(Intervals, OfAParameterCountedInItsLogarithmAreFactors) {
   std::mt19937 random(6);
   std::vector<experiment::Branches> data = exact();
   for (experiment::Branches& b : data) test::add_errors(b.rising_rad, 0.05, 0, random);
-  const Task task = task_of(parse_parameters(kFour, paper_preset()), kPresets, data);
+  const Task task = task_of(parse_parameters(kFour, paper_type()), kPresets, data);
   const Residuals residuals(task, 2);
   const Fit f = fit(residuals, quick());
   const Uncertainty u = uncertainty(residuals, f);
@@ -174,7 +174,7 @@ TEST(Intervals, TellTheErrorsCorrelationAndSize) {
     test::add_errors(b.rising_rad, 0.003, 0.7, random);
     test::add_errors(b.falling_rad, 0.003, 0.7, random);
   }
-  const Task task = task_of(parse_parameters(kFour, paper_preset()), kPresets, data);
+  const Task task = task_of(parse_parameters(kFour, paper_type()), kPresets, data);
   const Residuals residuals(task, 2);
   const Uncertainty u = uncertainty(residuals, fit(residuals, quick()));
   for (std::size_t o = 0; o < kPresets.size(); ++o) {
@@ -184,12 +184,36 @@ TEST(Intervals, TellTheErrorsCorrelationAndSize) {
   EXPECT_NEAR(u.effective_samples, 342 * 0.3 / 1.7, 30);
 }
 
-TEST(StudentQuantile, IsTheTables) {
-  EXPECT_NEAR(student_quantile(0.975, 1), 12.7062, 1e-3);
-  EXPECT_NEAR(student_quantile(0.975, 5), 2.57058, 1e-4);
-  EXPECT_NEAR(student_quantile(0.975, 30), 2.04227, 1e-4);
-  EXPECT_NEAR(student_quantile(0.975, 1e6), 1.95996, 1e-4);
-  EXPECT_NEAR(student_quantile(0.95, 10), 1.81246, 1e-4);
+/// The probability of |T| ≤ t, integrated with T = √ν tan φ: ∫ cos^(ν−1) φ dφ, by the midpoint rule.
+double probability_within(double t, double dof) {
+  constexpr int kParts = 20000;
+  const auto integral = [&](double to) {
+    double out = 0;
+    for (int i = 0; i < kParts; ++i) out += std::pow(std::cos(to * (i + 0.5) / kParts), dof - 1) * to / kParts;
+    return out;
+  };
+  return integral(std::atan(t / std::sqrt(dof))) / integral(std::acos(-1.0) / 2);
+}
+
+TEST(Intervals, AreTheMiddleNinetyFivePercentOfStudentsDistribution) {
+  std::mt19937 random(7);
+  std::vector<experiment::Branches> data = exact();
+  for (experiment::Branches& b : data) {
+    test::add_errors(b.rising_rad, 0.003, 0.9, random);
+    test::add_errors(b.falling_rad, 0.003, 0.9, random);
+  }
+  const Task task = task_of(parse_parameters(kFour, paper_type()), kPresets, data);
+  const Residuals residuals(task, 2);
+  const Fit fitted = fit(residuals, quick());
+  const Uncertainty u = uncertainty(residuals, fitted);
+  EXPECT_LT(u.degrees_of_freedom, 40) << "few, so that the normal distribution's would be others";
+  for (std::size_t k = 0; k < task.parameters.size(); ++k) {
+    const bool logarithmic = task.parameters[k].logarithmic();
+    const double value = fitted.values[k];
+    const double t =
+        logarithmic ? std::log(u.high[k] / value) / (u.standard_error[k] / value) : (u.high[k] - value) / u.standard_error[k];
+    EXPECT_NEAR(probability_within(t, u.degrees_of_freedom), 0.95, 1e-6) << task.parameters[k].name;
+  }
 }
 
 }  // namespace

@@ -18,8 +18,8 @@
 #include <random>
 
 #include "support/one_joint.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/config/plugin_xml.hpp"
-#include "vsa/config/preset.hpp"
 
 namespace {
 
@@ -67,34 +67,34 @@ std::shared_ptr<const elastic::Transmission> make_maccepa(config::LawReader& rea
   return std::make_shared<Maccepa>(p);
 }
 
-config::PresetLibrary library() {
+config::TypeLibrary library() {
   config::LawRegistry laws = config::LawRegistry::standard();
   laws.add("maccepa", make_maccepa);
-  return config::PresetLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "tests/law_door"}, laws);
+  return config::TypeLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "tests/law_door"}, laws);
 }
 
 TEST(LawDoor, APresetOfAnUnknownLawLoadsOnceTheLawIsRegistered) {
-  const config::Preset preset = library().load("maccepa");
-  EXPECT_EQ(preset.law, "maccepa");
-  const auto* law = dynamic_cast<const Maccepa*>(preset.unit.actuator.transmission.get());
+  const config::ActuatorType type = library().load("maccepa");
+  EXPECT_EQ(type.law, "maccepa");
+  const auto* law = dynamic_cast<const Maccepa*>(type.unit.actuator.transmission.get());
   ASSERT_NE(law, nullptr);
   EXPECT_EQ(law->params().spring_N_per_m, 323.0);
   EXPECT_EQ(law->params().winch_m, 0.010);
-  EXPECT_EQ(preset.unit.preset_max, 2.5);
-  const config::PresetLibrary closed({std::filesystem::path(VSA_SOURCE_DIR) / "tests/law_door"});
+  EXPECT_EQ(type.unit.preset_max, 2.5);
+  const config::TypeLibrary closed({std::filesystem::path(VSA_SOURCE_DIR) / "tests/law_door"});
   EXPECT_THROW((void)closed.load("maccepa"), InputError);
 }
 
 TEST(LawDoor, TheLawsParametersAreOverriddenAndCheckedLikeAnyOther) {
-  const config::Preset softer = library().load("maccepa", {{"elastic.spring_N_per_m", "100"}});
+  const config::ActuatorType softer = library().load("maccepa", {{"elastic.spring_N_per_m", "100"}});
   EXPECT_EQ(dynamic_cast<const Maccepa&>(*softer.unit.actuator.transmission).params().spring_N_per_m, 100.0);
   EXPECT_THROW((void)library().load("maccepa", {{"elastic.arm_m", "0.2"}}), InputError);    // longer than C: the law's own check
-  EXPECT_THROW((void)library().load("maccepa", {{"elastic.winch_m", "0.5"}}), InputError);  // beyond the preset's bounds
+  EXPECT_THROW((void)library().load("maccepa", {{"elastic.winch_m", "0.5"}}), InputError);  // beyond the type's bounds
 }
 
 TEST(LawDoor, ThePluginElementTakesItAsItTakesTheShippedOnes) {
   const char* xml =
-      "<plugin name='vsa::Robot'><actuator><joint>hip</joint><preset>maccepa</preset>"
+      "<plugin name='vsa::Robot'><actuator><joint>hip</joint><type>maccepa</type>"
       "<initial preset_rad='2'/></actuator></plugin>";
   const host::RobotConfig robot = config::parse_plugin(xml, "test", library());
   EXPECT_EQ(robot.actuators.at(0).initial_preset, 2.0);

@@ -8,13 +8,15 @@
 #include <filesystem>
 #include <optional>
 
-#include "gait_file.hpp"
-#include "vsa/engine/gait.hpp"
+#include "motion/gait_file.hpp"
+#include "vsa/engine/world.hpp"
 
 namespace vsa::engine {
 namespace {
 
 namespace fs = std::filesystem;
+using motion::ByHand;
+using motion::Gait;
 
 const fs::path kGaits = fs::path(VSA_SOURCE_DIR) / "models" / "gaits";
 
@@ -36,7 +38,7 @@ class GivenBack : public testing::Test {
     return largest;
   }
   [[nodiscard]] host::ActuatorReading read() const { return world_.read(world_.actuator("joint_3")); }
-  [[nodiscard]] double of_gait() const { return gait_.equilibrium(group(gait_, "vertical"), 1, world_.time_s() - 1e-3); }
+  [[nodiscard]] double of_gait() const { return gait_.equilibrium(motion::group(gait_, "vertical"), 1, world_.time_s() - 1e-3); }
   void by_hand(std::optional<double> equilibrium, std::optional<double> preset) {
     world_.robot(0).command(world_.actuator("joint_3").index, equilibrium, preset);
     const ByHand before = gait_.by_hand("joint_3");
@@ -62,7 +64,7 @@ TEST_F(GivenBack, AnActuatorGoesToTheGaitWithoutAJump) {
   EXPECT_TRUE(gait_.state().returning.empty());
   play(0.001);
   gait_.apply(world_);
-  EXPECT_NEAR(read().preset_command, group(gait_, "vertical").preset_rad, 1e-9);
+  EXPECT_NEAR(read().preset_command, motion::group(gait_, "vertical").preset_rad, 1e-9);
 }
 
 TEST_F(GivenBack, TheGaitsOwnValuesAreReachedToTheBit) {

@@ -41,7 +41,7 @@ sdf::Root loaded(const std::string& model) {
 }
 
 TEST(ModelFiles, PassTheFullValidationWithoutAWarningAsVersionOneSeven) {
-  ASSERT_EQ(sdf_files().size(), 31u);
+  ASSERT_EQ(sdf_files().size(), 33u);
   for (const fs::path& file : sdf_files()) {
     sdf::Root root;
     for (const sdf::Error& error : root.Load(file.string(), config())) ADD_FAILURE() << file << ": " << error.Message();

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <filesystem>
 
-#include "vsa/engine/gait.hpp"
+#include "vsa/engine/world.hpp"
+#include "vsa/motion/gait.hpp"
 
 namespace vsa::engine {
 namespace {
 
 namespace fs = std::filesystem;
+using motion::Gait;
 
 const fs::path kModels = fs::path(VSA_SOURCE_DIR) / "models";
 

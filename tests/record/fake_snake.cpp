@@ -11,10 +11,10 @@ constexpr int kModules = 12;
 constexpr double kPitch = 0.08;
 constexpr double kGait = 4.71;  // rad/s
 
-using engine::LinkInfo;
-using engine::Pose;
-using engine::Shape;
-using Kind = engine::Shape::Kind;
+using scene::LinkInfo;
+using scene::Pose;
+using scene::Shape;
+using Kind = scene::Shape::Kind;
 
 Shape shape(Kind kind, std::array<double, 3> size, std::array<float, 4> rgba, Pose pose = {}) {
   Shape s;
@@ -125,8 +125,7 @@ Sample snake_at(std::int64_t time_ns) {
   s.ledger.shaft_friction = 0.2 * t;
   s.ledger.delivered = 0.35 * t;
   s.ledger.elastic = 0.6 + 0.2 * std::sin(2 * kGait * t);
-  s.kinetic_J = 0.12 + 0.05 * std::sin(2 * kGait * t);
-  s.gravitational_J = 2.3 + 0.1 * std::sin(kGait * t);
+  s.bodies = scene::Energy{0.12 + 0.05 * std::sin(2 * kGait * t), 2.3 + 0.1 * std::sin(kGait * t), 0};
   return s;
 }
 
@@ -156,8 +155,7 @@ Sample tiny_at(std::int64_t time_ns) {
   s.poses = {{{5, 5, 5}, {1, 0, 0, 0}}, {{0.5, 0, -1}, {1, 0, 0, 0}}};
   s.ledger.supply = 2;
   s.ledger.copper = 1.5;
-  s.kinetic_J = 0.25;
-  s.gravitational_J = -9.81;
+  s.bodies = scene::Energy{0.25, -9.81, 0};
   return s;
 }
 

@@ -16,7 +16,7 @@ TEST(PageData, HoldsNamesGeometryAndFrames) {
   const std::string json = page.json(fake::tiny(), {"A <title>", {{"distance", "1 m"}}, {"ended early"}});
   for (const char* part :
        {R"("title":"A \u003ctitle\u003e")", R"("notes":["ended early"])", R"("summary":[["distance","1 m"]])",
-        R"("robots":[{"model":"arm","actuators":[{"name":"elbow","joint":"elbow","preset":"qbmove_maker_pro_6_1")",
+        R"("robots":[{"model":"arm","actuators":[{"name":"elbow","joint":"elbow","type":"qbmove_maker_pro_6_1")",
         R"("name":"wall::link","model":"wall","mass_kg":0,"pose":[5,5,5,1,0,0,0],"visuals":[{"kind":"box")",
         R"("name":"arm::lever","model":"arm","mass_kg":0.2,"visuals":[{"kind":"sphere")", R"("rgba":[1,0,0,1])", R"("frames":1)"}) {
     EXPECT_NE(json.find(part), std::string::npos) << part << "\n" << json;
@@ -47,8 +47,8 @@ TEST(PageData, PutsAnActuatorsChannelsOneAfterTheOther) {
 
 TEST(PageData, WritesAMeshOnceHoweverManyLinksShowIt) {
   RunInfo info = fake::tiny();
-  engine::Shape mesh;
-  mesh.kind = engine::Shape::Kind::mesh;
+  scene::Shape mesh;
+  mesh.kind = scene::Shape::Kind::mesh;
   mesh.vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   mesh.indices = {0, 1, 2};
   info.links[0].visuals = {mesh};

@@ -84,7 +84,7 @@ TEST_F(RunLogTest, PlacesTheLinksInTheWorld) {
 }
 
 TEST_F(RunLogTest, DrawsEveryKindOfShapeInItsLinksFrame) {
-  using K = engine::Shape::Kind;
+  using K = scene::Shape::Kind;
   auto& visuals = info_.links[1].visuals;
   visuals.clear();
   const auto add = [&](K kind, std::array<double, 3> size) {

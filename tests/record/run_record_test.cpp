@@ -145,17 +145,5 @@ TEST_F(RunRecordTest, NoticesAMissingTemplateBeforeTheRunAndTouchesNothing) {
   EXPECT_FALSE(fs::exists(out()));
 }
 
-TEST(LinksOfJoint, AreThoseOfTheJointsScopeOrTheNthInAChain) {
-  std::vector<engine::LinkInfo> links;
-  for (const char* name : {"ground::link", "snake::m_1::body", "snake::m_1::flange", "snake::m_11::body", "snakes::m_1::body"}) {
-    links.push_back({name, "", 1, false, {}});
-  }
-  using Indices = std::vector<std::size_t>;
-  EXPECT_EQ(links_of_joint("snake", "m_1::shaft", 0, links), (Indices{1, 2}));
-  EXPECT_EQ(links_of_joint("snake", "m_11::shaft", 1, links), (Indices{3}));
-  EXPECT_EQ(links_of_joint("snake", "elbow", 1, links), (Indices{2}));
-  EXPECT_EQ(links_of_joint("snake", "elbow", 9, links), Indices{});
-}
-
 }  // namespace
 }  // namespace vsa::record

@@ -33,7 +33,8 @@ TEST(ReportJson, HoldsEveryKindOfBlock) {
       R"("figures":[{"label":"l","value":"v","note":"n","verdict":"bad"},{"label":"m","value":"w","note":"","verdict":"good"},)"
       R"({"label":"","value":"","note":"","verdict":"none"}])");
   const std::string chart = to_json(with(Chart{"t", "x [rad]", "y [N·m]", {}, "c", true}));
-  expect_holds(chart, R"({"kind":"chart","title":"t","x_label":"x [rad]","y_label":"y [N·m]","y_log":true,"caption":"c",)");
+  expect_holds(chart,
+               R"({"kind":"chart","title":"t","x_label":"x [rad]","y_label":"y [N·m]","y_log":true,"x_log":false,"caption":"c",)");
   expect_holds(chart, R"("curves":[])");
 }
 

@@ -10,6 +10,7 @@ TEST(Markdown, OfATableHasARuleAsWideAsItsHeadAndTheCaptionBelow) {
   EXPECT_EQ(to_markdown({"not shown", {"a", "b"}, {{"1", "2"}, {"3", ""}}, "What it is."}),
             "| a | b |\n|---|---|\n| 1 | 2 |\n| 3 |  |\n\nWhat it is.\n\n");
   EXPECT_EQ(to_markdown({"", {"a"}, {}, ""}), "| a |\n|---|\n\n");
+  EXPECT_EQ(to_markdown({"", {"mean |w|"}, {}, ""}), "| mean \\|w\\| |\n|---|\n\n") << "one cell";
 }
 
 }  // namespace

@@ -93,6 +93,15 @@ TEST(Svg, SpacesALogarithmicAxisByDecadesAndLeavesOutWhatItCantShow) {
   for (const char* mark : {">0.1<", ">0.2<", ">5<", ">10<"}) EXPECT_EQ(times(svg, mark), 1u) << mark;
 }
 
+TEST(Svg, SpacesTheOtherAxisByDecadesToo) {
+  Chart chart = chart_of({0, 0.01, 1, 100}, {1, 2, 3, 4}, Curve::Style::markers);
+  chart.x_log = true;
+  const std::string svg = to_svg(chart);
+  EXPECT_EQ(times(svg, "<circle"), 3u + 1u);
+  for (const char* mark : {">0.01<", ">0.1<", ">10<", ">100<"}) EXPECT_EQ(times(svg, mark), 1u) << mark;
+  EXPECT_EQ(times(svg, ">0.05<"), 0u) << "only whole decades where there are many";
+}
+
 TEST(Svg, TakesTextsAsTextsWhateverTheyHold) {
   Chart chart = chart_of({0, 1}, {0, 1});
   chart.title = "<script>\"a\" & b\x01</script>";

@@ -12,7 +12,7 @@
 
 #include "chain/rest.hpp"
 #include "chain/rest_cases.hpp"
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 
 namespace vsa::test {
 namespace {
@@ -101,7 +101,7 @@ TEST_P(RestMatrix, LightLinksAndABareFingerAtTheEndAreQuiet) {
   expect_quiet(chains, 5e-5, GetParam() + ", three links of 0.05 kg, a bare finger after 0, 1 and 3 modules");
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, RestMatrix, testing::ValuesIn(config::PresetLibrary().names()),
+INSTANTIATE_TEST_SUITE_P(Types, RestMatrix, testing::ValuesIn(config::TypeLibrary().names()),
                          [](const auto& c) { return c.param; });
 
 }  // namespace

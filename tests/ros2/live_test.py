@@ -292,6 +292,7 @@ def wave_of(states, frequency_Hz):
 
 # The other robots, by the launch file for any of them.
 for other_world, other_robot in (('module', 'qbmove'), ('bench_free', 'qbmove_bench_free'), ('bench_throw', 'qbmove_bench_throw'),
+                                 ('bench_pole', 'qbmove_bench_pole'),
                                  ('gripper_soft', 'qbmove_gripper'), ('manipulator_3r', 'qbmove_manipulator_3r'), ('frank', 'frank')):
     name = other_world.title().replace('_', '')
     globals()[name] = type(name, (Live, unittest.TestCase), {'world': other_world, 'robot': other_robot,

@@ -11,7 +11,7 @@
 
 namespace {
 
-class NamesOnly final : public vsa::host::TopicPort {
+class NamesOnly final : public vsa::host::TopicTransport {
  public:
   NamesOnly(std::string world, std::string model) : world_(std::move(world)), model_(std::move(model)) {}
 

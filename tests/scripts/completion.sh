@@ -28,7 +28,7 @@ subcommands=$("$vsa" --help | sed -n '/^Subcommands:/,/^$/p' | awk 'NR > 1 && /^
 [[ $subcommands == *characterize*run* ]] || { echo "no subcommands in: $subcommands"; failed=1; }
 expect "vsa " $subcommands
 for sub in $subcommands; do
-  expect "vsa $sub --" $("$vsa" "$sub" --help | grep -oE '^  (-h,)?--[A-Za-z-]+' | sed 's/.*--/--/' | LC_ALL=C sort)
+  expect "vsa $sub --" $("$vsa" "$sub" --help | grep -oE '^  (-h,)?--[A-Za-z0-9-]+' | sed 's/.*--/--/' | LC_ALL=C sort -u)
 done
 
 expect "vsa ru" run
@@ -42,19 +42,19 @@ expect "vsa run snake_flat --gait=side" sidewind sidewind_soft sidewind_stiff
 expect "vsa run --duration-s -1 snake_f" snake_flat
 expect "vsa emulate sea" sea_example
 expect "vsa actuators sea" sea_example
-expect "vsa validate --preset sea" sea_example
+expect "vsa validate --type sea" sea_example
 expect "vsa emulate sea_example --dialect " 6 7
 expect "vsa characterize sea_example --experiment s" speed stiffness
 expect "vsa run snake_flat --record "  # the shell's file names
 expect "vsa run snake_flat "
 expect "vsa run snake_flat --nonsense x"
 expect "vsa dance "
-VSA_PRESET_PATH=$(mktemp -d)
-export VSA_PRESET_PATH
-touch "$VSA_PRESET_PATH/mine.toml"
+VSA_ACTUATOR_PATH=$(mktemp -d)
+export VSA_ACTUATOR_PATH
+touch "$VSA_ACTUATOR_PATH/mine.toml"
 expect "vsa emulate mi" mine
-rm -r "$VSA_PRESET_PATH"
-unset VSA_PRESET_PATH
+rm -r "$VSA_ACTUATOR_PATH"
+unset VSA_ACTUATOR_PATH
 
 # bash itself knows it, with file names where the command knows nothing.
 [[ $(complete -p vsa) == "complete -o default -F _vsa vsa" ]] || { echo "registered: $(complete -p vsa)"; failed=1; }

@@ -16,7 +16,7 @@ subcommands=$("$vsa" --help | sed -n '/^Subcommands:/,/^$/p' | awk 'NR > 1 && /^
 has '--version'
 for sub in $subcommands; do
   has "\.SS $sub"
-  options=$("$vsa" "$sub" --help | grep -oE '^  (-h,)?--[A-Za-z-]+' | sed 's/.*--/--/')
+  options=$("$vsa" "$sub" --help | grep -oE '^  (-h,)?--[A-Za-z0-9-]+' | sed 's/.*--/--/')
   # Within its own section: from its head to the next.
   section=$(printf '%s\n' "$text" | sed -n "/^\.SS $sub\$/,/^\.S[SH] /p")
   for option in $options; do

@@ -18,6 +18,7 @@ import unicodedata
 COLUMNS = 120
 # Flags in `…` without their program's name that belong to other programs than vsa.
 FOREIGN_FLAGS = {"--ros-args", "--use-angle"}
+OLD_FLAGS = {"--preset"}  # understood for one more release
 CODE_SPAN = re.compile(r"`((?:[^`\n]|\n(?!\s*\n))+)`")  # `…`, over two lines too
 PLACEHOLDER = re.compile(r"[A-Z…<\[(\"'$-]")
 
@@ -171,7 +172,7 @@ def check_commands(root, pages, help_, complain):
                 if in_code or start == 0 or "=" in words[start - 1]:
                     check_command(help_, words[start + 1 :], lambda what, n=number: complain(page, n, what))
             flag = re.match(r"(--[A-Za-z][\w-]*)", text)
-            if flag and not in_code and flag.group(1) not in FOREIGN_FLAGS and not help_.anywhere(flag.group(1)):
+            if flag and not in_code and flag.group(1) not in FOREIGN_FLAGS | OLD_FLAGS and not help_.anywhere(flag.group(1)):
                 complain(page, number, f"no vsa command has {flag.group(1)}")
     reference = root / "docs/reference/command-line.md"
     text = reference.read_text(encoding="utf-8")

@@ -62,9 +62,9 @@ TEST(SeatLoad, AnActuatorStartsWhereItsJointDoesUnlessItsTextSaysWhere) {
 
 TEST(SeatLoad, AnotherActuatorMayBePutOnTheRobot) {
   Options options;
-  options.actuator.preset = "qbmove_advanced";
+  options.actuator.type = "qbmove_advanced";
   const Seat seat(model(), options);
-  EXPECT_EQ(seat.robot().config().actuators[0].preset, "qbmove_advanced");
+  EXPECT_EQ(seat.robot().config().actuators[0].type, "qbmove_advanced");
 }
 
 }  // namespace

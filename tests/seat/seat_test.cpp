@@ -16,7 +16,7 @@ namespace {
 TEST(Seat, DrivesTheRobotAsTheRobotAloneWouldBeBitForBit) {
   Seat seat(model(), {});
   seat.join({{0}, {1}});
-  host::Robot alone(config::parse_plugin(element(), "", config::PresetLibrary()));
+  host::Robot alone(config::parse_plugin(element(), "", config::TypeLibrary()));
   alone.join({{0}, {1}});
   Pendulums a, b;
   std::vector<double> torque(2);

@@ -17,9 +17,9 @@ namespace vsa::seat::testing {
 
 inline std::string element(const std::string& more = "", const std::string& of_first = "") {
   return "<plugin name='vsa::Robot' filename='libvsa-robot.so'><actuator name='shoulder'><joint>a::hinge</joint>"
-         "<preset>qbmove_maker_pro_6_1</preset><bus id='1'>arm</bus>" +
+         "<type>qbmove_maker_pro_6_1</type><bus id='1'>arm</bus>" +
          of_first +
-         "</actuator><actuator name='elbow'><joint>b::hinge</joint><preset>qbmove_maker_pro_6_1</preset><bus id='2'>arm</bus>"
+         "</actuator><actuator name='elbow'><joint>b::hinge</joint><type>qbmove_maker_pro_6_1</type><bus id='2'>arm</bus>"
          "</actuator><bus name='arm'/>" +
          more + "</plugin>";
 }

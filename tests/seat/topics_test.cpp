@@ -47,7 +47,7 @@ TEST(SeatTopics, WithoutTopicsNoticesAreToldTenTimesASimulatedSecond) {
 TEST(SeatTopics, ARobotCanBeCommandedAndSeenOnEveryPortThatItIsConnectedTo) {
   Told told;
   Seat seat(model(), told.options);
-  const auto one = std::make_shared<test::FakePort>(), two = std::make_shared<test::FakePort>();
+  const auto one = std::make_shared<test::FakeTransport>(), two = std::make_shared<test::FakeTransport>();
   seat.connect(one);
   seat.connect(two);
   std::int64_t time_ns = 0;
@@ -63,14 +63,14 @@ TEST(SeatTopics, ARobotCanBeCommandedAndSeenOnEveryPortThatItIsConnectedTo) {
   EXPECT_EQ(one->wire->states.size(), 4U);
   two->doubles.at("/model/lab/arm/joint/elbow/cmd_equilibrium")(0.5);
   run(seat, 1, time_ns);
-  EXPECT_EQ(seat.robot().read(1).equilibrium_command_rad, 0.25) << "handlers that a port still has do nothing";
+  EXPECT_EQ(seat.robot().read(1).equilibrium_command_rad, 0.25) << "handlers that a transport still has do nothing";
 }
 
 TEST(SeatTopics, FaultsAreAServiceOfTheRobotUntilItIsDisconnected) {
   Seat seat(model(), {});
-  const auto port = std::make_shared<test::FakePort>();
-  seat.connect(port);
-  const auto& ask = port->services.at("/model/lab/arm/vsa/faults");
+  const auto transport = std::make_shared<test::FakeTransport>();
+  seat.connect(transport);
+  const auto& ask = transport->services.at("/model/lab/arm/vsa/faults");
   std::int64_t time_ns = 0;
   EXPECT_EQ(ask("elbow supply_V=7"), "ok: elbow");
   run(seat, 1, time_ns);
@@ -84,11 +84,11 @@ TEST(SeatTopics, FaultsAreAServiceOfTheRobotUntilItIsDisconnected) {
 
 TEST(SeatTopics, ATransportThatTakesNoSuchServiceIsAnErrorAndOneWithoutServicesIsnt) {
   Seat seat(model(), {});
-  const auto port = std::make_shared<test::FakePort>();
-  port->of_services = host::Outcome::unsupported;
-  EXPECT_NO_THROW(seat.connect(port));
-  port->of_services = host::Outcome::refused;
-  EXPECT_THROW(seat.connect(port), InputError);
+  const auto transport = std::make_shared<test::FakeTransport>();
+  transport->of_services = host::Outcome::unsupported;
+  EXPECT_NO_THROW(seat.connect(transport));
+  transport->of_services = host::Outcome::refused;
+  EXPECT_THROW(seat.connect(transport), InputError);
 }
 
 TEST(SeatTopics, OneActuatorOrAllAreBrokenOrNoneWhereSomethingIsWrong) {
@@ -111,13 +111,13 @@ TEST(SeatTopics, OneActuatorOrAllAreBrokenOrNoneWhereSomethingIsWrong) {
 
 TEST(SeatTopics, WhileTheHostStandsTheStateIsPublishedTenTimesAWallSecondAtMost) {
   Seat seat(model(), {});
-  const auto port = std::make_shared<test::FakePort>();
-  seat.connect(port);
+  const auto transport = std::make_shared<test::FakeTransport>();
+  seat.connect(transport);
   const auto begin = std::chrono::steady_clock::now();
   for (int k = 0; k < 50; ++k) seat.publish_paused(0);
   const auto tenths = (std::chrono::steady_clock::now() - begin) / std::chrono::milliseconds(100);
-  EXPECT_GE(port->wire->states.size(), 1U);
-  EXPECT_LE(port->wire->states.size(), 1U + static_cast<std::size_t>(tenths));
+  EXPECT_GE(transport->wire->states.size(), 1U);
+  EXPECT_LE(transport->wire->states.size(), 1U + static_cast<std::size_t>(tenths));
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // Names and locks: who may have a port's name, and who may talk on it.
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <csignal>
 #include <fstream>
+#include <future>
 
 #include "support.hpp"
 #include "vsa/errors.hpp"
@@ -77,14 +80,15 @@ TEST(Link, OfALivingOwnerIsRefused) {
   EXPECT_EQ(client.read(1), Bytes{1}) << "the first goes on";
 }
 
-TEST(Link, OfAKilledOwnerIsReplaced) {
-  const Scratch scratch;
+/// A process that serves this port and is killed.
+void serve_and_be_killed(const std::string& path) {
   int ready[2];
   ASSERT_EQ(pipe(ready), 0);
   const pid_t owner = fork();
   if (owner == 0) {
+    umask(077);
     Echo line;
-    const VirtualPort port(line, {scratch / "arm"});
+    const VirtualPort port(line, {path});
     [[maybe_unused]] const ssize_t n = write(ready[1], "!", 1);
     while (true) pause();
   }
@@ -94,6 +98,11 @@ TEST(Link, OfAKilledOwnerIsReplaced) {
   waitpid(owner, nullptr, 0);
   close(ready[0]);
   close(ready[1]);
+}
+
+TEST(Link, OfAKilledOwnerIsReplaced) {
+  const Scratch scratch;
+  serve_and_be_killed(scratch / "arm");
   EXPECT_TRUE(fs::is_symlink(scratch / "arm"));
   {
     Echo line;
@@ -103,6 +112,37 @@ TEST(Link, OfAKilledOwnerIsReplaced) {
     EXPECT_EQ(client.read(1), Bytes{1});
   }
   EXPECT_TRUE(scratch.empty());
+}
+
+TEST(Link, AKilledOwnersLockStaysWithItsLinkAndGoesWithTheNextPortOnceThatHasGone) {
+  const Scratch scratch;
+  fs::create_directory(scratch / "there");
+  serve_and_be_killed(scratch / "there/arm");
+  const std::string lock = lock_path(scratch / "there/arm");
+  Echo line;
+  { const VirtualPort other(line, {scratch / "other"}); }
+  ASSERT_TRUE(fs::exists(lock)) << "without it nobody would know whose the link is";
+  EXPECT_EQ(fs::status(lock).permissions(), fs::perms(0644)) << "another user's port must be kept out, too, and so see the lock";
+  fs::remove_all(scratch / "there");
+  { const VirtualPort other(line, {scratch / "other"}); }
+  EXPECT_FALSE(fs::exists(lock));
+}
+
+TEST(Link, IsHadThoughSomebodyLooksAtItsLock) {
+  const Scratch scratch;
+  const std::string lock = lock_path(scratch / "arm");
+  const int looking = open(lock.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0644);
+  ASSERT_EQ(flock(looking, LOCK_SH), 0);
+  auto said = std::async(std::launch::async, [&] { return port_refusal(scratch / "arm"); });
+  const auto open_of_it = [&] {
+    std::size_t n = 0;
+    std::error_code none;
+    for (const int fd : open_descriptors()) n += fs::read_symlink("/proc/self/fd/" + std::to_string(fd), none) == lock ? 1 : 0;
+    return n;
+  };
+  eventually([&] { return open_of_it() > 1 || said.wait_for(std::chrono::seconds(0)) == std::future_status::ready; });
+  close(looking);
+  EXPECT_EQ(said.get(), "no refusal");
 }
 
 TEST(Link, IsNeverPutInThePlaceOfSomethingElse) {

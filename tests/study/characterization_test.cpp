@@ -15,7 +15,7 @@ namespace {
 
 CharacterizationOptions of(const std::string& preset, std::vector<Experiment> experiments = {}) {
   CharacterizationOptions o;
-  o.specimen.preset = preset;
+  o.specimen.type = preset;
   o.experiments = std::move(experiments);
   return o;
 }

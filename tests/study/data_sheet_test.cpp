@@ -6,9 +6,9 @@
 namespace vsa::study {
 namespace {
 
-experiment::Specimen specimen(const std::string& preset) {
+experiment::Specimen specimen(const std::string& type) {
   experiment::Specimen out;
-  out.preset = preset;
+  out.type = type;
   return out;
 }
 

@@ -33,7 +33,7 @@ TEST(Validation, PlansEveryRecordingAtThreePeriodsAndThePapersSteps) {
 
 TEST(Validation, RefusesAnActuatorWhosePresetIsInAnotherUnit) {
   ValidationOptions o;
-  o.specimen.preset = "sea_example";
+  o.specimen.type = "sea_example";
   try {
     (void)plan_validation(o);
     FAIL();
@@ -63,7 +63,7 @@ TEST(Validation, NamesItsFiguresByExperimentAndPreset) {
   EXPECT_NEAR(all.at("stiffness.0.6903.loop_area_ratio"), 1.5, 1e-12);
   EXPECT_EQ(all.at("speed.0.1125.mean_pulley_rad_per_s"), 4);
   EXPECT_EQ(all.at("preset_step.loaded.attained_rad"), 0.7);
-  EXPECT_EQ(recording_kind(v, r), "not told") << "without evidence nobody knows";
+  EXPECT_EQ(recording_kind(v, r), "not stated") << "without evidence nobody knows";
   v.verdicts.push_back({{"speed.0.1125.mean_pulley_rad_per_s", 5, {}, "why", {}, ""}, 4, false, experiment::Kind::predicted});
   const auto json = nlohmann::json::parse(to_json(v, "test"));
   EXPECT_EQ(json["passed"], false);

@@ -25,7 +25,7 @@ inline constexpr const char* kBenchSdf = R"(<sdf version="1.8"><world name="benc
     <link name="lever"><inertial><mass>0.1</mass><inertia><ixx>1e-4</ixx><iyy>1e-4</iyy><izz>1e-4</izz></inertia></inertial></link>
     <joint name="shaft" type="revolute"><parent>base</parent><child>lever</child><axis><xyz>0 0 1</xyz></axis></joint>
     <plugin name="vsa::Robot" filename="libvsa-robot.so">
-      <actuator name="joint_1"><joint>shaft</joint><preset>qbmove_maker_pro_6_1</preset><bus id="1">arm</bus>
+      <actuator name="joint_1"><joint>shaft</joint><type>qbmove_maker_pro_6_1</type><bus id="1">arm</bus>
         <initial equilibrium_rad="0" preset_rad="0.2"/></actuator>
       <bus name="arm" baud="2000000" cycle_s="auto"/>
       <state_rate_Hz>100</state_rate_Hz>
@@ -34,7 +34,7 @@ inline constexpr const char* kBenchSdf = R"(<sdf version="1.8"><world name="benc
 
 inline engine::World load_bench() {
   engine::WorldOptions options;
-  options.presets = config::PresetLibrary({std::string(VSA_SOURCE_DIR) + "/presets"});
+  options.types = config::TypeLibrary({std::string(VSA_SOURCE_DIR) + "/actuators"});
   return engine::World::load_string(kBenchSdf, options);
 }
 
@@ -77,25 +77,25 @@ class ServedWorld {
 
  public:
   Mailbox<std::string> lines;
-  topics::RunControl control;
+  seat::RunControl control;
   topics::WorldServer server;
 
  private:
   void turn() {
-    auto next = topics::RunControl::Next::wait;
+    auto next = seat::RunControl::Next::wait;
     {
       const std::lock_guard lock(mutex_);
       next = control.next(world_.time_ns());
-      if (next == topics::RunControl::Next::step) {
+      if (next == seat::RunControl::Next::step) {
         world_.step();
         server.stepped();
       } else {
-        if (next == topics::RunControl::Next::reset) world_.reset();
+        if (next == seat::RunControl::Next::reset) world_.reset();
         server.idle();
       }
     }
     turned_.notify_all();
-    if (next == topics::RunControl::Next::wait) control.wait(std::chrono::milliseconds(20));
+    if (next == seat::RunControl::Next::wait) control.wait(std::chrono::milliseconds(20));
   }
 
   std::thread loop_;

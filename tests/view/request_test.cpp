@@ -14,7 +14,7 @@ Rules rules() {
   out.actuators = {{{-2, 2}, {0, 0.7}}, {{-1, 1}, {0, 0.5}}, {{-3, 3}, {0, 0}}};
   out.moves = {false, true, true};
   out.gait_groups = {"even", "odd"};
-  out.gait = true;
+  out.gait = out.control = out.hands = true;
   return out;
 }
 
@@ -33,6 +33,18 @@ std::string why(const std::string& text, const Rules& with = rules()) {
   const Parsed parsed = parse_request(text, with);
   EXPECT_FALSE(parsed.request) << text;
   return parsed.error;
+}
+
+TEST(Request, WhatTheSimulatorDoesntOfferIsRefusedWithAReason) {
+  Rules few = rules();
+  few.control = few.hands = false;
+  for (const char* text :
+       {R"({"do":"play"})", R"({"do":"pause"})", R"({"do":"reset"})", R"({"do":"step","steps":1})", R"({"do":"speed","factor":1})"})
+    EXPECT_NE(why(text, few).find("simulator's own"), std::string::npos) << text;
+  EXPECT_NE(why(R"({"do":"pull","link":2,"point_m":[1,2,3],"target_m":[4,5,6]})", few).find("no hands"), std::string::npos);
+  for (const char* text : {R"({"do":"release"})", R"({"do":"next"})", R"({"do":"record","on":true})",
+                           R"({"do":"command","actuators":[0],"equilibrium_rad":1})"})
+    EXPECT_TRUE(parse_request(text, few).request) << text;
 }
 
 TEST(Request, ReadsWhatPagesSay) {

@@ -67,7 +67,7 @@ function makeStage() {
 }
 
 function redrawCurves() {
-  if (energyShown) curves.show(energyPanels(), [{ name: 'energy', color: '', data: run.energy }]);
+  if (energyShown) curves.show(energyPanels(run.energy), [{ name: 'energy', color: '', data: run.energy }]);
   else curves.show(actuatorPanels(modules.chosen), modules.sources());
 }
 

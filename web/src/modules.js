@@ -14,7 +14,7 @@ export class Modules {
     this.buttons = [];
     for (const [index, robot] of run.robots.entries()) {
       const heading = document.createElement('h2');
-      heading.textContent = `${robot.model} · ${[...new Set(robot.actuators.map((a) => a.preset))].join(', ')}`;
+      heading.textContent = `${robot.model} · ${[...new Set(robot.actuators.map((a) => a.type))].join(', ')}`;
       const chips = document.createElement('div');
       chips.className = 'chips';
       chips.setAttribute('role', 'group');
@@ -28,7 +28,7 @@ export class Modules {
   chip(actuator) {
     const button = document.createElement('button');
     button.type = 'button';
-    button.title = `${actuator.joint} (${actuator.preset})`;
+    button.title = `${actuator.joint} (${actuator.type})`;
     const dot = document.createElement('i');
     dot.className = 'dot';
     const name = document.createElement('span');

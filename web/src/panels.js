@@ -47,8 +47,9 @@ export function actuatorPanels(actuators) {
   return hasPreset ? panels : panels.filter((p) => p.title !== 'Stiffness preset');
 }
 
-export function energyPanels() {
-  return [
+/** Of the channels of a run's energies; those that its simulator doesn't tell are no numbers. */
+export function energyPanels(energy) {
+  const panels = [
     {
       title: 'From the supply',
       unit: 'J',
@@ -78,6 +79,7 @@ export function energyPanels() {
     { title: 'Motion of the bodies', unit: 'J', scale: 1, digits: 3, lines: [['kinetic', 'kinetic', 'solid']] },
     { title: 'Height of the bodies', unit: 'J', scale: 1, digits: 3, lines: [['gravitational', 'gravitational', 'solid']] },
   ];
+  return panels.filter((p) => p.lines.every(([, channel]) => !Number.isNaN(energy[channel][0])));
 }
 
 /** What a panel draws of these sources: [{label, color, dash, channel}]. */

@@ -10,7 +10,7 @@
 
 #include "terminal/exit_codes.hpp"
 #include "terminal/table.hpp"
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/elastic/transmission.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kReadableWidth = 100;  // of running text on a terminal that is wider
 
-/// σ of the unloaded actuator at a preset: at the equilibrium where its shaft rests.
+/// σ of the unloaded actuator at a stiffness preset: at the equilibrium where its shaft rests.
 double stiffness_at_rest(const elastic::Transmission& law, double preset) {
   const auto x = law.references({0.0, preset});
   return law.evaluate({law.attained(x).equilibrium, x}).curvature.qq;
@@ -38,12 +38,12 @@ std::string preset_text(const device::UnitConfig& unit) {
   return preset_unit.empty() ? "none" : fmt::format("up to {} {}", unit.preset_max, preset_unit);
 }
 
-int list(const config::PresetLibrary& library) {
+int list(const config::TypeLibrary& library) {
   Problems problems;
-  std::vector<std::vector<std::string>> rows{{"preset", "law", "stiffness preset", "stiffness at rest", "title"}};
+  std::vector<std::vector<std::string>> rows{{"type", "law", "stiffness preset", "stiffness at rest", "title"}};
   for (const std::string& name : library.names()) {
     try {
-      const config::Preset p = library.load(name);
+      const config::ActuatorType p = library.load(name);
       rows.push_back({p.name, p.law, preset_text(p.unit), stiffness_text(p.unit), p.title});
     } catch (const InputError& error) {
       problems.add_all(error);
@@ -52,7 +52,7 @@ int list(const config::PresetLibrary& library) {
   if (library.names().empty()) {
     std::string places;
     for (const auto& d : library.directories()) places += (places.empty() ? "" : ", ") + d.string();
-    problems.add({"", "presets", "", "no presets found in " + places, "set VSA_PRESET_PATH or VSA_DATA_DIR"});
+    problems.add({"", "actuators", "", "no actuator types found in " + places, "set VSA_ACTUATOR_PATH or VSA_DATA_DIR"});
   }
   if (rows.size() > 1) std::cout << table_text(rows, terminal_width());
   const bool written = static_cast<bool>(std::cout.flush());
@@ -61,22 +61,36 @@ int list(const config::PresetLibrary& library) {
 }
 
 std::string evidence_text(const std::optional<config::Evidence>& evidence) {
-  if (!evidence) return "not told";
+  if (!evidence) return "nothing that the type names";
   return (evidence->calibrated_on.empty() ? "nothing" : config::join(evidence->calibrated_on)) + ": " + evidence->source;
 }
 
-int show(const config::Preset& preset) {
+/// A repair is a departure from the device, which a user asks for: while it is off there is nothing to tell.
+bool repair_off(const config::Entry& e) {
+  return e.kind == config::Kind::toggle && e.number == 0 && e.key.rfind("firmware.repair_", 0) == 0;
+}
+
+int show(const config::ActuatorType& type, bool all) {
   const std::size_t width = terminal_width();
   const std::size_t text_width = width == 0 ? 0 : std::min(width, kReadableWidth);
-  std::cout << preset.title << '\n';
-  for (const std::string& line : wrap(preset.description, text_width)) std::cout << line << '\n';
-  std::cout << fmt::format("file: {}\nelastic law: {}, {} at rest, preset {}\n", preset.file.string(), preset.law,
-                           stiffness_text(preset.unit), preset_text(preset.unit));
-  for (const std::string& line : wrap("calibrated on " + evidence_text(preset.evidence), text_width)) std::cout << line << '\n';
+  std::cout << type.title << '\n';
+  for (const std::string& line : wrap(type.description, text_width)) std::cout << line << '\n';
+  std::cout << fmt::format(
+      "file: {}\nelastic law: {}, {} at rest, {}\n", type.file.string(), type.law, stiffness_text(type.unit),
+      type.unit.actuator.transmission->preset_unit().empty() ? "no stiffness preset" : "preset " + preset_text(type.unit));
+  for (const std::string& line : wrap("calibrated on " + evidence_text(type.evidence), text_width)) std::cout << line << '\n';
   std::cout << '\n';
   std::vector<std::vector<std::string>> rows{{"parameter", "value", "unit", "bounds", "source"}};
-  for (const config::Entry& e : preset.entries) rows.push_back({e.key, e.value, e.unit, e.bounds, e.source});
+  std::size_t left_out = 0;
+  for (const config::Entry& e : type.entries) {
+    if (!all && repair_off(e)) {
+      ++left_out;
+    } else {
+      rows.push_back({e.key, e.value, e.unit, e.bounds, e.source});
+    }
+  }
   std::cout << table_text(rows, width);
+  if (left_out > 0) std::cout << fmt::format("and {} switches firmware.repair_…, all off (--all)\n", left_out);
   return std::cout.flush() ? kDone : kFailed;
 }
 
@@ -84,14 +98,15 @@ int show(const config::Preset& preset) {
 
 void setup_actuators(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ActuatorsOptions>();
-  CLI::App* sub = app.add_subcommand("actuators", "list the actuator presets, or print one with units, bounds and sources");
-  sub->add_option("PRESET", options->name, "preset to print");
+  CLI::App* sub = app.add_subcommand("actuators", "list the actuator types, or print one with units, bounds and sources");
+  sub->add_option("TYPE", options->name, "type to print");
+  sub->add_flag("--all", options->all, "With the repairs of the firmware that are off");
   sub->callback([options, &exit_code] { exit_code = run_actuators(*options); });
 }
 
 int run_actuators(const ActuatorsOptions& options) {
-  const config::PresetLibrary library;
-  return options.name.empty() ? list(library) : show(library.load(options.name));
+  const config::TypeLibrary library;
+  return options.name.empty() ? list(library) : show(library.load(options.name), options.all);
 }
 
 }  // namespace vsa::app

@@ -8,11 +8,12 @@ namespace vsa::app {
 
 struct ActuatorsOptions {
   std::string name;  ///< empty: list all
+  bool all = false;  ///< repairs that are off, too
 };
 
 /// `vsa actuators [NAME]`. Sets the exit code when it was the subcommand.
 void setup_actuators(CLI::App& app, int& exit_code);
-/// Throws InputError for an unknown or broken preset; in a listing, after the others are printed.
+/// Throws InputError for an unknown or broken type; in a listing, after the others are printed.
 int run_actuators(const ActuatorsOptions& options);
 
 }  // namespace vsa::app

@@ -36,8 +36,9 @@ Examples:
 
 study::CharacterizationOptions study_of(const CharacterizeOptions& o) {
   study::CharacterizationOptions out;
-  out.specimen.preset = o.preset;
+  out.specimen.type = o.type;
   out.specimen.overrides = parse_settings(o.set, "--set");
+  out.specimen.step_s = o.step_s;
   for (const auto e : {study::Experiment::stiffness, study::Experiment::speed, study::Experiment::preset_step}) {
     if (std::find(o.experiments.begin(), o.experiments.end(), study::word(e)) != o.experiments.end()) out.experiments.push_back(e);
   }
@@ -50,12 +51,13 @@ study::CharacterizationOptions study_of(const CharacterizeOptions& o) {
 
 /// The command again, with what was given.
 std::string command_of(const CharacterizeOptions& o) {
-  std::string out = "vsa characterize " + o.preset;
+  std::string out = "vsa characterize " + o.type;
   for (const auto& e : o.experiments) out += " --experiment " + e;
   if (!o.preset_rad.empty()) out += fmt::format(" --preset-rad {}", fmt::join(o.preset_rad, " "));
   if (o.period_s) out += fmt::format(" --period-s {}", *o.period_s);
   if (o.amplitude_rad) out += fmt::format(" --amplitude-rad {}", *o.amplitude_rad);
   if (o.cycles) out += fmt::format(" --cycles {}", *o.cycles);
+  if (o.step_s) out += fmt::format(" --step-s {}", *o.step_s);
   for (const auto& s : o.set) out += " --set " + s;
   return out;
 }
@@ -85,7 +87,7 @@ int run_characterize(const CharacterizeOptions& options) {
   tell_notices(result->stiffness, result->preset_unit(), console);
   tell_notices(result->speed, result->preset_unit(), console);
   tell_notices(result->preset_step, result->preset_unit(), console);
-  const std::filesystem::path out = options.out.empty() ? "characterize_" + options.preset : options.out;
+  const std::filesystem::path out = options.out.empty() ? "characterize_" + options.type : options.out;
   make_directory(out, "--out");
   const auto files = write_characterization(*result, command_of(options), out);
   std::cout << characterization_text(*result) << "written: " << (out / files.front()).string();
@@ -95,8 +97,8 @@ int run_characterize(const CharacterizeOptions& options) {
 
 void setup_characterize(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CharacterizeOptions>();
-  CLI::App* sub = app.add_subcommand("characterize", "Measure an actuator preset as the paper measured its hardware");
-  sub->add_option("PRESET", options->preset, "Actuator preset, see vsa actuators")->required();
+  CLI::App* sub = app.add_subcommand("characterize", "Measure an actuator type as the paper measured its hardware");
+  sub->add_option("TYPE", options->type, "Actuator type, see vsa actuators")->required();
   sub->add_option("--experiment", options->experiments, "Which to run; default: all")
       ->check(CLI::IsMember({"stiffness", "speed", "preset-step"}));
   sub->add_option("--preset-rad", options->preset_rad,
@@ -109,8 +111,10 @@ void setup_characterize(CLI::App& app, int& exit_code) {
       ->check(number_given());
   sub->add_option("--cycles", options->cycles, "Cycles of the stiffness sweep after the first, which is left out; default 4")
       ->check(number_given());
-  sub->add_option("--set", options->set, "Override a parameter: key=value");
-  sub->add_option("--out", options->out, "Directory for the files; default: characterize_PRESET");
+  sub->add_option("--step-s", options->step_s, "Simulated seconds per step; default 0.001, the benches' own")
+      ->check(number_given());
+  sub->add_option("--set", options->set, "Override a parameter: key=value")->allow_extra_args(false);
+  sub->add_option("--out", options->out, "Directory for the files; default: characterize_TYPE");
   sub->footer(kNotes);
   sub->callback([options, &exit_code] { exit_code = run_characterize(*options); });
 }

@@ -162,8 +162,9 @@ std::string sweep_text(const study::Characterization& c) {
       "s; {:g} cycles "
       "are measured after the first. {}",
       c.stiffness.front().run.load_peak_Nm, o.period_s, o.cycles,
-      o.amplitude_rad ? "The amplitude was given."
-                      : "The amplitude is such that the shaft reaches the angle that the hardware's recordings reached.");
+      o.amplitude_rad
+          ? "The amplitude was given."
+          : "The amplitude is such that the shaft reaches the angle that a qbmove maker pro reached in its recordings.");
 }
 
 std::string overrides_text(const study::Characterization& c) {

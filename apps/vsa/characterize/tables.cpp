@@ -13,6 +13,8 @@ namespace {
 
 using Row = std::vector<std::string>;
 
+constexpr const char* kStiffness = "Stiffness";
+
 std::string text(double value, const char* format) {
   if (std::abs(value) < 1e-9) value = 0;  // a ratio fitted to what doesn't decay may come out as −1e-15
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "–";
@@ -41,19 +43,32 @@ Row head(const study::Characterization& c, const std::vector<std::string>& rest,
   return out;
 }
 
+/// "0.327 … 0.405"; one number where both read the same.
+std::string range_text(double least, double most) {
+  const std::string from = text(least, "{:.3f}"), to = text(most, "{:.3f}");
+  return from == to ? from : from + " … " + to;
+}
+
+/// Deflection is the difference of two readings, each short of the truth by up to a count: a branch errs by a count, a width by two.
+std::string resolution_text(const study::Characterization& c) {
+  const double count_rad = 2 * kPi / std::pow(2.0, c.actuator.unit.actuator.encoder.bits);
+  return fmt::format("The encoders resolve the loop to ±{:.4f} N·m·rad; a smaller area may be none.\n",
+                     2 * count_rad * 2 * experiment::BranchOptions{}.max_Nm);
+}
+
 }  // namespace
 
 report::Table stiffness_table(const study::Characterization& c) {
   report::Table out;
-  out.title = "Stiffness";
-  out.head = head(
-      c,
-      {"shaft to [°]", "load to [N·m]", "δ to [rad]", "σ at 0 [N·m/rad]", "σ at 1 N·m", "loop [N·m·rad]", "width [rad]", "A [rad]"},
-      true);
+  out.title = kStiffness;
+  out.head = head(c,
+                  {"shaft to [°]", "load to [N·m]", "δ to [rad]", "σ at 0 [N·m/rad]", "σ at 1 N·m", "loop [N·m·rad]",
+                   "mean |width|", "A [rad]"},
+                  true);
   for (const study::StiffnessResult& r : c.stiffness) {
     Row row;
     put_preset(row, c, fmt::format("{:.4g}", r.options.preset));
-    put_preset(row, c, fmt::format("{:.3f} … {:.3f}", r.preset.least, r.preset.most));
+    put_preset(row, c, range_text(r.preset.least, r.preset.most));
     row.push_back(fmt::format("{:.1f}", r.shaft_rad.most * 180 / kPi));
     row.push_back(fmt::format("{:.3f}", r.load_Nm.most));
     row.push_back(fmt::format("{:.3f}", r.deflection_rad.most));
@@ -66,7 +81,8 @@ report::Table stiffness_table(const study::Characterization& c) {
   }
   out.caption =
       "Torque and deflection δ as the unit's encoders read them, mean of both branches; ± one standard error. Loop: ∫(falling − "
-      "rising) dτ over |τ| ≤ 1.4 N·m, positive where energy is lost. Width: mean of |falling − rising|. A: amplitude of the sweep.";
+      "rising) dτ over |τ| ≤ 1.4 N·m, positive where energy is lost. Mean |width|: of |falling − rising|, rad. A: amplitude of the "
+      "sweep.";
   return out;
 }
 
@@ -119,6 +135,7 @@ std::string characterization_text(const study::Characterization& c) {
     std::vector<Row> rows{t.head};
     rows.insert(rows.end(), t.rows.begin(), t.rows.end());
     out += '\n' + t.title + '\n' + table_text(rows, 0);
+    if (t.title == kStiffness) out += resolution_text(c);
   }
   return out + '\n';
 }

@@ -108,8 +108,9 @@ int command_model(const CommandOptions& options, topics::CommandClient& client, 
     }
     if (state) time_moved = time_moved || state->time_ns != first_ns;
     if (state && repeat_at != Clock::time_point{} && follows(options, *state, actuators)) {
-      std::cout << fmt::format("{}: {} follow{} {}° with preset {}°\n", model, list(actuators), actuators.size() == 1 ? "s" : "",
-                               options.equilibrium_deg, options.preset_deg);
+      std::cout << fmt::format("{}: {} follow{} {}° with preset {}°, as far as {} limits allow\n", model, list(actuators),
+                               actuators.size() == 1 ? "s" : "", options.equilibrium_deg, options.preset_deg,
+                               actuators.size() == 1 ? "its" : "their");
       return kDone;
     }
     if (!actuators.empty() && Clock::now() >= repeat_at) {
@@ -118,8 +119,9 @@ int command_model(const CommandOptions& options, topics::CommandClient& client, 
     }
   }
   const char* why = actuators.empty() ? "its state didn't arrive"
-                    : time_moved      ? "its state doesn't show the command"
-                                      : "its simulated time stands still: is the world paused?";
+                    : time_moved
+                        ? "its state doesn't show the command (a bus with a serial port takes none; the robot's own terminal tells)"
+                        : "its simulated time stands still: is the world paused?";
   std::cerr << fmt::format("vsa: {} doesn't follow within {} s: {}\n", model, options.timeout_s, why);
   return kFailed;
 }

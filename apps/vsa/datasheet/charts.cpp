@@ -86,7 +86,7 @@ double round_down(double value) {
 Chart stiffness_preset(const study::DataSheet& d) {
   constexpr int kSteps = 60;
   Chart out{"Stiffness and preset", fmt::format("attained preset [{}]", d.preset_unit()), "stiffness [N·m/rad]", {}, "", true};
-  const experiment::Workspace workspace(d.computed.preset.unit);
+  const experiment::Workspace workspace(d.computed.type.unit);
   const double most = d.computed.columns[1].peak.torque_Nm;  // beyond it only the softest presets move anything
   const double load_step = round_down(most / 3);
   int color = 0;

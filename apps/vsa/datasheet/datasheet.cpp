@@ -13,6 +13,7 @@
 #include "terminal/exit_codes.hpp"
 #include "terminal/follow.hpp"
 #include "terminal/interrupt.hpp"
+#include "terminal/numbers.hpp"
 #include "terminal/settings.hpp"
 #include "vsa/errors.hpp"
 
@@ -37,7 +38,8 @@ void check_writable(const std::filesystem::path& file) {
 }
 
 std::string command_of(const DatasheetOptions& o) {
-  std::string out = "vsa datasheet " + o.preset;
+  std::string out = "vsa datasheet " + o.type;
+  if (o.step_s) out += fmt::format(" --step-s {}", *o.step_s);
   for (const auto& s : o.set) out += " --set " + s;
   return out;
 }
@@ -53,10 +55,11 @@ void tell_notices(const Results& results, Console& console) {
 
 int run_datasheet(const DatasheetOptions& options) {
   Console console;
-  const std::filesystem::path file = options.out.empty() ? "datasheet_" + options.preset + ".html" : options.out;
+  const std::filesystem::path file = options.out.empty() ? "datasheet_" + options.type + ".html" : options.out;
   experiment::Specimen specimen;
-  specimen.preset = options.preset;
+  specimen.type = options.type;
   specimen.overrides = parse_settings(options.set, "--set");
+  specimen.step_s = options.step_s;
   study::DataSheet plan = study::plan_data_sheet(specimen);
   check_writable(file);
   (void)report::page_template();
@@ -74,10 +77,12 @@ int run_datasheet(const DatasheetOptions& options) {
 
 void setup_datasheet(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DatasheetOptions>();
-  CLI::App* sub = app.add_subcommand("datasheet", "Write a one-page data sheet of an actuator preset");
-  sub->add_option("PRESET", options->preset, "Actuator preset, see vsa actuators")->required();
-  sub->add_option("--set", options->set, "Override a parameter: key=value");
-  sub->add_option("--out", options->out, "File to write; default: datasheet_PRESET.html");
+  CLI::App* sub = app.add_subcommand("datasheet", "Write a one-page data sheet of an actuator type");
+  sub->add_option("TYPE", options->type, "Actuator type, see vsa actuators")->required();
+  sub->add_option("--step-s", options->step_s, "Simulated seconds per step; default 0.001, the benches' own")
+      ->check(number_given());
+  sub->add_option("--set", options->set, "Override a parameter: key=value")->allow_extra_args(false);
+  sub->add_option("--out", options->out, "File to write; default: datasheet_TYPE.html");
   sub->footer(kNotes);
   sub->callback([options, &exit_code] { exit_code = run_datasheet(*options); });
 }

@@ -2,18 +2,20 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace vsa::app {
 
 struct DatasheetOptions {
-  std::string preset;            ///< the actuator's
+  std::string type;              ///< the actuator's
+  std::optional<double> step_s;  ///< of the simulated rows; none: the benches' own
   std::vector<std::string> set;  ///< "drive.friction_Nm=0.7"
-  std::string out;               ///< file; empty: datasheet_PRESET.html
+  std::string out;               ///< file; empty: datasheet_TYPE.html
 };
 
-/// `vsa datasheet PRESET`. Sets the exit code when it was the subcommand.
+/// `vsa datasheet TYPE`. Sets the exit code when it was the subcommand.
 void setup_datasheet(CLI::App& app, int& exit_code);
 /// Writes its file only when all runs are done. Throws InputError, engine::SimulationError, record::RecordError.
 int run_datasheet(const DatasheetOptions& options);

@@ -30,13 +30,13 @@ std::string symbol(std::string key) {
 }
 
 /// The law's equation where we know it; its parameters always.
-std::string law_text(const config::Preset& preset) {
-  std::string out = "Elastic law " + preset.law;
-  if (preset.law == "two_sinh") out += ": τ = −Σ kᵢ sinh(aᵢ δᵢ), δᵢ = q − qᵢ, q₁,₂ = θ ± p";
-  if (preset.law == "two_sinh_linear") out += ": τ = −Σ (kᵢ sinh(aᵢ δᵢ) + cᵢ δᵢ), δᵢ = q − qᵢ, q₁,₂ = θ ± p";
-  if (preset.law == "series_spring") out += ": τ = −k (q − q₁)";
+std::string law_text(const config::ActuatorType& type) {
+  std::string out = "Elastic law " + type.law;
+  if (type.law == "two_sinh") out += ": τ = −Σ kᵢ sinh(aᵢ δᵢ), δᵢ = q − qᵢ, q₁,₂ = θ ± p";
+  if (type.law == "two_sinh_linear") out += ": τ = −Σ (kᵢ sinh(aᵢ δᵢ) + cᵢ δᵢ), δᵢ = q − qᵢ, q₁,₂ = θ ± p";
+  if (type.law == "series_spring") out += ": τ = −k (q − q₁)";
   std::string with;
-  for (const config::Entry& e : preset.entries) {
+  for (const config::Entry& e : type.entries) {
     if (e.key.rfind("elastic.", 0) != 0 || e.unit.empty()) continue;
     with +=
         fmt::format("{}{} = {}{}", with.empty() ? "; " : ", ", symbol(e.key.substr(8)), e.value, e.unit == "1" ? "" : " " + e.unit);
@@ -49,7 +49,7 @@ std::string how_text(const study::DataSheet& d) {
       "law: from the spring's equation; drive: from the motors' parameters at {} V; simulation: from runs on the benches, as vsa "
       "characterize does them. Steady values at full voltage: no parameter tells what the motors may give for long, nor mass and "
       "size.",
-      number(d.computed.preset.unit.actuator.bridge.supply_V));
+      number(d.computed.type.unit.actuator.bridge.supply_V));
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::string how_text(const study::DataSheet& d) {
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
 
 report::Report data_sheet_report(const study::DataSheet& d, const std::string& command) {
-  const config::Preset& p = d.computed.preset;
+  const config::ActuatorType& p = d.computed.type;
   report::Report out;
   out.title = p.title;
   out.subtitle = "Data sheet of the simulated actuator " + p.name + overridden(d);
@@ -76,7 +76,7 @@ report::Report data_sheet_report(const study::DataSheet& d, const std::string& c
 }
 
 std::string data_sheet_text(const study::DataSheet& d) {
-  std::string out = d.computed.preset.title + "\n\n";
+  std::string out = d.computed.type.title + "\n\n";
   std::vector<report::Table> tables{mechanical_table(d), electrical_table(d)};
   if (d.has_preset()) tables.insert(tables.begin(), preset_table(d));
   for (const report::Table& t : tables) {

@@ -14,7 +14,7 @@ using experiment::PresetColumn;
 constexpr const char* kDrive = "drive";
 constexpr const char* kBoth = "law, drive";
 constexpr const char* kSimulation = "simulation";
-constexpr const char* kPreset = "preset";
+constexpr const char* kType = "type";
 constexpr const char* kDevice = "electronics";
 
 std::string range(double low, double high) { return low == -high ? "±" + number(high) : number(low) + " … " + number(high); }
@@ -106,27 +106,27 @@ report::Table mechanical_table(const study::DataSheet& d) {
   rows.push_back({"elastic energy, released at the shaft", number(c.peak.energy_J - c.energy_at_rest_J), "J", kBoth});
   add_speeds(d, out);
   add_preset_steps(d, out);
-  rows.push_back({"friction of the shaft", number(s.preset.unit.actuator.shaft_friction.coulomb_Nm), "N·m", kPreset});
+  rows.push_back({"friction of the shaft", number(s.type.unit.actuator.shaft_friction.coulomb_Nm), "N·m", kType});
   if (d.has_preset()) out.caption = "At preset 0 where nothing else is said.";
   return out;
 }
 
 report::Table electrical_table(const study::DataSheet& d) {
   const experiment::DataSheet& s = d.computed;
-  const device::UnitConfig& u = s.preset.unit;
+  const device::UnitConfig& u = s.type.unit;
   const int motors = u.actuator.transmission->motor_count();
   const double degree = 180 / kPi;
   report::Table out{"Electronics, control, limits", {"quantity", "value", "unit", "from"}, {}, ""};
   auto& rows = out.rows;
-  rows.push_back({"supply", number(u.actuator.bridge.supply_V), "V", kPreset});
+  rows.push_back({"supply", number(u.actuator.bridge.supply_V), "V", kType});
   rows.push_back({"full voltage at a motor", number(s.line.voltage_V), "V", u.supply_limited() ? "firmware" : kDrive});
   rows.push_back(
       {"motors / current of each when stalled", fmt::format("{} / {}", motors, number(s.line.stall_current_A)), "A", kDrive});
-  rows.push_back({"friction of a motor with gears", number(s.line.friction_Nm), "N·m", kPreset});
+  rows.push_back({"friction of a motor with gears", number(s.line.friction_Nm), "N·m", kType});
   rows.push_back({"position loop", number(1e6 / static_cast<double>(firmware::kTickNs)), "kHz", "firmware"});
   rows.push_back({"error that moves a motor / gives full voltage", pair(s.errors.moves_rad * degree, s.errors.full_rad * degree),
                   "°", kDrive});
-  rows.push_back({"encoders", number(u.actuator.encoder.bits), "bit", kPreset});
+  rows.push_back({"encoders", number(u.actuator.encoder.bits), "bit", kType});
   rows.push_back({"resolution measured / reported",
                   pair(360.0 / std::pow(2.0, u.actuator.encoder.bits), 360.0 / (65536 >> u.memory.resolution[0])), "°",
                   "firmware"});

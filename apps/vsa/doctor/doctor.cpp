@@ -11,7 +11,7 @@
 #include "doctor/checks.hpp"
 #include "terminal/exit_codes.hpp"
 #include "terminal/table.hpp"
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 
@@ -42,11 +42,14 @@ std::string pretty(const Finding& f, std::size_t width, bool colour) {
 
 std::string count(std::size_t n, const char* of) { return fmt::format("{} {}{}", n, of, n == 1 ? "" : "s"); }
 
-int report(const Findings& findings) {
+/// The world's own first: whoever asks about one wants to know that.
+int report(const Findings& of_world, const Findings& of_machine) {
+  std::vector<Finding> findings = of_world.list();
+  findings.insert(findings.end(), of_machine.list().begin(), of_machine.list().end());
   const std::size_t width = terminal_width();
   const bool colour = width != 0 && std::getenv("NO_COLOR") == nullptr;
   std::size_t notes = 0, problems = 0;
-  for (const Finding& f : findings.list()) {
+  for (const Finding& f : findings) {
     notes += f.level == Level::note ? 1 : 0;
     problems += f.level == Level::problem ? 1 : 0;
     std::cout << (width == 0 ? plain(f) : pretty(f, width, colour));
@@ -55,20 +58,20 @@ int report(const Findings& findings) {
   return std::cout.flush() && problems == 0 ? kDone : kFailed;
 }
 
-/// Every preset as `vsa actuators` would read it.
+/// Every actuator type as `vsa actuators` would read it.
 void check_presets(Findings& findings) {
-  const config::PresetLibrary library;
+  const config::TypeLibrary library;
   std::size_t good = 0;
   for (const std::string& name : library.names()) {
     try {
       (void)library.load(name);
       ++good;
     } catch (const InputError& error) {
-      for (const Problem& p : error.problems()) findings.problem("preset " + name, p.text(), "mend or remove the file");
+      for (const Problem& p : error.problems()) findings.problem("actuator type " + name, p.text(), "mend or remove the file");
     }
   }
-  if (good > 0) findings.ok("presets", fmt::format("{} found", good));
-  if (library.names().empty()) findings.problem("presets", "none found", "set VSA_DATA_DIR or VSA_PRESET_PATH");
+  if (good > 0) findings.ok("actuator types", fmt::format("{} found", good));
+  if (library.names().empty()) findings.problem("actuator types", "none found", "set VSA_DATA_DIR or VSA_ACTUATOR_PATH");
 }
 
 }  // namespace
@@ -107,15 +110,15 @@ void check_data(Findings& findings) {
 }
 
 int run_doctor(const DoctorOptions& options, LoadingCheck check_loading) {
-  Findings findings;
+  Findings findings, of_world;
   check_data(findings);
   const std::vector<Host> hosts = check_hosts(findings);
   check_plugins(findings, hosts);
   check_model_paths(findings, hosts);
   check_network(findings);
   check_ports(findings, options.devices);
-  if (!options.world.empty()) check_world(findings, hosts, options.world, check_loading);
-  return report(findings);
+  if (!options.world.empty()) check_world(of_world, hosts, options.world, check_loading);
+  return report(of_world, findings);
 }
 
 }  // namespace vsa::app

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "doctor/checks.hpp"
-#include "terminal/find_file.hpp"
+#include "vsa/config/find_file.hpp"
 #include "vsa/config/older_plugin.hpp"
 #include "vsa/config/plugin_xml.hpp"
 #include "vsa/config/text.hpp"
@@ -35,7 +35,7 @@ void check_older(Findings& findings, const XMLElement& e) {
       check_older(findings, *child);
     } else if (config::is_older_plugin(xml)) {
       try {
-        (void)config::parse_plugin(xml, fmt::format("line {}", child->GetLineNum()), config::PresetLibrary());
+        (void)config::parse_plugin(xml, fmt::format("line {}", child->GetLineNum()), config::TypeLibrary());
       } catch (const InputError& error) {
         for (const Problem& p : error.problems())
           findings.problem("older plug-in", fmt::format("{}: {} {}: {}", p.file, p.key, p.value, p.message), p.allowed);
@@ -101,7 +101,7 @@ void check_includes(Findings& findings, const std::vector<Host>& hosts, const XM
 }  // namespace
 
 void check_world(Findings& findings, const std::vector<Host>& hosts, const std::string& world, LoadingCheck check_loading) {
-  const fs::path file = find_file(world, "world", "models/worlds", ".sdf");
+  const fs::path file = config::find_file(world, "world", "models/worlds", ".sdf");
   check_loading(findings, file);
   tinyxml2::XMLDocument document;
   if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS || document.RootElement() == nullptr) return;  // told above

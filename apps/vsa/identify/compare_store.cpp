@@ -3,15 +3,15 @@
 // Fits and comparisons as JSON.
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "identify/compare_output.hpp"
 #include "vsa/files.hpp"
+#include "vsa/page/json.hpp"
 
 namespace vsa::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using page::Json;
 
 Json number(double v) {
   if (std::isfinite(v)) return v;
@@ -109,12 +109,12 @@ std::string comparison_json(const Compared& c) {
     }
     hypotheses.push_back({{"name", hypothesis.name},
                           {"title", hypothesis.title},
-                          {"base", hypothesis.specimen.preset},
+                          {"base", hypothesis.specimen.type},
                           {"set", set},
                           {"free_parameters", hypothesis.free.size()},
                           {"rms_rad", numbers(c.rows[h].rms_rad)},
                           {"left_out_rms_rad", numbers(c.rows[h].left_out_rms_rad)},
-                          {"aicc", std::isfinite(c.rows[h].aicc) ? Json(c.rows[h].aicc) : Json(nullptr)},
+                          {"aicc", page::real(c.rows[h].aicc)},
                           {"seconds", c.rows[h].seconds},
                           {"fits", fits}});
   }

@@ -30,11 +30,11 @@ constexpr int kDigits = 5;  // of the estimates: more than any interval is narro
 
 constexpr const char* kNotes =
     R"(Fits the simulated load test (world bench_load, full dynamics, read by the unit's encoders) to recordings by least
-squares over both branches. A parameter is a key of the preset, see vsa actuators NAME; tied keys get one value.
+squares over both branches. A parameter is a key of the actuator type, see vsa actuators NAME; tied keys get one value.
 Recordings: load_torque_Nm,deflection_rad[,time_s|sample], the commanded preset in the name (…_preset_0.6903rad….csv);
 or branch means (…_branches.csv). Period and amplitude of the sweep are common to all.
 
-Writes report.html, results.json and identified.toml, a preset for vsa. Where the data don't determine a parameter it
+Writes report.html, results.json and identified.toml, an actuator type for vsa. Where the data don't determine a parameter it
 says which, writes no preset and ends with 1.
 
 --compare FILE fits each hypothesis of a TOML file to the recordings that it names, and with each of them left out, and
@@ -42,11 +42,11 @@ writes comparison.md, comparison.json and every fit into --out; begun again it g
 file's keys.
 
 Examples:
-  vsa identify data/qbmove_maker_pro/*_samples.csv --preset qbmove_maker_pro \
+  vsa identify data/qbmove_maker_pro/*_samples.csv --type qbmove_maker_pro \
     --parameters elastic.k1_Nm=elastic.k2_Nm,drive.dead_band,shaft.friction_Nm,sensor.encoder_zero_rad
   vsa identify --compare data/qbmove_maker_pro/hypotheses.toml)";
 
-identify::Task read_task(const IdentifyOptions& o, const config::Preset& preset) {
+identify::Task read_task(const IdentifyOptions& o, const config::ActuatorType& type) {
   Problems problems;
   identify::Task task;
   const auto collect = [&](const auto& step) {
@@ -56,10 +56,10 @@ identify::Task read_task(const IdentifyOptions& o, const config::Preset& preset)
       problems.add_all(error);
     }
   };
-  collect([&] { task.parameters = identify::parse_parameters(o.parameters, preset); });
+  collect([&] { task.parameters = identify::parse_parameters(o.parameters, type); });
   for (const std::string& file : o.recordings) {
     collect([&] {
-      task.observations.push_back(identify::read_observation(file, preset));
+      task.observations.push_back(identify::read_observation(file, type));
       identify::Observation& last = task.observations.back();
       if (o.weights == "scatter") last.weight = identify::scatter_weight(last.data);
     });
@@ -83,7 +83,7 @@ void check_numbers(const IdentifyOptions& o) {
   require(o.profile, "--profile", 0, 101, "points");
   if (o.name.empty() ||
       o.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos) {
-    problems.add({"", "--name", o.name, "isn't a preset's name", "letters, digits, _ and -"});
+    problems.add({"", "--name", o.name, "isn't a type's name", "letters, digits, _ and -"});
   }
   problems.throw_if_any();
 }
@@ -92,7 +92,7 @@ void check_numbers(const IdentifyOptions& o) {
 void check_given(const IdentifyOptions& o) {
   Problems problems;
   if (o.recordings.empty()) problems.add({"", "RECORDING", "", "is missing", "CSV files, or --compare FILE"});
-  if (o.preset.empty()) problems.add({"", "--preset", "", "is missing", "an actuator preset, see vsa actuators"});
+  if (o.type.empty()) problems.add({"", "--type", "", "is missing", "an actuator type, see vsa actuators"});
   if (o.parameters.empty()) problems.add({"", "--parameters", "", "is missing", "keys, see vsa actuators NAME"});
   problems.throw_if_any();
 }
@@ -112,7 +112,7 @@ void refuse_mixed(const CLI::App& sub, bool comparing) {
 
 std::string command_of(const IdentifyOptions& o) {
   const IdentifyOptions usual;
-  std::string out = "vsa identify " + config::join(o.recordings, " ") + " --preset " + o.preset + " --parameters " + o.parameters;
+  std::string out = "vsa identify " + config::join(o.recordings, " ") + " --type " + o.type + " --parameters " + o.parameters;
   for (const auto& s : o.set) out += " --set " + s;
   if (o.name != usual.name) out += " --name " + o.name;
   if (o.period_s != usual.period_s) out += fmt::format(" --period-s {}", o.period_s);
@@ -185,14 +185,14 @@ int run_identify(const IdentifyOptions& o) {
   (void)report::page_template();  // told before the work, not after it
   Identification r;
   experiment::Specimen specimen;
-  specimen.preset = o.preset;
+  specimen.type = o.type;
   specimen.overrides = parse_settings(o.set, "--set");
-  r.preset = specimen.library.load(o.preset, specimen.overrides);
+  r.type = specimen.library.load(o.type, specimen.overrides);
   r.command = command_of(o);
   r.name = o.name;
   r.period_s = o.period_s;
-  r.task = read_task(o, r.preset);
-  const std::filesystem::path out = o.out.empty() ? "identify_" + o.preset : o.out;
+  r.task = read_task(o, r.type);
+  const std::filesystem::path out = o.out.empty() ? "identify_" + o.type : o.out;
   experiment::Watch watch;
   identify::SweepOptions sweep;
   sweep.period_s = o.period_s;
@@ -208,9 +208,9 @@ int run_identify(const IdentifyOptions& o) {
     return kSignalled + interrupted();
   }
   const bool determined = !r.uncertainty.deficient();
-  const std::string preset = determined ? identified_preset(r, specimen.library) : "";
+  const std::string type = determined ? identified_type(r, specimen.library) : "";
   write_whole(out / "results.json", results_json(r));
-  if (determined) write_whole(out / (r.name + ".toml"), preset);
+  if (determined) write_whole(out / (r.name + ".toml"), type);
   report::write_report(identification_report(r), out / "report.html");
   for (const std::string& w : warnings(r)) console.line("warning: " + w);
   std::cout << identification_text(r) << "written: " << (out / "report.html").string() << ", results.json";
@@ -220,13 +220,14 @@ int run_identify(const IdentifyOptions& o) {
 
 void setup_identify(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<IdentifyOptions>();
-  CLI::App* sub = app.add_subcommand("identify", "Find parameters of a preset from load-test recordings");
+  CLI::App* sub = app.add_subcommand("identify", "Find parameters of an actuator type from load-test recordings");
   sub->add_option("RECORDING", o->recordings, "CSV files");
-  sub->add_option("--preset", o->preset, "Actuator preset: start values, bounds and all that isn't identified");
+  sub->add_option("--type", o->type, "Actuator type: start values, bounds and all that isn't identified");
   sub->add_option("--parameters", o->parameters, "Keys to identify, comma-separated; key=key gives both one value");
-  sub->add_option("--set", o->set, "Hold a parameter at another value, or start there if it is identified: key=value");
-  sub->add_option("--out", o->out, "Directory for the files; default: identify_PRESET, compare_FILE");
-  sub->add_option("--name", o->name, "Name of the preset that is written")->capture_default_str();
+  sub->add_option("--set", o->set, "Hold a parameter at another value, or start there if it is identified: key=value")
+      ->allow_extra_args(false);
+  sub->add_option("--out", o->out, "Directory for the files; default: identify_TYPE, compare_FILE");
+  sub->add_option("--name", o->name, "Name of the type that is written")->capture_default_str();
   sub->add_option("--period-s", o->period_s, "Period of the sweep")->check(number_given())->capture_default_str();
   sub->add_option("--amplitude-rad", o->amplitude_rad,
                   "Amplitude of the sweep; default: the shaft reaches 94° at preset 0, 81° at 0.6903 rad")
@@ -234,12 +235,11 @@ void setup_identify(CLI::App& app, int& exit_code) {
   sub->add_option("--cycles", o->cycles, "Cycles to simulate; the first half is left out")
       ->check(number_given())
       ->capture_default_str();
-  sub->add_option("--starts", o->starts,
-                  "Local solutions: from the preset's values, and from the places that a global search finds")
+  sub->add_option("--starts", o->starts, "Local solutions: from the type's values, and from the places that a global search finds")
       ->check(number_given())
       ->capture_default_str();
   sub->add_option("--seed", o->seed, "Of the global search")->check(number_given())->capture_default_str();
-  sub->add_flag("--no-global", o->no_global, "Take the other starts about the preset's values instead");
+  sub->add_flag("--no-global", o->no_global, "Take the other starts about the type's values instead");
   sub->add_option("--iterations", o->iterations, "Most iterations of each")->check(number_given())->capture_default_str();
   sub->add_option("--profile", o->profile, "Points of each parameter's profile; 0: none")
       ->check(number_given())

@@ -10,11 +10,11 @@ namespace vsa::app {
 
 struct IdentifyOptions {
   std::vector<std::string> recordings;  ///< CSV files: samples, or branch means (…_branches.csv)
-  std::string preset;                   ///< the actuator's, where start values and bounds come from
+  std::string type;                     ///< the actuator's, where start values and bounds come from
   std::string parameters;               ///< "elastic.k1_Nm=elastic.k2_Nm,drive.dead_band"
-  std::vector<std::string> set;         ///< "drive.friction_Nm=0.7": held at another value than the preset's
-  std::string out;                      ///< directory; empty: identify_PRESET
-  std::string name = "identified";      ///< of the preset that is written: NAME.toml
+  std::vector<std::string> set;         ///< "drive.friction_Nm=0.7": held at another value than the type's
+  std::string out;                      ///< directory; empty: identify_TYPE
+  std::string name = "identified";      ///< of the type that is written: NAME.toml
   double period_s = 38;                 ///< of the sweep, of all recordings
   std::optional<double> amplitude_rad;  ///< of the sweep; none: by the rule in experiment/bench.hpp
   double cycles = 1.5;                  ///< simulated; the first half is left out
@@ -27,7 +27,7 @@ struct IdentifyOptions {
   bool no_cross_validation = false;
 };
 
-/// `vsa identify RECORDING.csv… --preset NAME --parameters …`, and `vsa identify --compare FILE` (compare.hpp). Sets the exit code
+/// `vsa identify RECORDING.csv… --type NAME --parameters …`, and `vsa identify --compare FILE` (compare.hpp). Sets the exit code
 /// when it was the subcommand.
 void setup_identify(CLI::App& app, int& exit_code);
 /// Writes its files only when all is done; no preset file, and exit code 1, where the data don't determine every parameter.

@@ -1,5 +1,5 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "vsa/study/json.hpp"
+#include "vsa/page/json.hpp"
 
 #include "identify/output.hpp"
 #include "vsa/config/text.hpp"
@@ -7,9 +7,9 @@
 namespace vsa::app {
 namespace {
 
-using study::Json;
-using study::json_number;
-using study::json_numbers;
+using page::Json;
+using page::real;
+using page::reals;
 
 Json parameters_json(const Identification& r) {
   Json out = Json::array();
@@ -22,18 +22,16 @@ Json parameters_json(const Identification& r) {
                    {"start", p.start},
                    {"bounds", {p.min, p.max}},
                    {"value", r.fit.values[k]},
-                   {"standard_error", json_number(u.standard_error[k])},
-                   {"interval_95", {json_number(u.low[k]), json_number(u.high[k])}},
-                   {"standard_error_if_white", json_number(u.white_standard_error[k])},
+                   {"standard_error", real(u.standard_error[k])},
+                   {"interval_95", {real(u.low[k]), real(u.high[k])}},
+                   {"standard_error_if_white", real(u.white_standard_error[k])},
                    {"at_bound", static_cast<bool>(r.fit.at_bound[k])}});
   }
   return out;
 }
 
 Json difference_json(const experiment::Difference& d) {
-  return {{"rms_rad", json_number(d.both_rad)},
-          {"rms_rising_rad", json_number(d.rising_rad)},
-          {"rms_falling_rad", json_number(d.falling_rad)}};
+  return {{"rms_rad", real(d.both_rad)}, {"rms_rising_rad", real(d.rising_rad)}, {"rms_falling_rad", real(d.falling_rad)}};
 }
 
 Json recordings_json(const Identification& r) {
@@ -45,8 +43,8 @@ Json recordings_json(const Identification& r) {
                    {"points", r.misfits[o].rms.points},
                    {"before", difference_json(r.misfits_before[o].rms)},
                    {"after", difference_json(r.misfits[o].rms)},
-                   {"residual_autocorrelation", json_number(r.uncertainty.autocorrelation[o])},
-                   {"residual_sd_rad", json_number(r.uncertainty.sd_rad[o])}});
+                   {"residual_autocorrelation", real(r.uncertainty.autocorrelation[o])},
+                   {"residual_sd_rad", real(r.uncertainty.sd_rad[o])}});
   }
   return out;
 }
@@ -104,10 +102,10 @@ Json residuals_json(const Identification& r) {
   return out;
 }
 
-/// Every value of the identified preset: by these `vsa validate` knows which preset a record belongs to.
+/// Every value of the identified type: by these `vsa validate` knows which type a record belongs to.
 Json values_json(const Identification& r) {
   Json out = Json::object();
-  for (const config::Entry& e : r.preset.entries) out[e.key] = e.value;
+  for (const config::Entry& e : r.type.entries) out[e.key] = e.value;
   for (std::size_t k = 0; k < r.task.parameters.size(); ++k) {
     for (const std::string& key : r.task.parameters[k].keys) out[key] = config::number_text(r.fit.values[k]);
   }
@@ -118,8 +116,8 @@ Json values_json(const Identification& r) {
 
 std::string results_json(const Identification& r) {
   const identify::Uncertainty& u = r.uncertainty;
-  Json out = study::json_head(r.command);
-  out["preset"] = r.preset.name;
+  Json out = page::results_head(r.command);
+  out["type"] = r.type.name;
   out["sweep_period_s"] = r.period_s;
   out["rms_rad"] = {{"before", identify::rms(r.residuals_before)}, {"after", r.fit.rms_rad}};
   out["determined"] = !u.deficient();
@@ -127,8 +125,8 @@ std::string results_json(const Identification& r) {
   out["parameters"] = parameters_json(r);
   out["identified_values"] = values_json(r);
   Json& correlation = out["correlation"] = Json::array();
-  for (const auto& row : u.correlation) correlation.push_back(json_numbers(row));
-  out["condition"] = json_number(u.condition);
+  for (const auto& row : u.correlation) correlation.push_back(reals(row));
+  out["condition"] = real(u.condition);
   out["unseparated"] = groups_json(r);
   out["effective_samples"] = u.effective_samples;
   out["degrees_of_freedom"] = u.degrees_of_freedom;
@@ -138,7 +136,7 @@ std::string results_json(const Identification& r) {
   out["profiles"] = profiles_json(r);
   out["residuals"] = residuals_json(r);
   out["simulations"] = r.evaluations;
-  return study::json_text(out);
+  return page::results_text(out);
 }
 
 }  // namespace vsa::app

@@ -3,7 +3,7 @@
 // What `vsa identify` found, and what it leaves behind:
 //   results.json   everything below, units in the keys; what isn't determined is null
 //   report.html    estimates, curves, residuals, correlations, cross-validation, profiles
-//   NAME.toml      the whole preset with the identified values, ready for use
+//   NAME.toml      the whole type with the identified values, ready for use
 #pragma once
 
 #include <filesystem>
@@ -18,10 +18,10 @@ namespace vsa::app {
 
 struct Identification {
   std::string command, name;
-  config::Preset preset;  ///< with --set, before
+  config::ActuatorType type;  ///< with --set, before
   identify::Task task;
   std::vector<identify::Point> points;
-  std::vector<double> residuals_before;  ///< at the preset's values
+  std::vector<double> residuals_before;  ///< at the type's values
   identify::Fit fit;                     ///< at the estimate
   identify::Uncertainty uncertainty;
   std::vector<identify::Misfit> misfits_before, misfits;
@@ -42,7 +42,7 @@ struct Identification {
 [[nodiscard]] std::string results_json(const Identification& r);
 [[nodiscard]] report::Report identification_report(const Identification& r);
 [[nodiscard]] std::string identification_text(const Identification& r);
-/// Throws InputError where the values don't make a preset.
-[[nodiscard]] std::string identified_preset(const Identification& r, const config::PresetLibrary& library);
+/// Throws InputError where the values don't make a type.
+[[nodiscard]] std::string identified_type(const Identification& r, const config::TypeLibrary& library);
 
 }  // namespace vsa::app

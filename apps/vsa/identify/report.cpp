@@ -6,7 +6,7 @@
 #include "identify/output.hpp"
 #include "terminal/table.hpp"
 #include "vsa/config/text.hpp"
-#include "vsa/identify/preset_file.hpp"
+#include "vsa/identify/type_file.hpp"
 
 namespace vsa::app {
 namespace {
@@ -196,7 +196,7 @@ std::vector<std::string> warnings(const Identification& r) {
 
 report::Report identification_report(const Identification& r) {
   report::Report out;
-  out.title = "Identification of " + r.preset.name;
+  out.title = "Identification of " + r.type.name;
   out.subtitle = fmt::format("{} parameters from {} recordings", r.task.parameters.size(), r.task.observations.size());
   report::Section estimates{"Estimates", {}};
   for (const std::string& w : warnings(r)) estimates.blocks.emplace_back(report::Text{"Warning: " + w + "."});
@@ -224,7 +224,7 @@ std::string identification_text(const Identification& r) {
   return out;
 }
 
-std::string identified_preset(const Identification& r, const config::PresetLibrary& library) {
+std::string identified_type(const Identification& r, const config::TypeLibrary& library) {
   std::vector<identify::Identified> changes;
   for (std::size_t k = 0; k < r.task.parameters.size(); ++k) {
     const std::string source =
@@ -234,7 +234,7 @@ std::string identified_preset(const Identification& r, const config::PresetLibra
   config::Evidence fitted{{}, r.command};
   for (const identify::Observation& o : r.task.observations)
     fitted.calibrated_on.push_back(config::experiment_name("stiffness", o.preset));
-  return identify::preset_text(r.preset, r.name, changes, fitted, library);
+  return identify::type_text(r.type, r.name, changes, fitted, library);
 }
 
 }  // namespace vsa::app

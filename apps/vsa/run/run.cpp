@@ -5,9 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 
+#include "run/scenario.hpp"
 #include "run/session.hpp"
 #include "terminal/exit_codes.hpp"
 #include "terminal/faults_help.hpp"
@@ -20,9 +23,10 @@
 namespace vsa::app {
 namespace {
 
-constexpr double kLongest_s = 1e8;  // three years; beyond that nanoseconds would overflow soon
-
-constexpr const char* kNotes = R"(WORLD is a file or the name of a built-in world, FILE a file or the name of a built-in gait.
+constexpr const char* kNotes =
+    R"(WORLD is a file or the name of a built-in world, FILE a file or the name of a built-in gait. WORLD may also be a
+scenario (NAME.toml), which says all this in a file; relative paths in it are relative to it. Flags override what it says; of
+--set and --fault both hold, and the flags' are the last said. A recorded run writes DIR/scenario.toml, which repeats it.
 Without --duration-s the world runs until Ctrl-C, which is then the normal end (exit code 0). A run with a duration
 that Ctrl-C cuts short exits with 130. Either way the record is complete up to the last step.
 
@@ -31,6 +35,7 @@ Examples:
   vsa run snake_rubble --realtime
   vsa run snake_flat --gait sidewind --view
   vsa run snake_flat --gait sidewind --duration-s 20 --fault "joint_6 unplugged=1"
+  vsa run out/scenario.toml --record again
 
 )";
 
@@ -40,6 +45,12 @@ void check(const RunOptions& options) {
   }
   if (options.duration_s && !(*options.duration_s > 0 && *options.duration_s <= kLongest_s)) {
     throw InputError({"", "--duration-s", fmt::format("{}", *options.duration_s), "out of range", "above 0 to 1e8 s"});
+  }
+  std::error_code differs;
+  if (!options.record.empty() && !options.scenario.empty() &&
+      std::filesystem::equivalent(std::filesystem::path(options.record) / kScenario, options.scenario, differs)) {
+    throw InputError(
+        {"", "--record", options.record, "holds the scenario itself, which a record would write over", "another directory"});
   }
 }
 
@@ -77,34 +88,91 @@ int run_run(const RunOptions& options) {
   return exit_code_of(signal, options);
 }
 
-void setup_run(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<RunOptions>();
-  CLI::App* sub = app.add_subcommand("run", "Run a world");
-  sub->add_option("WORLD", options->world, "SDF file, or a built-in world's name")->required();
-  sub->add_option("--duration-s", options->duration_s, "Simulated seconds to run; default: until Ctrl-C")->check(number_given());
-  CLI::Option* realtime =
-      sub->add_flag("--realtime", options->realtime, "Not faster than the wall clock; default: as fast as possible");
-  sub->add_flag("--low-latency", options->low_latency, kLowLatencyHelp)->needs(realtime);
-  sub->add_option("--speed", options->speed, "Simulated by wall time, 0.01 to 100, or max; default: max, with --view 1")
-      ->excludes(realtime);
-  CLI::Option* view = sub->add_flag("--view", options->view, "Serve a page on this machine's loopback to watch and touch the run");
-  sub->add_option("--view-port", options->view_port, "Its port; default: any free one, printed")
+namespace {
+
+/// The flags: where they write to and, for those that were given, how they are laid over a scenario.
+class Flags {
+ public:
+  explicit Flags(CLI::App& sub) : sub_(sub) {}
+  RunOptions options;
+
+  template <class T>
+  CLI::Option* value(const char* name, T RunOptions::*to, const std::string& help) {
+    return kept(sub_.add_option(name, options.*to, help), [this, to](RunOptions& over) { over.*to = options.*to; });
+  }
+  CLI::Option* flag(const char* name, bool RunOptions::*to, const std::string& help) {
+    return kept(sub_.add_flag(name, options.*to, help), [this, to](RunOptions& over) { over.*to = options.*to; });
+  }
+  CLI::Option* list(const char* name, std::vector<std::string> RunOptions::*to, const std::string& help) {
+    return kept(sub_.add_option(name, options.*to, help)->allow_extra_args(false),
+                [this, to](RunOptions& over) { (over.*to).insert((over.*to).end(), (options.*to).begin(), (options.*to).end()); });
+  }
+
+  /// All that was said. Throws InputError for a scenario that can't be read.
+  [[nodiscard]] RunOptions said() const {
+    if (!is_scenario(options.world)) return options;
+    RunOptions out = read_scenario(options.world);
+    if (!options.gait.empty()) out.motion.clear();
+    if (options.realtime) out.speed.clear();
+    for (const auto& [option, lay] : kept_) {
+      if (option->count() > 0) lay(out);
+    }
+    return out;
+  }
+
+ private:
+  CLI::Option* kept(CLI::Option* option, std::function<void(RunOptions&)> lay) {
+    kept_.emplace_back(option, std::move(lay));
+    return option;
+  }
+
+  CLI::App& sub_;
+  std::vector<std::pair<CLI::Option*, std::function<void(RunOptions&)>>> kept_;
+};
+
+void add_view(Flags& flags) {
+  CLI::Option* view = flags.flag("--view", &RunOptions::view, "Serve a page on this machine's loopback to watch and touch the run");
+  flags.value("--view-port", &RunOptions::view_port, "Its port; default: any free one, printed")
       ->check(CLI::Range(0, 65535))
       ->needs(view);
-  sub->add_option("--view-records", options->view_records, "Where the page's record button writes; default: this directory")
+  flags.value("--view-records", &RunOptions::view_records, "Where the page's record button writes; default: this directory")
       ->needs(view);
-  sub->add_option("--preset", options->preset, "Put this actuator preset on every actuator of the world");
-  sub->add_option("--set", options->set, "Override a parameter of every actuator: key=value");
-  sub->add_option("--fault", options->faults, "Break something from the start: \"ACTUATOR FAULT …\" or \"all FAULT …\"");
-  sub->add_option("--concave", options->concave,
-                  "Concave collision meshes: refuse (default), hull (fill), decompose (convex parts)")
+}
+
+void add_world(Flags& flags) {
+  flags.value("--type", &RunOptions::type, "Put this actuator type on every actuator of the world");
+  flags.list("--set", &RunOptions::set, "Override a parameter of every actuator: key=value");
+  flags.list("--fault", &RunOptions::faults, "Break something from the start: \"ACTUATOR FAULT …\" or \"all FAULT …\"");
+  flags
+      .value("--seed", &RunOptions::seed,
+             "Of faults that draw by chance without a seed of their own: the first one's; each further one's is 1000 more")
+      ->check(CLI::Range(0.0, kLargestSeed));
+  flags
+      .value("--concave", &RunOptions::concave, "Concave collision meshes: refuse (default), hull (fill), decompose (convex parts)")
       ->check(CLI::IsMember({"refuse", "hull", "decompose"}));
-  sub->add_option("--gait", options->gait, "Play this gait in simulated time");
-  sub->add_option("--record", options->record, "Write CSV files, run.mcap and a replay page into this directory");
-  sub->add_flag("--no-topics", options->no_topics, "Run without the transport");
-  sub->add_flag("--paused", options->paused, "Start paused; the page or /world/W/control lets it run");
+}
+
+}  // namespace
+
+void setup_run(CLI::App& app, int& exit_code) {
+  CLI::App* sub = app.add_subcommand("run", "Run a world");
+  auto flags = std::make_shared<Flags>(*sub);
+  sub->add_option("WORLD", flags->options.world, "SDF file, a built-in world's name, or a scenario: a TOML file")->required();
+  flags->value("--duration-s", &RunOptions::duration_s, "Simulated seconds to run; default: until Ctrl-C")->check(number_given());
+  flags->value("--step-s", &RunOptions::step_s, "Simulated seconds per step; default: what the world says")->check(number_given());
+  CLI::Option* realtime =
+      flags->flag("--realtime", &RunOptions::realtime, "Not faster than the wall clock; default: as fast as possible");
+  flags->flag("--low-latency", &RunOptions::low_latency, kLowLatencyHelp)->needs(realtime);
+  flags->value("--speed", &RunOptions::speed, "Simulated by wall time, 0.01 to 100, or max; default: max, with --view 1")
+      ->excludes(realtime);
+  add_view(*flags);
+  add_world(*flags);
+  flags->value("--gait", &RunOptions::gait, "Play this gait in simulated time");
+  flags->value("--record", &RunOptions::record, "Write CSV files, run.mcap, a replay page and scenario.toml into this directory");
+  flags->flag("--no-topics", &RunOptions::no_topics, "Run without the transport");
+  flags->flag("--paused", &RunOptions::paused, "Start paused; the page or /world/W/control lets it run");
   sub->footer(kNotes + std::string(kFaultsHelp));
-  sub->callback([options, &exit_code] { exit_code = run_run(*options); });
+  sub->callback([flags, &exit_code] { exit_code = run_run(flags->said()); });
 }
 
 }  // namespace vsa::app

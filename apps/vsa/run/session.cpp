@@ -3,104 +3,36 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
-#include "terminal/find_file.hpp"
+#include "run/scenario.hpp"
+#include "run/set_up.hpp"
 #include "terminal/interrupt.hpp"
-#include "terminal/settings.hpp"
+#include "terminal/output_files.hpp"
 #include "unit/port_report.hpp"
+#include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/seat/seat.hpp"
-#include "vsa/units.hpp"
 
 namespace vsa::app {
 namespace {
 
-constexpr double kTravelWindow_s = 1.3;  // where no gait tells its period; close to Table II's 2π/4.71 s
 constexpr double kTravelRate_Hz = 100;
 constexpr std::chrono::milliseconds kIdleWait{100};
-constexpr double kSlowest = 0.01, kFastest = 100;  // of --speed
-
-engine::Concave concave_of(const std::string& text) {
-  return text == "hull" ? engine::Concave::hull : text == "decompose" ? engine::Concave::decompose : engine::Concave::refuse;
-}
-
-engine::World load_world(const RunOptions& options) {
-  engine::WorldOptions with;
-  with.concave = concave_of(options.concave);
-  with.actuator.overrides = parse_settings(options.set, "--set");
-  if (!options.preset.empty()) {
-    with.actuator.preset = options.preset;
-    static_cast<void>(with.presets.load(options.preset, with.actuator.overrides));  // its problems, once and by their own names
-  }
-  return engine::World::load(find_file(options.world, "world", "models/worlds", ".sdf"), std::move(with));
-}
-
-std::optional<engine::Gait> load_gait(const std::string& name) {
-  if (name.empty()) return std::nullopt;
-  return engine::Gait::load(find_file(name, "gait", "models/gaits", ".toml"));
-}
-
-double travel_window_s(const std::optional<engine::Gait>& gait) {
-  return gait && gait->params().frequency_rad_per_s > 0 ? 2 * kPi / gait->params().frequency_rad_per_s : kTravelWindow_s;
-}
-
-/// The page's template is generated, so it lies beside the build, where the other data needn't be.
-record::RecorderOptions recorder_options(const std::vector<std::string>& faults) {
-  record::RecorderOptions options;
-  for (const std::string& text : faults) (options.faults += options.faults.empty() ? "" : "; ") += text;
-  options.page_template = config::find_data("web/replay.html").value_or("");
-  return options;
-}
-
-/// Each text goes to the robots that have its actuator.
-void break_robots(engine::World& world, const std::vector<std::string>& faults) {
-  Problems problems;
-  for (const std::string& text : faults) {
-    const std::string who = text.substr(0, text.find(' '));
-    bool known = false;
-    try {
-      for (std::size_t i = 0; i < world.robot_count(); ++i) {
-        const bool last = i + 1 == world.robot_count() && !known;
-        if (who != "all" && !world.robot(i).find(who) && !last) continue;
-        known = true;
-        (void)world.seat(i).apply_faults(text, "--fault");
-      }
-    } catch (const InputError& error) {
-      problems.add_all(error);
-    }
-    if (world.robot_count() == 0) problems.add({"", "--fault", text, "the world has no actuator", ""});
-  }
-  problems.throw_if_any();
-}
-
-/// "max": none.
-std::optional<double> speed_of(const RunOptions& options) {
-  if (options.speed.empty()) return options.realtime || options.view ? std::optional(1.0) : std::nullopt;
-  if (options.speed == "max") return std::nullopt;
-  char* end = nullptr;
-  const double factor = std::strtod(options.speed.c_str(), &end);
-  if (end != options.speed.c_str() + options.speed.size() || !(factor >= kSlowest && factor <= kFastest)) {
-    throw InputError({"", "--speed", options.speed, "not a speed", "0.01 … 100, or max"});
-  }
-  return factor;
-}
-
-std::string top_level(const std::string& scoped) { return scoped.substr(0, scoped.find("::")); }
 
 }  // namespace
 
 RunSession::RunSession(const RunOptions& options, Console& console)
     : console_(console),
+      options_(seeded(options)),
       speed_(speed_of(options)),
-      faults_(options.faults),
-      duration_s_(options.duration_s),
       world_(load_world(options)),
-      gait_(load_gait(options.gait)),
-      robot_model_(world_.robot_count() > 0 ? top_level(world_.robot_model(0)) : ""),
+      gait_(load_motion(options)),
+      commands_(options, world_, gait_ ? &*gait_ : nullptr),
+      robot_model_(travelling_model(world_)),
       travel_window_s_(travel_window_s(gait_)),
       control_(options.paused),
       travel_(travel_window_s_, 1 / kTravelRate_Hz),
@@ -108,16 +40,19 @@ RunSession::RunSession(const RunOptions& options, Console& console)
   for (const auto& warning : world_.warnings()) console_.line("warning: " + warning);
   if (world_.robot_count() == 0)
     console_.line("warning: the world has no actuator: no model that moves has a <plugin name=\"vsa::Robot\">");
-  break_robots(world_, faults_);
-  if (gait_) gait_->bind(world_);
+  break_robots(world_, options_.faults);
   const auto report = [&console](const std::string& line) { console.line(line); };
   for (std::size_t i = 0; i < world_.robot_count(); ++i) world_.seat(i).report_to(report);
   if (!options.no_topics) server_.emplace(world_, control_, report);
   open_ports();
   if (options.view) open_view(options);
   // Last, so that a run that is refused has not touched an earlier record.
-  if (!options.record.empty()) recorder_.emplace(world_, options.record, recorder_options(faults_));
-  if (duration_s_) end_ns_ = world_.time_ns() + std::llround(*duration_s_ * 1e9);
+  if (!options.record.empty()) {
+    recorder_.emplace(world_, options.record, recorder_options(options_));
+    tell_of_other_records();
+    write_scenario({"This run hasn't come to its end."});
+  }
+  if (options_.duration_s) end_ns_ = world_.time_ns() + std::llround(*options_.duration_s * 1e9);
 }
 
 void RunSession::open_view(const RunOptions& options) {
@@ -127,8 +62,49 @@ void RunSession::open_view(const RunOptions& options) {
   with.replay_template = config::find_data("web/replay.html").value_or("");
   with.records = options.view_records;
   with.speed = speed_;
-  view_.emplace(world_, gait_ ? &*gait_ : nullptr, control_, std::move(with));
+  view_.emplace(world_, gait_ ? &*gait_ : nullptr, &control_, std::move(with));
   console_.line("live view: " + view_->url());
+}
+
+/// Another world's actuators have a file of another name, which nobody overwrites.
+void RunSession::tell_of_other_records() {
+  const std::vector<std::filesystem::path> ours = recorder_->files();
+  std::vector<std::string> others;
+  std::error_code none;
+  for (std::filesystem::directory_iterator at(options_.record, none), end; !none && at != end; at.increment(none)) {
+    const std::string name = at->path().filename().string();
+    constexpr std::string_view kActuators = "_actuators.csv";
+    const bool a_record =
+        name.size() > kActuators.size() && name.compare(name.size() - kActuators.size(), name.npos, kActuators) == 0;
+    const bool own =
+        std::any_of(ours.begin(), ours.end(), [&](const auto& file) { return file.filename() == at->path().filename(); });
+    if (a_record && !own) others.push_back(name);
+  }
+  std::sort(others.begin(), others.end());
+  if (!others.empty()) console_.line("warning: " + options_.record + " keeps an earlier run's " + config::join(others));
+}
+
+void RunSession::write_scenario(std::vector<std::string> remarks) {
+  for (std::string& remark : remarks) std::replace(remark.begin(), remark.end(), '\n', ' ');
+  const double duration_s =
+      done() || world_.time_ns() == 0 ? options_.duration_s.value_or(0) : static_cast<double>(world_.time_ns()) / 1e9;
+  write_whole(std::filesystem::path(options_.record) / kScenario, scenario_text(options_, duration_s, remarks));
+}
+
+/// What came from elsewhere while it ran, so that the file can't repeat it.
+std::vector<std::string> RunSession::outside() {
+  std::vector<std::string> out;
+  const auto add = [&](bool any, const std::string& what) {
+    if (any) out.push_back(what + ": the run may differ from what this file repeats.");
+  };
+  if (server_) add(server_->heard() > 0, "Commands came on topics (" + std::to_string(server_->heard()) + "), which aren't here");
+  if (view_) add(view_->counts().viewers > 0, "A live page was open, and what it asked for isn't here");
+  bool clients = false;
+  for (std::size_t i = 0; i < world_.robot_count(); ++i) {
+    for (const auto& port : world_.seat(i).ports()) clients = clients || port->counters().bytes_in > 0;
+  }
+  add(clients, "A client talked on a serial port, and what it said isn't here");
+  return out;
 }
 
 void RunSession::open_ports() {
@@ -149,13 +125,13 @@ int RunSession::run() {
   while (!done() && interrupted() == 0) {
     if (view_) view_->serve();
     switch (control_.next(world_.time_ns())) {
-      case topics::RunControl::Next::step:
+      case seat::RunControl::Next::step:
         step();
         break;
-      case topics::RunControl::Next::reset:
+      case seat::RunControl::Next::reset:
         reset();
         break;
-      case topics::RunControl::Next::wait:
+      case seat::RunControl::Next::wait:
         idle();
         break;
     }
@@ -168,6 +144,7 @@ int RunSession::run() {
 void RunSession::step() {
   wall_.run();
   if (gait_) gait_->apply(world_);
+  commands_.apply(world_, gait_ ? &*gait_ : nullptr);
   world_.step();
   ++steps_;
   if (recorder_) recorder_->sample(world_);
@@ -183,7 +160,7 @@ void RunSession::step() {
   if (view_) view_->stepped();
   keep_time();
   constexpr std::uint64_t kLookAtClock = 16;  // steps between two looks at the wall clock for the progress line
-  if (steps_ % kLookAtClock == 0) console_.progress(world_.time_s(), duration_s_, speed_factor());
+  if (steps_ % kLookAtClock == 0) console_.progress(world_.time_s(), options_.duration_s, speed_factor());
 }
 
 void RunSession::take_speed() {
@@ -204,8 +181,9 @@ void RunSession::keep_time() {
 
 void RunSession::reset() {
   world_.reset();
-  break_robots(world_, faults_);
+  break_robots(world_, options_.faults);
   ++resets_;
+  commands_.reset(gait_ ? &*gait_ : nullptr);
   if (gait_) gait_->reset();
   travel_.restart();
   travel_cadence_.restart();
@@ -239,9 +217,9 @@ std::vector<record::Statistic> RunSession::statistics() const {
     out.push_back(
         {"distance travelled", fmt::format("{:.2f} m along the path, {:.2f} m net ({}, centre of mass averaged over {:.2f} s)",
                                            travel_.path_m(), travel_.net_m(), robot_model_, travel_window_s_)});
-  } else {
-    out.push_back(
-        {"distance travelled", fmt::format("not measured: the run is shorter than {:.2f} s, one gait period", travel_window_s_)});
+  } else if (!robot_model_.empty()) {
+    out.push_back({"distance travelled",
+                   fmt::format("not measured: the run is shorter than the {:.2f} s that are averaged over", travel_window_s_)});
   }
   const actuator::Ledger energy = world_.ledger();
   out.push_back({"energy from supply", fmt::format("{:.4g} J", energy.supply)});
@@ -271,7 +249,11 @@ std::vector<record::Statistic> RunSession::finish(const std::string& note) {
     const auto page = recorder_->finish(out, note);
     out.push_back({"replay page", page.empty() ? recorder_->without_page() : page.string()});
     std::string files;
-    for (const auto& file : recorder_->files()) files += (files.empty() ? "" : ", ") + file.string();
+    for (const auto& file : recorder_->files()) files += file.string() + ", ";
+    std::vector<std::string> remarks = outside();
+    if (!note.empty()) remarks.insert(remarks.begin(), note);
+    write_scenario(std::move(remarks));
+    files += (std::filesystem::path(options_.record) / kScenario).string();
     out.push_back({"recorded data", files});
   }
   return out;

@@ -2,21 +2,22 @@
 //
 // One run of a world: what is loaded, in which order a step does what, and what is told at the end.
 //
-//   pages' requests → control requests → gait → world.step() → record → travel → topics → view → wall clock
+//   pages' requests → control requests → gait → scenario's commands → world.step() → record → travel → topics → view → wall clock
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "run/command_player.hpp"
 #include "run/run.hpp"
 #include "terminal/console.hpp"
 #include "terminal/pace.hpp"
-#include "vsa/engine/gait.hpp"
 #include "vsa/engine/world.hpp"
+#include "vsa/motion/gait.hpp"
 #include "vsa/record/recorder.hpp"
+#include "vsa/seat/run_control.hpp"
 #include "vsa/study/travel.hpp"
-#include "vsa/topics/run_control.hpp"
 #include "vsa/topics/world_server.hpp"
 #include "vsa/view/live_view.hpp"
 
@@ -38,6 +39,9 @@ class RunSession {
   [[nodiscard]] bool done() const { return end_ns_ && world_.time_ns() >= *end_ns_; }
   void open_view(const RunOptions& options);
   void open_ports();
+  void tell_of_other_records();
+  void write_scenario(std::vector<std::string> remarks);
+  [[nodiscard]] std::vector<std::string> outside();
   void step();
   void reset();
   void idle();
@@ -47,14 +51,14 @@ class RunSession {
   [[nodiscard]] std::vector<record::Statistic> statistics() const;
 
   Console& console_;
+  RunOptions options_;
   std::optional<double> speed_;  // simulated by wall time; none: as fast as it can
-  std::vector<std::string> faults_;
-  std::optional<double> duration_s_;
   engine::World world_;
-  std::optional<engine::Gait> gait_;
-  std::string robot_model_;  // top-level model of the first robot; empty: none
+  std::optional<motion::Gait> gait_;
+  CommandPlayer commands_;
+  std::string robot_model_;  // top-level model of the first robot; empty: none, or one that is bolted down
   double travel_window_s_;
-  topics::RunControl control_;
+  seat::RunControl control_;
   std::optional<record::Recorder> recorder_;
   std::optional<topics::WorldServer> server_;
   study::Travel travel_;

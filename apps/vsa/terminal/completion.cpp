@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "terminal/find_file.hpp"
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
+#include "vsa/config/find_file.hpp"
 
 namespace vsa::app {
 namespace {
@@ -43,9 +43,9 @@ Words listed(const std::string& type) {
 
 Words values(const CLI::Option& option) {
   const std::string name = option.get_name();
-  if (name == "PRESET" || name == "--preset") return config::PresetLibrary().names();
-  if (name == "WORLD") return built_in_files("models/worlds", ".sdf");
-  if (name == "--gait") return built_in_files("models/gaits", ".toml");
+  if (name == "TYPE" || name == "--type") return config::TypeLibrary().names();
+  if (name == "WORLD") return config::built_in_files("models/worlds", ".sdf");
+  if (name == "--gait") return config::built_in_files("models/gaits", ".toml");
   if (name == "--speed") return {"max"};
   return listed(option.get_type_name());
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 
 namespace vsa::app {
 

@@ -30,7 +30,7 @@ void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>&
   const std::vector<std::string> known = commands_of(app);
   if (std::find(known.begin(), known.end(), arguments.front()) != known.end()) return;
   const std::string& word = arguments.front();
-  throw InputError({"", word, "", "no such command, did you mean " + config::nearest(word, known) + "?", config::join(known)});
+  throw InputError({"", word, "", "no such command" + config::did_you_mean(word, known), config::join(known)});
 }
 
 void refuse_unexpected(const CLI::App& app) {
@@ -42,8 +42,7 @@ void refuse_unexpected(const CLI::App& app) {
     const std::string help = "what vsa " + command->get_name() + " --help lists";
     if (option == words.end()) throw InputError({command->get_name(), words.front(), "", "one word too many", help});
     const std::string name = option->substr(0, option->find('='));
-    throw InputError(
-        {command->get_name(), name, "", "no such option, did you mean " + config::nearest(name, options_of(*command)) + "?", help});
+    throw InputError({command->get_name(), name, "", "no such option" + config::did_you_mean(name, options_of(*command)), help});
   }
 }
 

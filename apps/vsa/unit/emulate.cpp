@@ -18,8 +18,8 @@
 #include "terminal/settings.hpp"
 #include "unit/port.hpp"
 #include "unit/port_report.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/config/faults_text.hpp"
-#include "vsa/config/preset.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/device/emulation.hpp"
 #include "vsa/errors.hpp"
@@ -60,8 +60,8 @@ void check(const EmulateOptions& o) {
 }
 
 std::vector<device::EmulatedUnit> units_of(const EmulateOptions& o) {
-  device::UnitConfig config = config::PresetLibrary().load(o.preset, parse_settings(o.set, "--set")).unit;
-  config.program.dialect = o.dialect == 7 ? bus::Dialect::seven : bus::Dialect::six;
+  device::UnitConfig config = config::TypeLibrary().load(o.type, parse_settings(o.set, "--set")).unit;
+  if (o.dialect) config.program.dialect = *o.dialect == 7 ? bus::Dialect::seven : bus::Dialect::six;
   if (o.active) config.memory.startup_activation = kMotorsOn;
   std::vector<device::EmulatedUnit> units(static_cast<std::size_t>(o.units));
   for (std::size_t i = 0; i < units.size(); ++i) {
@@ -160,10 +160,11 @@ class Runner {
   bool told_ = false, told_rate_ = false;
 };
 
-void introduce(const EmulateOptions& o, const std::string& path) {
+void introduce(const EmulateOptions& o, const std::string& path, bus::Dialect dialect) {
   const std::string ids = o.units == 1 ? fmt::format("unit {}", o.first_id)
                                        : fmt::format("{} units, ids {} to {}", o.units, o.first_id, o.first_id + o.units - 1);
-  std::cout << fmt::format("{:<20}{}  ({}, dialect {}, motors {})\n", "port", path, ids, o.dialect, o.active ? "on" : "off")
+  std::cout << fmt::format("{:<20}{}  ({}, dialect {}, motors {})\n", "port", path, ids, static_cast<int>(dialect),
+                           o.active ? "on" : "off")
             << fmt::format("{:<20}vsa ping {}\n", "talk to it", path)
             << fmt::format("{:<20}vsa set {} active on --id {}\n", "", path, o.first_id) << fmt::format("{:<20}Ctrl-C\n", "end it")
             << std::flush;
@@ -173,7 +174,9 @@ void introduce(const EmulateOptions& o, const std::string& path) {
 
 int run_emulate(const EmulateOptions& options) {
   check(options);
-  device::Emulation emulation(units_of(options));
+  const std::vector<device::EmulatedUnit> units = units_of(options);
+  const bus::Dialect dialect = units.front().config.program.dialect;
+  device::Emulation emulation(units);
   break_units(options, emulation);
   if (options.any_rate) emulation.line().take_any_rate();
   std::optional<serial::ProcessorsAwake> awake;
@@ -181,8 +184,8 @@ int run_emulate(const EmulateOptions& options) {
   catch_interrupts();
   int signal = 0;
   {
-    const serial::VirtualPort port(emulation.line(), {serial::port_path(options.port.empty() ? options.preset : options.port)});
-    introduce(options, port.path());
+    const serial::VirtualPort port(emulation.line(), {serial::port_path(options.port.empty() ? options.type : options.port)});
+    introduce(options, port.path(), dialect);
     Runner runner(emulation, port, options.duration_s);
     signal = runner.run();
     std::cout << fmt::format("{:<20}{:.3f} s in {:.3f} s of wall time\n", "simulated time", runner.simulated_s(), runner.wall_s())
@@ -195,20 +198,21 @@ int run_emulate(const EmulateOptions& options) {
 void setup_emulate(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<EmulateOptions>();
   CLI::App* sub = app.add_subcommand("emulate", "Units on a virtual serial port, without a robot, in real time");
-  sub->add_option("PRESET", options->preset, "Actuator preset; vsa actuators lists them")->required();
+  sub->add_option("TYPE", options->type, "Actuator type; vsa actuators lists them")->required();
   sub->add_option("--units", options->units, "How many, on one line")->capture_default_str()->check(number_given());
   sub->add_option("--first-id", options->first_id, "Id of the first; the others follow")
       ->capture_default_str()
       ->check(number_given());
-  sub->add_option("--port", options->port, "The port's path or name; default: vsa-PRESET");
-  sub->add_option("--dialect", options->dialect, "Of the firmware")->capture_default_str()->check(CLI::IsMember({6, 7}));
+  sub->add_option("--port", options->port, "The port's path or name; default: vsa-TYPE");
+  sub->add_option("--dialect", options->dialect, "Of the firmware; default: the type's")->check(CLI::IsMember({6, 7}));
   sub->add_flag("--active", options->active, "Motors on from the start, as the unit's start-up activation does");
   sub->add_flag("--held", options->held, "Shafts are held instead of free");
   sub->add_flag("--any-rate", options->any_rate, "Hear clients whatever rate their port is set to; for those that can't set one");
   sub->add_flag("--low-latency", options->low_latency, kLowLatencyHelp);
-  sub->add_option("--set", options->set, "Override a parameter of the preset: key=value");
+  sub->add_option("--set", options->set, "Override a parameter of the type: key=value")->allow_extra_args(false);
   sub->add_option("--duration-s", options->duration_s, "Seconds to run; default: until Ctrl-C")->check(number_given());
-  sub->add_option("--fault", options->faults, "Break something: \"IDS FAULT …\", such as \"2 off\", or \"all FAULT …\"");
+  sub->add_option("--fault", options->faults, "Break something: \"IDS FAULT …\", such as \"2 off\", or \"all FAULT …\"")
+      ->allow_extra_args(false);
   sub->footer(kNotes + std::string(kFaultsHelp));
   sub->callback([options, &exit_code] { exit_code = run_emulate(*options); });
 }

@@ -10,11 +10,11 @@
 namespace vsa::app {
 
 struct EmulateOptions {
-  std::string preset;
+  std::string type;
   int units = 1;
   int first_id = 1;
-  std::string port;  ///< empty: the preset's name
-  int dialect = 6;
+  std::string port;            ///< empty: the type's name
+  std::optional<int> dialect;  ///< none: the type's
   bool active = false;
   bool held = false;
   bool low_latency = false;
@@ -24,7 +24,7 @@ struct EmulateOptions {
   std::vector<std::string> faults;  ///< "IDS FAULT…" or "all FAULT…", see config/faults_text.hpp
 };
 
-/// `vsa emulate PRESET`. Sets the exit code when it was the subcommand.
+/// `vsa emulate TYPE`. Sets the exit code when it was the subcommand.
 void setup_emulate(CLI::App& app, int& exit_code);
 /// Throws InputError, before there is a port.
 int run_emulate(const EmulateOptions& options);

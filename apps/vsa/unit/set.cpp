@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kNotes = R"(WHAT and its values; angles in degrees, or in the unit's ticks as 910ticks:
   inputs MOTOR_1 MOTOR_2          references of both motors
-  equilibrium POSITION PRESET     the same as position + preset and position - preset
+  equilibrium EQUILIBRIUM PRESET   the same as equilibrium + preset and equilibrium - preset
   position_stiffness POSITION S   the unit's own command; S in percent of its max stiffness, -100 to 100
   active on|off                   motors on: they hold where they are, until the next references
   PARAMETER VALUE...              named as vsa get PORT parameters shows them; most act only once they are stored

@@ -20,7 +20,7 @@ struct ValidationTables {
 };
 [[nodiscard]] ValidationTables validation_tables(const study::Validation& v);
 
-/// Where the recordings come from; what the preset was calibrated on; where its leave-one-out figures are, and whether they are
+/// Where the recordings come from; what the type was calibrated on; where its leave-one-out figures are, and whether they are
 /// its.
 [[nodiscard]] std::vector<std::string> statements(const study::Validation& v);
 /// "Predictions held: 1 of 2; calibrated figures within their guard: 5 of 5."

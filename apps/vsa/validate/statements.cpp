@@ -35,7 +35,7 @@ void add_origins(const study::Validation& v, std::vector<std::string>& out) {
 
 std::string evidence_text(const study::Validation& v) {
   if (!v.overrides.empty()) {
-    return "Values were replaced by --set, so what the preset says of its calibration doesn't hold: nothing here counts as "
+    return "Values were replaced by --set, so what the type says of its calibration doesn't hold: nothing here counts as "
            "predicted.";
   }
   if (!v.evidence) {
@@ -52,9 +52,12 @@ std::string record_text(const study::Validation& v) {
                        v.actuator.name, study::record_name(v.actuator.name).generic_string());
   }
   const std::vector<std::string> apart = differences(*v.left_out, v.actuator);
-  const std::string how =
+  std::string how =
       fmt::format("Without each recording in turn {} {} fitted again and every other value held, by the command that it holds.",
                   config::join(v.left_out->fitted), v.left_out->fitted.size() == 1 ? "was" : "were");
+  if (const auto elsewhere = fitted_elsewhere(*v.left_out, v.actuator); !elsewhere.empty())
+    how += fmt::format(" Its fit to all ended at other values of {} than the type's, which lie outside of its 95 % intervals.",
+                       config::join(elsewhere));
   if (apart.empty()) return fmt::format("Leave-one-out figures: {}. {}", v.left_out->file, how);
   std::vector<std::string> first(apart.begin(), apart.begin() + static_cast<std::ptrdiff_t>(std::min(kToldOf, apart.size())));
   if (apart.size() > kToldOf) first.push_back(fmt::format("and {} more", apart.size() - kToldOf));

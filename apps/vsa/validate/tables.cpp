@@ -23,7 +23,7 @@ std::string number(double value, int decimals) {
 
 std::string preset(double value) { return fmt::format("{:.4f}", value); }
 
-/// A guard on a preset that doesn't say what it was fitted to is one too: it may have been.
+/// A guard on a type that doesn't say what it was fitted to is one too: it may have been.
 Table bounds_table(const study::Validation& v, experiment::Kind kind) {
   const bool predicted = kind == experiment::Kind::predicted;
   Table out{predicted ? "Predictions held to a bound: nothing was fitted or set to meet them"

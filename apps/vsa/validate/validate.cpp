@@ -19,19 +19,19 @@ namespace vsa::app {
 namespace {
 
 constexpr const char* kNotes =
-    R"(Runs the load test of every recording in data/, the speed and preset-step experiments, and compares. What the preset's
+    R"(Runs the load test of every recording in data/, the speed and preset-step experiments, and compares. What the type's
 [evidence] names was calibrated, all else is predicted; the two are told and counted apart. Bounds stand in data/bounds.toml,
 each with its reason. Writes report.html and results.json. Exit code 1 where a bound is broken, of either kind.
 
 Examples:
   vsa validate
-  vsa validate --preset identified --out identified
+  vsa validate --type identified --out identified
   vsa validate --recordings my_recordings        # stiffness_preset_0.4602rad_samples.csv in it is predicted
   vsa validate --markdown docs/validation.md)";
 
 std::string command_of(const ValidateOptions& o) {
   std::string out = "vsa validate";
-  if (o.preset != ValidateOptions{}.preset) out += " --preset " + o.preset;
+  if (o.type != ValidateOptions{}.type) out += " --type " + o.type;
   for (const auto& s : o.set) out += " --set " + s;
   for (const auto& r : o.recordings) out += " --recordings " + r;
   if (!o.leave_one_out.empty()) out += " --leave-one-out " + o.leave_one_out;
@@ -41,7 +41,7 @@ std::string command_of(const ValidateOptions& o) {
 
 study::ValidationOptions study_of(const ValidateOptions& o) {
   study::ValidationOptions out;
-  out.specimen.preset = o.preset;
+  out.specimen.type = o.type;
   out.specimen.overrides = parse_settings(o.set, "--set");
   out.recordings.assign(o.recordings.begin(), o.recordings.end());
   out.leave_one_out = o.leave_one_out;
@@ -59,13 +59,23 @@ void write_markdown(const study::Validation& v, const std::filesystem::path& fil
   write_whole(file, with_tables(file, markdown_tables(v, all, command)));
 }
 
+/// "speed.0.7500.mean_pulley_rad_per_s = 4.9 (3.375 … 4.125), …".
+std::string broken_text(const study::Validation& v) {
+  std::string out;
+  for (const experiment::Verdict& d : v.verdicts) {
+    if (d.held) continue;
+    out += (out.empty() ? "" : ", ") + fmt::format("{} = {:.4g} ({})", d.bound.quantity, d.value, experiment::bound_text(d.bound));
+  }
+  return out;
+}
+
 }  // namespace
 
 int run_validate(const ValidateOptions& o) {
   study::ValidationPlan plan = study::plan_validation(study_of(o));
   if (!o.markdown.empty()) (void)with_tables(o.markdown, "");  // told before the work, not after it
   (void)report::page_template();
-  const std::filesystem::path out = o.out.empty() ? "validate_" + o.preset : o.out;
+  const std::filesystem::path out = o.out.empty() ? "validate_" + o.type : o.out;
   catch_interrupts();
   Console console;
   const auto found = study::run(std::move(plan), follow(console));
@@ -83,20 +93,19 @@ int run_validate(const ValidateOptions& o) {
   std::cout << validation_text(v)
             << fmt::format("written: {} and results.json, {:.0f} s\n", (out / "report.html").string(), v.wall_s);
   const bool held = experiment::all_held(v.verdicts);
-  if (!held) console.line("a stated bound is broken");
+  if (!held) console.line("bounds broken: " + broken_text(v));
   return std::cout.flush() && held ? kDone : kFailed;
 }
 
 void setup_validate(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<ValidateOptions>();
   CLI::App* sub = app.add_subcommand("validate", "Compare the simulator with every recording in data/");
-  sub->add_option("--preset", o->preset, "Actuator preset")->capture_default_str();
-  sub->add_option("--set", o->set, "Override a parameter: key=value");
-  sub->add_option("--out", o->out, "Directory for the files; default: validate_PRESET");
+  sub->add_option("--type", o->type, "Actuator type")->capture_default_str();
+  sub->add_option("--set", o->set, "Override a parameter: key=value")->allow_extra_args(false);
+  sub->add_option("--out", o->out, "Directory for the files; default: validate_TYPE");
   sub->add_option("--recordings", o->recordings, "Directory with more recordings than data/ has");
-  sub->add_option(
-      "--leave-one-out", o->leave_one_out,
-      "results.json of vsa identify with its cross-validation; default: data/PRESET/leave_one_out.json, if it is there");
+  sub->add_option("--leave-one-out", o->leave_one_out,
+                  "results.json of vsa identify with its cross-validation; default: data/TYPE/leave_one_out.json, if it is there");
   sub->add_option("--bounds", o->bounds, "Bounds to hold; default: data/bounds.toml");
   sub->add_option("--markdown", o->markdown, "Replace the tables in this file, or write it; pictures go to figures/ beside it");
   sub->footer(kNotes);

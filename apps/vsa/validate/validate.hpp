@@ -8,11 +8,11 @@
 namespace vsa::app {
 
 struct ValidateOptions {
-  std::string preset = "qbmove_maker_pro";
+  std::string type = "qbmove_maker_pro";
   std::vector<std::string> set;         ///< "drive.friction_Nm=0.7"
   std::vector<std::string> recordings;  ///< directories beside data/
-  std::string leave_one_out;            ///< results.json of `vsa identify`; empty: data/PRESET/leave_one_out.json
-  std::string out;                      ///< directory; empty: validate_PRESET
+  std::string leave_one_out;            ///< results.json of `vsa identify`; empty: data/TYPE/leave_one_out.json
+  std::string out;                      ///< directory; empty: validate_TYPE
   std::string bounds;                   ///< TOML file; empty: data/bounds.toml
   std::string markdown;                 ///< file whose tables are to be replaced; empty: none
 };

@@ -27,11 +27,13 @@
 #include <memory>
 
 #include "vsa/actuator/ledger.hpp"
+#include "vsa/actuator/segment.hpp"
 #include "vsa/drive/bridge.hpp"
 #include "vsa/drive/droop_stepper.hpp"
 #include "vsa/drive/motor.hpp"
 #include "vsa/drive/pwm_cycle.hpp"
 #include "vsa/elastic/transmission.hpp"
+#include "vsa/elastic/two_sinh.hpp"
 #include "vsa/sensor/sensors.hpp"
 
 namespace vsa::actuator {
@@ -62,94 +64,27 @@ struct ActuatorParams {
 inline constexpr double kLeastPresliding_rad = 1e-5;
 [[nodiscard]] drive::FrictionParams shaft_friction(const ActuatorParams& params) noexcept;
 
-/// How the tendons' frictions on the shaft answer: −dτ/d(x_i) and −dτ/d(Δy) of each, N·m/rad, and the dampers' part of the first.
-struct Rub {
-  std::array<double, 2> dx{}, dy{}, damping{};
-};
-
-struct ActuatorState {
-  std::array<drive::MotorState, 2> motor{};
-  std::array<double, 2> motor_anchor{};
-  double shaft = 0;  ///< y, end of the last segment's path
-  double shaft_anchor = 0;
-  std::array<double, 2> tendon_anchor{};  ///< z_w of each spring's friction, J
-  std::array<double, 2> spring_w{};       ///< the springs' signed energies now, J; where there is tendon friction
-  std::array<double, 2> load{};           ///< mean spring load on each pulley over the last segment
-  elastic::Origin origin;                 ///< where the springs are: pulleys' angles and `shaft`
-  elastic::SegmentMean end;  ///< torque and loads at the last segment's end if all stood still there, to first order; its slopes
-  Rub end_rub;               ///< the part of those slopes that is the tendons' friction
-  Ledger ledger;
-};
-
-/// Where a segment lies in its host step, and how far ahead its springs and frictions look (the blend of host/robot.hpp). The
-/// default is a segment by itself, taken in its middle.
-struct Lead {
-  double before = 0, share = 1;    ///< parts of the step's displacement Δy: made before the segment, made in it
-  double drift = 0;                ///< ½ dt v, rad
-  double spring = 0;               ///< w of the springs, 0 … 1
-  std::array<double, 2> tendon{};  ///< w of each tendon's friction, 0 … 1
-};
-
-/// w of a spring or friction that swings with x = ω·dt: 0 up to a quarter, where a step resolves it, then towards 1:
-///   w = (x⁴ − 4⁻⁴)/(16 + x⁴)
-[[nodiscard]] inline double lead_weight(double x_squared) noexcept {
-  constexpr double kResolved = 1.0 / 256;
-  const double x4 = x_squared * x_squared;
-  return x4 > kResolved ? (x4 - kResolved) / (16.0 + x4) : 0.0;
-}
-
-struct SegmentInput {
-  double dq = 0;  ///< shaft displacement along the path
-  std::array<double, 2> voltage{};
-  std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
-  Lead lead{};
-  double supply_V = 0;  ///< counts where the bridge's enable pin is modulated, by a duty of voltage/supply; 0: no current
-};
-
-struct SegmentResult {
-  double torque = 0;    ///< mean torque of the transmission on the shaft
-  double slope = 0;     ///< −dτ̄/d(Δy) of the step's displacement, the motors' yielding included; ≥ 0 for a convex law
-  bool settled = true;  ///< the motors' displacements are found; else they are one Newton round nearer
-  /// Δy may be this far from here, rad, and the slope still tells the torque to 5e-6 of the springs' loads; 0: not known
-  double straight = 0;
-};
-
-/// A segment while it is solved: begun once, tried for as many shaft displacements as its owner needs, finished once.
-class Segment {
- private:
-  friend class Actuator;
-  /// A motor on a bridge whose enable pin is modulated: its current as a straight line about the speed `aim`.
-  struct Pwm {
-    const drive::PwmCycle* cycle = nullptr;  // none: terminals at a mean voltage, or open
-    drive::DroopStepper stepper;
-    double start = 0, aim = 0, current_at_rest = 0, h = 0;
-  };
-  std::array<const drive::MotorStepper*, 2> stepper{};
-  std::array<Pwm, 2> pwm{};
-  SegmentInput in;
-  bool tried = false;
-  // what the frictions see at the start
-  std::array<drive::Friction, 2> gear{drive::FrictionParams{}, drive::FrictionParams{}};
-  std::array<double, 2> gear_u{};
-  std::array<double, 2> w{}, w_u{};  // the springs' signed energies, and their distance from the anchors
-  std::array<double, 2> free{};      // the motors' displacements without load
-  std::array<double, 2> give{};      // and what a torque adds to them, rad/(N·m)
-  double damping = 0;                // T_d/h of the tendons' bristles
-  double own = 1, whole = 1;         // how far the springs' end moves with the step's Δy: by the segment, and in all
-  // what the last trial found
-  std::array<double, 2> dx{};    // the pulleys' displacements
-  std::array<double, 2> gain{};  // ∂dx/∂dq
-  std::array<drive::FrictionStep, 2> friction{};
-  elastic::SegmentMean mean;
-  Rub rub;                           // of the tendons: their part of mean.slope, and what they give for the step's Δy
-  std::array<double, 2> straight{};  // change of a spring's deflection until its tendon's bristle begins or ends to slide
-  double slope = 0;
-
-  /// w·(q' − middle of the path): by how much the springs look ahead.
-  [[nodiscard]] double shift(double dq) const noexcept {
-    return in.lead.spring > 0 ? in.lead.spring * (1.5 * dq / in.lead.share - in.lead.drift) : 0.0;
+template <class T>
+struct ActuatorStateOf {
+  std::array<drive::MotorStateOf<T>, 2> motor{};
+  std::array<T, 2> motor_anchor{};
+  T shaft = 0;  ///< y, end of the last segment's path
+  T shaft_anchor = 0;
+  std::array<T, 2> tendon_anchor{};  ///< z_w of each spring's friction, J
+  std::array<T, 2> spring_w{};       ///< the springs' signed energies now, J; where there is tendon friction
+  std::array<T, 2> load{};           ///< mean spring load on each pulley over the last segment
+  elastic::OriginOf<T> origin;       ///< where the springs are: pulleys' angles and `shaft`
+  elastic::SegmentMeanOf<T>
+      end;           ///< torque and loads at the last segment's end if all stood still there, to first order; its slopes
+  RubOf<T> end_rub;  ///< the part of those slopes that is the tendons' friction
+  LedgerOf<T> ledger;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("motor", "", s.motor, "motor_anchor", "rad", s.motor_anchor, "shaft", "rad", s.shaft, "shaft_anchor", "rad",
+                 s.shaft_anchor, "tendon_anchor", "J", s.tendon_anchor, "spring_energy", "J", s.spring_w, "load", "N·m", s.load,
+                 "origin", "", s.origin, "end", "", s.end, "end_rub", "", s.end_rub, "ledger", "", s.ledger);
   }
 };
+using ActuatorState = ActuatorStateOf<double>;
 
 /// Parameters at the pulley and the prepared motor steps. Immutable but for prepare(); a state belongs to whoever owns time.
 class Actuator {
@@ -165,24 +100,39 @@ class Actuator {
   /// One segment of length h; advances motors, anchors and ledger, and moves state.shaft by dq. No allocation, no exception.
   SegmentResult segment(ActuatorState& state, double h_s, const SegmentInput& in) noexcept;
 
-  /// The same in three parts. Until `finish` nothing else may be done
-  /// with the state or begun on this actuator.
-  void begin(ActuatorState& state, Segment& segment, double h_s, const SegmentInput& in) noexcept;
+  /// Whether several units of these parameters may go side by side (vsa/lanes.hpp). They do while all their motors are driven.
+  [[nodiscard]] bool has_lanes() const noexcept;
+
+  // The same in three parts, for one unit or several side by side. Until `finish` nothing else may be done with the state or begun on
+  // this actuator.
+  template <class T>
+  void begin(ActuatorStateOf<T>& state, SegmentOf<T>& segment, double h_s, const SegmentInputOf<T>& in) noexcept;
   /// The torque over the segment for dq = 0 and its slope, extrapolated from the last segment without a call of the law. The first
   /// attempt begins there.
-  SegmentResult foresee(const ActuatorState& state, Segment& segment) const noexcept;
-  /// `rough`: one round only, for an owner who will try another dq anyway.
-  SegmentResult attempt(const ActuatorState& state, Segment& segment, double dq, bool rough = false) const noexcept;
-  void finish(ActuatorState& state, const Segment& segment) const noexcept;
+  template <class T>
+  SegmentResultOf<T> foresee(const ActuatorStateOf<T>& state, SegmentOf<T>& segment) const noexcept;
+  /// `rough`: one round only, for an owner who will try another dq anyway. `which`: of several lanes, those that try; the others keep
+  /// what they found.
+  template <class T>
+  SegmentResultOf<T> attempt(const ActuatorStateOf<T>& state, SegmentOf<T>& segment, T dq, bool rough = false,
+                             lanes::Truth<T> which = lanes::truth<T>(true)) const noexcept;
+  template <class T>
+  void finish(ActuatorStateOf<T>& state, const SegmentOf<T>& segment) const noexcept;
 
   /// Shaft friction over a whole host step along the predicted path; moves its anchor and books its heat. `lead` as of a segment
   /// that is the whole step, `weight` the friction's own w.
-  drive::FrictionStep shaft_friction(ActuatorState& state, double displacement, double drift = 0, double weight = 0) const noexcept;
+  template <class T>
+  drive::FrictionStepOf<T> shaft_friction(ActuatorStateOf<T>& state, T displacement, T drift = 0.0, T weight = 0.0) const noexcept;
 
   /// The host moved the shaft to `actual` where the unit had predicted state.shaft. Books the difference:
   ///   coupling += (H + B)(predicted) − (H + B)(actual) − (τ_ret Δy_actual − τ_path Δy_path)
   /// and delivered += τ_ret Δy_actual. τ_ret is the torque that the host applied, τ_path Δy_path the work the segments booked.
-  void settle(ActuatorState& state, double actual, double applied_torque, double actual_dy, double path_work) const noexcept;
+  template <class T>
+  void settle(ActuatorStateOf<T>& state, T actual, T applied_torque, T actual_dy, T path_work) const noexcept;
+
+  /// The springs' own slope and tensions where they are.
+  template <class T>
+  [[nodiscard]] elastic::TangentOf<T> tangent(const ActuatorStateOf<T>& state) const noexcept;
 
   /// Somebody put the shaft elsewhere: the springs follow, and what is stored from now on is what the balance begins with.
   void relocate(ActuatorState& state, double shaft) const noexcept;
@@ -207,27 +157,50 @@ class Actuator {
   void aim(Segment& segment, int i, double speed) const noexcept;
   /// The same where the last displacement found is that of another speed.
   void follow(Segment& segment, int i) const noexcept;
-  drive::MotorStep pwm_step(Ledger& ledger, const Segment::Pwm& pwm, double torque) const noexcept;
+  drive::MotorStep pwm_step(Ledger& ledger, const PwmInSegment& pwm, double torque) const noexcept;
   [[nodiscard]] double pwm_current(const drive::MotorState& motor, int i, drive::Terminal terminal,
                                    const drive::PwmHold& hold) const noexcept;
-  void add_tendon_friction(Segment& segment, const elastic::Positions& to) const noexcept;
-  void move_tendons(ActuatorState& state, const Segment& segment) const noexcept;
-  /// One Newton correction of the pulleys from the mean at segment.dx; returns whether it was small enough to be the last.
-  bool correction(Segment& segment, std::array<double, 2>& step) const noexcept;
-  [[nodiscard]] double straight(const Segment& segment, int i) const noexcept;
-  void drive_motors(ActuatorState& state, const Segment& segment) const noexcept;
-  /// −dτ̄/d(Δy) and the pulleys' gains from a mean's slopes; seg.gain comes as each pulley's own give, ∂x_i/∂load_i.
-  void slopes(Segment& segment, const elastic::SegmentMean& mean, const Rub& rub) const noexcept;
-  [[nodiscard]] elastic::Positions positions(const ActuatorState& state, double shaft) const noexcept;
-  void book_motors(ActuatorState& state) const noexcept;
+
+  // Of a step, for one unit or several: vsa/actuator/actuator_lanes.hpp.
+  template <class T>
+  using TrialOf = typename SegmentOf<T>::Trial;
+  template <class T>
+  void add_tendon_friction(const SegmentOf<T>& segment, TrialOf<T>& trial, const elastic::PositionsOf<T>& to) const noexcept;
+  template <class T>
+  void move_tendons(ActuatorStateOf<T>& state, const SegmentOf<T>& segment) const noexcept;
+  /// One Newton correction of the pulleys from the mean at trial.dx; returns where it was small enough to be the last.
+  template <class T>
+  lanes::Truth<T> correction(SegmentOf<T>& segment, TrialOf<T>& trial, std::array<T, 2>& step) const noexcept;
+  template <class T>
+  [[nodiscard]] static T spring_slope(const TrialOf<T>& trial, int i) noexcept;
+  template <class T>
+  [[nodiscard]] T straight(const TrialOf<T>& trial, const std::array<T, 2>& step) const noexcept;
+  template <class T>
+  void drive_motors(ActuatorStateOf<T>& state, const SegmentOf<T>& segment) const noexcept;
+  /// −dτ̄/d(Δy) and the pulleys' gains from a mean's slopes; trial.gain comes as each pulley's own give, ∂x_i/∂load_i.
+  template <class T>
+  void slopes(const SegmentOf<T>& segment, TrialOf<T>& trial, const elastic::SegmentMeanOf<T>& mean,
+              const RubOf<T>& rub) const noexcept;
+  template <class T>
+  void book_motors(ActuatorStateOf<T>& state) const noexcept;
   /// The springs and the frictions on the shaft's side where the shaft is; anchors that it left behind follow.
-  void move_shaft(ActuatorState& state, double shaft) const noexcept;
+  template <class T>
+  void move_shaft(ActuatorStateOf<T>& state, T shaft) const noexcept;
   /// Moves the origin there and gives H; where there is tendon friction the springs' signed energies are kept too.
-  [[nodiscard]] double energy_at(ActuatorState& state, double shaft) const noexcept;
+  template <class T>
+  [[nodiscard]] T energy_at(ActuatorStateOf<T>& state, T shaft) const noexcept;
+  template <class T>
+  [[nodiscard]] elastic::SegmentMeanOf<T> mean_from(const elastic::OriginOf<T>& from, const elastic::PositionsOf<T>& to,
+                                                    T ahead_rad) const noexcept;
+  template <class T>
+  [[nodiscard]] static elastic::PositionsOf<T> positions(const ActuatorStateOf<T>& state, T shaft) noexcept {
+    return {shaft, {state.motor[0].angle, state.motor[1].angle}};
+  }
 
   ActuatorParams params_;
-  drive::MotorParams motor_;  // at the pulley
-  drive::Friction friction_;  // at the pulley
+  const elastic::TwoSinh* two_sinh_;  // params_.transmission, if it is one: known by name it is inlined
+  drive::MotorParams motor_;          // at the pulley
+  drive::Friction friction_;          // at the pulley
   drive::Friction shaft_friction_;
   drive::Friction tendon_;  // in the energy's coordinate: "torque" μ, "angle" J
   int motors_, springs_;

@@ -1,8 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// A host's side of the conversation: one request, one answer, on any Channel. Works against the simulated unit and real hardware.
+// A client's side of the conversation: one request, one answer, on any Channel. Works against the simulated unit and real hardware.
 //
-// Before a request pending input is thrown away, as the public host libraries do. An answer counts if it is a right frame from the
+// Before a request pending input is thrown away, as the public client libraries do. An answer counts if it is a right frame from the
 // unit asked and can be this command's; everything else on the line is passed over until the time-out.
 #pragma once
 

@@ -44,7 +44,7 @@ enum class ReplyKind : std::uint8_t { none, frame, parameter_list, info };
 /// most 255·32). Returns the bytes written, 0 if `out` is too small or the text too long.
 std::size_t encode_info(Wire wire, std::uint8_t id, std::string_view text, std::span<std::uint8_t> out) noexcept;
 
-// ------------------------------------------------------------------------------------------------------------------ host's side
+// ------------------------------------------------------------------------------------------------------------------ master's side
 
 [[nodiscard]] FrameBytes encode_request(Wire wire, std::uint8_t id, const Request& request) noexcept;
 

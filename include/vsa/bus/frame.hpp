@@ -63,6 +63,8 @@ struct Frame {
   std::array<std::uint8_t, kMaxLength> body{};
   std::uint8_t id = 0;
   std::uint8_t length = 0;  ///< LEN: bytes of body that belong to the frame
+  static auto fields(auto& s, auto&& visit) { return visit("body", "", s.body, "id", "", s.id, "length", "", s.length); }
+  [[nodiscard]] constexpr const char* impossible() const noexcept { return length <= kMaxLength ? nullptr : "a LEN of up to 128"; }
 
   [[nodiscard]] std::uint8_t command() const noexcept { return body[0]; }
   [[nodiscard]] std::span<const std::uint8_t> payload() const noexcept {
@@ -103,6 +105,16 @@ struct UnitReceiver {
   std::uint8_t received = 0;  ///< body bytes so far, of this unit's or another's frame
   std::uint8_t pending_id = 0;
   bool mine = false;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("frame", "", s.frame, "last", "", s.last, "phase", "", s.phase, "wanted", "", s.wanted, "received", "", s.received,
+                 "pending_id", "", s.pending_id, "mine", "", s.mine);
+  }
+  /// The byte that comes next has a place in the frame.
+  [[nodiscard]] constexpr const char* impossible() const noexcept {
+    const bool under_way = phase == Phase::body || phase == Phase::skip;
+    return wanted <= kMaxLength && received <= wanted && (!under_way || received < wanted) ? nullptr
+                                                                                           : "received below wanted ≤ 128";
+  }
 
   [[nodiscard]] ReceiverEvent push(std::uint8_t byte, std::uint8_t own_id) noexcept;
   /// Nothing under way that a frame's first bytes could complete.
@@ -111,10 +123,11 @@ struct UnitReceiver {
   [[nodiscard]] ReceiverEvent push_frame(std::span<const std::uint8_t> bytes, std::uint8_t own_id) noexcept;
   bool operator==(const UnitReceiver&) const = default;
 };
+[[nodiscard]] constexpr int choices(UnitReceiver::Phase) noexcept { return 5; }
 
-/// A host's receiver: finds frames of any ID in a stream and forgets nothing it may still need. A frame whose checksum is wrong or
+/// A master's receiver: finds frames of any ID in a stream and forgets nothing it may still need. A frame whose checksum is wrong or
 /// whose LEN is out of range costs its first byte only; the rest is looked at again, so that a frame behind noise isn't lost.
-class HostReceiver {
+class MasterReceiver {
  public:
   /// The bytes must be taken by `next` before more are pushed: at most `room()` are accepted, and the number is returned.
   std::size_t push(std::span<const std::uint8_t> bytes) noexcept;
@@ -127,6 +140,10 @@ class HostReceiver {
   /// left.
   bool give_up() noexcept;
   void clear() noexcept { size_ = 0; }
+  static auto fields(auto& s, auto&& visit) {
+    return visit("buffer", "", s.buffer_, "size", "", s.size_, "dropped", "", s.dropped_);
+  }
+  [[nodiscard]] const char* impossible() const noexcept { return size_ <= buffer_.size() ? nullptr : "a size of up to 264"; }
 
  private:
   void drop(std::size_t count) noexcept;

@@ -7,7 +7,8 @@
 // 10 bits (8N1). With B baud and no turn-around, unit k (0 = first) has its new references at
 //     t_k = t_cycle + (k·28 + 10)·10/B,
 // so at 2 Mbaud unit 12 hears 11·140 µs = 1.54 ms after unit 1. The cycle is max(N·28·10/B, 1 ms·N) unless it is set; 1 ms a unit
-// is the published guidance for hosts. Before a request it forgets what it had half received, as the public host libraries do.
+// is the published guidance for clients. Before a request it forgets what it had half received,
+// as the public client libraries do.
 //
 // Sources: NMMI/qbmove-maker-pro 6.1 (frame layout), NMMI/qbAPI (order of calls).
 #pragma once
@@ -18,7 +19,7 @@
 #include <vector>
 
 #include "vsa/bus/codec.hpp"
-#include "vsa/bus/line_host.hpp"
+#include "vsa/bus/line_master.hpp"
 #include "vsa/bus/timing.hpp"
 
 namespace vsa::bus {
@@ -75,10 +76,13 @@ class MasterClient {
 struct MasterState {
   std::int64_t cycle_start_ps = 0;
   int frame = 0;  ///< of the cycle, the next to set out: two a unit
-  HostReceiver receiver;
+  MasterReceiver receiver;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("cycle_start", "ps", s.cycle_start_ps, "frame", "", s.frame, "receiver", "", s.receiver);
+  }
 };
 
-class Master final : public LineHost {
+class Master final : public LineMaster {
  public:
   /// `ids` in the order of the cycle; as many as the schedule has units.
   Master(const Schedule& schedule, std::vector<std::uint8_t> ids, MasterClient& client);

@@ -4,7 +4,7 @@
 //
 // A byte is 10 bits (8N1): start bit 0, eight data bits from the lowest, stop bit 1. n bytes take n·10/baud, rounded up once, so
 // that rates whose bit isn't a whole number of picoseconds don't drift. The line is half duplex: one pair of wires for both
-// directions. Nobody listens before speaking, neither host libraries nor units: two speakers at once are a collision.
+// directions. Nobody listens before speaking, neither client libraries nor units: two speakers at once are a collision.
 //
 // Collision rule. Real drivers fight and the result depends on cables and supply. We take the deterministic wired-AND:
 //   level(t) = AND over all speakers, idle = 1
@@ -25,6 +25,7 @@ inline constexpr int kBitsPerByte = 10;
 inline constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;
 inline constexpr std::int64_t kPsPerNs = 1000;
 inline constexpr std::int64_t kDefaultBaud_Hz = 2'000'000;
+inline constexpr std::int64_t kMostBaud_Hz = 1'000'000'000;
 
 /// Rounded up: a byte isn't there before its last bit.
 [[nodiscard]] constexpr std::int64_t to_ns(std::int64_t ps) noexcept { return (ps + kPsPerNs - 1) / kPsPerNs; }
@@ -38,9 +39,13 @@ struct LineRate {
   }
   [[nodiscard]] constexpr std::int64_t bytes_ps(std::int64_t bytes) const noexcept { return bits_ps(bytes * kBitsPerByte); }
   bool operator==(const LineRate&) const = default;
+  static auto fields(auto& s, auto&& visit) { return visit("baud", "Hz", s.baud_Hz); }
+  [[nodiscard]] constexpr const char* impossible() const noexcept {
+    return baud_Hz >= 1 && baud_Hz <= kMostBaud_Hz ? nullptr : "a baud rate of 1 … 1e9";
+  }
 };
 
-/// Request, turn-around, reply: when the host has the answer's last bit, from the request's first.
+/// Request, turn-around, reply: when the master has the answer's last bit, from the request's first.
 [[nodiscard]] constexpr std::int64_t exchange_ps(LineRate rate, std::int64_t request_bytes, std::int64_t turn_around_ps,
                                                  std::int64_t reply_bytes) noexcept {
   return rate.bytes_ps(request_bytes) + (reply_bytes == 0 ? 0 : turn_around_ps + rate.bytes_ps(reply_bytes));
@@ -76,6 +81,7 @@ struct HeardByte {
 struct LineReceiver {
   LineRate rate{};
   std::int64_t from_ps = std::numeric_limits<std::int64_t>::min();
+  static auto fields(auto& s, auto&& visit) { return visit("rate", "", s.rate, "from", "ps", s.from_ps); }
   bool operator==(const LineReceiver&) const = default;
 };
 

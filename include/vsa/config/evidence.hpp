@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// What a preset's values were fitted or set by, so that nobody takes for a prediction what was put in.
+// What an actuator type's values were fitted or set by, so that nobody takes for a prediction what was put in.
 //
 //   [evidence]
 //   calibrated_on = { value = ["stiffness.0.0000", "stiffness.0.6903", "speed.0.7500"], source = "vsa identify …" }

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/host/robot.hpp"
 
 namespace vsa::config {
@@ -17,14 +17,15 @@ inline constexpr std::string_view kPluginName = "vsa::Robot";
 
 /// Puts another actuator on a robot that is already described: every <actuator> takes these instead of what its element says.
 struct Replacement {
-  std::optional<std::string> preset;  ///< given: the elements' own <override>s, which belong to their presets, are left out
-  std::vector<Override> overrides;    ///< come after the elements' own; of an equal key this one counts
+  std::optional<std::string> type;  ///< given: the elements' own <override>s, which belong to their types, are left out
+  std::vector<Override> overrides;  ///< come after the elements' own; of an equal key this one counts
+  std::string flag = "override";    ///< what gave them, for their problems: "--set"
 };
 
 /// Throws InputError with every problem at once; `where` (file or model name) leads each line. Checks keys, numbers, duplicate
 /// names, joints and bus ids, cycle times; whether a joint exists in the model is the host's to check, see check_joints().
 /// An initial preset that a replacing actuator can't have is clamped to its range, or 0 where its unit is another.
-[[nodiscard]] host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, const PresetLibrary& presets,
+[[nodiscard]] host::RobotConfig parse_plugin(std::string_view xml, std::string_view where, const TypeLibrary& types,
                                              const Replacement& replacement = {});
 
 /// For hosts whose engine steps by itself: adds a problem where the robot asks for more than one substep.

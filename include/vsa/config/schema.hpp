@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Every parameter of a preset but the elastic law's own: one table, from which files are checked, listings are printed and
+// Every parameter of an actuator type but the elastic law's own: one table, from which files are checked, listings are printed and
 // docs/reference/config.md is tested. A law's keys are asked for by its factory (LawReader).
 #pragma once
 

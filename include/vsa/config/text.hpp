@@ -25,7 +25,13 @@ namespace vsa::config {
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 [[nodiscard]] std::string_view trim(std::string_view text);
 
-/// The candidate with the smallest edit distance; empty where there is none.
+/// What the word may have meant: of the candidates that begin with it, or else of all, the one with the smallest edit distance. Empty
+/// where there is none.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+/// ", did you mean X?" of the nearest; empty where none is begun by the word or half like it (distance up to 2, or half its length).
+[[nodiscard]] std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+
+/// What a user of an old spelling is told, who is understood for one more release: "<preset> is called <type> now: …".
+[[nodiscard]] std::string renamed_text(std::string_view old, std::string_view now);
 
 }  // namespace vsa::config

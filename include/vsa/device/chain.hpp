@@ -11,7 +11,7 @@
 //                overlap
 //   a dead unit  neither hears nor speaks; what it was saying stops
 //
-// Time only moves forward, by run_to. A byte that ends exactly at a tick is heard before it; the host's bytes that set out exactly
+// Time only moves forward, by run_to. A byte that ends exactly at a tick is heard before it; the master's bytes that set out exactly
 // then are asked for by the next run_to.
 #pragma once
 
@@ -19,10 +19,11 @@
 #include <span>
 #include <vector>
 
-#include "vsa/bus/line_host.hpp"
+#include "vsa/bus/line_master.hpp"
 #include "vsa/bus/timing.hpp"
 #include "vsa/device/dice.hpp"
 #include "vsa/firmware/program.hpp"
+#include "vsa/state_fields.hpp"
 
 namespace vsa::device {
 
@@ -45,22 +46,42 @@ struct Wiring {
   std::int64_t late_ns = 0;  ///< answers come this much later
   [[nodiscard]] bool clean() const noexcept { return lost_byte <= 0 && flipped_byte <= 0; }
   bool operator==(const Wiring&) const = default;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("powered", "", s.powered, "lost_byte", "", s.lost_byte, "flipped_byte", "", s.flipped_byte, "late", "ns",
+                 s.late_ns);
+  }
+  [[nodiscard]] const char* impossible() const noexcept {
+    return late_ns >= 0 && late_ns <= kLatestNs ? nullptr : "answers that come 0 … 60 s late";
+  }
+  static constexpr std::int64_t kLatestNs = 60'000'000'000;
 };
 
 struct ChainState {
-  static constexpr int kHost = -1;
+  static constexpr int kMaster = -1;
+  /// What a state as numbers has room for. As a rule a station says one thing at a time; an answer through a fault is one speech a
+  /// byte, of which a usual answer has twelve. Bytes: those that are said already and wait to be dropped (1024 at most), two parameter
+  /// lists (1220 each), and some of every unit.
+  [[nodiscard]] static constexpr std::size_t most_speeches(std::size_t stations) noexcept { return 16 * stations + 16; }
+  [[nodiscard]] static constexpr std::size_t most_bytes(std::size_t stations) noexcept { return 64 * stations + 4096; }
   struct Speech {
     std::int64_t start_ps = 0, end_ps = 0;
-    std::size_t begin = 0, size = 0;  ///< in `bytes`
-    std::size_t heard = 0;            ///< bytes handed over, while nobody else speaks
-    int speaker = kHost;
+    std::uint32_t begin = 0, size = 0;  ///< in `bytes`
+    std::uint32_t heard = 0;            ///< bytes handed over, while nobody else speaks
+    int speaker = kMaster;
     bus::LineRate rate{};
+    static auto fields(auto& s, auto&& visit) {
+      return visit("start", "ps", s.start_ps, "end", "ps", s.end_ps, "begin", "", s.begin, "size", "", s.size, "heard", "", s.heard,
+                   "speaker", "", s.speaker, "rate", "", s.rate);
+    }
   };
   struct Ear {
     bus::LineReceiver receiver;
     std::int64_t free_ps = 0;  ///< until then it speaks
     Wiring wiring;
     Dice dice;
+    static auto fields(auto& s, auto&& visit) {
+      return visit("receiver", "", s.receiver, "free", "ps", s.free_ps, "wiring", "", s.wiring, "dice", "", s.dice);
+    }
   };
   enum class Mode : std::uint8_t { frames, bytes, bits };
 
@@ -68,12 +89,21 @@ struct ChainState {
   Mode mode = Mode::frames;
   bool someone_waits = false;  ///< a program has bytes that it couldn't look at yet
   bool rates_differ = false;
-  bus::LineReceiver host_ear;
+  bus::LineReceiver master_ear;
   std::int64_t host_free_ps = 0;
   std::vector<Ear> ears;         // one a station
   std::vector<Speech> speeches;  // by start
   std::vector<std::uint8_t> bytes;
+
+  static auto fields(auto& s, auto&& visit) {
+    const std::size_t stations = s.ears.size();
+    return visit("now", "ps", s.now_ps, "mode", "", s.mode, "someone_waits", "", s.someone_waits, "rates_differ", "",
+                 s.rates_differ, "master_ear", "", s.master_ear, "host_free", "ps", s.host_free_ps, "station", "", s.ears, "speech",
+                 "", state::Capped{s.speeches, most_speeches(stations)}, "line", "", state::Capped{s.bytes, most_bytes(stations)});
+  }
+  [[nodiscard]] const char* impossible() const noexcept;
 };
+[[nodiscard]] constexpr int choices(ChainState::Mode) noexcept { return 3; }
 
 class Chain {
  public:
@@ -87,8 +117,8 @@ class Chain {
   void restore(const ChainState& state) { state_ = state; }
 
   /// All that happens on the line up to and including `until_ns`.
-  void run_to(std::int64_t until_ns, bus::LineHost& host) noexcept;
-  /// When something happens next without the host; kNeverPs: never. Never late, maybe early.
+  void run_to(std::int64_t until_ns, bus::LineMaster& master) noexcept;
+  /// When something happens next without the master; kNeverPs: never. Never late, maybe early.
   [[nodiscard]] std::int64_t next_event_ps() const noexcept;
 
   /// One tick of a unit's program, at the time that the line has reached.
@@ -98,15 +128,15 @@ class Chain {
   void set_wiring(std::size_t station, const Wiring& wiring, std::uint64_t seed);
   /// The station goes on with another program, whose state is the same object.
   void set_program(std::size_t station, const firmware::Program& program) noexcept { stations_[station].program = &program; }
-  /// What the host's own serial port is set to.
-  void set_host_rate(bus::LineRate rate) noexcept;
+  /// What the master's own serial port is set to.
+  void set_master_rate(bus::LineRate rate) noexcept;
   /// The owner's time jumped: all that is under way moves along, programs included.
   void shift_time(std::int64_t by_ns) noexcept;
 
  private:
   using Speech = ChainState::Speech;
   using Mode = ChainState::Mode;
-  [[nodiscard]] bool alone(const Speech& s, std::int64_t host_ps) const noexcept;
+  [[nodiscard]] bool alone(const Speech& s, std::int64_t master_ps) const noexcept;
   [[nodiscard]] bool all_ready(const Speech& s) const noexcept;
   [[nodiscard]] std::int64_t next_wake_ps() const noexcept;
   [[nodiscard]] std::span<const std::uint8_t> view(const Speech& s) const noexcept;
@@ -117,10 +147,10 @@ class Chain {
   void hear(std::size_t station, std::uint8_t byte, std::int64_t at_ps);
   void wake(std::int64_t now_ps);
   void drop_first();
-  bool step_frames(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost& host);
-  bool step_bytes(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost& host);
-  bool step_bits(std::int64_t until_ps, std::int64_t host_ps, bus::LineHost& host);
-  void listen_bits(std::int64_t until_ps, bus::LineHost& host);
+  bool step_frames(std::int64_t until_ps, std::int64_t master_ps, bus::LineMaster& master);
+  bool step_bytes(std::int64_t until_ps, std::int64_t master_ps, bus::LineMaster& master);
+  bool step_bits(std::int64_t until_ps, std::int64_t master_ps, bus::LineMaster& master);
+  void listen_bits(std::int64_t until_ps, bus::LineMaster& master);
   void enter_bits() noexcept;
   [[nodiscard]] bool speaks(int listener) const noexcept;
   [[nodiscard]] bool speaks_over(int listener, bus::LineRate rate, std::int64_t byte_end_ps) const noexcept;

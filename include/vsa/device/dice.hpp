@@ -10,6 +10,7 @@ namespace vsa::device {
 /// splitmix64 (Steele, Lea, Flood 2014: Fast splittable pseudorandom number generators).
 struct Dice {
   std::uint64_t state = 0;
+  static auto fields(auto& s, auto&& visit) { return visit("state", "", s.state); }
 
   std::uint64_t next() noexcept {
     std::uint64_t z = state += 0x9E3779B97F4A7C15ULL;

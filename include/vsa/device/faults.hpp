@@ -25,6 +25,7 @@ namespace vsa::device {
 struct EncoderFault {
   bool stuck = false;
   double noise_rad = 0;  ///< 0 … π
+  static auto fields(auto& s, auto&& visit) { return visit("stuck", "", s.stuck, "noise", "rad", s.noise_rad); }
   bool operator==(const EncoderFault&) const = default;
 };
 
@@ -38,8 +39,14 @@ struct Faults {
   std::array<bool, 2> motor_unplugged{};
   std::uint64_t seed = 1;
   bool operator==(const Faults&) const = default;
+  static constexpr double kLatest_s = 60, kMostSupply_V = 100;
 
   [[nodiscard]] Wiring wiring() const noexcept;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("powered", "", s.powered, "lost_byte", "", s.lost_byte, "flipped_byte", "", s.flipped_byte, "late", "s", s.late_s,
+                 "encoder", "", s.encoder, "supply", "V", s.supply_V, "motor_unplugged", "", s.motor_unplugged, "seed", "", s.seed);
+  }
+  [[nodiscard]] const char* impossible() const noexcept;  ///< what check() would find, without words
 };
 
 /// Adds what is out of bounds, each with its key behind `where`.

@@ -17,6 +17,8 @@
 #include <span>
 #include <vector>
 
+#include "vsa/lanes.hpp"
+
 namespace vsa::device {
 
 class Unit;
@@ -24,11 +26,25 @@ struct UnitState;
 struct StepPlan;
 
 /// The whole torque on a shaft for a displacement Δy of its step.
-struct ShaftTorque {
-  double torque = 0;  ///< N·m
-  double slope = 0;   ///< −dτ/d(Δy), N·m/rad
-  bool settled = true;
+template <class T>
+struct ShaftTorqueOf {
+  T torque = 0;  ///< N·m
+  T slope = 0;   ///< −dτ/d(Δy), N·m/rad
+  lanes::Truth<T> settled = lanes::truth<T>(true);
 };
+using ShaftTorque = ShaftTorqueOf<double>;
+
+namespace solver {
+inline constexpr int kMaxIterations = 80;
+/// A guess may lie where the spring's exponential law has no numbers left, so it goes no further than this at once.
+inline constexpr double kReach_rad = 0.25;
+/// A step along which the slope still has this part of what it had, with the other sign, went too far. Where a friction begins or
+/// ends to slide Newton can go to and fro, so after some rounds less is allowed.
+inline constexpr double kOvershoot = 0.9, kOvershootLater = 0.3;
+inline constexpr int kEarly = 8;
+/// The torque that may be left over where no round settles.
+inline constexpr double kLeft = 1e-3, kLeft_Nm = 1e-4;
+}  // namespace solver
 
 struct JointInStep {
   Unit* unit = nullptr;
@@ -53,38 +69,21 @@ class JointSolver {
   /// than 1e-4 N·m) is left over; the torques are those of the last attempt.
   bool solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
 
-  static constexpr int kMaxIterations = 80;
+  static constexpr int kMaxIterations = solver::kMaxIterations;
 
  private:
   void factor_mobility() noexcept;
-  static void follow(const JointInStep& joint, double& torque) noexcept;
-
-  // N = 1 of a joint alone, 0 of any number.
-  template <std::size_t N>
-  void predict_all(std::span<const JointInStep> joints) noexcept;
-  template <std::size_t N>
-  bool solve_all(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
-  template <std::size_t N>
+  [[nodiscard]] bool solve_alone(const JointInStep& joint, double& torque) noexcept;
   void gradient(std::span<const JointInStep> joints) noexcept;
-  template <std::size_t N>
   bool factor_slopes() noexcept;
-  template <std::size_t N>
   [[nodiscard]] bool stale() const noexcept;
-  template <std::size_t N>
   void newton() noexcept;
-  template <std::size_t N>
   bool near(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
-  template <std::size_t N>
   void attempt(std::span<const JointInStep> joints, bool rough) noexcept;
-  template <std::size_t N>
   void go_on(std::span<const JointInStep> joints) noexcept;
-  template <std::size_t N>
   double set_out(double& part) noexcept;
-  template <std::size_t N>
   bool search(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
-  template <std::size_t N>
   void guess(std::span<const JointInStep> joints) noexcept;
-  template <std::size_t N>
   [[nodiscard]] double along() const noexcept;
 
   std::size_t n_;

@@ -28,13 +28,13 @@
 #include <string>
 #include <vector>
 
-#include "vsa/bus/line_host.hpp"
+#include "vsa/bus/line_master.hpp"
 #include "vsa/bus/serial_line.hpp"
 #include "vsa/device/chain.hpp"
 
 namespace vsa::device {
 
-class PortLine final : public bus::SerialLine, private bus::LineHost {
+class PortLine final : public bus::SerialLine, private bus::LineMaster {
  public:
   static constexpr std::int64_t kAheadNs = 500'000;
   static constexpr std::int64_t kMaxLeadNs = 50'000'000;

@@ -28,6 +28,7 @@
 #include "vsa/device/faults.hpp"
 #include "vsa/device/joint_solver.hpp"
 #include "vsa/firmware/program.hpp"
+#include "vsa/state.hpp"
 
 namespace vsa::device {
 
@@ -52,7 +53,7 @@ struct UnitConfig {
 };
 
 /// Adds what no unit could have: numbers that aren't finite or outside what the models need, no transmission. config:: checks a
-/// preset's own bounds; this is for parameters made by hand. `where` leads each key.
+/// type's own bounds; this is for parameters made by hand. `where` leads each key.
 void check(const UnitConfig& config, std::string_view where, Problems& problems);
 /// Whether two units are alike, laws compared by value (elastic::Transmission::equals).
 [[nodiscard]] bool alike(const UnitConfig& a, const UnitConfig& b) noexcept;
@@ -62,11 +63,15 @@ struct Held {
   std::array<double, 2> voltage{};
   std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
   double supply_V = 0;  ///< where the enable pin is modulated, by a duty of voltage/supply
+  static auto fields(auto& s, auto&& visit) {
+    return visit("voltage", "V", s.voltage, "terminal", "", s.terminal, "supply", "V", s.supply_V);
+  }
 };
 
 /// A shaft's angle (rad) and speed (rad/s).
 struct ShaftMotion {
   double angle = 0, speed = 0;
+  static auto fields(auto& s, auto&& visit) { return visit("angle", "rad", s.angle, "speed", "rad/s", s.speed); }
 };
 
 struct UnitState {
@@ -87,6 +92,14 @@ struct UnitState {
   Faults faults;
   std::array<std::int32_t, 3> last_encoder{};  ///< what a stuck encoder says
   Dice dice;                                   ///< of the encoders' noise
+  static auto fields(auto& s, auto&& visit) {
+    return visit("physics", "", s.actuator, "held", "", s.held, "limit", "%", s.limit_pct, "supply_on", "", s.supply_on, "started",
+                 "", s.started, "start_y", "rad", s.start_y, "applied_torque", "N·m", s.applied_torque, "path_work", "J",
+                 s.path_work, "last_speed", "rad/s", s.last_speed, "last_dt", "s", s.last_dt, "unresolved", "", s.unresolved,
+                 "reached", "", s.reached, "program", "", s.program, "faults", "", s.faults, "last_encoder", "", s.last_encoder,
+                 "dice", "", s.dice);
+  }
+  [[nodiscard]] const char* impossible() const noexcept;
 };
 
 struct ShaftIn {
@@ -126,9 +139,12 @@ struct UnitPlace {
   double lag_s = 0;        ///< half a host step: shaft and pulleys stand where the coupling sees them, y = q − lag·q̇
 };
 
+template <class T>
+struct UnitPhysics;
+
 class Unit {
  public:
-  explicit Unit(UnitConfig config);
+  explicit Unit(UnitConfig config);  ///< throws InputError with all that check() finds
   [[nodiscard]] const UnitConfig& config() const noexcept { return config_; }
   [[nodiscard]] const firmware::Program& program() const noexcept { return program_; }
 
@@ -150,6 +166,8 @@ class Unit {
 
   /// One host step of a unit without a line; returns the mean torque on the shaft (spring and shaft friction).
   double step(UnitState& state, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept;
+  /// Whether the last step ended by this object found its solution (JointSolver::solve).
+  [[nodiscard]] bool settled() const noexcept { return settled_; }
 
   void begin_step(UnitState& state, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept;
   /// Goes to the next tick, at `at_ns`, and reads the sensors there.
@@ -178,6 +196,13 @@ class Unit {
   /// Motor references of a command as the bus carries them; the preset is clamped to preset_max, the rest to 16 bits.
   [[nodiscard]] std::array<Ticks, 2> inputs_for(double equilibrium_rad, double preset) const noexcept;
 
+  /// A state as numbers (vsa/state.hpp): the same layout for every unit. They go on with equal parameters only; a unit with others
+  /// has to adopt() what was restored. Another size, or numbers that no state has: InputError, and nothing has changed.
+  [[nodiscard]] static StateLayout state_layout();
+  [[nodiscard]] static std::size_t state_size() noexcept;
+  static void save(const UnitState& state, std::span<double> out);
+  static void restore(UnitState& state, std::span<const double> in);
+
   /// Takes effect at the next tick. The line's part (Faults::wiring) is the chain's.
   static void set_faults(UnitState& state, const Faults& faults) noexcept;
 
@@ -188,11 +213,20 @@ class Unit {
   [[nodiscard]] actuator::Actuator& physics() noexcept { return actuator_; }
   [[nodiscard]] const actuator::Actuator& physics() const noexcept { return actuator_; }
 
+  /// A step's physics, for one unit or several side by side (src/device/unit_lanes.hpp).
+  template <class T>
+  [[nodiscard]] UnitPhysics<T> steps() const noexcept;
+
  private:
   [[nodiscard]] firmware::TickInputs read_sensors(UnitState& state, double shaft) const noexcept;
   [[nodiscard]] double supply_V(const UnitState& state) const noexcept;
-  void look_ahead(UnitState& state, StepPlan& plan, double dt_s) const noexcept;
-  [[nodiscard]] drive::FrictionTorque shaft_rub(const UnitState& state, const StepPlan& plan, double dy) const noexcept;
+  friend class UnitBatch;
+  /// Whether a step is one segment, and of a unit without a line its tick at t, and then the rest of such a step.
+  [[nodiscard]] bool whole(std::int64_t t_ns, std::int64_t dt_ns) const noexcept;
+  void tick(UnitState& state, std::int64_t t_ns, double shaft_rad) noexcept;
+  double step_held(UnitState& state, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept;
+  double end_whole(UnitState& state, StepPlan& plan) noexcept;
+  void drive_bridges(UnitState& state) const noexcept;
   [[nodiscard]] std::int64_t segment_ns(const StepPlan& plan, std::int64_t walked_ns) const noexcept;
 
   UnitConfig config_;
@@ -202,6 +236,7 @@ class Unit {
   drive::Friction tendon_;
   actuator::Actuator actuator_;
   JointSolver alone_;
+  bool settled_ = true;
   firmware::Output out_;  // of a unit without a line: nobody hears it
 };
 

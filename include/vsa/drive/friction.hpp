@@ -12,8 +12,7 @@
 // Coupled explicitly to an inertia J this needs (τ_c/z_max) dt²/J < 4; solve_friction() has no such limit.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include "vsa/lanes.hpp"
 
 namespace vsa::drive {
 
@@ -31,42 +30,43 @@ struct Friction : FrictionParams {
   double stiffness;  ///< τ_c/z_max, N·m/rad; 0 where there is no bristle
 };
 
+/// The same where each lane has a limit of its own; the bristle's stiffness is common to all.
+template <class T>
+struct FrictionOf {
+  T coulomb_Nm = 0, presliding_rad = 0;
+  double stiffness = 0;
+};
+
 /// The friction under a load: τ_c grows by ratio·|load|, the bristle's stiffness stays (z_max grows with τ_c); without a bristle it
 /// is Coulomb friction. A caller whose limit shrinks below the bristle's bend turns the difference of energy to heat.
-[[nodiscard]] Friction at_load(const Friction& p, double ratio, double load_Nm) noexcept;
+template <class T>
+[[nodiscard]] FrictionOf<T> at_load(const Friction& p, T ratio, T load_Nm) noexcept {
+  FrictionOf<T> loaded{p.coulomb_Nm + ratio * lanes::abs(load_Nm), 0.0, p.stiffness};
+  if (p.stiffness > 0) loaded.presliding_rad = loaded.coulomb_Nm / p.stiffness;
+  return loaded;
+}
 
-struct FrictionStep {
-  double displacement = 0;   ///< Δx, rad
-  double torque = 0;         ///< τ̄ on the part, N·m
-  double anchor_travel = 0;  ///< Δz, rad
+template <class T>
+struct FrictionStepOf {
+  T displacement = 0;   ///< Δx, rad
+  T torque = 0;         ///< τ̄ on the part, N·m
+  T anchor_travel = 0;  ///< Δz, rad
 };
-
-/// Solves Δx = free + compliance·τ̄(Δx) in closed form (one scalar, clamped).
-///   u           x − z at the start
-///   free        displacement without this friction
-///   compliance  displacement per mean torque, rad/(N·m), ≥ 0
-[[nodiscard]] FrictionStep solve_friction(const Friction& p, double u, double free, double compliance) noexcept;
-
-/// The same law for a known displacement.
-[[nodiscard]] FrictionStep follow_friction(const Friction& p, double u, double displacement) noexcept;
+using FrictionStep = FrictionStepOf<double>;
 
 /// Torque and its slope −dτ/d(Δx).
-struct FrictionTorque {
-  double torque = 0, slope = 0;
+template <class T>
+struct FrictionTorqueOf {
+  T torque = 0, slope = 0;
 };
+using FrictionTorque = FrictionTorqueOf<double>;
 
-/// The law blended towards the end of an engine's step (host/robot.hpp): the mean over x → x + Δx with the weight 1 − w, and with
-/// the weight w where the part is then, x + 2Δx − drift. Needs a bristle: z_max > 0, or τ_c = 0.
-[[nodiscard]] FrictionTorque leading_friction(const Friction& p, double u, double displacement, double drift,
-                                              double weight) noexcept;
-
-/// ½(τ_c/z_max)u², J; 0 where z_max = 0.
-[[nodiscard]] double bristle_energy(const Friction& p, double u) noexcept;
-
-/// Energy turned to heat in a step that began at u, J; its own formula, ≥ 0 in every branch.
-[[nodiscard]] double friction_heat(const Friction& p, double u, const FrictionStep& step) noexcept;
-
-// The law, inline: a step of one actuator calls it a dozen times.
+// Where a friction has no bristle, what holds depends on the sign of what pulls: that is written for one number only, and a caller with
+// several needs stiffness > 0 or no friction at all (kBristled).
+template <class Params>
+[[nodiscard]] bool bristled(const Params& p) noexcept {
+  return p.stiffness > 0;
+}
 
 namespace detail {
 
@@ -80,67 +80,98 @@ namespace detail {
     step.torque = compliance > 0 ? -free / compliance : 0.0;
     return step;
   }
-  step.torque = -detail::sign(free) * coulomb;
-  step.displacement = detail::sign(free) * slide;
+  step.torque = -sign(free) * coulomb;
+  step.displacement = sign(free) * slide;
   step.anchor_travel = step.displacement;
   return step;
 }
 
 }  // namespace detail
 
-inline Friction at_load(const Friction& p, double ratio, double load_Nm) noexcept {
-  Friction loaded = p;
-  loaded.coulomb_Nm += ratio * std::abs(load_Nm);
-  loaded.presliding_rad = p.stiffness > 0 ? loaded.coulomb_Nm / p.stiffness : 0.0;
-  return loaded;
-}
-
-inline FrictionStep follow_friction(const Friction& p, double u, double displacement) noexcept {
-  FrictionStep step;
-  step.displacement = displacement;
-  if (p.coulomb_Nm <= 0) {
-    step.anchor_travel = displacement;
-    return step;
+/// The law for a known displacement.
+///   u           x − z at the start
+template <class T, class Params>
+[[nodiscard]] FrictionStepOf<T> follow_friction(const Params& p, T u, std::type_identity_t<T> displacement) noexcept {
+  if constexpr (lanes::kScalar<T>) {
+    if (p.coulomb_Nm <= 0) return {displacement, 0.0, displacement};
+    if (p.presliding_rad <= 0) return {displacement, -detail::sign(displacement) * p.coulomb_Nm, displacement};
+  } else if (!bristled(p)) {
+    return {displacement, 0.0, displacement};
   }
-  if (p.presliding_rad <= 0) {
-    step.torque = -detail::sign(displacement) * p.coulomb_Nm;
-    step.anchor_travel = displacement;
-    return step;
+  const T reached = u + displacement;
+  const T end = lanes::clamp(reached, -T(p.presliding_rad), p.presliding_rad);
+  return {displacement, -0.5 * p.stiffness * (u + end), reached - end};
+}
+
+/// What a part does that gives way, and how much more for each N·m on it, rad/(N·m).
+template <class T>
+struct YieldingStepOf {
+  FrictionStepOf<T> step;
+  T gain = 0;
+};
+
+/// Solves resist·Δx = free + compliance·τ̄(Δx) in closed form (one scalar, clamped).
+///   free        displacement without this friction, times resist
+///   compliance  displacement per mean torque, rad/(N·m), ≥ 0
+///   resist      1 + compliance·κ, > 0, of a part on a spring of stiffness κ
+template <class T, class Params>
+[[nodiscard]] YieldingStepOf<T> solve_yielding(const Params& p, T u, std::type_identity_t<T> free, double compliance,
+                                               std::type_identity_t<T> resist) noexcept {
+  if (p.stiffness <= 0) {
+    const T yield = 1.0 / resist;
+    if constexpr (lanes::kScalar<T>) {
+      if (p.coulomb_Nm > 0) return {detail::solve_coulomb(p.coulomb_Nm, free * yield, compliance * yield), compliance * yield};
+    }
+    return {follow_friction(p, u, free * yield), compliance * yield};
   }
-  const double reached = u + displacement;
-  const double end = std::clamp(reached, -p.presliding_rad, p.presliding_rad);
-  step.torque = -0.5 * p.stiffness * (u + end);
-  step.anchor_travel = reached - end;
-  return step;
+  const double pull = compliance * p.stiffness;
+  const T held = 1.0 / (resist + 0.5 * pull), stick = (free - pull * u) * held, reached = u + stick;
+  const lanes::Truth<T> sticks = lanes::abs(reached) <= p.presliding_rad;
+  if (lanes::all(sticks)) return {follow_friction(p, u, stick), compliance * held};
+  // Where it slides the bristle ends fully bent. τ̄ falls monotonically with Δx, so the root lies on the side that `stick` overshot.
+  const T bent = lanes::copysign(T(p.presliding_rad), reached), torque = -0.5 * p.stiffness * (u + bent), yield = 1.0 / resist;
+  const T slide = (free + compliance * torque) * yield;
+  const FrictionStepOf<T> slid{slide, torque, u + slide - bent};
+  if (!lanes::any(sticks)) return {slid, compliance * yield};
+  const FrictionStepOf<T> stuck = follow_friction(p, u, stick);
+  return {{lanes::select(sticks, stuck.displacement, slid.displacement), lanes::select(sticks, stuck.torque, slid.torque),
+           lanes::select(sticks, stuck.anchor_travel, slid.anchor_travel)},
+          compliance * lanes::select(sticks, held, yield)};
 }
 
-inline FrictionStep solve_friction(const Friction& p, double u, double free, double compliance) noexcept {
-  if (p.coulomb_Nm <= 0) return follow_friction(p, u, free);
-  if (p.presliding_rad <= 0) return detail::solve_coulomb(p.coulomb_Nm, free, compliance);
-  const double stick = (free - compliance * p.stiffness * u) / (1.0 + 0.5 * compliance * p.stiffness);
-  if (std::abs(u + stick) <= p.presliding_rad) return follow_friction(p, u, stick);
-  // The bristle ends fully bent. τ̄ falls monotonically with Δx, so the root lies on the side that `stick` overshot.
-  FrictionStep step;
-  const double end = std::copysign(p.presliding_rad, u + stick);
-  step.torque = -0.5 * p.stiffness * (u + end);
-  step.displacement = free + compliance * step.torque;
-  step.anchor_travel = u + step.displacement - end;
-  return step;
+/// The same of a part that stands alone: Δx = free + compliance·τ̄(Δx).
+template <class T, class Params>
+[[nodiscard]] FrictionStepOf<T> solve_friction(const Params& p, T u, std::type_identity_t<T> free, double compliance) noexcept {
+  return solve_yielding(p, u, free, compliance, 1.0).step;
 }
 
-inline FrictionTorque leading_friction(const Friction& p, double u, double displacement, double drift, double weight) noexcept {
-  const double z = p.presliding_rad, end = u + displacement, ahead = end + displacement - drift, held = 0.5 * (1.0 - weight);
-  const double torque = -p.stiffness * (held * (u + std::clamp(end, -z, z)) + weight * std::clamp(ahead, -z, z));
-  const double slope = (std::abs(end) > z ? 0.0 : held) + (std::abs(ahead) > z ? 0.0 : 2.0 * weight);
+/// The law blended towards the end of an engine's step (host/robot.hpp): the mean over x → x + Δx with the weight 1 − w, and with
+/// the weight w where the part is then, x + 2Δx − drift. Needs a bristle: z_max > 0, or τ_c = 0.
+template <class T, class Params>
+[[nodiscard]] FrictionTorqueOf<T> leading_friction(const Params& p, T u, std::type_identity_t<T> displacement,
+                                                   std::type_identity_t<T> drift, std::type_identity_t<T> weight) noexcept {
+  const T z = p.presliding_rad, end = u + displacement, ahead = end + displacement - drift, held = 0.5 * (1.0 - weight);
+  const T torque = -p.stiffness * (held * (u + lanes::clamp(end, -z, z)) + weight * lanes::clamp(ahead, -z, z));
+  const T slope = lanes::where<T>(lanes::abs(end) <= z, held) + lanes::where<T>(lanes::abs(ahead) <= z, 2.0 * weight);
   return {torque, p.stiffness * slope};
 }
 
-inline double bristle_energy(const Friction& p, double u) noexcept { return 0.5 * p.stiffness * u * u; }
+/// ½(τ_c/z_max)u², J; 0 where z_max = 0.
+template <class T, class Params>
+[[nodiscard]] T bristle_energy(const Params& p, T u) noexcept {
+  return 0.5 * p.stiffness * u * u;
+}
 
-inline double friction_heat(const Friction& p, double u, const FrictionStep& step) noexcept {
-  if (p.coulomb_Nm <= 0) return 0.0;
-  if (p.presliding_rad <= 0) return -step.torque * step.displacement;
-  const double end = u + step.displacement - step.anchor_travel;
+/// Energy turned to heat in a step that began at u, J; its own formula, ≥ 0 in every branch.
+template <class T, class Params>
+[[nodiscard]] T friction_heat(const Params& p, T u, const FrictionStepOf<T>& step) noexcept {
+  if constexpr (lanes::kScalar<T>) {
+    if (p.coulomb_Nm <= 0) return 0.0;
+    if (p.presliding_rad <= 0) return -step.torque * step.displacement;
+  } else if (!bristled(p)) {
+    return 0.0;
+  }
+  const T end = u + step.displacement - step.anchor_travel;
   return 0.5 * p.stiffness * (u + end) * step.anchor_travel;
 }
 

@@ -23,7 +23,7 @@ namespace vsa::drive {
 
 inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-/// At the motor's own shaft; forgotten numbers stay NaN and fail validation.
+/// At the motor's own shaft; forgotten numbers stay NaN, which device::Unit refuses by name.
 struct MotorParams {
   double inertia_kgm2 = kMissing;
   double viscous_Nms_per_rad = kMissing;
@@ -46,23 +46,31 @@ struct GearboxParams {
 [[nodiscard]] MotorParams at_pulley(const MotorParams& motor, double ratio) noexcept;
 [[nodiscard]] FrictionParams at_pulley(const FrictionParams& loss, double ratio) noexcept;
 
-struct MotorState {
-  double angle = 0;    ///< pulley, rad
-  double speed = 0;    ///< rad/s
-  double current = 0;  ///< A; a state only where the motor has inductance
+template <class T>
+struct MotorStateOf {
+  T angle = 0;    ///< pulley, rad
+  T speed = 0;    ///< rad/s
+  T current = 0;  ///< A; a state only where the motor has inductance
+  static auto fields(auto& s, auto&& visit) {
+    return visit("angle", "rad", s.angle, "speed", "rad/s", s.speed, "current", "A", s.current);
+  }
 };
+using MotorState = MotorStateOf<double>;
 
 /// What the electrical side offers in a step.
 enum class Terminal { driven, open };
+[[nodiscard]] constexpr int choices(Terminal) noexcept { return 2; }
 
 /// Exact results of a step of length h with constant voltage and torque.
-struct MotorStep {
-  double displacement = 0;  ///< ∫ω
-  double speed = 0;         ///< at the end
-  double current = 0;       ///< at the end
-  double charge = 0;        ///< ∫I
-  double int_II = 0, int_ww = 0, int_Iw = 0;
+template <class T>
+struct MotorStepOf {
+  T displacement = 0;  ///< ∫ω
+  T speed = 0;         ///< at the end
+  T current = 0;       ///< at the end
+  T charge = 0;        ///< ∫I
+  T int_II = 0, int_ww = 0, int_Iw = 0;
 };
+using MotorStep = MotorStepOf<double>;
 
 /// The exact step of one motor for one step length: z = (ω, I, V, T) → results. Copyable, no allocation.
 class MotorStepper {
@@ -71,16 +79,43 @@ class MotorStepper {
   MotorStepper(const MotorParams& pulley_side, Terminal terminal, double h_s) noexcept;
 
   /// ∫ω for T = 0: the displacement without load.
-  [[nodiscard]] double free_displacement(const MotorState& s, double voltage) const noexcept;
+  template <class T = double>
+  [[nodiscard]] T free_displacement(const MotorStateOf<T>& s, std::type_identity_t<T> voltage) const noexcept {
+    return displacement_[0] * s.speed + displacement_[1] * s.current + displacement_[2] * voltage;
+  }
   /// ∂(∫ω)/∂T, rad/(N·m).
   [[nodiscard]] double compliance() const noexcept { return displacement_[3]; }
-  [[nodiscard]] MotorStep step(const MotorState& s, double voltage, double torque) const noexcept;
+  /// Several lanes: without inductance only.
+  template <class T = double>
+  [[nodiscard]] MotorStepOf<T> step(const MotorStateOf<T>& s, std::type_identity_t<T> voltage,
+                                    std::type_identity_t<T> torque) const noexcept {
+    if constexpr (lanes::kScalar<T>) {
+      if (inductance_) return with_inductance(s, voltage, torque);
+    }
+    return without_inductance(s, voltage, torque);
+  }
   [[nodiscard]] double h_s() const noexcept { return h_; }
 
  private:
   using Row = std::array<double, 4>;
   using Form = std::array<double, 10>;  // symmetric 4×4, upper triangle by rows
-  [[nodiscard]] MotorStep without_inductance(const MotorState& s, double voltage, double torque) const noexcept;
+  [[nodiscard]] MotorStep with_inductance(const MotorState& s, double voltage, double torque) const noexcept;
+  /// I = (V − K_b ω)/R at every instant: ∫ω and ∫ω² tell the other integrals.
+  template <class T>
+  [[nodiscard]] MotorStepOf<T> without_inductance(const MotorStateOf<T>& s, T voltage, T torque) const noexcept {
+    const T w = s.speed, v = voltage, t = torque;
+    MotorStepOf<T> out;
+    out.displacement = displacement_[0] * w + displacement_[2] * v + displacement_[3] * t;
+    out.speed = speed_[0] * w + speed_[2] * v + speed_[3] * t;
+    out.int_ww = w * (ww_[0] * w + ww_[2] * v + ww_[3] * t) + v * (ww_[7] * v + ww_[8] * t) + ww_[9] * t * t;
+    const T emf = back_emf_ * out.displacement, emf_w = back_emf_ * out.int_ww;
+    const T forced = voltage * out.displacement - emf_w;  // ∫(V − K_b ω)ω
+    out.current = conductance_ * (voltage - back_emf_ * out.speed);
+    out.charge = conductance_ * (voltage * h_ - emf);
+    out.int_Iw = conductance_ * forced;
+    out.int_II = lanes::max(conductance_ * (voltage * out.charge - back_emf_ * out.int_Iw), 0.0);
+    return out;
+  }
 
   double h_ = 0;
   bool inductance_ = false;

@@ -15,22 +15,33 @@
 #include <optional>
 #include <string_view>
 
+#include "vsa/lanes.hpp"
+
 namespace vsa::elastic {
 
 /// Where the transmission is: shaft and the two inputs. A law with one motor ignores x[1].
-struct Positions {
-  double q = 0;
-  std::array<double, 2> x{};
+template <class T>
+struct PositionsOf {
+  T q = 0;
+  std::array<T, 2> x{};
+  static auto fields(auto& s, auto&& visit) { return visit("q", "rad", s.q, "x", "rad", s.x); }
 };
+using Positions = PositionsOf<double>;
 
 /// Second derivatives of H (or of its mean over a segment; see SegmentMean).
-struct Hessian {
-  double qq = 0;
-  std::array<double, 2> qx{};
-  double x0x0 = 0;
-  double x0x1 = 0;
-  double x1x1 = 0;
+template <class T>
+struct HessianOf {
+  T qq = 0;
+  std::array<T, 2> qx{};
+  T x0x0 = 0;
+  T x0x1 = 0;
+  T x1x1 = 0;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("qq", "N·m/rad", s.qq, "qx", "N·m/rad", s.qx, "x0x0", "N·m/rad", s.x0x0, "x0x1", "N·m/rad", s.x0x1, "x1x1",
+                 "N·m/rad", s.x1x1);
+  }
 };
+using Hessian = HessianOf<double>;
 
 /// Everything a law says at one place.
 struct Response {
@@ -44,25 +55,35 @@ struct Response {
 ///   τ̄ = −∫₀¹ ∂H/∂q (z₀ + s Δz) ds, likewise the loads, so that τ̄ Δq + Σ load̄_i Δx_i = −ΔH.
 /// `slope` is the derivative of the mean gradient with respect to the segment's END, ∫₀¹ s ∂²H ds.
 /// Midpoint-rule integrators that use these means conserve energy exactly, however stiff the law.
-struct SegmentMean {
-  double torque = 0;
-  std::array<double, 2> load{};
-  Hessian slope;
+template <class T>
+struct SegmentMeanOf {
+  T torque = 0;
+  std::array<T, 2> load{};
+  HessianOf<T> slope;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("torque", "N·m", s.torque, "load", "N·m", s.load, "slope", "", s.slope);
+  }
 };
+using SegmentMean = SegmentMeanOf<double>;
 
 /// A place, and what the law keeps of it, so that means over segments that begin there and places close to it cost little. What is
 /// kept means nothing to anyone else; a law may keep nothing.
-struct Origin {
-  Positions at;
-  std::array<double, 4> kept{};
-  int moves = 0;  ///< since it was worked out from `at` alone
+template <class T>
+struct OriginOf {
+  PositionsOf<T> at;
+  std::array<T, 4> kept{};
+  lanes::Count<T> moves = 0;  ///< since it was worked out from `at` alone
+  static auto fields(auto& s, auto&& visit) { return visit("at", "", s.at, "kept", "", s.kept, "moves", "", s.moves); }
 };
+using Origin = OriginOf<double>;
 
 /// The spring's own slope and tensions at a place: what tells how fast the swing on it is.
-struct Tangent {
-  double stiffness = 0;             ///< σ = ∂²H/∂q², N·m/rad
-  std::array<double, 2> tension{};  ///< |T_i| of the springs that the law names, N·m
+template <class T>
+struct TangentOf {
+  T stiffness = 0;             ///< σ = ∂²H/∂q², N·m/rad
+  std::array<T, 2> tension{};  ///< |T_i| of the springs that the law names, N·m
 };
+using Tangent = TangentOf<double>;
 
 /// What a user commands. The preset's unit belongs to the law (see Transmission::preset_unit).
 struct EquilibriumPreset {

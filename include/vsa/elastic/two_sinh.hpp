@@ -57,6 +57,16 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] int spring_count() const noexcept override { return 2; }
   [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override;
 
+  // The same for units side by side; defined where lanes are (vsa/elastic/two_sinh_lanes.hpp). What is rare goes lane by lane.
+  template <class T>
+  [[nodiscard]] OriginOf<T> moved_lanes(const OriginOf<T>& from, const PositionsOf<T>& to) const noexcept;
+  template <class T>
+  [[nodiscard]] SegmentMeanOf<T> mean_lanes(const OriginOf<T>& from, const PositionsOf<T>& to, T ahead_rad) const noexcept;
+  template <class T>
+  [[nodiscard]] TangentOf<T> tangent_lanes(const OriginOf<T>& here) const noexcept;
+  template <class T>
+  [[nodiscard]] std::array<T, 2> signed_energies_lanes(const OriginOf<T>& here) const noexcept;
+
   [[nodiscard]] bool equals(const Transmission& other) const noexcept override;
   [[nodiscard]] const TwoSinhParams& params() const noexcept { return params_; }
 
@@ -64,18 +74,23 @@ class TwoSinh final : public Transmission {
   struct Spring {
     double energy = 0, torque = 0, stiffness = 0;
   };
-  struct Mean {
-    double torque, slope;  // over a straight segment; the slope is for the segment's end
+  template <class T>
+  struct MeanOf {
+    T torque, slope;  // over a straight segment; the slope is for the segment's end
   };
+  using Mean = MeanOf<double>;
   [[nodiscard]] Spring inside(std::size_t i, double deflection) const noexcept;
   [[nodiscard]] Spring spring(std::size_t i, double deflection) const noexcept;
   [[nodiscard]] Mean mean_inside(std::size_t i, double begin, double end) const noexcept;
   [[nodiscard]] Mean mean(std::size_t i, double begin, double end) const noexcept;
-  [[nodiscard]] Mean mean_near(std::size_t i, const Origin& from, double begin, double move, double ahead) const noexcept;
-  static void add(std::size_t i, const Mean& mean, SegmentMean& to) noexcept;
-  [[nodiscard]] bool near(std::size_t i, double begin, double move) const noexcept;
-  [[nodiscard]] bool near_ahead(std::size_t i, double begin, double move, double ahead) const noexcept;
-  [[nodiscard]] double energy_of(std::size_t i, const Origin& here) const noexcept;
+  template <class T>
+  [[nodiscard]] MeanOf<T> mean_near(std::size_t i, const OriginOf<T>& from, T begin, T move, T ahead) const noexcept;
+  template <class T>
+  static void add(std::size_t i, const MeanOf<T>& mean, SegmentMeanOf<T>& to) noexcept;
+  template <class T>
+  [[nodiscard]] lanes::Truth<T> near(std::size_t i, T begin, T move) const noexcept;
+  template <class T>
+  [[nodiscard]] T energy_of(std::size_t i, const OriginOf<T>& here) const noexcept;
 
   TwoSinhParams params_;
   std::array<Spring, 2> edge_{};  // at δ = d

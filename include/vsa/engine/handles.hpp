@@ -9,9 +9,14 @@
 #include <optional>
 #include <string>
 
+#include "vsa/scene/pose.hpp"
+#include "vsa/scene/touch.hpp"
+
 namespace vsa::engine {
 
 class World;
+using scene::Twist;
+using scene::Wrench;
 
 /// A joint or a link of a world, found by its name once (World::joint, World::link). Good for every world with the same links and
 /// joints: those of the same file, and clones. Given to another world, or made by nobody: InputError.
@@ -39,19 +44,10 @@ struct JointInfo {
   /// Its first degree of freedom: where it stands in vectors and matrices of World::dof_count(). Revolute, prismatic: 1; universal:
   /// 2; ball: 3 (angular velocity in the child's axes). None where it has no motion.
   std::optional<std::size_t> dof;
-};
-
-/// Linear velocity of a link's origin and angular velocity, both in world axes.
-struct Twist {
-  std::array<double, 3> linear_m_per_s{};
-  std::array<double, 3> angular_rad_per_s{};
-};
-
-/// A force at a point of a link and a torque on it, both in world axes; the point goes with the link.
-struct Wrench {
-  std::array<double, 3> force_N{};    ///< ±1e9
-  std::array<double, 3> torque_Nm{};  ///< ±1e9
-  std::array<double, 3> point_m{};    ///< in the link's frame, ±1e4
+  // Of its one axis, what the file gives the joint beside an actuator; N·m per rad (a prismatic one's: N per m):
+  double damping = 0, stiffness = 0, rest = 0;  ///< torque −stiffness (q − rest) − damping q̇
+  double dry_friction = 0;                      ///< N·m
+  std::optional<std::size_t> follows;           ///< the joint that it follows (<mimic>): an index into World::joints()
 };
 
 }  // namespace vsa::engine

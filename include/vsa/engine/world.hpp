@@ -18,82 +18,47 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/config/plugin_xml.hpp"
-#include "vsa/config/preset.hpp"
 #include "vsa/engine/handles.hpp"
 #include "vsa/host/robot.hpp"
+#include "vsa/host/simulation.hpp"
+#include "vsa/motion/stage.hpp"
+#include "vsa/physics/error.hpp"
+#include "vsa/scene/link_parameters.hpp"
+#include "vsa/sdf/concave.hpp"
 
+namespace vsa::physics {
+class Engine;
+}
 namespace vsa::seat {
 class Seat;
 }
 
 namespace vsa::engine {
 
-/// Collision meshes that aren't convex, which the engine would fill to their hulls without a word. A <mesh> that says
-/// optimization="convex_hull" or "convex_decomposition" has its own way.
-enum class Concave {
-  refuse,
-  hull,      ///< filled to the convex hull, and warned of
-  decompose  ///< cut into convex parts (at most 3000 triangles), and warned of
-};
+using physics::SimulationError;
+using reader::Concave;
 
 struct WorldOptions {
   std::optional<double> step_s;  ///< none: the SDF's <physics><max_step_size>
-  config::PresetLibrary presets{};
+  config::TypeLibrary types{};
   config::Replacement actuator{};                 ///< puts another actuator on the world's robots
   std::vector<std::filesystem::path> model_path;  ///< searched for model:// URIs after Gazebo's variables and the built-in models
   Concave concave = Concave::refuse;
   bool actuators = true;  ///< false: no robots, so no torques and no substeps; for measuring the engine alone
+  std::shared_ptr<const physics::Engine> physics{};  ///< that moves the bodies (vsa/physics/physics.hpp); none: MuJoCo
 };
 
-/// A blow-up: the state is no longer finite or an engine warning was raised. what() names time, joint and value.
-class SimulationError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-struct Pose {
-  std::array<double, 3> position{};              ///< m, world
-  std::array<double, 4> quaternion{1, 0, 0, 0};  ///< w x y z
-};
-
-/// Geometry for pictures; primitive kinds as in SDF.
-struct Shape {
-  enum class Kind { box, sphere, cylinder, capsule, plane, mesh, heightmap } kind = Kind::box;
-  Pose pose;                     ///< in its link
-  std::array<double, 3> size{};  ///< box x y z; sphere r; cylinder/capsule r, length; plane x y; mesh: scale; heightmap: extent
-  std::array<float, 4> rgba{0.7f, 0.7f, 0.7f, 1};
-  std::vector<float> vertices;  ///< mesh and heightmap: triangles' corners, xyz each, link frame
-  std::vector<std::uint32_t> indices;
-};
-
-struct LinkInfo {
-  std::string name;   ///< scoped: "model::link"
-  std::string model;  ///< top-level model
-  double mass_kg = 0;
-  bool is_static = false;
-  std::vector<Shape> visuals;  ///< the SDF's visuals (collisions where a link has none)
-};
-
-/// A spring from a point of a link to a place in the world, as a hand pulls: F = k·(target − p) − c·ṗ with its damper, never more
-/// than force_max_N. Worked out implicitly, so that no stiffness of it shakes a light link.
-struct Pull {
-  std::size_t link = 0;              ///< into links(); one that isn't static
-  std::array<double, 3> point_m{};   ///< in the link's frame
-  std::array<double, 3> target_m{};  ///< in the world
-  double stiffness_N_per_m = 100;    ///< k, 0 … 1e5
-  double damping_Ns_per_m = 5;       ///< c, 0 … 1e4
-  double force_max_N = 20;           ///< 0 … 1e4
-};
-
-/// Where two bodies touched in the last step.
-struct Contact {
-  std::array<double, 3> position{};  ///< m, world
-  std::array<double, 3> force_N{};   ///< world; on `link` by `other`
-  std::size_t link = 0, other = 0;   ///< into links(); `link` isn't static
-};
+using scene::Contact;
+using scene::LinkInfo;
+using scene::LinkParameters;
+using scene::Pose;
+using scene::Pull;
+using scene::Shape;
 
 struct ActuatorRef {
   std::string model;                 ///< top-level model's name
@@ -101,15 +66,21 @@ struct ActuatorRef {
   std::size_t robot = 0, index = 0;  ///< into robots(), and the robot's own index
 };
 
-/// A world that was moved from throws std::logic_error from everything but its destructor and assignment.
-class World {
+/// Other parameters for some of a world's actuators and links; of an actuator `unit`, and `type` and `changed` that tell of it.
+struct ParameterChanges {
+  std::vector<std::pair<ActuatorRef, host::ActuatorConfig>> actuators;
+  std::vector<std::pair<LinkHandle, LinkParameters>> links;
+};
+
+/// A world that was moved from throws std::logic_error from everything but its destructor and assignment. A motion::Gait plays on it.
+class World : public motion::Stage, public host::Simulation {
  public:
   /// A file, or the name of a built-in world ("snake_flat.sdf"). Throws InputError with all problems. Safe from several
   /// threads at once (reading takes turns); a World itself belongs to one thread, but for commands. The second World of a file
-  /// that hasn't changed takes milliseconds: what was read is kept (docs/explanation/8-engine.md). Presets are read each time.
+  /// that hasn't changed takes milliseconds: what was read is kept (docs/explanation/8-engine.md). Actuator types are read each time.
   [[nodiscard]] static World load(const std::filesystem::path& sdf, WorldOptions options = {});
   [[nodiscard]] static World load_string(std::string_view sdf, WorldOptions options = {});
-  ~World();
+  ~World() override;
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
   /// Another world that goes on just as this one would: state, parameters, hands and what reset() returns to. What was read of the
@@ -117,13 +88,12 @@ class World {
   /// of its own.
   [[nodiscard]] World clone() const;
 
-  [[nodiscard]] const std::string& name() const;  ///< the SDF world's
-  [[nodiscard]] double step_s() const;
+  [[nodiscard]] const std::string& name() const override;  ///< the SDF world's
+  [[nodiscard]] double step_s() const override;
   /// How many steps of engine and actuators together are made of one of the world's: the robots' <substeps>, else 1. Firmware, bus,
   /// sensors, contacts and hands know those only; time, samples and commands' beginnings are the world's steps'.
   [[nodiscard]] int substeps() const;
-  [[nodiscard]] std::int64_t time_ns() const;
-  [[nodiscard]] double time_s() const;
+  [[nodiscard]] std::int64_t time_ns() const override;
 
   /// One step, of substeps() where there are several; throws SimulationError on a blow-up and stays where it was before.
   void step();
@@ -142,18 +112,18 @@ class World {
   void place(const ActuatorRef& actuator, const host::Placement& at);
   [[nodiscard]] host::ActuatorReading read(std::string_view actuator) const;
   [[nodiscard]] host::ActuatorReading read(const ActuatorRef& actuator) const;
-  [[nodiscard]] std::size_t robot_count() const;
+  [[nodiscard]] std::size_t robot_count() const override;
   /// From 0 to robot_count() − 1; else InputError.
-  [[nodiscard]] host::Robot& robot(std::size_t index);
-  [[nodiscard]] const host::Robot& robot(std::size_t index) const;
-  [[nodiscard]] const std::string& robot_model(std::size_t index) const;  ///< scoped model name
+  [[nodiscard]] host::Robot& robot(std::size_t index) override;
+  [[nodiscard]] const host::Robot& robot(std::size_t index) const override;
+  [[nodiscard]] const std::string& robot_model(std::size_t index) const override;  ///< scoped model name
   /// A robot's ports, topics and faults (vsa/seat/seat.hpp). Its steps, joints, snapshots and reset are the world's.
   [[nodiscard]] seat::Seat& seat(std::size_t index);
 
   // Bodies
-  [[nodiscard]] const std::vector<LinkInfo>& links() const;
-  void poses(std::span<Pose> out) const;  ///< one an entry of links(); another size: InputError
-  [[nodiscard]] std::array<double, 3> center_of_mass(std::string_view model) const;
+  [[nodiscard]] const std::vector<LinkInfo>& links() const override;
+  void poses(std::span<Pose> out) const override;  ///< one an entry of links(); another size: InputError
+  [[nodiscard]] std::array<double, 3> center_of_mass(std::string_view model) const override;
   [[nodiscard]] const std::vector<JointInfo>& joints() const;
   [[nodiscard]] JointHandle joint(std::string_view scoped_joint) const;  ///< one with one axis; else InputError with their names
   [[nodiscard]] JointHandle joint(const ActuatorRef& actuator) const;    ///< that it drives
@@ -175,20 +145,22 @@ class World {
 
   /// Kinetic and gravitational energy of all bodies and that of the SDF's own joint springs, J, co-located with the actuators'
   /// ledger (see host/robot.hpp): velocities v with positions q − (dt/2)·v.
-  struct Energy {
-    double kinetic = 0, gravitational = 0, springs = 0;
-  };
+  using Energy = scene::Energy;
   [[nodiscard]] Energy energy() const;
+  [[nodiscard]] std::optional<Energy> body_energy() const override { return energy(); }
   [[nodiscard]] actuator::Ledger ledger() const;  ///< over all robots
   [[nodiscard]] int contact_count() const;
   /// The contacts that the last step (of several substeps: the last one) worked with, each pair of points once; none before the
   /// first step and after a restore or reset. Clears `out` first.
-  void contacts(std::vector<Contact>& out) const;
+  void contacts(std::vector<Contact>& out) const override;
+  [[nodiscard]] bool has_contacts() const override { return true; }
 
   /// From the next step on these hands pull, and no others; none lets go. They are no part of the state: reset() lets go of all,
   /// restore() leaves them as they are. Throws InputError for an unknown or static link and numbers out of range.
-  void pull(std::vector<Pull> pulls);
+  void pull(std::vector<Pull> pulls) override;
   [[nodiscard]] const std::vector<Pull>& pulls() const;
+  [[nodiscard]] std::span<const Pull> hands() const override { return pulls(); }
+  [[nodiscard]] bool has_hands() const override { return true; }
 
   /// Acts in every step from the next on, until it is set anew; one a link, zero ends it. As pulls, wrenches and torques are no
   /// part of the state: reset() ends all, restore() leaves them. InputError: a static link, numbers out of range.
@@ -209,6 +181,23 @@ class World {
   /// 6 × dof_count() by rows: velocity of a point of the link (in its frame), then angular velocity, both in world axes, a v.
   void jacobian(LinkHandle link, const std::array<double, 3>& point_m, std::span<double> out) const;
 
+  // Parameters: the actuators' and the links'. They aren't state: reset() and restore() keep them; clone() takes them along.
+  [[nodiscard]] const config::TypeLibrary& types() const;  ///< the actuators' types are from there
+  [[nodiscard]] LinkParameters link_parameters(LinkHandle link) const;
+  /// From the next step on. What of it the engine derives follows; motion goes on. InputError: out of range, moments that no body has,
+  /// another mass or inertia of a static link, friction of one without shapes. An actuator's: host::Robot::set_parameters.
+  void set_link_parameters(LinkHandle link, const LinkParameters& to);
+  /// All of them as one value that never changes and that worlds of this file share: those in force; others with changes, checked.
+  struct Parameters;
+  [[nodiscard]] std::shared_ptr<const Parameters> parameters() const;
+  [[nodiscard]] std::shared_ptr<const Parameters> parameters_with(const Parameters& base, const ParameterChanges& changes) const;
+  [[nodiscard]] const host::ActuatorConfig& actuator_parameters(const Parameters& of, const ActuatorRef& actuator) const;
+  [[nodiscard]] LinkParameters link_parameters(const Parameters& of, LinkHandle link) const;
+  /// As set_link_parameters() and host::Robot::set_parameters() of each that differs. InputError: of another world.
+  void set_parameters(const Parameters& to);
+  /// Goes on with those and leaves the state as it is, for one that came from a world with them. Each copy of a Batch is stepped so.
+  void use(const Parameters& to);
+
   struct Snapshot;
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
   /// Of this world or of another of the same file (the same links, joints and robots; the step may differ): between those it is as
@@ -216,14 +205,36 @@ class World {
   void restore(const Snapshot& snapshot);
   void reset();
 
-  [[nodiscard]] const std::vector<std::string>& warnings() const;  ///< what the SDF has and the engine leaves out
+  /// The same as numbers (vsa/state.hpp): "world.time", the bodies' "physics/…", "robot[0]/elbow/unit.…". Worlds of the same file have
+  /// the same layout. They go on bit for bit where the parameters are the same, too: those are no part of it, nor are hands, nor
+  /// commands that no step has taken. save() and restore() allocate nothing but an error's text.
+  ///   save     throws InputError where more is under way than the layout has room for (host/robot.hpp), as snapshot() never does
+  ///   restore  throws InputError for another size and for numbers that no state has, and nothing has changed
+  [[nodiscard]] StateLayout state_layout() const;
+  [[nodiscard]] std::size_t state_size() const;
+  void save(std::span<double> out) const;
+  void restore(std::span<const double> in);
+  [[nodiscard]] std::uint64_t state_hash() const;  ///< of the numbers that save() gives; allocates
+  /// A file of 40 bytes that tell version and layout, and the numbers. restore_file throws InputError for a file of another layout,
+  /// version or length and a damaged one, and nothing has changed; save_file OutputError, and what was there stays.
+  void save_file(const std::filesystem::path& file) const;
+  void restore_file(const std::filesystem::path& file);
+
+  [[nodiscard]] const std::vector<std::string>& warnings() const override;  ///< what the SDF has and the engine leaves out
 
  private:
+  // The rest of a motion::Stage, whose actuators are those of actuators().
+  [[nodiscard]] std::size_t find_actuator(std::string_view name) const override;
+  [[nodiscard]] const std::string& model_of(std::size_t actuator) const override;
+  void send(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset) override;
+  [[nodiscard]] motion::Commanded commanded(std::size_t actuator) const override;
+
   struct Impl;
   explicit World(std::unique_ptr<Impl> impl);
   [[nodiscard]] std::size_t at(JointHandle joint) const;
   [[nodiscard]] std::size_t at(LinkHandle link) const;
   [[nodiscard]] std::size_t at(const ActuatorRef& actuator) const;
+  void check_of_this_world(const Parameters& parameters) const;
   Owner<Impl> impl_;
 };
 

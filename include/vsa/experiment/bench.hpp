@@ -19,16 +19,16 @@
 #include <string_view>
 #include <vector>
 
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/experiment/recording.hpp"
 
 namespace vsa::experiment {
 
 /// Which actuator stands on the bench.
 struct Specimen {
-  std::string preset;                       ///< its name, as in `vsa actuators`
+  std::string type;                         ///< its name, as in `vsa actuators`
   std::vector<config::Override> overrides;  ///< replace single values of it
-  config::PresetLibrary library{};
+  config::TypeLibrary library{};
   std::optional<double> step_s;  ///< none: the bench's own
 };
 
@@ -68,7 +68,7 @@ struct BenchRun {
   std::vector<std::string> notices;  ///< commands that the unit clamped, angles that it did not reach
 };
 
-/// Throws InputError where the preset or an override is unknown, or `preset` is beyond the unit's limits or it has none.
+/// Throws InputError where the type or an override is unknown, or `preset` is beyond the unit's limits or it has none.
 void check_preset(const Specimen& specimen, double preset);
 
 /// Deflection of the law alone under an external torque: −τ(θ_eq + δ) = load with the pulleys on the references of (0, preset).

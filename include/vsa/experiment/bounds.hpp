@@ -26,7 +26,7 @@ struct Bound {
   std::string quantity;  ///< "stiffness.0.6903.rms_rad"
   std::optional<double> min, max;
   std::string why;
-  std::optional<Kind> kind;  ///< none: by the preset's evidence
+  std::optional<Kind> kind;  ///< none: by the type's evidence
   std::string place;         ///< "file:line"
 };
 
@@ -47,11 +47,11 @@ struct BoundsFile {
 /// reason, a kind that is none.
 [[nodiscard]] BoundsFile read_bounds(const std::filesystem::path& file);
 
-/// What a quantity or an experiment ("stiffness.0.4602") is to a preset. A preset that doesn't say what it was calibrated on
+/// What a quantity or an experiment ("stiffness.0.4602") is to an actuator type. One that doesn't say what it was calibrated on
 /// predicts nothing.
 [[nodiscard]] Kind kind_of(const std::optional<config::Evidence>& evidence, std::string_view quantity);
 
-/// Throws InputError for every bound that is called predicted though the preset was calibrated on it.
+/// Throws InputError for every bound that is called predicted though the type was calibrated on it.
 void check_kinds(const std::vector<Bound>& bounds, const std::optional<config::Evidence>& evidence);
 
 struct Verdict {

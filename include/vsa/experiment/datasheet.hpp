@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/experiment/workspace.hpp"
 
 namespace vsa::experiment {
@@ -35,7 +35,7 @@ struct LoopErrors {
 };
 
 struct DataSheet {
-  config::Preset preset;
+  config::ActuatorType type;
   MotorLine line;
   LoopErrors errors;
   double attainable_preset = 0;
@@ -44,6 +44,6 @@ struct DataSheet {
   double most_energy_J = 0;           ///< over all reachable presets and loads
 };
 
-[[nodiscard]] DataSheet data_sheet(const config::Preset& preset);
+[[nodiscard]] DataSheet data_sheet(const config::ActuatorType& type);
 
 }  // namespace vsa::experiment

@@ -64,6 +64,9 @@ struct Orders {
   std::uint8_t onoff = 0;                    ///< 3 on, 0 off: what GET_ACTIVATE reports. The enable pins are the program's
   std::array<std::int32_t, 2> current_mA{};  ///< advanced, mode 2
   std::array<std::int32_t, 2> pwm{};         ///< advanced, mode 1
+  static auto fields(auto& s, auto&& visit) {
+    return visit("onoff", "", s.onoff, "current", "mA", s.current_mA, "pwm", "%", s.pwm);
+  }
 };
 
 /// As at power-up.
@@ -89,9 +92,22 @@ struct ControllerState {
   std::array<std::int32_t, 2> meas_driven{};  ///< positions at the last loop, where that isn't the last tick
   std::uint8_t loop_phase = 0;                ///< ticks since then
   bool reset_samples = false;                 ///< SET_ZEROS: the next reading starts from 0
+  static auto fields(auto& s, auto&& visit) {
+    return visit("meas", "raw", s.meas, "meas_old", "raw", s.meas_old, "last_sample", "raw", s.last_sample, "turns", "", s.turns,
+                 "rejected", "", s.rejected, "ref", "raw", s.ref, "ref_old", "raw", s.ref_old, "ref_new", "raw", s.ref_new,
+                 "orders", "", s.orders, "orders_old", "", s.orders_old, "orders_new", "", s.orders_new, "error_sum", "",
+                 s.error_sum, "current_error_sum", "", s.current_error_sum, "current_error_before", "", s.current_error_before,
+                 "pwm", "%", s.pwm, "duty", "%", s.duty, "forward", "", s.forward, "current_sign", "", s.current_sign,
+                 "rate_before", "", s.rate_before, "current_filter", "", s.current_filter, "current", "mA", s.current,
+                 "current_old", "mA", s.current_old, "current_before", "mA", s.current_before, "supply", "mV", s.supply, "limit",
+                 "%", s.limit_pct, "supply_seen", "", s.supply_seen, "first_tick", "", s.first_tick, "meas_driven", "raw",
+                 s.meas_driven, "loop_phase", "", s.loop_phase, "reset_samples", "", s.reset_samples);
+  }
 };
 
-/// Percent of full duty that keeps about 8 V at the motor: 100 up to 8 V, 61 at 12 V, 43 at 24 V, 0 above 25.5 V.
+/// Percent of full duty by supply: 100 up to 8 V, 61 at 12 V, 43 at 24 V, 0 above 25.5 V; 6.4 … 10.6 V are left at the motor.
+/// What the program makes of the ADC's counts.
+[[nodiscard]] MilliVolt supply_reading(int adc) noexcept;
 [[nodiscard]] std::int32_t supply_limit_pct(MilliVolt supply, Generation generation = Generation::v6) noexcept;
 
 /// The two sets that the loop reads.

@@ -30,6 +30,7 @@ namespace vsa::firmware {
 /// 16.16 fixed point.
 struct Gains {
   std::int32_t p = 0, i = 0, d = 0;
+  static auto fields(auto& s, auto&& visit) { return visit("p", "", s.p, "i", "", s.i, "d", "", s.d); }
   bool operator==(const Gains&) const = default;
 };
 
@@ -55,12 +56,25 @@ struct Memory {
   std::int32_t max_step_negative = 0, max_step_positive = 0;  ///< not used by the program
   std::uint8_t max_pwm_rate = 255;  ///< advanced unit: % a tick. Not in its initial values; 255 never limits
   std::uint32_t serial_number = 0;  ///< dialect seven
+  static auto fields(auto& s, auto&& visit) {
+    return visit("valid", "", s.valid, "id", "", s.id, "position", "", s.position, "current", "", s.current, "double_position", "",
+                 s.double_position, "double_current", "", s.double_current, "current_limit", "mA", s.current_limit_mA,
+                 "startup_activation", "", s.startup_activation, "input_mode", "", s.input_mode, "control_mode", "", s.control_mode,
+                 "resolution", "", s.resolution, "offset", "raw", s.offset, "multiplier", "", s.multiplier, "limits_on", "",
+                 s.limits_on, "limit_low", "raw", s.limit_low, "limit_high", "raw", s.limit_high, "max_stiffness", "raw",
+                 s.max_stiffness, "baud_rate", "", s.baud_rate, "watchdog_period", "", s.watchdog_period, "max_step_negative", "",
+                 s.max_step_negative, "max_step_positive", "", s.max_step_positive, "max_pwm_rate", "%", s.max_pwm_rate,
+                 "serial_number", "", s.serial_number);
+  }
   bool operator==(const Memory&) const = default;
 };
 
 struct MemoryState {
   Memory stored, current;
   Memory user, factory;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("stored", "", s.stored, "current", "", s.current, "user", "", s.user, "factory", "", s.factory);
+  }
   bool operator==(const MemoryState&) const = default;
 };
 

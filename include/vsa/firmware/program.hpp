@@ -55,7 +55,11 @@ struct Calibration {
   std::uint16_t divider = 1;  ///< ticks to 100; keeps its value between calibrations
   std::uint8_t pauses = 0;
   Gains saved{};
+  static auto fields(auto& s, auto&& visit) {
+    return visit("stage", "", s.stage, "divider", "", s.divider, "pauses", "", s.pauses, "saved", "", s.saved);
+  }
 };
+[[nodiscard]] constexpr int choices(Calibration::Stage) noexcept { return 6; }
 
 /// GET_COUNTERS of the advanced unit, in the order of its reply. Some are never counted.
 struct Counters {
@@ -83,6 +87,7 @@ struct Counters {
     kCount
   };
   std::array<std::uint16_t, kCount> value{};
+  static auto fields(auto& s, auto&& visit) { return visit("value", "", s.value); }
 };
 
 struct ProgramState {
@@ -100,6 +105,13 @@ struct ProgramState {
   bool bytes_waiting = false;
   bool receiver_off = false;
   bool in_bootloader = false;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("loop", "", s.loop, "memory", "", s.memory, "receiver", "", s.receiver, "buffer", "", s.buffer, "watchdog", "",
+                 s.watchdog, "calibration", "", s.calibration, "counters", "", s.counters, "busy_until", "ns", s.busy_until_ns,
+                 "enable", "", s.enable, "baud_divider", "", s.baud_divider, "activation_waits", "", s.activation_waits,
+                 "bytes_waiting", "", s.bytes_waiting, "receiver_off", "", s.receiver_off, "in_bootloader", "", s.in_bootloader);
+  }
+  [[nodiscard]] const char* impossible() const noexcept { return baud_divider > 0 ? nullptr : "a baud_divider from 1 on"; }
 };
 
 /// What the bridge gets: percent of full duty, signed; nothing while a motor's enable pin is off.

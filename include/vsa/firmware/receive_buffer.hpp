@@ -39,6 +39,13 @@ struct ReceiveBuffer {
     read = write = 0;
     full = overflow = false;
   }
+  static auto fields(auto& s, auto&& visit) {
+    return visit("bytes", "", s.bytes, "read", "", s.read, "write", "", s.write, "full", "", s.full, "overflow", "", s.overflow);
+  }
+  [[nodiscard]] constexpr const char* impossible() const noexcept {
+    return read < kSize && write < kSize && (!full || overflow || read == write) ? nullptr
+                                                                                 : "read and write below 32, equal if full";
+  }
 };
 
 }  // namespace vsa::firmware

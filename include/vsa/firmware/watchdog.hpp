@@ -41,6 +41,10 @@ struct Watchdog {
     reload = true;
     expired = false;
   }
+  static auto fields(auto& s, auto&& visit) {
+    return visit("next_clock", "ns", s.next_clock_ns, "period", "", s.period, "count", "", s.count, "enabled", "", s.enabled,
+                 "reload", "", s.reload, "expired", "", s.expired);
+  }
 };
 
 /// The counter period of a SET_WATCHDOG.

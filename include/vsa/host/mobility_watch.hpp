@@ -30,6 +30,10 @@ class MobilityWatch {
   }
   /// In the next step whatever happens.
   void again() noexcept { steps_left_ = 0; }
+  static auto fields(auto& s, auto&& visit) { return visit("steps_left", "", s.steps_left_, "angles", "rad", s.angles_); }
+  [[nodiscard]] const char* impossible() const noexcept {
+    return steps_left_ >= 0 && steps_left_ < kSteps ? nullptr : "steps_left of 0 … 15";
+  }
 
  private:
   static constexpr int kSteps = 16;

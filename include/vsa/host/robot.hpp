@@ -31,55 +31,18 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "vsa/bus/master.hpp"
 #include "vsa/device/faults.hpp"
 #include "vsa/device/port_line.hpp"
 #include "vsa/device/unit.hpp"
+#include "vsa/host/robot_config.hpp"
 #include "vsa/owner.hpp"
+#include "vsa/state.hpp"
 
 namespace vsa::host {
-
-using vsa::device::UnitConfig;
-
-/// One actuator of a robot, as the plug-in XML lists it.
-struct ActuatorConfig {
-  std::string name;     ///< unique in the robot
-  std::string joint;    ///< scoped joint name, e.g. "module_1::shaft"
-  std::string preset;   ///< name of the actuator preset it was made from
-  UnitConfig unit;      ///< validated parameters
-  std::size_t bus = 0;  ///< index into RobotConfig::buses
-  int id = 1;           ///< device id on that bus, 1–254
-  double initial_equilibrium_rad = 0;
-  double initial_preset = 0;  ///< in the law's preset unit
-  /// False: the text names no initial equilibrium, and a host whose joint starts elsewhere may put it there.
-  bool equilibrium_given = true;
-};
-
-struct BusConfig {
-  std::string name;
-  double baud_Hz = 2'000'000;
-  std::optional<double> cycle_s;  ///< none: automatic, max(wire time, 1 ms × units)
-  /// The bus belongs to an external client on this virtual serial port: no master, commands to its actuators are not taken, units
-  /// hold their initial references until the client tells them otherwise. The port itself is opened by the host's program.
-  std::optional<std::string> serial_port = std::nullopt;
-  /// For clients that can't set a rate: whatever theirs is, they are heard. Else one at another rate than the units' sends noise.
-  bool any_rate = false;
-};
-
-inline constexpr int kMostSubsteps = 64;
-inline constexpr std::int64_t kLongestStep_ns = 16'000'000;  ///< of Robot::advance
-inline constexpr double kLongestStep_s = 1e-9 * static_cast<double>(kLongestStep_ns);
-
-struct RobotConfig {
-  std::vector<ActuatorConfig> actuators;
-  std::vector<BusConfig> buses;
-  double state_rate_Hz = 100;
-  /// Steps that the host makes of each of its own, engine and actuators together, 1 … kMostSubsteps: advance() is then called for
-  /// each. None: as the host likes. A host that can't do it refuses the robot.
-  std::optional<int> substeps = std::nullopt;
-};
 
 /// What a host tells of one joint at the start of a step.
 struct JointIn {
@@ -90,6 +53,10 @@ struct JointIn {
   std::optional<double> inverse_inertia;
   /// Somebody put the joint there since the last step; what that did to angle and speed is neither work nor acceleration.
   bool placed = false;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("angle", "rad", s.angle_rad, "speed", "rad/s", s.speed_rad_per_s, "inverse_inertia", "1/(kg·m²)",
+                 s.inverse_inertia, "placed", "", s.placed);
+  }
 };
 
 /// What an actuator is doing, for topics and recordings: all at one instant, the end of the last step. Physical truth; the unit's
@@ -176,6 +143,7 @@ class Robot {
   struct Knot {
     double time_s = 0;
     double value = 0;
+    static auto fields(auto& s, auto&& visit) { return visit("time", "s", s.time_s, "value", "", s.value); }
   };
   enum class Channel { equilibrium, preset };
   bool follow(std::size_t actuator, Channel channel, std::vector<Knot> knots);
@@ -213,6 +181,23 @@ class Robot {
   /// reset() keep them. InputError: values out of range, another firmware model or dialect, another number of motors. The
   /// stepping thread's.
   void set_parameters(std::size_t actuator, const UnitConfig& unit);
+  /// The same, with what the unit was made from, for who reads config().
+  void set_parameters(std::size_t actuator, const UnitConfig& unit, std::string type, std::shared_ptr<const Settings> changed);
+
+  /// All parameters as one value that never changes, for who steps many robots of one kind with one Robot (batch/batch.hpp): those in
+  /// force, and `base` with other actuators in it, checked as set_parameters() does (InputError) and prepared for steps of dt_ns.
+  [[nodiscard]] std::shared_ptr<const RobotConfig> parameters() const;
+  [[nodiscard]] std::shared_ptr<const RobotConfig> parameters_with(const RobotConfig& base,
+                                                                   std::span<const std::pair<std::size_t, ActuatorConfig>> changes,
+                                                                   std::int64_t dt_ns) const;
+  /// set_parameters() of every actuator whose own differ. They must be of this robot or a clone; so below.
+  void set_parameters(const std::shared_ptr<const RobotConfig>& parameters);
+  /// Goes on with those, the state as it is: for a state that came from a robot with them. Allocates.
+  void use(const std::shared_ptr<const RobotConfig>& parameters);
+  /// Programs whose memory holds other firmware parameters than the robot's get these, with their ids: after a restore() of numbers
+  /// that came from a robot with others.
+  void renew_memories();
+  [[nodiscard]] bool has_own_memories() const;  ///< whether renew_memories() would do nothing
 
   /// From any thread; from the next step on, until a reset. Throws InputError for values out of bounds or no such actuator.
   void set_faults(std::size_t actuator, const device::Faults& faults);
@@ -228,6 +213,21 @@ class Robot {
   void restore(const Snapshot& snapshot);
   void check(const Snapshot& snapshot) const;  ///< throws what restore() would
   void reset();                                ///< back to the first sample
+
+  /// The same as numbers (vsa/state.hpp), for a batch, a checkpoint, another program: everything that a snapshot holds, but for the
+  /// parameters. Robots with the same actuators, ids and buses have the same layout; that of the parameters is the caller's to keep.
+  /// save(), restore() and check() allocate nothing but an error's text.
+  ///   save     throws InputError where more is under way than the layout has room for: a trajectory of more than kMostKnots, an
+  ///            overcrowded line (device::ChainState::most_speeches); every snapshot() takes that
+  ///   restore  throws InputError for another size and for numbers that no state has, and nothing has changed; it drops commands
+  ///            that wait. check: whether restore() would throw
+  static constexpr std::size_t kMostKnots = 64;
+  [[nodiscard]] StateLayout state_layout() const;
+  [[nodiscard]] std::size_t state_size() const;
+  void save(std::span<double> out) const;
+  void restore(std::span<const double> in);
+  void check(std::span<const double> in) const;
+  [[nodiscard]] std::uint64_t state_hash() const;  ///< of the numbers that save() gives; allocates
 
   /// For a host whose step may fail: keep() before it notes what snapshot() would hold, in memory that the robot has for it, so that
   /// nothing is allocated; go_back() is restore() of that, or of the first sample where nothing was kept.

@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the topics of a robot mean, once for every host. A host supplies a TopicPort (subscribe and publish); the rest is here.
+// What the topics of a robot mean, once for every host. A host supplies a TopicTransport (subscribe and publish); the rest is here.
 //
 // M is the scoped model name, J the actuator's name; their scopes "a::b" become "a/b" in a topic.
 //
@@ -88,10 +88,10 @@ enum class Outcome {
   refused,      ///< the transport takes no such topic name
 };
 
-/// What a host supplies. Handlers may be called from any thread, and no more once the port is gone.
-class TopicPort {
+/// What a host supplies. Handlers may be called from any thread, and no more once the transport is gone.
+class TopicTransport {
  public:
-  virtual ~TopicPort() = default;
+  virtual ~TopicTransport() = default;
   virtual Outcome on_double(const std::string& topic, std::function<void(double)> handler) = 0;
   virtual Outcome on_trajectory(const std::string& topic, std::function<void(const Trajectory&)> handler) = 0;
   virtual Outcome on_actuators(const std::string& topic, std::function<void(const ActuatorsCmd&)> handler) = 0;
@@ -119,7 +119,7 @@ class RobotTopics {
   using Report = std::function<void(const std::string& line)>;
 
   /// Throws InputError with every name that can't be a topic, and where a name `J_preset` could mean two things.
-  RobotTopics(Robot& robot, std::string model, TopicPort& port, Report report);
+  RobotTopics(Robot& robot, std::string model, TopicTransport& transport, Report report);
   ~RobotTopics();
   RobotTopics(RobotTopics&&) noexcept;
   RobotTopics& operator=(RobotTopics&&) noexcept;

@@ -24,7 +24,8 @@ struct LeftOut {
   std::vector<Misfit> misfits;             ///< of the recordings left out
   double rms_rad = 0, rms_rad_of_all = 0;  ///< of them, by this fit and by the fit to everything
 };
-/// Empty where there is only one preset. Each fit starts at the fit to everything.
+/// Empty where there is only one preset. Each fit is searched for as the fit to everything was, which it doesn't know: begun there, it
+/// would stay near what the recording left out has fitted.
 [[nodiscard]] std::vector<LeftOut> leave_one_preset_out(const Task& task, const Fit& fit, const FitOptions& options,
                                                         unsigned threads);
 

@@ -12,7 +12,7 @@
 //   [[hypothesis]]
 //   name = "no_clamp"     letters, digits, _ and -; names the files of its fits
 //   title = "no clamp"
-//   base = "qbmove_maker_pro"                                       a preset's name, or a file NAME.toml relative to this one
+//   base = "qbmove_maker_pro"                                       a type's name, or a file NAME.toml relative to this one
 //   set = { "firmware.max_stiffness_raw" = 32767, "drive.pwm_pin" = "enable" }
 //   free = ["elastic.k1_Nm=elastic.k2_Nm", "tendon.friction"]       as in parse_parameters(); may be empty
 //   start = { "drive.back_loss" = 0.1 }                             other starts than the base's, for keys in `free`
@@ -38,7 +38,7 @@ namespace vsa::identify {
 struct Hypothesis {
   std::string name, title;
   experiment::Specimen specimen;  ///< with `set` and `start`
-  config::Preset preset;          ///< that
+  config::ActuatorType type;      ///< that
   std::vector<Parameter> free;
 };
 
@@ -52,10 +52,10 @@ struct Comparison {
   std::vector<Hypothesis> hypotheses;
 };
 
-/// `library`: where presets by name are. Throws InputError with all problems at once: what can't be read, keys that are unknown,
+/// `library`: where types by name are. Throws InputError with all problems at once: what can't be read, keys that are unknown,
 /// missing or both set and free, names that are double, recordings that aren't there or whose preset a hypothesis can't take.
 [[nodiscard]] Comparison read_comparison(const std::filesystem::path& file,
-                                         const config::PresetLibrary& library = config::PresetLibrary());
+                                         const config::TypeLibrary& library = config::TypeLibrary());
 
 /// One fit: a hypothesis to all recordings, or without one.
 struct FitRequest {
@@ -67,7 +67,7 @@ struct FitRequest {
 /// "no_clamp", "no_clamp.without.stiffness_preset_0.0000rad_branches"
 [[nodiscard]] std::string request_name(const Comparison& comparison, const FitRequest& request);
 
-/// What a fit depends on, as 16 hexadecimal digits: the preset's values, parameters, recordings, settings, and a short simulation
+/// What a fit depends on, as 16 hexadecimal digits: the type's values, parameters, recordings, settings, and a short simulation
 /// of each recording's bench, so that a program that simulates otherwise is noticed. `threads` side by side; 0: all.
 [[nodiscard]] std::vector<std::string> request_hashes(const Comparison& comparison, const std::vector<FitRequest>& all,
                                                       unsigned threads, experiment::Watch* watch = nullptr);

@@ -15,9 +15,9 @@
 namespace vsa::identify {
 
 struct FitOptions {
-  /// Local solutions at most: one from the preset's values (or where the surrogate leads from there, if that is better), the others
+  /// Local solutions at most: one from the type's values (or where the surrogate leads from there, if that is better), the others
   /// from a global search on the surrogate, which may find fewer places; without a surrogate from the best of 4 × as many trials
-  /// about the preset's values.
+  /// about the type's values.
   int starts = 3;
   bool global = true;        ///< false: as without a surrogate
   unsigned seed = 1;         ///< of the global search
@@ -49,7 +49,7 @@ struct Fit {
   std::vector<StartResult> starts;  ///< the best is first
 };
 
-/// Throws what the model throws at the preset's own values, and std::runtime_error where no start can be evaluated.
+/// Throws what the model throws at the type's own values, and std::runtime_error where no start can be evaluated.
 [[nodiscard]] Fit fit(const Residuals& residuals, const FitOptions& options);
 /// Residuals, Jacobian and bounds at `fit.values`, with `fit.steps` as the first guess of the steps.
 void evaluate_at(Fit& fit, const Residuals& residuals, double effect_rad);

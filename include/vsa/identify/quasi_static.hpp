@@ -83,7 +83,7 @@ class QuasiStatic {
   /// φ of a spring, N·m a N·m, with its energy at w.
   [[nodiscard]] double rub(const Step& s, int spring, double w) const;
   /// The gearbox's friction under a load, with the pulley turning in a sense.
-  [[nodiscard]] drive::Friction gear(double load, double sense) const;
+  [[nodiscard]] drive::FrictionOf<double> gear(double load, double sense) const;
   [[nodiscard]] double pulley_residual(const Step& s, std::array<double, 2> x, int i, double xi) const;
   [[nodiscard]] bool solve_pulleys(Step& s, double equilibrium, std::array<double, 2>& x) const;
   [[nodiscard]] double shaft_residual(const Step& s, const std::array<double, 2>& x) const;

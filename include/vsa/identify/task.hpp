@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "vsa/config/preset.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/experiment/recording.hpp"
 
 namespace vsa::identify {
 
-/// One unknown: one key of the preset, or several that are to be equal.
+/// One unknown: one key of the actuator type, or several that are to be equal.
 struct Parameter {
   std::string name;               ///< as the user wrote it: "elastic.k1_Nm=elastic.k2_Nm"
   std::vector<std::string> keys;  ///< "elastic.k1_Nm", "elastic.k2_Nm"
@@ -57,17 +57,17 @@ struct Task {
   std::string no_surrogate;
 };
 
-/// "a.x,b.y=c.z" → parameters with unit, start and bounds of the preset. Tied keys: the bounds' intersection, the first key's
+/// "a.x,b.y=c.z" → parameters with unit, start and bounds of the type. Tied keys: the bounds' intersection, the first key's
 /// start. Throws InputError for every key that is unknown, twice, no real number, or tied to one of another unit.
-[[nodiscard]] std::vector<Parameter> parse_parameters(const std::string& text, const config::Preset& preset);
+[[nodiscard]] std::vector<Parameter> parse_parameters(const std::string& text, const config::ActuatorType& type);
 
-/// The overrides that give a preset these values, after those of `also` that are about other keys.
+/// The overrides that give a type these values, after those of `also` that are about other keys.
 [[nodiscard]] std::vector<config::Override> overrides(const std::vector<Parameter>& parameters, const std::vector<double>& values,
                                                       const std::vector<config::Override>& also = {});
 
 /// A recording for a preset: branch means (…_branches.csv) or samples, the commanded preset in its name; weight 1. Throws
 /// InputError where it can't be read, or where that preset isn't in the unit of this actuator's.
-[[nodiscard]] Observation read_observation(const std::filesystem::path& file, const config::Preset& preset);
+[[nodiscard]] Observation read_observation(const std::filesystem::path& file, const config::ActuatorType& type);
 
 /// 1 / root mean square of the recording's own scatter about its branches, so that a curve counts as much as it is known.
 [[nodiscard]] double scatter_weight(const experiment::Branches& data);

@@ -39,7 +39,4 @@ struct Uncertainty {
 /// Parameters at a bound count as fixed.
 [[nodiscard]] Uncertainty uncertainty(const Residuals& residuals, const Fit& fit);
 
-/// The p quantile of Student's distribution with `dof` > 0 degrees of freedom, 0.5 ≤ p < 1.
-[[nodiscard]] double student_quantile(double p, double dof);
-
 }  // namespace vsa::identify

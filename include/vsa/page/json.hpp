@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// JSON that is safe inside <script>: '<', '>', '&' and line separators are escaped, bytes that aren't UTF-8 replaced. For the library's
-// own rooms; whoever includes it needs nlohmann::json.
+// JSON as pages and files of results have it; bytes that aren't UTF-8 are replaced. A page's is safe inside <script>: '<', '>', '&' and
+// line separators are escaped. For the library's own rooms; whoever includes it needs nlohmann::json.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -20,8 +20,17 @@ using Json = nlohmann::ordered_json;
 /// Rounded to so many digits.
 [[nodiscard]] Json number(double value, int digits);
 
+/// As it stands in a page, on one line.
 [[nodiscard]] std::string text(const Json& json);
 [[nodiscard]] inline std::string json_string(std::string_view value) { return text(Json(value)); }
+
+/// A result, which keeps its point where it is whole: 5.0. null: not finite.
+[[nodiscard]] Json real(double value);
+[[nodiscard]] Json reals(const std::vector<double>& values);
+/// What a results.json begins with: who wrote it, and on which command.
+[[nodiscard]] Json results_head(const std::string& command);
+/// As it stands in a results.json, indented.
+[[nodiscard]] std::string results_text(const Json& json);
 
 /// UTF-8, with U+FFFD for what was none.
 [[nodiscard]] std::string well_formed(std::string_view value);

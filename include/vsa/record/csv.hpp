@@ -10,7 +10,7 @@
 //     actuators leave the second motor's cells empty.
 //   links.csv            time_s,link,x_m,y_m,z_m,qw,qx,qy,qz   pose in the world of every link that isn't static
 //   energy.csv           time_s, the energy ledger summed over all actuators (actuator/ledger.hpp), kinetic_J and gravitational_J
-//                        of all bodies
+//                        of all bodies (empty where the simulator doesn't tell them)
 //
 // A sample is appended as whole lines with one write a file, so that a run that ends badly leaves whole lines.
 #pragma once

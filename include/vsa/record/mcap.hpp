@@ -48,7 +48,7 @@ struct McapContents {
   std::vector<McapSchema> schemas;
   std::vector<McapChannel> channels;
   std::vector<McapMetadata> metadata{};
-  std::size_t chunk_bytes = 256 * 1024;   ///< a chunk that has as many is written, …
+  std::size_t chunk_bytes = 262'144;      ///< a chunk that has as many is written, …
   std::int64_t chunk_ns = 1'000'000'000;  ///< … or one whose first message is older than that
 };
 

@@ -44,7 +44,7 @@ class PageData {
   void halve();
 
   std::vector<std::size_t> moving_;  // links whose poses are frames
-  std::vector<engine::Pose> first_;  // poses of the first sample, for the links that don't move
+  std::vector<scene::Pose> first_;   // poses of the first sample, for the links that don't move
   std::size_t actuators_ = 0;
   double rate_Hz_;
   std::size_t frames_max_;

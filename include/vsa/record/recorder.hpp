@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vsa/host/simulation.hpp"
 #include "vsa/record/run_data.hpp"
 
 namespace vsa::record {
@@ -32,7 +33,7 @@ struct RecorderOptions {
   std::filesystem::path page_template;
 };
 
-/// The recorder's core, fed with samples: for tests and for hosts without engine::World.
+/// The recorder's core, fed with samples: for tests and for those that have samples but no host::Simulation.
 class RunRecord {
  public:
   /// Throws InputError: options out of range, directory or files that can't be written, a named template that is missing.
@@ -58,10 +59,10 @@ class RunRecord {
 
 class Recorder {
  public:
-  Recorder(const engine::World& world, const std::filesystem::path& directory, RecorderOptions options = {});
+  Recorder(const host::Simulation& world, const std::filesystem::path& directory, RecorderOptions options = {});
 
   /// Call after each step: takes a sample if one is due.
-  void sample(const engine::World& world);
+  void sample(const host::Simulation& world);
 
   /// Writes the page, if there is a template. `note` says on it why the run ended early; empty where it didn't.
   std::filesystem::path finish(const std::vector<Statistic>& summary = {}, std::string_view note = {});
@@ -75,9 +76,9 @@ class Recorder {
 };
 
 /// The present moment; reuses what `sample` holds.
-void read(const engine::World& world, Sample& sample);
+void read(const host::Simulation& world, Sample& sample);
 
 /// What stays the same over a run of this world.
-[[nodiscard]] RunInfo describe(const engine::World& world);
+[[nodiscard]] RunInfo describe(const host::Simulation& world);
 
 }  // namespace vsa::record

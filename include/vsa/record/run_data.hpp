@@ -6,21 +6,22 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "vsa/actuator/ledger.hpp"
-#include "vsa/engine/world.hpp"
 #include "vsa/host/robot.hpp"
 #include "vsa/output_file.hpp"
+#include "vsa/scene/energy.hpp"
+#include "vsa/scene/link.hpp"
 
 namespace vsa::record {
 
 struct ActuatorInfo {
   std::string name;
   std::string joint;                ///< scoped joint name, as configured
-  std::string preset;               ///< the actuator preset's name
+  std::string type;                 ///< the actuator type's name
   std::string preset_unit = "rad";  ///< the law's; "" where it has no preset
   int motors = 2;                   ///< 1 or 2: columns of a missing motor stay empty
   std::vector<std::size_t> links;   ///< into RunInfo::links: the bodies to highlight for it
@@ -35,7 +36,7 @@ struct RunInfo {
   std::string world;
   double step_s = 0;
   std::vector<RobotInfo> robots;
-  std::vector<engine::LinkInfo> links;
+  std::vector<scene::LinkInfo> links;
   std::string
       faults{};  ///< what is broken from the start and the seeds of its chances, as `vsa run --fault` takes it; empty: nothing
 };
@@ -44,9 +45,9 @@ struct RunInfo {
 struct Sample {
   std::int64_t time_ns = 0;
   std::vector<host::ActuatorReading> actuators;  ///< robots in order, each robot's actuators in order
-  std::vector<engine::Pose> poses;               ///< one an entry of RunInfo::links
+  std::vector<scene::Pose> poses;                ///< one an entry of RunInfo::links
   actuator::Ledger ledger;                       ///< over all actuators
-  double kinetic_J = 0, gravitational_J = 0;     ///< of all bodies
+  std::optional<scene::Energy> bodies{};         ///< of all of them; none: the simulator doesn't tell
 };
 
 /// A line of the summary, as the command line prints it and the page shows it.
@@ -57,12 +58,6 @@ struct Statistic {
 
 /// Writing failed after the recording had begun.
 using RecordError = OutputError;
-
-/// The bodies that an actuator's joint belongs to, for highlighting: the links in the joint's own scope ("module_1::shaft" → all of
-/// "MODEL::module_1::…"). A joint without a scope says nothing of its bodies; then the robot's n-th moving link stands for its n-th
-/// actuator, as in a serial chain.
-[[nodiscard]] std::vector<std::size_t> links_of_joint(std::string_view model, std::string_view joint, std::size_t actuator_index,
-                                                      const std::vector<engine::LinkInfo>& links);
 
 /// Decides by integer time which steps are samples: the first step at or after each multiple of the period (rounded to 1 ns), so
 /// that sample times never drift and a rate above the step rate takes every step.

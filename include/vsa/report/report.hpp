@@ -30,6 +30,7 @@ struct Chart {
   std::vector<Curve> curves;
   std::string caption;
   bool y_log = false;
+  bool x_log = false;  ///< as y_log: what isn't positive isn't drawn
 };
 
 struct Table {

@@ -56,7 +56,7 @@ struct Model {
 };
 
 struct Options {
-  config::PresetLibrary presets{};
+  config::TypeLibrary types{};
   config::Replacement actuator{};      ///< puts another actuator on the robot
   host::RobotTopics::Report report{};  ///< one readable line, from any thread; none: nobody is told
   bool makes_substeps = false;         ///< the host honours <substeps>; else a robot that asks for several is refused
@@ -87,29 +87,29 @@ class Seat {
   void join(const std::vector<std::vector<std::size_t>>& trees);
 
   // One step. Nothing is allocated, as long as nothing is reported.
-  [[nodiscard]] std::span<host::JointIn> in() noexcept { return now_.in; }
+  [[nodiscard]] std::span<host::JointIn> in() noexcept { return own_.now.in; }
   /// Once before each step, when in() is filled: whether B is due (host/mobility_watch.hpp).
-  [[nodiscard]] bool wants_mobility() noexcept { return !mobility_.empty() && watch_.due(now_.in); }
-  [[nodiscard]] std::span<double> mobility() noexcept { return mobility_; }
+  [[nodiscard]] bool wants_mobility() noexcept { return !own_.mobility.empty() && own_.watch.due(own_.now.in); }
+  [[nodiscard]] std::span<double> mobility() noexcept { return own_.mobility; }
   /// A step length that the units don't know, or a joint that is no longer finite, stops the actuators with one reported line:
   /// torques are 0 until reset().
   void step(std::int64_t dt_ns);
   [[nodiscard]] std::span<const double> torques() const noexcept { return torques_; }
-  [[nodiscard]] bool stopped() const noexcept { return now_.stopped; }
+  [[nodiscard]] bool stopped() const noexcept { return own_.now.stopped; }
   /// in() tells where the joints are after the host's step.
-  void observe() noexcept { robot_.observe(now_.in); }
+  void observe() noexcept { robot_.observe(own_.now.in); }
   /// The host has put bodies elsewhere: B is due in the next step. With an actuator: its joint, and that was neither work nor
   /// acceleration; throws InputError for one that isn't there.
-  void moved() noexcept { watch_.again(); }
+  void moved() noexcept { own_.watch.again(); }
   void moved(std::size_t actuator);
 
   void open_ports();  ///< reports each; throws InputError with every one that can't be had
   [[nodiscard]] const std::vector<std::unique_ptr<serial::VirtualPort>>& ports() const noexcept { return ports_.all(); }
 
   /// The robot's topics (host/topics.hpp) and the service of its faults, /model/M/vsa/faults: asked "ACTUATOR words" or "all words"
-  /// (config/faults_text.hpp) it answers "ok: …", or "refused: …" and nothing has changed. Several ports: on each. Throws InputError
+  /// (config/faults_text.hpp) it answers "ok: …", or "refused: …" and nothing has changed. Several transports: on each. Throws InputError
   /// for names that the transport doesn't take.
-  void connect(std::shared_ptr<host::TopicPort> port);
+  void connect(std::shared_ptr<host::TopicTransport> transport);
   void disconnect();  ///< from all
   /// After a step: states at the robot's state rate, and what the robot has to tell. Without topics: only that, 10 times a simulated
   /// second.
@@ -129,6 +129,12 @@ class Seat {
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
   void restore(const Snapshot& snapshot);
   void check(const Snapshot& snapshot) const;  ///< throws InputError where restore() would be wrong
+  // The same as numbers: the robot's (host/robot.hpp tells of errors), then the seat's own.
+  [[nodiscard]] StateLayout state_layout() const;
+  [[nodiscard]] std::size_t state_size() const noexcept { return robot_.state_size() + own_size_; }
+  void save(std::span<double> out) const;
+  void restore(std::span<const double> in);
+  void check(std::span<const double> in);
   /// For a host whose step may fail: keep() before it, and go_back() to there. Nothing is allocated.
   void keep();
   void go_back();
@@ -141,9 +147,22 @@ class Seat {
     std::int64_t time_ns = 0;
     bool stopped = false;
     std::vector<host::JointIn> in;
+    static auto fields(auto& s, auto&& visit) {
+      return visit("time", "ns", s.time_ns, "stopped", "", s.stopped, "joint", "", s.in);
+    }
+    [[nodiscard]] const char* impossible() const noexcept;
+  };
+  /// All of the seat's own.
+  struct Own {
+    Moment now;
+    std::vector<double> mobility;
+    host::MobilityWatch watch;
+    static auto fields(auto& s, auto&& visit) {
+      return visit("now", "", s.now, "mobility", "1/(kg·m²)", s.mobility, "mobility_watch", "", s.watch);
+    }
   };
   struct Connection {
-    std::shared_ptr<host::TopicPort> port;
+    std::shared_ptr<host::TopicTransport> transport;
     host::RobotTopics topics;
   };
 
@@ -151,6 +170,8 @@ class Seat {
   void stop(const std::string& why);
   void tell(const std::string& line) const;
   void tell_notices();
+  void read_own(std::span<const double> in);  ///< into loaded_; throws InputError
+  void set_own(const Own& own);
 
   std::string model_;
   host::Robot robot_;
@@ -158,9 +179,9 @@ class Seat {
   DrivenJoints driven_;
   Report report_;
   bool watches_pace_;
-  Moment now_, kept_;
-  std::vector<double> torques_, mobility_;
-  host::MobilityWatch watch_;
+  Own own_, kept_, loaded_;  ///< loaded_: scratch of numbers that are being checked
+  std::vector<double> torques_;
+  std::size_t own_size_ = 0;     ///< as numbers
   std::int64_t last_told_ = -1;  ///< tenth of a second whose notices were told
   Clock::time_point next_paused_{};
   std::vector<Connection> connections_;

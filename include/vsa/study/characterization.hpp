@@ -3,7 +3,7 @@
 // An actuator measured as the paper measured its hardware (section IV): what is run, what each run shows, and the results as files.
 //
 //   study::CharacterizationOptions options;
-//   options.specimen.preset = "qbmove_maker_pro";
+//   options.specimen.type = "qbmove_maker_pro";
 //   const auto done = study::run(study::plan_characterization(options), [](const study::Progress& p) { return p.wall_s < 60; });
 //   if (done) std::cout << study::to_json(*done, "my program");   // none: stopped
 #pragma once
@@ -73,7 +73,7 @@ struct PresetStepResult {
 /// A plan where the results' runs are empty: their options say what is to be run.
 struct Characterization {
   experiment::Specimen specimen;
-  config::Preset actuator;
+  config::ActuatorType actuator;
   std::vector<StiffnessResult> stiffness;
   std::vector<SpeedResult> speed;
   std::vector<PresetStepResult> preset_step;

@@ -22,7 +22,7 @@ struct DataSheet {
   [[nodiscard]] std::optional<double> nominal_load_Nm() const;
 };
 
-/// Computes, and plans what is to be run. Throws InputError: an unknown preset or override.
+/// Computes, and plans what is to be run. Throws InputError: an unknown type or override.
 [[nodiscard]] DataSheet plan_data_sheet(const experiment::Specimen& specimen);
 /// As run() of a characterization.
 [[nodiscard]] std::optional<DataSheet> run(DataSheet plan, const OnProgress& on_progress = {}, unsigned threads = 0);

@@ -17,10 +17,10 @@
 namespace vsa::study {
 
 struct ValidationOptions {
-  experiment::Specimen specimen{"qbmove_maker_pro", {}, config::PresetLibrary(), {}};
+  experiment::Specimen specimen{"qbmove_maker_pro", {}, config::TypeLibrary(), {}};
   std::vector<std::filesystem::path> recordings;  ///< directories beside data/
-  std::filesystem::path leave_one_out;  ///< results.json of `vsa identify`; empty: data/PRESET/leave_one_out.json if there
-  std::filesystem::path bounds;         ///< TOML file; empty: data/bounds.toml
+  std::filesystem::path leave_one_out;            ///< results.json of `vsa identify`; empty: data/TYPE/leave_one_out.json if there
+  std::filesystem::path bounds;                   ///< TOML file; empty: data/bounds.toml
 };
 
 /// A load test's branch means.
@@ -77,9 +77,9 @@ struct PresetStepCheck {
 };
 
 struct Validation {
-  config::Preset actuator;
+  config::ActuatorType actuator;
   std::vector<config::Override> overrides;
-  std::optional<config::Evidence> evidence;  ///< the preset's; none where it has none, or where overrides changed what it speaks of
+  std::optional<config::Evidence> evidence;  ///< the type's; none where it has none, or where overrides changed what it speaks of
   std::optional<LeaveOneOut> left_out;       ///< the record of it, if there is one
   std::vector<RecordingCheck> recordings;    ///< the predicted ones first
   std::vector<PeriodCheck> periods;

@@ -13,7 +13,7 @@
 
 #include "vsa/engine/world.hpp"
 #include "vsa/host/topics.hpp"
-#include "vsa/topics/run_control.hpp"
+#include "vsa/seat/run_control.hpp"
 
 namespace vsa::topics {
 
@@ -22,7 +22,7 @@ class WorldServer {
  public:
   /// Throws InputError for names that can't be topics. `report` gets readable lines, from any thread: all that the robots' seats
   /// have to tell as long as the server lives.
-  WorldServer(engine::World& world, RunControl& control, host::RobotTopics::Report report);
+  WorldServer(engine::World& world, seat::RunControl& control, host::RobotTopics::Report report);
   ~WorldServer();
   WorldServer(const WorldServer&) = delete;
   WorldServer& operator=(const WorldServer&) = delete;
@@ -36,6 +36,8 @@ class WorldServer {
 
   /// Commands and control requests refused so far.
   [[nodiscard]] std::uint64_t refused() const noexcept;
+  /// Commands and orders of faults that came for the robots, taken or refused.
+  [[nodiscard]] std::uint64_t heard() const;
 
  private:
   struct Impl;

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "vsa/host/simulation.hpp"
 #include "vsa/record/page.hpp"
 
 namespace vsa::view {
@@ -32,13 +33,13 @@ inline constexpr std::size_t kContactsMax = 256;  ///< the strongest are shown w
 class FrameMaker {
  public:
   explicit FrameMaker(const record::RunInfo& info) : moving_(record::moving_links(info)) {}
-  [[nodiscard]] std::shared_ptr<const std::string> make(const engine::World& world, const FrameInfo& info);
+  [[nodiscard]] std::shared_ptr<const std::string> make(const host::Simulation& world, const FrameInfo& info);
 
  private:
   std::vector<std::size_t> moving_;
   record::Sample sample_;
   record::Frame frame_;
-  std::vector<engine::Contact> contacts_;
+  std::vector<scene::Contact> contacts_;
   std::vector<float> touches_;
 };
 

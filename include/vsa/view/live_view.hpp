@@ -6,8 +6,8 @@
 //   while (…) { view.serve();  …  world.step();  view.stepped(); }
 //
 // Texts to pages are JSON objects by "type":
-//   hello  once, first: what tells this run from others, limits of every actuator, the gait's groups and bounds, and all that
-//          `state` has
+//   hello  once, first: what tells this run from others, what can be asked for, limits of every actuator, the gait's bounds, and
+//          all that `state` has
 //   state  whenever it changes: speed, gait (playing, values, what is commanded by hand), recording, recordings
 //   error  what a page asked for was refused; it alone hears of it
 //   note   something all should know
@@ -20,9 +20,9 @@
 #include <optional>
 #include <string>
 
-#include "vsa/engine/gait.hpp"
-#include "vsa/engine/world.hpp"
-#include "vsa/topics/run_control.hpp"
+#include "vsa/host/simulation.hpp"
+#include "vsa/motion/gait.hpp"
+#include "vsa/seat/run_control.hpp"
 #include "vsa/view/server.hpp"
 
 namespace vsa::view {
@@ -35,11 +35,12 @@ struct LiveOptions {
   std::optional<double> speed = 1.0;      ///< at the start
 };
 
-/// World, gait and control must outlive it. All but the pages' side belongs to the loop's thread.
+/// World, gait and control must outlive it. All but the pages' side belongs to the loop's thread. A page offers what there is: no
+/// gait, no play, pause, step, reset and speed without `control`, no hands where the world has none.
 class LiveView {
  public:
-  /// Throws InputError: no such template, no such port. `gait` may be null.
-  LiveView(engine::World& world, engine::Gait* gait, topics::RunControl& control, LiveOptions options);
+  /// Throws InputError: no such template, no such port. `gait` and `control` may be null.
+  LiveView(host::Simulation& world, motion::Gait* gait, seat::RunControl* control, LiveOptions options);
   ~LiveView();
   LiveView(const LiveView&) = delete;
   LiveView& operator=(const LiveView&) = delete;
@@ -49,8 +50,9 @@ class LiveView {
 
   /// Does what pages asked for. Before every decision of the loop.
   void serve();
-  void stepped();  ///< after every step
-  void idle();     ///< while paused, and after a reset
+  void stepped();   ///< after every step
+  void idle();      ///< while paused, and after a reset
+  void standing();  ///< now and then while a simulator that has no RunControl is paused
 
   /// Simulated by wall time that pages want; none: as fast as it can. `speed_changes` counts, so that a pace can be set anew.
   [[nodiscard]] std::optional<double> speed() const noexcept;

@@ -9,7 +9,7 @@
 //   {"do":"release"}
 //   {"do":"record","on":true}
 //   {"do":"gait","frequency_rad_per_s":4.7,"groups":[{"name":"vertical","amplitude_rad":1,"offset_rad":0,"lambda":5,
-//                 "delta_rad":0,"preset_rad":0.6}, …]}                          all groups; bounds: engine::kGaitBounds
+//                 "delta_rad":0,"preset_rad":0.6}, …]}                          all groups; bounds: motion::kGaitBounds
 //   {"do":"gait_play","on":false}               false: the last commands hold
 //   {"do":"give_back"}                          commands given by hand go back to the gait
 //   {"do":"next"}                               a frame has been drawn: one more may come
@@ -27,7 +27,8 @@
 #include <variant>
 #include <vector>
 
-#include "vsa/engine/gait.hpp"
+#include "vsa/host/simulation.hpp"
+#include "vsa/motion/gait.hpp"
 
 namespace vsa::view {
 
@@ -44,10 +45,13 @@ struct Rules {
   std::vector<bool> moves;               ///< one a link
   std::vector<std::string> gait_groups;  ///< in the gait's order
   bool gait = false;
+  bool control = false;   ///< play, pause, step, reset, speed
+  bool hands = false;     ///< pull
+  bool contacts = false;  ///< nothing to ask for: whether frames have any
 };
 
-/// What the world and its gait allow.
-[[nodiscard]] Rules rules_of(const engine::World& world, const engine::Gait* gait);
+/// What the world, its gait and its loop allow.
+[[nodiscard]] Rules rules_of(const host::Simulation& world, const motion::Gait* gait, bool control);
 
 struct Play {};
 struct Pause {};
@@ -71,7 +75,7 @@ struct Record {
   bool on = false;
 };
 struct ChangeGait {
-  engine::GaitChange to;
+  motion::GaitChange to;
 };
 struct PlayGait {
   bool on = false;

@@ -31,6 +31,7 @@ const run = readRun($('data').textContent);
 const history = new History(run, kLongest_s, kRate_Hz);
 const live = { run, history, frame: null, frames: 0, state: null, errors: [], fps: 0 };
 let stage = null;
+let pulls = null;
 let waiting = null; // newest frame not yet drawn
 let signals = new Set(['Shaft angle', 'Stiffness', 'Torque on the shaft']);
 
@@ -57,6 +58,7 @@ const link = new Link({
       // Another run answers: its world may be another.
       if (live.id && live.id !== message.run) location.reload();
       live.id = message.run;
+      setOffers(message.offers);
       table.limits = message.actuators;
       live.bounds = message.gait_bounds;
       commands.setLimits(message.actuators);
@@ -77,6 +79,23 @@ const link = new Link({
     waiting = buffer;
   },
 });
+
+/** What the simulator can't do isn't shown. */
+function setOffers({ contacts, control, hands }) {
+  for (const id of ['play', 'step', 'reset', 'speed']) {
+    $(id).disabled = !control;
+    ($(id).closest('label') ?? $(id)).hidden = !control;
+  }
+  $('contacts').disabled = !contacts;
+  $('contacts').hidden = !contacts;
+  $('hint-control').hidden = !control;
+  for (const part of document.querySelectorAll('.hint-hands')) part.hidden = !hands;
+  const drag = hands ? 'Drag a link to pull it, drag elsewhere to orbit' : 'Drag to orbit';
+  const keys = hands ? "; shift and arrow keys pull the chosen joint's link" : '';
+  $('canvas').setAttribute('aria-label', `3-D view of the running robot. ${drag}, click a link to choose it. Arrow keys orbit${keys}.`);
+  if (pulls) pulls.hands = hands;
+  live.offers = { contacts, control, hands };
+}
 
 function setState(state) {
   live.state = state;
@@ -138,7 +157,7 @@ function makeGroups(gait) {
 
 function redrawCurves() {
   const panels = actuatorPanels(modules.chosen.length ? modules.chosen : run.actuators);
-  const energies = energyPanels();
+  const energies = energyPanels(run.energy);
   $('signals').replaceChildren();
   for (const panel of [...panels, ...energies]) {
     const chip = element('button', '', panel.title);
@@ -262,7 +281,6 @@ function everyFrame() {
 writeHeader();
 makeStage();
 const playing = connectControls({ link, live, curves, redrawCurves, stage: () => stage });
-let pulls = null;
 if (stage) {
   pulls = connectPulls(stage, link, {
     choose(index, more) {

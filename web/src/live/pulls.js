@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // The mouse spring: a link that is dragged is pulled towards the pointer; the force is worked out by the engine. Shift and the arrow
-// keys do the same to the chosen joint's link.
+// keys do the same to the chosen joint's link. Where the simulator takes no hands, links are only chosen and drags orbit.
 
 const kClick_px = 5;
 const kKeyReach = 0.4; // of the robot's size
@@ -10,7 +10,7 @@ const kTurn = 0.09; // rad a key press
 
 class Pulls {
   constructor(stage, link, on) {
-    Object.assign(this, { stage, link, on, held: null, waiting: null, keys: new Set() });
+    Object.assign(this, { stage, link, on, held: null, waiting: null, keys: new Set(), hands: true });
   }
 
   /** Sent once a picture. */
@@ -35,10 +35,12 @@ class Pulls {
     if (!e.isPrimary || e.button !== 0) return;
     const grabbed = this.stage.grab(e.clientX, e.clientY);
     if (!grabbed) return;
-    // The camera's own controls must not see it.
-    e.stopImmediatePropagation();
     this.stage.canvas.focus({ preventScroll: true });
-    this.stage.canvas.setPointerCapture(e.pointerId);
+    if (this.hands) {
+      // The camera's own controls must not see it.
+      e.stopImmediatePropagation();
+      this.stage.canvas.setPointerCapture(e.pointerId);
+    }
     this.held = { ...grabbed, id: e.pointerId, x: e.clientX, y: e.clientY, moved: false, more: e.shiftKey };
   }
 
@@ -46,20 +48,20 @@ class Pulls {
     const { held } = this;
     if (!held || held.id !== e.pointerId) return;
     held.moved ||= Math.hypot(e.clientX - held.x, e.clientY - held.y) > kClick_px;
-    if (held.moved) this.pull(held.link, held.point, this.stage.drag(e.clientX, e.clientY, held.world));
+    if (held.moved && this.hands) this.pull(held.link, held.point, this.stage.drag(e.clientX, e.clientY, held.world));
   }
 
   up(e) {
     const { held } = this;
     if (!held || held.id !== e.pointerId) return;
-    if (held.moved) this.release();
-    else this.on.choose(held.link, held.more);
+    if (held.moved && this.hands) this.release();
+    else if (!held.moved) this.on.choose(held.link, held.more);
     this.held = null;
   }
 
   key(e) {
     const arrow = kArrows[e.key];
-    if (arrow && e.shiftKey) {
+    if (arrow && e.shiftKey && this.hands) {
       this.keys.add(e.key);
       this.pullByKeys();
     } else if (arrow) {

@@ -65,8 +65,8 @@ function sample(curve) {
 }
 
 /** 1, 10, 100 …; over a short span 1, 2, 5, 10 …. What is out of sight isn't drawn. */
-function logTicks(curves) {
-  const values = curves.flatMap((c) => c.y).filter((y) => y > 0);
+function logTicks(all) {
+  const values = all.filter((v) => v > 0);
   if (!values.length) return {};
   const [low, high] = [Math.min(...values), Math.max(...values)].map(Math.log10);
   const steps = high - low < 2.2 ? [1, 2, 5] : [1];
@@ -174,8 +174,8 @@ export class Chart {
       paper_bgcolor: 'transparent',
       plot_bgcolor: 'transparent',
       font: { family: getComputedStyle(document.body).fontFamily, size },
-      xaxis: { ...axis, ...titled(this.data.x_label), nticks: 8 },
-      yaxis: { ...axis, ...titled(this.data.y_label), nticks: 7, ...(this.data.y_log ? logTicks(this.data.curves) : {}) },
+      xaxis: { ...axis, ...titled(this.data.x_label), nticks: 8, ...(this.data.x_log ? logTicks(this.data.curves.flatMap((c) => c.x)) : {}) },
+      yaxis: { ...axis, ...titled(this.data.y_label), nticks: 7, ...(this.data.y_log ? logTicks(this.data.curves.flatMap((c) => c.y)) : {}) },
     };
   }
 }

@@ -1,0 +1,131 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What a segment is told, what it finds, and what it is while it is solved (actuator.hpp), for one unit or several side by side.
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include "vsa/drive/droop_stepper.hpp"
+#include "vsa/drive/motor.hpp"
+#include "vsa/drive/pwm_cycle.hpp"
+#include "vsa/elastic/transmission.hpp"
+
+namespace vsa::actuator {
+
+class Actuator;
+
+/// How the tendons' frictions on the shaft answer: −dτ/d(x_i) and −dτ/d(Δy) of each, N·m/rad, and the dampers' part of the first.
+template <class T>
+struct RubOf {
+  std::array<T, 2> dx{}, dy{}, damping{};
+  static auto fields(auto& s, auto&& visit) {
+    return visit("dx", "N·m/rad", s.dx, "dy", "N·m/rad", s.dy, "damping", "N·m/rad", s.damping);
+  }
+};
+
+using Rub = RubOf<double>;
+
+/// Where a segment lies in its host step, and how far ahead its springs and frictions look (the blend of host/robot.hpp). The
+/// default is a segment by itself, taken in its middle.
+template <class T>
+struct LeadOf {
+  double before = 0, share = 1;  ///< parts of the step's displacement Δy: made before the segment, made in it
+  T drift = 0;                   ///< ½ dt v, rad
+  T spring = 0;                  ///< w of the springs, 0 … 1
+  std::array<T, 2> tendon{};     ///< w of each tendon's friction, 0 … 1
+};
+using Lead = LeadOf<double>;
+
+/// w of a spring or friction that swings with x = ω·dt: 0 up to a quarter, where a step resolves it, then towards 1:
+///   w = (x⁴ − 4⁻⁴)/(16 + x⁴)
+template <class T>
+[[nodiscard]] T lead_weight(T x_squared) noexcept {
+  constexpr double kResolved = 1.0 / 256;
+  const T x4 = x_squared * x_squared;
+  const lanes::Truth<T> leads = x4 > kResolved;
+  return lanes::any(leads) ? lanes::where<T>(leads, (x4 - kResolved) / (16.0 + x4)) : T(0.0);
+}
+
+template <class T>
+struct SegmentInputOf {
+  T dq = 0;  ///< shaft displacement along the path
+  std::array<T, 2> voltage{};
+  std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
+  LeadOf<T> lead{};
+  double supply_V = 0;  ///< counts where the bridge's enable pin is modulated, by a duty of voltage/supply; 0: no current
+};
+using SegmentInput = SegmentInputOf<double>;
+
+template <class T>
+struct SegmentResultOf {
+  T torque = 0;  ///< mean torque of the transmission on the shaft
+  T slope = 0;   ///< −dτ̄/d(Δy) of the step's displacement, the motors' yielding included; ≥ 0 for a convex law
+  lanes::Truth<T> settled = lanes::truth<T>(true);  ///< the motors' displacements are found; else they are one Newton round nearer
+  /// Δy may be this far from here, rad, and the slope still tells the torque to 5e-6 of the springs' loads; 0: not known
+  T straight = 0;
+};
+using SegmentResult = SegmentResultOf<double>;
+
+/// A motor on a bridge whose enable pin is modulated: its current as a straight line about the speed `aim`.
+struct PwmInSegment {
+  const drive::PwmCycle* cycle = nullptr;  // none: terminals at a mean voltage, or open
+  drive::DroopStepper stepper;
+  double start = 0, aim = 0, current_at_rest = 0, h = 0;
+};
+/// Several lanes have none.
+struct NoPwm {};
+
+/// A segment while it is solved: begun once, tried for as many shaft displacements as its owner needs, finished once.
+template <class T>
+class SegmentOf {
+ private:
+  friend class Actuator;
+  /// What a trial finds.
+  struct Trial {
+    T dq = 0;                 // for this displacement of the shaft
+    std::array<T, 2> dx{};    // the pulleys' displacements
+    std::array<T, 2> gain{};  // ∂dx/∂dq
+    std::array<drive::FrictionStepOf<T>, 2> friction{};
+    elastic::SegmentMeanOf<T> mean;
+    RubOf<T> rub;                   // of the tendons: their part of mean.slope, and what they give for the step's Δy
+    std::array<T, 2> straight_J{};  // change of a spring's energy until its tendon's bristle begins or ends to slide
+    std::array<T, 2> tension{};     // at the end, > 0
+    std::array<T, 2> stick{};       // what a tendon that holds adds to its spring's slope, at most
+    T slope = 0;
+    static auto fields(auto& s, auto&& visit) {
+      return visit(s.dq, s.dx, s.gain, s.friction[0].displacement, s.friction[0].torque, s.friction[0].anchor_travel,
+                   s.friction[1].displacement, s.friction[1].torque, s.friction[1].anchor_travel, s.mean.torque, s.mean.load,
+                   s.mean.slope.qq, s.mean.slope.qx, s.mean.slope.x0x0, s.mean.slope.x0x1, s.mean.slope.x1x1, s.rub.dx, s.rub.dy,
+                   s.rub.damping, s.straight_J, s.tension, s.stick, s.slope);
+    }
+  };
+  std::array<const drive::MotorStepper*, 2> stepper{};
+  std::array<std::conditional_t<lanes::kScalar<T>, PwmInSegment, NoPwm>, 2> pwm{};
+  SegmentInputOf<T> in;
+  bool tried = false;
+  // what the frictions see at the start
+  std::array<drive::FrictionOf<T>, 2> gear{};
+  std::array<T, 2> gear_u{};
+  std::array<T, 2> w{}, w_u{};   // the springs' signed energies, and their distance from the anchors
+  std::array<T, 2> free{};       // the motors' displacements without load
+  std::array<double, 2> give{};  // and what a torque adds to them, rad/(N·m)
+  double damping = 0;            // T_d/h of the tendons' bristles
+  T whole = 1, per_own = 1;      // how far the springs' end moves with the step's Δy, and by the segment, of its share
+  double per_share = 1;
+  Trial found;  // by the last trial
+
+  /// w·(q' − middle of the path): by how much the springs look ahead.
+  [[nodiscard]] T shift(T dq) const noexcept {
+    const lanes::Truth<T> leads = in.lead.spring > 0.0;
+    if (!lanes::any(leads)) return 0.0;
+    return lanes::where<T>(leads, in.lead.spring * (1.5 * dq * per_share - in.lead.drift));
+  }
+  [[nodiscard]] bool chopped(int i) const noexcept {
+    if constexpr (lanes::kScalar<T>) return pwm[i].cycle != nullptr;
+    return false;
+  }
+};
+using Segment = SegmentOf<double>;
+
+}  // namespace vsa::actuator

@@ -1,0 +1,21 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// When a segment's Newton rounds end, and what counts as nothing.
+#pragma once
+
+#include <limits>
+
+namespace vsa::actuator::step {
+
+inline constexpr int kMaxIterations = 60;
+// Newton converges quadratically: a last correction that moves a load by this fraction leaves about its square. What it leaves is
+// not lost but booked as integrator error.
+inline constexpr double kRelativeTolerance = 1e-4;
+inline constexpr double kAbsoluteTolerance_Nm = 1e-6;
+inline constexpr double kRough_rad = 0.02;  // a correction that is larger isn't trusted unseen
+inline constexpr double kNothing = std::numeric_limits<double>::min();
+inline constexpr double kFar = std::numeric_limits<double>::infinity();
+// Where no bristle begins or ends to slide, a correction that moves a spring's load by this fraction leaves half of its square.
+inline constexpr double kStraight = 3e-3;
+
+}  // namespace vsa::actuator::step

@@ -1,0 +1,44 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Parameters that differ from copy to copy, by chance that repeats.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace vsa::batch {
+
+/// One value for one copy. A double for numbers (a switch: 0 or 1), a text for words and switches ("coast", "true").
+struct Setting {
+  std::size_t copy = 0;
+  std::string who;  ///< actuator or link; empty: every one that has the key
+  std::string key;
+  std::variant<double, std::string> value;
+};
+
+struct Distribution {
+  enum class Kind {
+    uniform,      ///< from a to b
+    log_uniform,  ///< from a to b, its logarithm uniform; 0 < a ≤ b
+    normal        ///< mean a, standard deviation b ≥ 0, cut off at three of these
+  } kind = Kind::uniform;
+  double a = 0, b = 0;
+  bool times_nominal = false;  ///< the value is the draw times what the Batch began with
+  bool shared = false;         ///< one draw for all of a copy's; else each actuator or link has its own
+};
+
+/// A parameter and how it is spread over copies. Of a whole number the nearest to the draw counts.
+struct Spread {
+  std::string who;  ///< as in Setting
+  std::string key;
+  Distribution draw;
+};
+
+/// Follows from its arguments and nothing else: by splitmix64 of seed, copy and the FNV-1a hashes of key and who (empty where shared).
+[[nodiscard]] double drawn(const Distribution& from, std::uint64_t seed, std::size_t copy, std::string_view who,
+                           std::string_view key) noexcept;
+
+}  // namespace vsa::batch

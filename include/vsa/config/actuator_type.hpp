@@ -1,0 +1,146 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Actuator types: TOML files in which every value carries its unit, bounds and source.
+//
+//   [type]
+//   name = "qbmove_maker_pro"
+//   title = "qbmove maker pro (paper, Table I)"
+//   [elastic]
+//   law = "two_sinh"
+//   k1_Nm = { value = 0.022, unit = "N·m", bounds = [1e-6, 10.0], source = "Table I" }
+//   [drive]
+//   friction_Nm = { value = 0.8, unit = "N·m", bounds = [0.0, 100.0], source = "Table I" }
+//   [evidence]
+//   calibrated_on = { value = ["stiffness.0.6903"], source = "vsa identify" }      optional, see config/evidence.hpp
+//
+// The unit must be the schema's (config/schema.hpp), the bounds must lie within the schema's, the value within the bounds; words
+// and switches have value and source only. An override ("drive.friction_Nm" = "0.7") replaces a value and passes the same checks.
+// In every Problem `file` is "path:line" where the line is known, and `key` is "group.name".
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "vsa/config/evidence.hpp"
+#include "vsa/config/schema.hpp"
+#include "vsa/device/unit.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::config {
+
+/// One parameter as the type gives it: as texts for listings (`vsa actuators NAME`) and reports, and as numbers to work with.
+struct Entry {
+  std::string key;    ///< "drive.friction_Nm"
+  std::string value;  ///< as text, shortest that reads back the same
+  std::string unit;
+  std::string bounds;  ///< "0 … 100" or the list of allowed words
+  std::string meaning;
+  std::string source;
+  Kind kind = Kind::number;
+  double number = 0;        ///< the value: itself, 0 or 1 for a switch, a word's index
+  double min = 0, max = 0;  ///< number, integer: the bounds
+};
+
+struct ActuatorType {
+  std::string name;
+  std::string title;
+  std::string description;  ///< may be empty
+  std::filesystem::path file;
+  std::string law;
+  std::optional<Evidence> evidence;  ///< none: the type doesn't say
+  std::vector<Entry> entries;
+  std::vector<std::string> notices;  ///< old spellings in its file
+  device::UnitConfig unit;
+};
+
+/// What a law's factory reads its own keys with: number("k1_Nm", "N·m", min, max, meaning). Every key asked for is required.
+/// Problems are collected, not thrown: number() is NaN then, and what the factory returns or throws is thrown away. A factory whose
+/// values are fine one by one but not together throws InputError with keys of its own ("C_m"); nothing else.
+class LawReader {
+ public:
+  virtual ~LawReader() = default;
+  virtual double number(std::string_view key, std::string_view unit, double min, double max, std::string_view meaning) = 0;
+};
+
+using LawFactory = std::function<std::shared_ptr<const elastic::Transmission>(LawReader&)>;
+
+/// The laws a type may name. standard() has two_sinh and series_spring; users add their own.
+class LawRegistry {
+ public:
+  [[nodiscard]] static LawRegistry standard();
+  void add(std::string name, LawFactory factory);
+  [[nodiscard]] const LawFactory* find(std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> names() const;
+
+ private:
+  std::map<std::string, LawFactory, std::less<>> factories_;
+};
+
+struct Override {
+  std::string key, value;
+};
+
+struct Document;
+
+/// A type's file, read once, to make the type with one set of overrides after the other. Several threads may make types of it at
+/// once; so the laws' factories are called.
+class TypeFile {
+ public:
+  TypeFile(std::shared_ptr<const Document> document, LawRegistry laws) : document_(std::move(document)), laws_(std::move(laws)) {}
+  /// Throws as TypeLibrary::load.
+  [[nodiscard]] ActuatorType make(const std::vector<Override>& overrides = {}) const;
+
+ private:
+  std::shared_ptr<const Document> document_;
+  LawRegistry laws_;
+};
+
+/// Reads actuator types from directories, first match wins. A type's name is its file's name without ".toml".
+class TypeLibrary {
+ public:
+  /// Empty: $VSA_ACTUATOR_PATH (colon-separated), then actuators/ of every data directory. Otherwise only the directories given.
+  /// For one more release $VSA_PRESET_PATH and presets/ are searched after them, see notices().
+  explicit TypeLibrary(std::vector<std::filesystem::path> directories = {}, LawRegistry laws = LawRegistry::standard());
+
+  [[nodiscard]] std::vector<std::string> names() const;
+  /// Throws InputError: unknown name (with the names there are), or all problems of the file and the overrides at once.
+  [[nodiscard]] ActuatorType load(std::string_view name, const std::vector<Override>& overrides = {}) const;
+  /// The same in two halves.
+  [[nodiscard]] TypeFile open(std::string_view name) const;
+  [[nodiscard]] ActuatorType load_file(const std::filesystem::path& file, const std::vector<Override>& overrides = {}) const;
+  /// The same from text; `file` is what problems call it, its stem the name that the type must have.
+  [[nodiscard]] ActuatorType load_text(std::string_view text, const std::filesystem::path& file,
+                                       const std::vector<Override>& overrides = {}) const;
+  [[nodiscard]] const std::vector<std::filesystem::path>& directories() const noexcept { return directories_; }
+  [[nodiscard]] const std::vector<std::string>& notices() const noexcept { return notices_; }  ///< old spellings met
+
+ private:
+  [[nodiscard]] std::filesystem::path find(std::string_view name) const;
+  void search_standard_directories();
+
+  std::vector<std::filesystem::path> directories_;
+  std::vector<std::string> notices_;
+  LawRegistry laws_;
+};
+
+/// Where data (actuators/, models/, web/) are looked for, in this order:
+///   1. $VSA_DATA_DIR, if set: then nowhere else
+///   2. ../share/vsa beside the executable's directory: an installation, or build/<preset>/bin with build/<preset>/share/vsa
+///   3. of a program linked to an installation (find_package(vsasim)): that; else the source tree that the library was built from
+[[nodiscard]] std::vector<std::filesystem::path> data_directories();
+
+/// The first of them that exists and has actuators/. Throws InputError where none has.
+[[nodiscard]] std::filesystem::path data_directory();
+
+/// The first data directory that has `relative` ("models", "web/replay.html"); none: empty. A build directory holds generated files
+/// only, the source tree the others, so ask for what you need.
+[[nodiscard]] std::optional<std::filesystem::path> find_data(const std::filesystem::path& relative);
+
+}  // namespace vsa::config

@@ -1,0 +1,68 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Many units of one type with a lever on each shaft (UnitBatch): for identification, control and learning without bodies.
+//
+//   J q̈ = τ − d q̇ − G sin q + push
+//   v' = (v + dt/J (τ − G sin q + push)) / (1 + dt d/J),   q' = q + dt v'      τ: the unit's mean torque over the step
+//
+// Arrays have one number a unit and stay where they are as long as the LeverBatch does.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "vsa/device/unit_batch.hpp"
+
+namespace vsa::device {
+
+struct Lever {
+  double inertia_kgm2 = 1e-3;      ///< J > 0
+  double damping_Nms_per_rad = 0;  ///< d ≥ 0
+  double gravity_Nm = 0;           ///< G = m g l: pulls towards q = 0 where positive, away where negative
+};
+
+class LeverBatch {
+ public:
+  /// InputError as UnitBatch; a lever that is out of range.
+  LeverBatch(const UnitConfig& config, std::size_t units, const Lever& lever, std::string_view instructions = {});
+
+  [[nodiscard]] std::size_t size() const noexcept { return units_.size(); }
+  [[nodiscard]] const UnitBatch& units() const noexcept { return units_; }
+  [[nodiscard]] double time_s() const noexcept { return 1e-9 * static_cast<double>(units_.time_ns()); }
+
+  /// From the next step on. InputError: no such unit, out of range.
+  void set_lever(std::size_t unit, const Lever& lever);
+  [[nodiscard]] const Lever& lever(std::size_t unit) const;
+
+  // Given with every step().
+  [[nodiscard]] std::span<double> equilibrium() noexcept { return equilibrium_; }  ///< rad; NaN, as at first: what it was
+  [[nodiscard]] std::span<double> preset() noexcept { return preset_; }            ///< in the law's preset unit; NaN likewise
+  [[nodiscard]] std::span<double> push() noexcept { return push_; }                ///< N·m about +q; at first 0
+
+  /// So many steps of dt (at most 16 ms), the commands taken as it begins. `between` is called between slices of about a million
+  /// unit steps; what it throws ends the stepping there. InputError: out of range, pushes or commands that are infinite, NaN pushes;
+  /// nothing was stepped then. InputError "angle[i]" too where a lever has flown beyond all numbers: all stand before that step.
+  void step(int steps, std::int64_t dt_ns = 1'000'000, const std::function<void()>& between = {});
+  /// At rest on its references for (equilibrium, preset), on for long, the shaft where it is said to be. What stands in equilibrium()
+  /// and preset() is commanded with the next step as ever. InputError: no such unit,
+  /// numbers that aren't finite.
+  void reset(std::size_t unit, double equilibrium_rad, double preset, double shaft_rad, double speed_rad_per_s = 0);
+
+  [[nodiscard]] std::span<const double> shaft_rad() const noexcept { return angle_; }
+  [[nodiscard]] std::span<const double> shaft_speed_rad_per_s() const noexcept { return speed_; }
+  [[nodiscard]] std::span<const double> torque_Nm() const noexcept { return torque_; }  ///< mean over the last step
+
+ private:
+  void command();
+  void move(double dt_s) noexcept;
+
+  UnitBatch units_;
+  Unit unit_;  // makes states
+  std::vector<Lever> levers_;
+  std::vector<double> equilibrium_, preset_, push_, angle_, speed_, inverse_inertia_, torque_;
+  std::vector<double> held_equilibrium_, held_preset_;  // what the units have
+};
+
+}  // namespace vsa::device

@@ -1,0 +1,29 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What a unit is doing, for whoever drives one without a host: host::ActuatorReading is made of it.
+#pragma once
+
+#include <array>
+
+#include "vsa/device/unit.hpp"
+
+namespace vsa::device {
+
+/// At the end of the unit's last step: physical truth.
+struct UnitReading {
+  double equilibrium_rad = 0, preset = 0;  ///< attained, from the pulleys
+  double shaft_rad = 0, shaft_speed_rad_per_s = 0;
+  double torque_Nm = 0;       ///< on the shaft by springs and frictions
+  double mean_torque_Nm = 0;  ///< the same as the host got it, over the last step
+  double stiffness_Nm_per_rad = 0;
+  std::array<double, 2> motor_rad{}, motor_speed_rad_per_s{};
+  std::array<double, 2> motor_torque_Nm{};  ///< on each pulley by its spring and tendon
+  std::array<double, 2> current_A{};
+};
+/// Nothing of its program's, which a port's thread may be at.
+[[nodiscard]] UnitReading read(const Unit& unit, const UnitState& state) noexcept;
+
+/// What the program would tell as the positions now: motor 1, motor 2, shaft.
+[[nodiscard]] std::array<Ticks, 3> measured(const Unit& unit, const UnitState& state) noexcept;
+
+}  // namespace vsa::device

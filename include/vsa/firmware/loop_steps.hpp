@@ -1,0 +1,69 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The parts of a tick that units in lanes take too (src/device/lanes/loop.hpp): of one motor or encoder, without branches where a
+// compiler can take many at once. The members may be narrower than the int32 they are computed in.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+#include "vsa/firmware/arithmetic.hpp"
+#include "vsa/firmware/memory.hpp"
+
+namespace vsa::firmware::steps {
+
+inline constexpr std::int32_t kPwmMax = 100;
+inline constexpr std::int32_t kTurnJump = 49152;     // a jump past this is the wrap of the turn
+inline constexpr std::int32_t kSuspectJump = 16384;  // a quarter turn in a tick is not believed …
+inline constexpr std::int32_t kBelieveAfter = 10;    // … unless it stays for ten ticks
+inline constexpr std::int32_t kFarError = 131072;    // 2¹⁷: beyond it the P product is shifted early
+inline constexpr std::int32_t kAdcOffset = 1638;
+inline constexpr std::int32_t kFilterAlpha = 3;  // of 1024 a tick: τ ≈ 341 ms
+
+/// A new word of an encoder, its offset added: the turns it tells of, and whether it is believed.
+template <class Turns, class Rejected>
+inline bool follow_word(std::int32_t sample, bool whole_jump, std::int32_t& last, Turns& turns, Rejected& rejected) noexcept {
+  const std::int32_t jump = sample - last;
+  const std::int32_t size = whole_jump ? (jump < 0 ? -jump : jump) : std::int32_t{abs_16(jump)};
+  const std::int32_t down = jump > kTurnJump ? 1 : 0, up = jump < -kTurnJump ? 1 : 0;
+  const bool suspect = down + up == 0 && size > kSuspectJump;
+  const std::int32_t refused = suspect ? rejected + 1 : 0;
+  const bool believed = refused == 0 || refused >= kBelieveAfter;
+  turns = static_cast<Turns>(static_cast<std::int8_t>(turns + up - down));
+  rejected = static_cast<Rejected>(believed ? 0 : refused);
+  last = believed ? sample : last;
+  return believed;
+}
+
+inline std::int32_t unwrapped(std::int32_t sample, std::int32_t turns) noexcept { return wrap_add(sample, wrap_shl(turns, 16)); }
+
+inline std::int32_t proportional(std::int32_t k, std::int32_t error) noexcept {
+  const bool far = error > kFarError || error < -kFarError;
+  return far ? wrap_mul(k, error >> 8) >> 8 : wrap_mul(k, error) >> 16;
+}
+
+/// % of the position loop of version 6.
+inline std::int32_t position_pwm(std::int32_t p, std::int32_t i, std::int32_t d, std::int32_t error, std::int32_t error_sum,
+                                 std::int32_t moved_back) noexcept {
+  const std::int32_t integral = wrap_mul(i >> 6, error_sum) >> 10, derivative = wrap_mul(d, moved_back) >> 16;
+  return wrap_add(wrap_add(proportional(p, error), integral), derivative);
+}
+
+inline std::int32_t limited_sum(std::int32_t sum, std::int32_t error, std::int32_t most) noexcept {
+  return std::clamp(wrap_add(sum, error), -most, most);
+}
+
+/// What of a PWM the limit by the supply leaves, with the rounding of version 6.
+inline std::int32_t limited_pwm(std::int32_t pwm, std::int32_t limit_pct) noexcept {
+  return (((pwm * 1024) / kPwmMax) * limit_pct) >> 10;
+}
+inline std::int32_t signed_duty(bool forward, std::int32_t out) noexcept { return forward ? std::abs(out) : -std::abs(out); }
+
+/// The filter's memory, mA << 6, after one more reading.
+inline std::int32_t filtered(std::int32_t filter, std::int32_t sign, std::int32_t adc) noexcept {
+  const std::int32_t now_mA = sign * (wrap_mul(cut_16(adc - kAdcOffset), 25771) >> 13);
+  return wrap_add(wrap_mul(filter, 1024 - kFilterAlpha), wrap_mul(wrap_shl(now_mA, 6), kFilterAlpha)) >> 10;
+}
+
+}  // namespace vsa::firmware::steps

@@ -1,0 +1,180 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// One number, or several side by side: the physics of a unit is written once over a type T, and
+//
+//   T = double              one unit
+//   T = Pack<W, Isa>        W units of one type, one in each lane
+//
+// Every operation here is one IEEE operation (or a choice) in each lane, and nothing is contracted (-ffp-contract=off), so a lane has
+// the bits of the scalar path, whatever its neighbours do and whatever the instruction set. What a branch is for one unit is a mask for
+// several: select() chooses lane by lane, any() and all() skip what no lane or every lane asks for.
+//
+// A Pack is a vector of the compiler's (GCC and Clang both have them, with operators, for every width and target): xsimd would add a
+// dependency to the core, whose rooms up to `device` need the standard library alone, and has nothing that is needed here beyond them.
+//
+// `Isa` is no more than a name: code compiled for several instruction sets has functions of several names, so a linker can't put one
+// meant for AVX-512 where a machine without it calls it.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace vsa::lanes {
+
+template <class T>
+inline constexpr bool kScalar = std::is_same_v<T, double>;
+
+// One number.
+
+[[nodiscard]] inline bool any(bool m) noexcept { return m; }
+[[nodiscard]] inline bool all(bool m) noexcept { return m; }
+[[nodiscard]] inline bool same(bool a, bool b) noexcept { return a == b; }
+[[nodiscard]] inline double select(bool m, double a, double b) noexcept { return m ? a : b; }
+[[nodiscard]] inline bool select(bool m, bool a, bool b) noexcept { return m ? a : b; }
+[[nodiscard]] inline double abs(double v) noexcept { return std::abs(v); }
+[[nodiscard]] inline double copysign(double magnitude, double sign) noexcept { return std::copysign(magnitude, sign); }
+
+// Several.
+
+/// The smallest natural vector of W doubles, and of W truths: all bits or none.
+template <int W>
+struct Vectors {
+  typedef double Number __attribute__((vector_size(8 * W)));
+  typedef long long Truth __attribute__((vector_size(8 * W)));
+};
+
+template <int W, class Isa>
+struct Mask {
+  typename Vectors<W>::Truth v;
+
+  Mask() = default;
+  explicit Mask(typename Vectors<W>::Truth truth) noexcept : v(truth) {}
+  explicit Mask(bool truth) noexcept : v(typename Vectors<W>::Truth{} - static_cast<long long>(truth)) {}
+  friend Mask operator&(Mask a, Mask b) noexcept { return Mask(a.v & b.v); }
+  friend Mask operator|(Mask a, Mask b) noexcept { return Mask(a.v | b.v); }
+  friend Mask operator!(Mask a) noexcept { return Mask(~a.v); }
+  friend Mask operator&(Mask a, bool b) noexcept { return a & Mask(b); }
+  friend Mask operator|(Mask a, bool b) noexcept { return a | Mask(b); }
+  [[nodiscard]] bool lane(int i) const noexcept { return v[i] != 0; }
+  /// Bit i for lane i.
+  [[nodiscard]] unsigned bits() const noexcept {
+#if defined(__AVX512DQ__)
+    if constexpr (W == 8) return static_cast<unsigned>(_mm512_movepi64_mask(reinterpret_cast<__m512i>(v)));
+#endif
+#if defined(__SSE2__)
+    if constexpr (W == 2) return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(v)));
+#endif
+#if defined(__AVX__)
+    if constexpr (W == 4) return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(v)));
+#endif
+    unsigned all = 0;
+    for (int i = 0; i < W; ++i) all |= static_cast<unsigned>(v[i] != 0) << i;
+    return all;
+  }
+};
+
+template <int W, class Isa>
+[[nodiscard]] Mask<W, Isa> same(Mask<W, Isa> a, Mask<W, Isa> b) noexcept {
+  return Mask<W, Isa>(~(a.v ^ b.v));
+}
+template <int W, class Isa>
+[[nodiscard]] bool any(Mask<W, Isa> m) noexcept {
+  return m.bits() != 0;
+}
+template <int W, class Isa>
+[[nodiscard]] bool all(Mask<W, Isa> m) noexcept {
+  return m.bits() == (1U << W) - 1;
+}
+
+template <int W, class Isa_>
+struct Pack {
+  using Isa = Isa_;
+  using Truth = Mask<W, Isa>;
+  static constexpr int kWidth = W;
+  typename Vectors<W>::Number v;
+
+  Pack() = default;
+  explicit Pack(typename Vectors<W>::Number number) noexcept : v(number) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): a number that all lanes have. x − 0 = x, for −0 too.
+  Pack(double all) noexcept : v(all - typename Vectors<W>::Number{}) {}
+
+  friend Pack operator+(Pack a, Pack b) noexcept { return Pack(a.v + b.v); }
+  friend Pack operator-(Pack a, Pack b) noexcept { return Pack(a.v - b.v); }
+  friend Pack operator*(Pack a, Pack b) noexcept { return Pack(a.v * b.v); }
+  friend Pack operator/(Pack a, Pack b) noexcept { return Pack(a.v / b.v); }
+  friend Pack operator-(Pack a) noexcept { return Pack(-a.v); }
+  friend Truth operator<(Pack a, Pack b) noexcept { return Truth(a.v < b.v); }
+  friend Truth operator<=(Pack a, Pack b) noexcept { return Truth(a.v <= b.v); }
+  friend Truth operator>(Pack a, Pack b) noexcept { return Truth(a.v > b.v); }
+  friend Truth operator>=(Pack a, Pack b) noexcept { return Truth(a.v >= b.v); }
+  friend Truth operator==(Pack a, Pack b) noexcept { return Truth(a.v == b.v); }
+  friend Truth operator!=(Pack a, Pack b) noexcept { return Truth(a.v != b.v); }
+  Pack& operator+=(Pack o) noexcept { return *this = *this + o; }
+  Pack& operator-=(Pack o) noexcept { return *this = *this - o; }
+  Pack& operator*=(Pack o) noexcept { return *this = *this * o; }
+
+  [[nodiscard]] double lane(int i) const noexcept { return v[i]; }
+  void set_lane(int i, double to) noexcept { v[i] = to; }
+};
+
+template <int W, class Isa>
+[[nodiscard]] Pack<W, Isa> select(Mask<W, Isa> m, Pack<W, Isa> a, Pack<W, Isa> b) noexcept {
+  return Pack<W, Isa>(m.v ? a.v : b.v);
+}
+template <int W, class Isa>
+[[nodiscard]] Mask<W, Isa> select(Mask<W, Isa> m, Mask<W, Isa> a, Mask<W, Isa> b) noexcept {
+  return Mask<W, Isa>((m.v & a.v) | (~m.v & b.v));
+}
+template <int W, class Isa>
+[[nodiscard]] Pack<W, Isa> abs(Pack<W, Isa> p) noexcept {
+  using Bits = typename Vectors<W>::Truth;
+  return Pack<W, Isa>(reinterpret_cast<typename Vectors<W>::Number>(reinterpret_cast<Bits>(p.v) & 0x7FFFFFFFFFFFFFFFLL));
+}
+template <int W, class Isa>
+[[nodiscard]] Pack<W, Isa> copysign(Pack<W, Isa> magnitude, Pack<W, Isa> sign) noexcept {
+  using Bits = typename Vectors<W>::Truth;
+  const Bits kept = reinterpret_cast<Bits>(magnitude.v) & 0x7FFFFFFFFFFFFFFFLL;
+  const Bits taken = reinterpret_cast<Bits>(sign.v) & static_cast<long long>(0x8000000000000000ULL);
+  return Pack<W, Isa>(reinterpret_cast<typename Vectors<W>::Number>(kept | taken));
+}
+
+// Both.
+
+template <class T>
+using Truth = decltype(T() < T());
+
+template <class T>
+[[nodiscard]] Truth<T> truth(bool m) noexcept {
+  return Truth<T>(m);
+}
+/// As std::min, std::max and std::clamp choose, NaN included.
+template <class T>
+[[nodiscard]] T min(T a, std::type_identity_t<T> b) noexcept {
+  return select(b < a, b, a);
+}
+template <class T>
+[[nodiscard]] T max(T a, std::type_identity_t<T> b) noexcept {
+  return select(a < b, b, a);
+}
+template <class T>
+[[nodiscard]] T clamp(T v, std::type_identity_t<T> low, std::type_identity_t<T> high) noexcept {
+  return select(v < low, low, select(high < v, high, v));
+}
+/// m ? a : 0.
+template <class T>
+[[nodiscard]] T where(Truth<T> m, T a) noexcept {
+  return select(m, a, T(0.0));
+}
+[[nodiscard]] inline double where(bool m, double a) noexcept { return m ? a : 0.0; }
+
+/// A small whole number beside T: int for one, a whole double in each lane for several.
+template <class T>
+using Count = std::conditional_t<kScalar<T>, int, T>;
+
+}  // namespace vsa::lanes

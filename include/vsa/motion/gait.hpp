@@ -1,0 +1,208 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A gait is data: sinusoids for groups of actuators, played in simulated time on a Stage: a world, or whatever has actuators.
+//
+//   y_n(t) = D + A r(t) sin(ω t + n π/λ + δ + s)          the paper's eq. (10); s = steering, on one group only       rad
+//   r(t)   = t/ramp_s below ramp_s, then 1: the body grows into the wave instead of jumping into it
+//
+// Commands are sent at every multiple of period_s: what is sent is a function of simulated time and, when steering, of where the
+// model has been. All memory is in GaitState, which is copyable; a copy of a Gait goes on exactly as the original.
+//
+// Steering: the direction of travel is that of the model's centre of mass against where it was one gait period ago (so the wobble
+// of the cycle cancels). With ψ its angle about the world's z axis,
+//   goal = clamp(gain · wrap(ψ_target − ψ), ±limit_rad),   s moves towards goal by at most slew_rad_per_s.
+// A model that moved less than min_travel_m in the period has no direction: the last one holds.
+//
+// While it plays it can be changed (change()): amplitude, offset, π/λ, δ, preset and ω go to their new values linearly in kBlend_s
+// and the phase is ∫ω dt, so that commands never jump. Nor do those of an actuator that somebody gives back (leave()). Time that
+// goes backwards starts over with the new values.
+//
+// A gait file (TOML; angles in degrees as in the paper's Table II):
+//
+//   base = "sidewind.toml"            # optional: begin with that file (same directory), then replace what follows
+//   title = "…"
+//   frequency_rad_per_s = 4.71        # ω
+//   ramp_s = 2.0
+//   period_s = 0.01                   # a command each, a whole number of nanoseconds
+//   [group.vertical]
+//   actuators = ["joint_1", "joint_3"]
+//   n = [1, 3]                        # the n of each
+//   amplitude_deg = 60.0              # A
+//   offset_deg = 0.0                  # D
+//   lambda = 5.0                      # λ: modules a half wave
+//   delta_deg = 0.0                   # δ
+//   preset_deg = 35.0                 # half difference; a unit accepts up to its preset_max (0.785 rad = 44.98°)
+//
+//   [steering]                        # optional
+//   group = "horizontal"
+//   gain = 1.0                        # rad/rad; negative turns the other way
+//   limit_rad = 0.8
+//   slew_rad_per_s = 0.35
+//   min_travel_m = 0.03
+//   target_deg = 90.0                 # in the world, from +x about +z; left out: where it went after ramp and first period
+//
+// A file with [[keyframe]] is a motion instead of waves: see motion.hpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsa/errors.hpp"
+#include "vsa/motion/motion.hpp"
+#include "vsa/motion/stage.hpp"
+
+namespace vsa::motion {
+
+struct GaitGroup {
+  std::string name;
+  std::vector<std::string> actuators;  ///< "joint_1", or "model/joint_1" where several models have it
+  std::vector<int> n;                  ///< one an actuator
+  double amplitude_rad = 0;
+  double offset_rad = 0;
+  double lambda = 1;
+  double delta_rad = 0;
+  double preset_rad = 0;
+};
+
+struct SteeringParams {
+  std::string group;
+  double gain = 1;
+  double limit_rad = 0.8;
+  double slew_rad_per_s = 0.35;
+  double min_travel_m = 0.03;
+  std::optional<double> target_rad;
+};
+
+struct GaitParams {
+  std::string file;  ///< for messages
+  std::string title;
+  double frequency_rad_per_s = 0;
+  double ramp_s = 0;
+  std::int64_t period_ns = 10'000'000;
+  std::vector<GaitGroup> groups;
+  std::optional<SteeringParams> steering;
+  std::optional<MotionParams> motion;  ///< keyframes; then there are no groups and frequency_rad_per_s is 0
+};
+
+struct GaitRange {
+  double min = 0, max = 0;
+};
+
+/// What files and changes may say.
+struct GaitBounds {
+  GaitRange frequency_rad_per_s{0.01, 1000};
+  GaitRange amplitude_deg{0, 160};
+  GaitRange offset_deg{-160, 160};
+  GaitRange lambda{0.1, 1000};
+  GaitRange delta_deg{-360, 360};
+  GaitRange preset_deg{0, 90};
+};
+inline constexpr GaitBounds kGaitBounds{};
+
+/// What of a group can be changed while it plays.
+struct WaveParams {
+  double amplitude_rad = 0, offset_rad = 0, lambda = 1, delta_rad = 0, preset_rad = 0;
+};
+struct GaitChange {
+  double frequency_rad_per_s = 0;
+  std::vector<WaveParams> groups;  ///< as many as the gait has, in its order
+};
+
+struct SteeringState {
+  std::vector<std::array<double, 2>> trail;  ///< the last period's centres of mass, oldest first
+  std::optional<double> heading_rad;         ///< direction of travel
+  std::optional<double> target_rad;
+  double phase_rad = 0;  ///< s
+};
+
+/// One control period of steering; `window` is a gait period in samples, `engaged` false while the gait still ramps up.
+void steer(const SteeringParams& params, SteeringState& state, std::array<double, 2> center, std::size_t window, double dt_s,
+           bool engaged);
+
+/// Where the values were when they were last changed.
+struct GaitBlend {
+  double t_s = 0, phase_rad = 0;
+  GaitChange from;
+};
+
+/// Which commands of an actuator the gait leaves to somebody else.
+struct ByHand {
+  bool equilibrium = false, preset = false;
+  [[nodiscard]] bool any() const noexcept { return equilibrium || preset; }
+};
+
+/// An actuator that was given back: its commands blend from where the hand left them to the gait's.
+struct GaitReturn {
+  ByHand of;                               ///< which of the two come back
+  std::optional<double> t_s;               ///< since when; none: from the next commands on
+  double equilibrium_rad = 0, preset = 0;  ///< commanded then
+};
+
+struct GaitState {
+  std::int64_t last_slot = -1;  ///< time_ns / period_ns of the last commands
+  SteeringState steering;
+  std::optional<GaitBlend> blend;
+  std::optional<double> held_phase_rad;  ///< while it is held
+  std::map<std::string, GaitReturn, std::less<>> returning;
+};
+
+class Gait {
+ public:
+  /// Throws InputError with every problem: missing file, syntax, unknown or missing keys, NaN, numbers out of range, doubled
+  /// actuators.
+  [[nodiscard]] static Gait load(const std::filesystem::path& file);
+  /// Throws InputError where it can't be played: a period below 1 ns, not one n an actuator, numbers that aren't finite, a λ of 0,
+  /// steering without a frequency.
+  explicit Gait(GaitParams params);
+
+  [[nodiscard]] const GaitParams& params() const noexcept { return params_; }
+  [[nodiscard]] const GaitState& state() const noexcept { return state_; }
+
+  /// Throws InputError naming every actuator that the stage hasn't. apply() does it by itself on its first call.
+  void bind(const Stage& stage);
+  /// Call before every step: sends commands when a new control period has begun. Time that went backwards (a reset) starts over.
+  void apply(Stage& stage);
+  /// Forgets steering, the last commands and what is left of a change.
+  void reset();
+
+  static constexpr double kBlend_s = 1.0;
+  /// The values as files give them, for changing.
+  [[nodiscard]] GaitChange values() const;
+  /// From simulated time t_s on. Throws InputError with every number out of kGaitBounds.
+  void change(const GaitChange& to, double t_s);
+  /// No commands from now on: the last ones stay. resume() goes on with the phase where it stood.
+  void hold(double t_s);
+  void resume(double t_s);
+  [[nodiscard]] bool held() const noexcept { return state_.held_phase_rad.has_value(); }
+  static constexpr double kGiveBack_s = 0.5;
+  /// From its next commands on. What was by hand and no longer is goes from where the hand left it to the gait's own values,
+  /// linearly in kGiveBack_s. An actuator that isn't the gait's: false. A reset doesn't undo it.
+  bool leave(std::string_view actuator, ByHand by_hand);
+  [[nodiscard]] ByHand by_hand(std::string_view actuator) const;
+
+  /// eq. (10) for the k-th actuator of a group at simulated time t. Throws InputError where the group has no such actuator.
+  [[nodiscard]] double equilibrium(const GaitGroup& group, std::size_t k, double t_s) const;
+
+ private:
+  void bind_motion(const Stage& stage, Problems& problems) const;
+  void play_motion(Stage& stage, double t_s) const;
+  void steer_model(const Stage& stage, double t_s);
+  void blend_back(const Stage& stage, std::size_t actuator, std::string_view name, double t_s, double& equilibrium, double& preset);
+  [[nodiscard]] WaveParams wave(const GaitGroup& group, double t_s) const;
+  [[nodiscard]] double frequency(double t_s) const;
+  [[nodiscard]] double phase(double t_s) const;
+
+  GaitParams params_;
+  GaitState state_;
+  std::map<std::string, ByHand, std::less<>> by_hand_;
+  std::string model_;  // whose centre of mass steers
+  bool bound_ = false;
+};
+
+}  // namespace vsa::motion

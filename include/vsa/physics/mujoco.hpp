@@ -1,0 +1,11 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vsa/physics/physics.hpp"
+
+namespace vsa::physics {
+
+/// MuJoCo 2.2.2, as Debian 12 has it.
+[[nodiscard]] std::shared_ptr<const Engine> mujoco();
+
+}  // namespace vsa::physics

@@ -1,0 +1,132 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The door to a physics engine. A step has two halves, so that torques can follow from positions and from what the engine has
+// worked out for them:
+//
+//   prepare()      everything that depends on the present state: poses, inertia, contacts
+//   apply(j, τ)    for every driven joint; what isn't applied is zero
+//   advance()      v' = v + dt·a(q, v, τ), q' = q + dt·v'   (semi-implicit Euler)
+//
+// States: positions, velocities, and what an engine carries over as a first guess: as numbers (vsa/state.hpp), all that decides what
+// comes next. Equal numbers, equal future.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsa/errors.hpp"
+#include "vsa/physics/error.hpp"
+#include "vsa/scene/energy.hpp"
+#include "vsa/scene/link_parameters.hpp"
+#include "vsa/scene/pose.hpp"
+#include "vsa/scene/touch.hpp"
+#include "vsa/state.hpp"
+
+namespace vsa::description {
+struct Capabilities;
+struct World;
+}  // namespace vsa::description
+
+namespace vsa::physics {
+
+struct JointState {
+  double position = 0, speed = 0;
+};
+
+/// Why a step was refused.
+struct Refusal {
+  std::string where;     ///< "joint m::j", "link m::l", or the engine
+  std::string quantity;  ///< "acceleration", "position", an engine's warning
+  double value = 0;
+};
+
+/// Masses and frictions of all links as an engine works with them. Never changed, so that several threads may share one.
+class Bodies {
+ public:
+  virtual ~Bodies() = default;
+  [[nodiscard]] virtual std::span<const scene::LinkParameters> links() const = 0;  ///< by link
+};
+
+class Physics {
+ public:
+  virtual ~Physics() = default;
+
+  virtual void prepare() = 0;
+  /// One-axis joints whose torques move each other, by groups: indices into `joints`. Fixed for a world.
+  [[nodiscard]] virtual std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const = 0;
+  /// B of those joints: how advance() answers to torques, (v' − v)/dt = … + B τ, contacts and limits aside. By rows, 1/(kg·m²);
+  /// between prepare() and advance().
+  virtual void mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
+  virtual void apply(std::size_t joint, double torque) = 0;
+  /// Adds the spring's force to what is applied; after all apply() of the step.
+  virtual void pull(const scene::Pull& pull) = 0;
+  /// A fault leaves the state as it was at prepare().
+  [[nodiscard]] virtual std::optional<Refusal> advance() = 0;
+
+  [[nodiscard]] virtual JointState joint(std::size_t joint) const = 0;  ///< one-axis joints
+  virtual void set_joint(std::size_t joint, JointState state) = 0;
+
+  virtual void poses(std::span<scene::Pose> links) const = 0;
+  [[nodiscard]] virtual std::array<double, 3> center_of_mass(std::span<const std::size_t> links) const = 0;
+  /// Turns about the world's z axis and shifts every free body among `links`. False where one of them is tied to the world.
+  [[nodiscard]] virtual bool displace(std::span<const std::size_t> links, double yaw, const std::array<double, 3>& shift) = 0;
+  /// With positions moved back by half a step, velocities as they are.
+  [[nodiscard]] virtual scene::Energy energy() const = 0;
+  [[nodiscard]] virtual int contact_count() const = 0;
+  virtual void contacts(std::vector<scene::Contact>& out) const = 0;  ///< of the last advance(); none where the state was set since
+
+  [[nodiscard]] virtual StateLayout state_layout() const = 0;
+  [[nodiscard]] virtual std::size_t state_size() const = 0;
+  /// state_size() numbers; nothing is allocated.
+  virtual void save(std::span<double> out) const = 0;
+  virtual void restore(std::span<const double> in) = 0;  ///< finite numbers
+
+  /// The same world in the same state, with data of its own.
+  [[nodiscard]] virtual std::unique_ptr<Physics> clone() const = 0;
+  /// Add to what is applied; after all apply() of the step, before the pulls.
+  virtual void push(std::size_t joint, double torque) = 0;
+  virtual void push(std::size_t link, const scene::Wrench& wrench) = 0;
+
+  // Of the present state; degrees of freedom as in engine::World.
+  [[nodiscard]] virtual std::size_t dofs() const = 0;
+  [[nodiscard]] virtual std::optional<std::size_t> joint_dof(std::size_t joint) const = 0;
+  [[nodiscard]] virtual std::optional<std::size_t> free_dof(std::size_t link) const = 0;
+  [[nodiscard]] virtual scene::Pose pose(std::size_t link) const = 0;
+  [[nodiscard]] virtual scene::Twist velocity(std::size_t link) const = 0;
+  virtual void mass_matrix(std::span<double> out) const = 0;
+  virtual void bias(std::span<double> out, bool moving) const = 0;  ///< moving: at the present speeds, else at rest
+  virtual void jacobian(std::size_t link, const std::array<double, 3>& point, std::span<double> out) const = 0;
+
+  /// What the links weigh and how they rub, now.
+  [[nodiscard]] virtual std::shared_ptr<const Bodies> bodies() const = 0;
+  /// `base` of links with these parameters, one a link, which the caller has checked (engine::World::parameters_with). Those in
+  /// force and the state stay.
+  [[nodiscard]] virtual std::shared_ptr<const Bodies> bodies_with(const Bodies& base,
+                                                                  std::span<const scene::LinkParameters> links) = 0;
+  /// Goes on with those, of this world or a copy; the state stays.
+  virtual void use(std::shared_ptr<const Bodies> bodies) = 0;
+};
+
+/// What an engine makes of a description, the same for all who step it; never changed.
+class CompiledWorld {
+ public:
+  virtual ~CompiledWorld() = default;
+  [[nodiscard]] virtual std::unique_ptr<Physics> start() const = 0;  ///< at its joints' zeros
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  [[nodiscard]] virtual const description::Capabilities& capabilities() const = 0;
+  /// Adds to `problems` and returns null where it can't. Safe from several threads.
+  [[nodiscard]] virtual std::shared_ptr<const CompiledWorld> compile(const std::shared_ptr<const description::World>& world,
+                                                                     double step_s, std::string_view file,
+                                                                     Problems& problems) const = 0;
+};
+
+}  // namespace vsa::physics

@@ -1,0 +1,11 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace vsa::scene {
+
+/// Kinetic and gravitational energy of all bodies and that of the description's own joint springs, J.
+struct Energy {
+  double kinetic = 0, gravitational = 0, springs = 0;
+};
+
+}  // namespace vsa::scene

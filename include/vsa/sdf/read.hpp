@@ -1,0 +1,38 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// SDF 1.6 … 1.12 and URDF → description::World.
+//
+// What the engine that asks can't honour (its Capabilities) is a problem, and so is what no description can say but physics depends
+// on; what doesn't touch the physics (sensors, foreign plugins) is a warning, once a kind. A file with a model and no world becomes that model in a world of SDF's defaults.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsa/description/capabilities.hpp"
+#include "vsa/description/world.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/sdf/concave.hpp"
+#include "vsa/sdf/finder.hpp"
+
+namespace vsa::reader {
+
+struct ReadOptions {
+  description::Capabilities engine;  ///< that the description is for
+  Concave concave = Concave::refuse;
+};
+
+struct SdfSource {
+  std::filesystem::path path;  ///< read from here; empty: `text`
+  std::string_view text;
+  [[nodiscard]] std::string label() const { return path.empty() ? "SDF text" : path.string(); }
+};
+
+/// Everything wrong goes to `problems`; the description is complete only where nothing was. What is read
+/// goes to `seen`, the finder's. One call at a time in a process: libsdformat keeps global state while it reads.
+[[nodiscard]] description::World read_sdf(const SdfSource& source, const ReadOptions& options, const Finder& finder,
+                                          SeenFiles& seen, std::vector<std::string>& warnings, Problems& problems);
+
+}  // namespace vsa::reader

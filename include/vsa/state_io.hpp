@@ -1,0 +1,114 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Structs to numbers and back (vsa/state_walk.hpp).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#include "vsa/bits.hpp"
+#include "vsa/state_walk.hpp"
+
+namespace vsa::state {
+
+/// Into a span that has room for all of it. A fault: it has more of something than there is room for.
+class Writer : public Sink {
+ public:
+  static constexpr bool kWantsRoom = false;
+  explicit Writer(std::span<double> out) noexcept : out_(out) {}
+  template <class T>
+  void leaf(const char*, const char*, const T& v) noexcept {
+    put(&out_[at_], v);
+    at_ += kSlots<T>;
+  }
+  template <class A>
+  void leaves(const char* name, const char* unit, const A& v) noexcept {
+    for (std::size_t i = 0; i < v.size(); ++i) leaf<typename A::value_type>(name, unit, v[i]);
+  }
+  template <class A>
+  void bytes(const char*, const A& v, std::size_t count, std::size_t most) noexcept {
+    put_bytes(&out_[at_], {v.data(), count});
+    at_ += packed(count);
+    blank(packed(most) - packed(count));
+  }
+  template <class Items>
+  std::size_t count(const Items& items, std::size_t most) noexcept {
+    const std::size_t count = items.size();
+    if (count > most && !fault_.there())
+      fault_ = {at_, static_cast<double>(count), "is more than a state as numbers has room for", "", 0, static_cast<double>(most)};
+    out_[at_++] = static_cast<double>(count);
+    return count;
+  }
+  void blank(std::size_t n) noexcept {
+    std::fill_n(out_.begin() + static_cast<std::ptrdiff_t>(at_), n, 0.0);
+    at_ += n;
+  }
+  [[nodiscard]] const StateFault& fault() const noexcept { return fault_; }
+  [[nodiscard]] std::size_t at() const noexcept { return at_; }
+
+ private:
+  std::span<double> out_;
+  std::size_t at_ = 0;
+  StateFault fault_;
+};
+
+/// The first fault is kept; what is loaded after it is worth nothing.
+class Reader : public Sink {
+ public:
+  static constexpr bool kWantsRoom = false;
+  explicit Reader(std::span<const double> in) noexcept : in_(in) {}
+  template <class T>
+  void leaf(const char*, const char*, T& v) noexcept {
+    if (room(kSlots<T>)) note(get(&in_[at_], v));
+    at_ += kSlots<T>;
+  }
+  template <class A>
+  void leaves(const char* name, const char* unit, A& v) noexcept {
+    for (auto& element : v) leaf(name, unit, element);
+  }
+  template <class A>
+  void bytes(const char*, A& v, std::size_t count, std::size_t most) noexcept {
+    if (room(packed(most))) note(get_bytes(&in_[at_], {v.data(), count}));
+    at_ += packed(count);
+    blank(packed(most) - packed(count));
+  }
+  template <class Items>
+  std::size_t count(Items& items, std::size_t most) {
+    std::uint32_t count = 0;
+    if (room(1)) note(get(&in_[at_], count));
+    if (count > most) note({0, in_[at_], "is more than there can be", "", 0, static_cast<double>(most)});
+    ++at_;
+    if (fault_.there()) count = 0;
+    items.resize(count);
+    return count;
+  }
+  void blank(std::size_t n) noexcept {
+    if (room(n)) {
+      const auto rest = in_.subspan(at_, n);
+      const auto it = std::find_if(rest.begin(), rest.end(), [](double v) { return bits_as<std::uint64_t>(v) != 0; });
+      if (it != rest.end()) note({static_cast<std::size_t>(it - rest.begin()), *it, "is where nothing is", "0"});
+    }
+    at_ += n;
+  }
+  template <class S>
+  void judge(const S& s) noexcept {
+    if (fault_.there()) return;
+    if (const char* wrong = s.impossible()) fault_ = {at_ - 1, at_ > 0 ? in_[at_ - 1] : 0.0, "ends what can't be", wrong};
+  }
+  [[nodiscard]] const StateFault& fault() const noexcept { return fault_; }
+  [[nodiscard]] std::size_t at() const noexcept { return at_; }
+
+ private:
+  [[nodiscard]] bool room(std::size_t n) const noexcept { return !fault_.there() && at_ + n <= in_.size(); }
+  void note(StateFault fault) noexcept {
+    if (fault_.there() || !fault.there()) return;
+    fault.offset += at_;
+    fault_ = fault;
+  }
+  std::span<const double> in_;
+  std::size_t at_ = 0;
+  StateFault fault_;
+};
+
+}  // namespace vsa::state

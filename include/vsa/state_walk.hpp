@@ -1,0 +1,218 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What follows from a struct's fields() (vsa/state_fields.hpp): its size as numbers and their layout here, saving and loading in
+// vsa/state_io.hpp. All of them walk the same way; only what they do with a number differs.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+
+#include "vsa/state_fields.hpp"
+
+namespace vsa::state {
+
+template <class T>
+inline constexpr bool kArray = false;
+template <class T, std::size_t N>
+inline constexpr bool kArray<std::array<T, N>> = true;
+template <class T>
+inline constexpr bool kVector = false;
+template <class T>
+inline constexpr bool kVector<std::vector<T>> = true;
+template <class T>
+inline constexpr bool kCapped = false;
+template <class T>
+inline constexpr bool kCapped<Capped<T>> = true;
+
+template <class Sink, class T>
+void walk(Sink& sink, const char* name, const char* unit, T&& v);
+
+/// The members of a struct.
+template <class Sink, class S>
+void walk_fields(Sink& sink, S& s) {
+  using T = std::remove_const_t<S>;
+  static_assert(names_all<T>(), "a member isn't named in fields(), or not where it stands");
+  T::fields(s, [&sink](auto&&... members) {
+    const auto all = std::forward_as_tuple(members...);
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (walk(sink, std::get<3 * I>(all), std::get<3 * I + 1>(all), std::get<3 * I + 2>(all)), ...);
+    }
+    (std::make_index_sequence<sizeof...(members) / 3>{});
+  });
+  if constexpr (requires { s.impossible(); }) sink.judge(s);
+}
+
+template <class E>
+inline const E kNone{};
+template <class E>
+[[nodiscard]] std::size_t size_of(const E& v = kNone<E>) noexcept;
+
+template <class Sink, class Items>
+void walk_capped(Sink& sink, const char* name, const Capped<Items>& v) {
+  using E = std::remove_cvref_t<decltype(v.items[0])>;
+  sink.enter(name);
+  if (const std::size_t count = sink.count(v.items, v.most); count <= v.most) {
+    if constexpr (std::is_same_v<E, std::uint8_t>) {
+      sink.bytes("bytes", v.items, count, v.most);
+    } else {
+      for (std::size_t i = 0; i < v.most; ++i) {
+        if constexpr (Sink::kWantsRoom) {
+          sink.enter(i);
+          walk_fields(sink, kNone<E>);
+          sink.leave();
+        } else if (i < count) {
+          walk_fields(sink, v.items[i]);
+        } else {
+          sink.blank((v.most - i) * size_of<E>());
+          break;
+        }
+      }
+    }
+  }
+  sink.leave();
+}
+
+template <class Sink, class T>
+void walk_optional(Sink& sink, const char* name, const char* unit, T& v) {
+  using E = typename std::remove_const_t<T>::value_type;
+  static_assert(kLeaf<E>, "an optional number");
+  bool given = v.has_value();
+  E value = given ? *v : E{};
+  sink.enter(name);
+  sink.leaf("given", "", given);
+  if constexpr (std::is_const_v<T>) {
+    sink.leaf("value", unit, value);
+  } else if (given) {
+    sink.leaf("value", unit, value);
+    v = value;
+  } else {
+    sink.blank(kSlots<E>);
+    v = std::nullopt;
+  }
+  sink.leave();
+}
+
+template <class Sink, class T>
+void walk(Sink& sink, const char* name, const char* unit, T&& v) {
+  using V = std::remove_cvref_t<T>;
+  if constexpr (kLeaf<V>) {
+    sink.leaf(name, unit, v);
+  } else if constexpr (kOptional<V>) {
+    walk_optional(sink, name, unit, v);
+  } else if constexpr (kCapped<V>) {
+    walk_capped(sink, name, v);
+  } else if constexpr (kArray<V> || kVector<V>) {
+    using E = typename V::value_type;
+    if constexpr (kArray<V> && std::is_same_v<E, std::uint8_t> && sizeof(V) > kFewBytes) {
+      sink.bytes(name, v, v.size(), v.size());
+    } else if constexpr (kLeaf<E>) {
+      sink.leaves(name, unit, v);
+    } else {
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        sink.enter(name, i);
+        walk_fields(sink, v[i]);
+        sink.leave();
+      }
+    }
+  } else {
+    static_assert(kDescribed<V>, "a struct without fields()");
+    sink.enter(name);
+    walk_fields(sink, v);
+    sink.leave();
+  }
+}
+
+/// What most of them don't care for.
+struct Sink {
+  void enter(const char*) noexcept {}
+  void enter(const char*, std::size_t) noexcept {}
+  void enter(std::size_t) noexcept {}
+  void leave() noexcept {}
+  template <class S>
+  void judge(const S&) noexcept {}
+};
+
+class Sizer : public Sink {
+ public:
+  static constexpr bool kWantsRoom = true;
+  template <class T>
+  void leaf(const char*, const char*, const T&) noexcept {
+    size_ += kSlots<T>;
+  }
+  template <class A>
+  void leaves(const char*, const char*, const A& v) noexcept {
+    size_ += v.size() * kSlots<typename A::value_type>;
+  }
+  template <class A>
+  void bytes(const char*, const A&, std::size_t, std::size_t most) noexcept {
+    size_ += packed(most);
+  }
+  template <class Items>
+  std::size_t count(const Items&, std::size_t) noexcept {
+    ++size_;
+    return 0;
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+ private:
+  std::size_t size_ = 0;
+};
+
+/// Of a struct whose size as numbers is the same for all.
+template <class E>
+std::size_t size_of(const E& v) noexcept {
+  Sizer sizer;
+  walk_fields(sizer, v);
+  return sizer.size();
+}
+
+class Namer : public Sink {
+ public:
+  static constexpr bool kWantsRoom = true;
+  explicit Namer(StateLayout& layout) : layout_(layout) {}
+  void enter(const char* name) { open(*name == '\0' ? prefix_ : prefix_ + name + "."); }
+  void enter(const char* name, std::size_t i) { open(prefix_ + name + "[" + std::to_string(i) + "]."); }
+  void enter(std::size_t i) { open(prefix_.substr(0, prefix_.empty() ? 0 : prefix_.size() - 1) + "[" + std::to_string(i) + "]."); }
+  void leave() {
+    prefix_ = std::move(outer_.back());
+    outer_.pop_back();
+  }
+  template <class T>
+  void leaf(const char* name, const char* unit, const T&) {
+    layout_.add(prefix_ + name, unit, kind<T>(), kSlots<T>);
+  }
+  template <class A>
+  void leaves(const char* name, const char* unit, const A& v) {
+    using E = typename A::value_type;
+    layout_.add(prefix_ + name, unit, kind<E>(), v.size() * kSlots<E>);
+  }
+  template <class A>
+  void bytes(const char* name, const A&, std::size_t, std::size_t most) {
+    layout_.add(prefix_ + name, "", StateKind::bytes, packed(most));
+  }
+  template <class Items>
+  std::size_t count(const Items&, std::size_t) {
+    layout_.add(prefix_ + "count", "", StateKind::whole, 1);
+    return 0;
+  }
+
+ private:
+  void open(std::string next) {
+    outer_.push_back(std::move(prefix_));
+    prefix_ = std::move(next);
+  }
+  StateLayout& layout_;
+  std::string prefix_;
+  std::vector<std::string> outer_;
+};
+
+template <class S>
+[[nodiscard]] StateLayout layout_of(const S& s = kNone<S>) {
+  StateLayout out;
+  Namer namer(out);
+  walk_fields(namer, s);
+  return out;
+}
+
+}  // namespace vsa::state

@@ -1,0 +1,122 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "arrays.hpp"
+
+#include <cmath>
+
+#include "vsa/config/text.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::python {
+namespace {
+
+constexpr int kFlags = py::array::c_style | py::array::forcecast;
+
+std::string text(const py::handle& thing) { return py::str(thing); }
+std::string shape_text(const py::array& a) { return text(a.attr("shape")); }
+
+[[noreturn]] void refuse_type(const char* name, const std::string& found) {
+  throw py::type_error(std::string(name) + ": " + found + " (allowed: real numbers)");
+}
+
+py::array_t<double, kFlags> real_array(const py::handle& given, const char* name) {
+  const auto any = py::array::ensure(given);
+  if (!any) {
+    PyErr_Clear();
+    refuse_type(name, "isn't an array of numbers");
+  }
+  const char kind = any.dtype().kind();
+  if (any.size() > 0 && kind != 'f' && kind != 'i' && kind != 'u') refuse_type(name, "has dtype " + text(any.dtype()));
+  return py::array_t<double, kFlags>(any);
+}
+
+void check_finite(const std::vector<double>& values, const char* name) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) continue;
+    const std::string at = values.size() == 1 ? "" : "[" + std::to_string(i) + "]";
+    throw InputError({"", name + at, std::to_string(values[i]), "isn't finite", "finite numbers"});
+  }
+}
+
+}  // namespace
+
+std::vector<double> numbers(const py::handle& given, std::size_t n, const char* name, bool scalar) {
+  const auto a = real_array(given, name);
+  std::vector<double> out;
+  if (scalar && a.ndim() == 0) {
+    out.assign(n, *a.data());
+    check_finite({out.begin(), out.begin() + (n > 0 ? 1 : 0)}, name);
+    return out;
+  }
+  if (a.ndim() != 1 || a.shape(0) != static_cast<py::ssize_t>(n)) {
+    throw InputError({"", name, "shape " + shape_text(a), "has another shape",
+                      "(" + std::to_string(n) + ",)" + (scalar ? " or one number" : "")});
+  }
+  out.assign(a.data(), a.data() + n);
+  check_finite(out, name);
+  return out;
+}
+
+std::vector<double> numbers(const py::handle& given, const char* name) {
+  const auto a = real_array(given, name);
+  if (a.ndim() != 1) throw InputError({"", name, "shape " + shape_text(a), "has another shape", "(n,)"});
+  std::vector<double> out(a.data(), a.data() + a.size());
+  check_finite(out, name);
+  return out;
+}
+
+py::array into(const py::object& out, const py::dtype& dtype, const std::vector<py::ssize_t>& shape) {
+  if (out.is_none()) return py::array(dtype, shape);
+  if (!py::isinstance<py::array>(out)) throw py::type_error("out: isn't a numpy.ndarray");
+  auto a = py::reinterpret_borrow<py::array>(out);
+  if (!a.dtype().equal(dtype)) throw py::type_error("out: has dtype " + text(a.dtype()) + " (allowed: " + text(dtype) + ")");
+  const py::tuple wanted = py::cast(shape);
+  if (!py::tuple(a.attr("shape")).equal(wanted))
+    throw InputError({"", "out", "shape " + shape_text(a), "has another shape", text(wanted)});
+  if ((a.flags() & py::array::c_style) == 0 || !a.writeable() || !a.attr("flags").attr("aligned").cast<bool>())
+    throw InputError({"", "out", "", "isn't C-contiguous, aligned and writeable", "as numpy.empty() makes it"});
+  return a;
+}
+
+py::dtype float64() { return py::dtype::of<double>(); }
+
+py::array_t<double> state_numbers(const py::handle& given, std::size_t n) {
+  const auto any = py::array::ensure(given);
+  if (!any) {
+    PyErr_Clear();
+    refuse_type("state", "isn't an array of numbers");
+  }
+  if (!any.dtype().equal(float64())) throw py::type_error("state: has dtype " + text(any.dtype()) + " (allowed: float64)");
+  if (any.ndim() != 1 || any.shape(0) != static_cast<py::ssize_t>(n))
+    throw InputError({"", "state", "shape " + shape_text(any), "has another shape", "(" + std::to_string(n) + ",)"});
+  return py::array_t<double, kFlags>(any);
+}
+
+py::array_t<double> copied(const std::vector<double>& values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+void fill(py::array to, const py::object& value, const char* name) {
+  const auto given = py::array::ensure(value);
+  if (!given) PyErr_Clear();
+  const char kind = given ? given.dtype().kind() : 'O';
+  if (kind != 'f' && kind != 'i' && kind != 'u') throw py::type_error(std::string(name) + ": isn't real numbers");
+  try {
+    to[py::ellipsis()] = given;
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+    throw InputError({"", name, "shape " + text(given.attr("shape")), "has another shape",
+                      text(to.attr("shape")) + " or what broadcasts to it"});
+  }
+}
+
+py::dtype record_dtype(const std::vector<Field>& fields, std::size_t size) {
+  py::list names, formats, offsets;
+  for (const Field& f : fields) {
+    names.append(f.name);
+    formats.append(f.length == 1 ? py::dtype(f.format) : py::dtype::from_args(py::make_tuple(f.format, py::make_tuple(f.length))));
+    offsets.append(f.offset);
+  }
+  return py::dtype(std::move(names), std::move(formats), std::move(offsets), static_cast<py::ssize_t>(size));
+}
+
+}  // namespace vsa::python

@@ -1,0 +1,57 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What the module's files share. Each bind_…() adds its classes and functions; the module has no logic of its own: it asks the
+// library, and turns what comes back into what Python knows.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "vsa/actuator/ledger.hpp"
+#include "vsa/config/actuator_type.hpp"
+
+namespace vsa::python {
+
+namespace py = pybind11;
+
+void bind_errors(py::module_& m);
+void bind_actuator_type(py::module_& m);
+void bind_linearization(py::module_& m);
+void bind_unit(py::module_& m);
+void bind_unit_batch(py::module_& m);
+void bind_world(py::module_& m);
+void bind_batch(py::module_& m);
+void bind_study(py::module_& m);
+void bind_identify(py::module_& m);
+
+/// {"drive.friction_Nm": 0.7} → overrides: numbers as the shortest text that reads back the same, switches as true and false, texts
+/// as they are. None: empty. TypeError for anything else.
+[[nodiscard]] std::vector<config::Override> settings(const py::object& set);
+[[nodiscard]] std::string setting_text(const py::handle& value, const std::string& key);
+
+/// The ledger's entries by their C++ names with _J behind.
+[[nodiscard]] py::dict ledger_dict(const actuator::Ledger& ledger);
+
+/// Looked at in a loop that runs without the GIL: about 20 times a second Python's signal handlers run, and what they raise
+/// (KeyboardInterrupt) is thrown.
+class Signals {
+ public:
+  void look() {
+    const auto now = Clock::now();
+    if (now >= next_) handle(now);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds kEvery{50};
+  void handle(Clock::time_point now);
+
+  Clock::time_point next_ = Clock::now() + kEvery;
+};
+
+}  // namespace vsa::python

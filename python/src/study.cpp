@@ -1,0 +1,123 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// vsasim.study: an actuator measured as the paper measured its hardware.
+#include <cstddef>
+#include <memory>
+
+#include "arrays.hpp"
+#include "vsa/config/text.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/study/characterization.hpp"
+
+namespace vsa::python {
+namespace {
+
+using experiment::BenchSample;
+using study::Characterization;
+
+py::dtype sample_dtype() {
+#define FIELD(name) \
+  { #name, offsetof(BenchSample, name) }
+  return record_dtype({FIELD(time_s),
+                       FIELD(equilibrium_command_rad),
+                       FIELD(preset_command),
+                       FIELD(equilibrium_rad),
+                       FIELD(preset),
+                       FIELD(shaft_rad),
+                       FIELD(shaft_speed_rad_per_s),
+                       FIELD(torque_Nm),
+                       FIELD(mean_torque_Nm),
+                       FIELD(stiffness_Nm_per_rad),
+                       FIELD(measured_shaft_rad),
+                       FIELD(measured_deflection_rad),
+                       FIELD(measured_load_Nm),
+                       {"motor_rad", offsetof(BenchSample, motor_rad), 2},
+                       {"current_A", offsetof(BenchSample, current_A), 2}},
+                      sizeof(BenchSample));
+#undef FIELD
+}
+
+study::Experiment experiment_named(const std::string& name) {
+  using study::Experiment;
+  std::vector<std::string> words;
+  for (const Experiment e : {Experiment::stiffness, Experiment::speed, Experiment::preset_step}) {
+    if (name == study::word(e)) return e;
+    words.emplace_back(study::word(e));
+  }
+  throw InputError({"", "experiments", name, "unknown", config::join(words)});
+}
+
+/// Python's function is asked, if there is one, and its signal handlers run: what they raise ends the study.
+study::OnProgress asking(const py::object& progress) {
+  return [&progress](const study::Progress& p) {
+    const py::gil_scoped_acquire gil;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (progress.is_none()) return true;
+    const py::object answer = progress(p.simulated_s, p.total_s, p.wall_s);
+    return answer.is_none() || py::cast<bool>(answer);
+  };
+}
+
+template <class Result>
+void add_samples(const py::object& entries, const std::vector<Result>& results, const std::shared_ptr<Characterization>& owner) {
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const experiment::BenchRun& run = results[i].run;
+    const py::object entry = entries[py::int_(i)];
+    entry["samples"] = view(sample_dtype(), {static_cast<py::ssize_t>(run.samples.size())}, run.samples.data(), owner);
+    entry["notices"] = run.notices;
+  }
+}
+
+py::object result_dict(const std::shared_ptr<Characterization>& c) {
+  py::object out = py::module_::import("json").attr("loads")(study::to_json(*c, "vsasim.study.characterize"));
+  if (!c->stiffness.empty()) add_samples(out["stiffness"], c->stiffness, c);
+  if (!c->speed.empty()) add_samples(out["speed"], c->speed, c);
+  if (!c->preset_step.empty()) add_samples(out["preset_step"], c->preset_step, c);
+  return out;
+}
+
+py::object characterize(const std::string& type, const std::vector<std::string>& experiments, const py::object& presets,
+                        std::optional<double> period_s, std::optional<double> amplitude_rad, std::optional<int> cycles,
+                        const py::object& set, std::optional<double> step_s, const py::object& progress, unsigned threads) {
+  study::CharacterizationOptions options;
+  options.specimen.type = type;
+  options.specimen.overrides = settings(set);
+  options.specimen.step_s = step_s;
+  for (const std::string& name : experiments) options.experiments.push_back(experiment_named(name));
+  if (!presets.is_none()) options.preset = numbers(presets, "presets");
+  options.period_s = period_s;
+  options.amplitude_rad = amplitude_rad;
+  options.cycles = cycles;
+  const study::OnProgress asked = asking(progress);
+  std::shared_ptr<Characterization> done;
+  {
+    const py::gil_scoped_release others_run;
+    auto found = study::run(study::plan_characterization(options), asked, threads);
+    if (found) done = std::make_shared<Characterization>(std::move(*found));
+  }
+  return done ? result_dict(done) : py::none();
+}
+
+constexpr const char* kCharacterize =
+    "Measures an actuator type as `vsa characterize` does. experiments: of \"stiffness\", \"speed\", \"preset-step\"; empty: all "
+    "that it\n"
+    "has. presets: (n,) in the law's unit; default: the paper's. period_s, amplitude_rad, cycles: of the stiffness sweep. set: "
+    "dict of\n"
+    "parameters to replace. step_s: the bench's step. progress(simulated_s, total_s, wall_s): called as it begins and about 20 "
+    "times a\n"
+    "second, in this thread; returns False to stop. threads: 0: all that the machine has.\n"
+    "Returns what results.json holds, as a dict, with `samples` and `notices` in each entry of \"stiffness\", \"speed\" and\n"
+    "\"preset_step\": samples is a read-only structured ndarray, a view of the run's memory, which it keeps alive. None: stopped.\n"
+    "Other threads of Python run meanwhile; Ctrl-C ends it. InputError, SimulationError.";
+
+}  // namespace
+
+void bind_study(py::module_& m) {
+  py::module_ s = m.def_submodule("study", "Experiments on an actuator.");
+  s.def("characterize", &characterize, py::arg("type"), py::kw_only(), py::arg("experiments") = std::vector<std::string>{},
+        py::arg("presets") = py::none(), py::arg("period_s") = py::none(), py::arg("amplitude_rad") = py::none(),
+        py::arg("cycles") = py::none(), py::arg("set") = py::none(), py::arg("step_s") = py::none(),
+        py::arg("progress") = py::none(), py::arg("threads") = 0, kCharacterize);
+}
+
+}  // namespace vsa::python

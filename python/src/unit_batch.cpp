@@ -1,0 +1,187 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// vsasim.UnitBatch: units with a lever on each shaft (device::LeverBatch), as NumPy's views of the C++ memory.
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "actuator_type.hpp"
+#include "arrays.hpp"
+#include "vsa/device/lever_batch.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::python {
+namespace {
+
+using device::Lever;
+using device::LeverBatch;
+
+struct PyUnitBatch {
+  LeverBatch levers;
+  bool stepping = false;  // read and written with the GIL
+
+  [[nodiscard]] LeverBatch& get() {
+    if (stepping) throw std::runtime_error("the units are being stepped in another thread: wait for that");
+    return levers;
+  }
+};
+
+using Shared = std::shared_ptr<PyUnitBatch>;
+using Class = py::class_<PyUnitBatch, Shared>;
+
+std::string text(const py::handle& thing) { return py::str(thing); }
+
+void set_levers(LeverBatch& to, const py::object& inertia, const py::object& damping, const py::object& gravity) {
+  const auto j = numbers(inertia, to.size(), "inertia_kgm2", true), d = numbers(damping, to.size(), "damping_Nms_per_rad", true),
+             g = numbers(gravity, to.size(), "gravity_Nm", true);
+  std::vector<Lever> before;
+  for (std::size_t i = 0; i < to.size(); ++i) before.push_back(to.lever(i));
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    try {
+      to.set_lever(i, {j[i], d[i], g[i]});
+    } catch (...) {  // nothing half done
+      for (std::size_t k = 0; k < i; ++k) to.set_lever(k, before[k]);
+      throw;
+    }
+  }
+}
+
+Shared make(const PyActuatorType& type, py::ssize_t units, const py::object& inertia, const py::object& damping,
+            const py::object& gravity, const std::string& instructions) {
+  constexpr py::ssize_t kMost = 10'000'000;
+  if (units < 1 || units > kMost)
+    throw InputError({"", "units", std::to_string(units), "out of range", "1 … " + std::to_string(kMost)});
+  auto made = std::make_shared<PyUnitBatch>(
+      PyUnitBatch{LeverBatch(type.type.unit, static_cast<std::size_t>(units), Lever{}, instructions)});
+  set_levers(made->levers, inertia, damping, gravity);
+  return made;
+}
+
+void step(PyUnitBatch& b, py::ssize_t n, double dt_s) {
+  LeverBatch& levers = b.get();
+  if (n < 1 || n > 1'000'000'000) throw InputError({"", "n", std::to_string(n), "out of range", "1 … 1000000000 steps"});
+  if (!(dt_s > 0) || dt_s > 0.016) throw InputError({"", "dt_s", text(py::float_(dt_s)), "out of range", "above 0 … 0.016 s"});
+  struct Stepping {
+    bool& flag;
+    explicit Stepping(bool& f) : flag(f) { flag = true; }
+    ~Stepping() { flag = false; }
+  } stepping(b.stepping);
+  Signals signals;
+  const py::gil_scoped_release others_run;
+  levers.step(static_cast<int>(n), std::llround(dt_s * 1e9), [&] { signals.look(); });
+}
+
+/// None: all; indices; a mask.
+std::vector<std::size_t> chosen(const LeverBatch& b, const py::object& which) {
+  std::vector<std::size_t> out;
+  const auto all = static_cast<py::ssize_t>(b.size());
+  if (which.is_none()) {
+    for (std::size_t i = 0; i < b.size(); ++i) out.push_back(i);
+    return out;
+  }
+  const auto any = py::array::ensure(which);
+  const char* const allowed = "integers (k,), or a mask of bool with one for each unit";
+  if (!any) PyErr_Clear();
+  const char kind = any && any.ndim() == 1 ? any.dtype().kind() : 'O';
+  const bool mask = kind == 'b' && any.shape(0) == all;
+  if (!mask && kind != 'i' && kind != 'u') throw InputError({"", "which", text(which), "doesn't name units", allowed});
+  for (py::ssize_t k = 0; k < any.shape(0); ++k) {
+    const auto at = mask ? (any[py::int_(k)].cast<bool>() ? k : -1) : any[py::int_(k)].cast<py::ssize_t>();
+    if (mask && at < 0) continue;
+    if (at < 0 || at >= all)
+      throw py::index_error("unit " + std::to_string(at) + ": there are " + std::to_string(all) + ", from 0");
+    out.push_back(static_cast<std::size_t>(at));
+  }
+  return out;
+}
+
+void reset(PyUnitBatch& b, const py::object& which, const py::object& equilibrium, const py::object& preset,
+           const py::object& shaft, const py::object& speed) {
+  LeverBatch& levers = b.get();
+  const std::vector<std::size_t> those = chosen(levers, which);
+  const auto q = numbers(equilibrium, those.size(), "equilibrium_rad", true), p = numbers(preset, those.size(), "preset", true);
+  const auto at = shaft.is_none() ? q : numbers(shaft, those.size(), "shaft_rad", true);
+  const auto v = numbers(speed, those.size(), "shaft_speed_rad_per_s", true);
+  for (std::size_t k = 0; k < those.size(); ++k) levers.reset(those[k], q[k], p[k], at[k], v[k]);
+}
+
+template <class Get>
+void bind_commands(Class& c, const char* name, Get which, const char* doc) {
+  const auto get = [which](const Shared& b) {
+    const std::span<double> numbers = (b->get().*which)();
+    return view(float64(), {static_cast<py::ssize_t>(numbers.size())}, numbers.data(), b, true);
+  };
+  const auto set = [get, name](const Shared& b, const py::object& value) { fill(get(b), value, name); };
+  c.def_property(name, get, set, doc);
+}
+
+template <class Get>
+void bind_readings(Class& c, const char* name, Get which, const char* doc) {
+  c.def_property_readonly(
+      name,
+      [which](const Shared& b) {
+        const std::span<const double> numbers = (b->get().*which)();
+        return view(float64(), {static_cast<py::ssize_t>(numbers.size())}, numbers.data(), b);
+      },
+      doc);
+}
+
+constexpr const char* kClass =
+    "Many units of one type, each with a lever on its shaft: no bodies, no bus (device::LeverBatch in C++).\n\n"
+    "    J q'' = torque - d q' - G sin q + push\n\n"
+    "They go side by side in the machine's vectors, and each bit for bit as it would alone. Commands and readings are NumPy's "
+    "views\n"
+    "of the C++ memory, (units,), which keep the UnitBatch alive. While one thread steps, others get RuntimeError.";
+constexpr const char* kInit =
+    "type: ActuatorType; units: 1 … 1e7. inertia_kgm2 (J > 0), damping_Nms_per_rad (d >= 0), gravity_Nm (G = m g l): (units,) or "
+    "one\n"
+    "number. instructions: '', the fastest here, or one of UnitBatch.instruction_sets(): the bits are the same. All begin at rest "
+    "at "
+    "0,\n"
+    "preset 0.";
+constexpr const char* kReset =
+    "Every unit, or those in `which` (indices or a mask): at rest on its references for equilibrium_rad and preset, on for long, "
+    "the\n"
+    "shaft at shaft_rad (default: the equilibrium) with that speed. (k,) or one number each. What stands in `equilibrium` and "
+    "`preset`\n"
+    "is commanded with the next step as ever.";
+
+}  // namespace
+
+void bind_unit_batch(py::module_& m) {
+  Class c(m, "UnitBatch", kClass);
+  c.def(py::init(&make), py::arg("type"), py::arg("units"), py::arg("inertia_kgm2") = 1e-3, py::arg("damping_Nms_per_rad") = 0.0,
+        py::arg("gravity_Nm") = 0.0, py::arg("instructions") = "", kInit)
+      .def("step", &step, py::arg("n") = 1, py::arg("dt_s") = 1e-3,
+           "n steps of dt_s (at most 16 ms); `equilibrium`, `preset` and `push` are taken as it begins. Other threads of Python "
+           "run\n"
+           "meanwhile; Ctrl-C ends it between two steps of all. InputError: out of range, commands that aren't finite.")
+      .def("reset", &reset, py::arg("which") = py::none(), py::arg("equilibrium_rad") = 0.0, py::arg("preset") = 0.0,
+           py::arg("shaft_rad") = py::none(), py::arg("shaft_speed_rad_per_s") = 0.0, kReset)
+      .def(
+          "set_levers",
+          [](PyUnitBatch& b, const py::object& j, const py::object& d, const py::object& g) { set_levers(b.get(), j, d, g); },
+          py::arg("inertia_kgm2"), py::arg("damping_Nms_per_rad") = 0.0, py::arg("gravity_Nm") = 0.0,
+          "Other levers from the next step on: (units,) or one number each.")
+      .def("__len__", [](const PyUnitBatch& b) { return b.levers.size(); })
+      .def_property_readonly(
+          "instructions", [](const PyUnitBatch& b) { return b.levers.units().instructions(); }, "The instruction set in use: str.")
+      .def_property_readonly(
+          "width", [](const PyUnitBatch& b) { return b.levers.units().width(); },
+          "How many units go side by side: int; 1 where the type has no lanes.")
+      .def_property_readonly(
+          "time_s", [](PyUnitBatch& b) { return b.get().time_s(); }, "Simulated time, s.")
+      .def_static("instruction_sets", &device::UnitBatch::instruction_sets, "Those that this machine has: list of str.");
+  bind_commands(c, "equilibrium", &LeverBatch::equilibrium,
+                "Equilibria that step() commands, rad: (units,), writeable. NaN, as at first: what was commanded before stays.");
+  bind_commands(c, "preset", &LeverBatch::preset, "Presets, in the law's unit: as `equilibrium`.");
+  bind_commands(c, "push", &LeverBatch::push, "External torques about +q, N·m: (units,), writeable; at first 0.");
+  bind_readings(c, "shaft_rad", &LeverBatch::shaft_rad, "Shaft angle, rad: (units,), a read-only view, as all readings.");
+  bind_readings(c, "shaft_speed_rad_per_s", &LeverBatch::shaft_speed_rad_per_s, "Its speed, rad/s.");
+  bind_readings(c, "torque_Nm", &LeverBatch::torque_Nm, "The unit's mean torque on the shaft over the last step, N·m.");
+}
+
+}  // namespace vsa::python

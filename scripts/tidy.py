@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+"""tidy.py BUILD: clang-tidy (.clang-tidy) over the C++ sources that BUILD compiles.
+
+Sources of a folder that are compiled alike are looked at together, eight in one translation unit: most of the time goes into
+headers. Where they don't go together (two helpers of a name, say), each half is tried by itself. Groups with what was changed last
+come first.
+
+TIDY_S: seconds after which no further group is begun (0: all are checked). TIDY_JOBS: groups side by side (all processors).
+Ends with 1 if any source isn't clean, with 2 for wrong use.
+"""
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+TOGETHER = 8
+
+
+def setting(name, default):
+    text = os.environ.get(name, "") or str(default)
+    if not text.isdigit():
+        print(f"tidy.py: {name} = '{text}': a whole number", file=sys.stderr)
+        sys.exit(2)
+    return int(text)
+
+
+def git(*arguments):
+    return subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=False).stdout.split("\n")
+
+
+def age():
+    """How long ago each file was changed, as a rank: what isn't committed comes first."""
+    rank = {}
+    for name in git("diff", "--name-only", "HEAD") + git("log", "--name-only", "--format=") + git("ls-files"):
+        rank.setdefault(name, len(rank))
+    return rank
+
+
+def groups(commands):
+    """Lists of files of a folder with one command but for their names."""
+    alike = {}
+    for file in sorted(commands):
+        command = re.sub(r" -o \S+", "", commands[file]["command"].replace(file, ""))
+        alike.setdefault((os.path.dirname(file), command), []).append(file)
+    return [files[k : k + TOGETHER] for files in alike.values() for k in range(0, len(files), TOGETHER)]
+
+
+def look(files, commands, folder):
+    """What clang-tidy says of these files: (files checked, [(file, text) of those that aren't clean])."""
+    place = pathlib.Path(tempfile.mkdtemp(dir=folder))
+    source, more = files[0], []
+    if len(files) > 1:
+        source = str(place / "together.cpp")
+        pathlib.Path(source).write_text("".join(f'#include "{file}"\n' for file in files), encoding="utf-8")
+        more = ["--checks=-bugprone-suspicious-include", f"--extra-arg=-I{os.path.dirname(files[0])}"]
+    first = commands[files[0]]
+    entry = {"directory": first["directory"], "command": first["command"].replace(files[0], source), "file": source}
+    (place / "compile_commands.json").write_text(json.dumps([entry]), encoding="utf-8")
+    # GCC's own options mean nothing to clang, and a mask of several lanes is a truth of one; neither is a fault.
+    extra = [f"--extra-arg=-Wno-{w}" for w in ("unknown-warning-option", "ignored-optimization-argument", "bitwise-instead-of-logical")]
+    run = subprocess.run(
+        ["clang-tidy", "-p", str(place), "--quiet", f"--config-file={ROOT / '.clang-tidy'}", *extra, *more, source],
+        capture_output=True, text=True, check=False)
+    if run.returncode == 0:
+        return len(files), []
+    if len(files) > 1:  # which of them, and whether only together
+        half = len(files) // 2
+        parts = [look(part, commands, folder) for part in (files[:half], files[half:])]
+        return sum(n for n, _ in parts), [bad for _, found in parts for bad in found]
+    return 1, [(files[0], run.stdout)]
+
+
+def main():
+    if len(sys.argv) != 2:
+        print("usage: tidy.py BUILD", file=sys.stderr)
+        return 2
+    listing = pathlib.Path(sys.argv[1]) / "compile_commands.json"
+    if not listing.exists():
+        print(f"tidy.py: {sys.argv[1]}: no compile_commands.json: configure it first", file=sys.stderr)
+        return 2
+    seconds, jobs = setting("TIDY_S", 0), setting("TIDY_JOBS", os.cpu_count())
+    rank, generated = age(), ROOT / "build"
+    commands = {
+        c["file"]: c for c in json.loads(listing.read_text(encoding="utf-8"))
+        if c["file"].endswith(".cpp") and ROOT in pathlib.Path(c["file"]).parents and generated not in pathlib.Path(c["file"]).parents}
+    newest = lambda files: min(rank.get(os.path.relpath(file, ROOT), len(rank)) for file in files)  # noqa: E731
+    order = sorted(groups(commands), key=newest)
+    start, checked, unclean = time.monotonic(), 0, []
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(max(1, jobs)) as pool:
+        begun = lambda files: look(files, commands, folder) if not seconds or time.monotonic() - start < seconds else (0, [])  # noqa: E731
+        for n, found in pool.map(begun, order):
+            checked += n
+            unclean += found
+            for _, text in found:
+                print(text, end="", flush=True)
+    print(f"clang-tidy: {checked} of {len(commands)} sources checked, {len(unclean)} not clean")
+    return 1 if unclean else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,39 @@
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+"""For pip: CMake builds the module and puts its package together in build/pip, and this takes it from there.
+
+VSA_BUILD_DIR names a build tree that is taken instead, build/release say; it is brought up to date first. CMAKE_ARGS are given to
+CMake when it configures. The replay page's template needs npm and the network once, so it comes along only where that tree has it.
+"""
+import os
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+ROOT = pathlib.Path(__file__).resolve().parent
+
+
+class CMakeBuild(build_ext):
+    def run(self):
+        given = os.environ.get("VSA_BUILD_DIR")
+        tree = pathlib.Path(given).resolve() if given else ROOT / "build" / "pip"
+        options = ["-DCMAKE_BUILD_TYPE=Release", "-DVSA_TESTS=OFF", "-DVSA_BENCH=OFF", "-DVSA_PYTHON=ON"]
+        options += [f"-DPython3_EXECUTABLE={sys.executable}", *shlex.split(os.environ.get("CMAKE_ARGS", ""))]
+        generator = ["-G", "Ninja"] if shutil.which("ninja") else []
+        if not given:
+            subprocess.run(["cmake", "-S", str(ROOT), "-B", str(tree), *generator, *options], check=True)
+        jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
+        subprocess.run(["cmake", "--build", str(tree), "--parallel", jobs, "--target", "vsasim_python"], check=True)
+        package = pathlib.Path(self.get_ext_fullpath("vsasim._vsasim")).parent
+        if package.exists():
+            shutil.rmtree(package)
+        skipped = shutil.ignore_patterns("package.stamp", "__pycache__")
+        # Links become files; one that leads nowhere (the page's template, not built) is left out.
+        shutil.copytree(tree / "python" / "vsasim", package, ignore=skipped, ignore_dangling_symlinks=True)
+
+
+setup(packages=[], ext_modules=[Extension("vsasim._vsasim", [])], cmdclass={"build_ext": CMakeBuild})

@@ -1,0 +1,146 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What is compiled anew for each instruction set: the physics of a block of units, one in each lane. A source that includes this
+// is compiled with that set's options and keeps to types that carry its name (vsa/lanes.hpp), so that nothing in it can be taken for
+// the same function of another set: no containers here, memory comes from the caller.
+#pragma once
+
+#include <cstring>
+#include <new>
+
+#include "device/lanes/loop.hpp"
+#include "device/lanes/table.hpp"
+#include "device/unit_lanes.hpp"
+
+namespace vsa::device::lane_kernel {
+
+template <class T>
+[[nodiscard]] T load(const double* from) noexcept {
+  T p;
+  std::memcpy(&p.v, from, sizeof p.v);
+  return p;
+}
+template <class T>
+void store(T p, double* to) noexcept {
+  std::memcpy(to, &p.v, sizeof p.v);
+}
+
+template <class T>
+struct ShaftInOf {
+  T angle, speed, inverse_inertia;
+};
+
+/// Of UnitState what the physics has, in lanes.
+template <class T>
+struct Block {
+  actuator::ActuatorStateOf<T> actuator;
+  T start_y = 0.0, applied_torque = 0.0, path_work = 0.0, last_speed = 0.0, last_dt = 1.0, unresolved = 0.0;
+  struct {
+    T angle = 0.0, speed = 0.0;
+  } reached;
+};
+
+/// Of StepPlan what a step of one segment needs, in lanes.
+template <class T>
+struct Plan {
+  ShaftInOf<T> in;
+  T y = 0.0, free = 0.0, last_torque = 0.0, dy = 0.0, shaft_weight = 0.0;
+  actuator::LeadOf<T> lead;
+  actuator::SegmentOf<T> last;
+  actuator::SegmentResultOf<T> path;
+  drive::FrictionTorqueOf<T> rub;
+};
+
+template <class T>
+[[gnu::flatten]] unsigned step(Unit& unit, void* memory, const BlockStep& io) noexcept {
+  Block<T>& s = *std::launder(static_cast<Block<T>*>(memory));
+  const UnitPhysics<T> physics = unit.template steps<T>();
+  const double dt = io.dt_s;
+  Plan<T> plan;
+  plan.in = {load<T>(io.angle), load<T>(io.speed), load<T>(io.inverse_inertia)};
+  physics.begin(s, plan, dt);
+  physics.look_ahead(s, plan, dt);
+  actuator::SegmentInputOf<T> in;
+  in.voltage = {load<T>(io.voltage[0]), load<T>(io.voltage[1])};
+  in.lead = plan.lead;
+  unit.physics().begin(s.actuator, plan.last, dt, in);
+  T torque;
+  const auto settled = solve_whole<T>(physics, s, plan, dt, torque);
+  store(torque, io.torque);
+  for (int i = 0; i < 2; ++i)
+    store(s.actuator.motor[i].angle, io.motor_angle[i]), store(s.actuator.motor[i].speed, io.motor_speed[i]);
+  return ~settled.bits() & ((1U << T::kWidth) - 1);
+}
+
+// Between a block's lane and a unit's state, number by number.
+
+template <class T, class F>
+void pair(T& lanes, double& one, F&& f) noexcept {
+  f(lanes, one);
+}
+template <class T, class F>
+void pair(T& lanes, int& one, F&& f) noexcept {
+  double value = one;
+  f(lanes, value);
+  one = static_cast<int>(value);
+}
+template <class A, class B, std::size_t N, class F>
+void pair(std::array<A, N>& lanes, std::array<B, N>& one, F&& f) noexcept {
+  for (std::size_t i = 0; i < N; ++i) pair(lanes[i], one[i], f);
+}
+template <class A, class B, class F>
+requires requires(A& a) {
+  A::fields(a, [](auto&&...) {});
+}
+void pair(A& lanes, B& one, F&& f) noexcept {
+  const auto tie = [](auto&&... members) { return std::tie(members...); };
+  auto into = A::fields(lanes, tie);
+  auto out_of = B::fields(one, tie);
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (pair(std::get<3 * I + 2>(into), std::get<3 * I + 2>(out_of), f), ...); }
+  (std::make_index_sequence<std::tuple_size_v<decltype(into)> / 3>{});
+}
+template <class T, class F>
+void each(Block<T>& b, UnitState& s, F&& f) noexcept {
+  pair(b.actuator, s.actuator, f);
+  pair(b.start_y, s.start_y, f);
+  pair(b.applied_torque, s.applied_torque, f);
+  pair(b.path_work, s.path_work, f);
+  pair(b.last_speed, s.last_speed, f);
+  pair(b.last_dt, s.last_dt, f);
+  pair(b.unresolved, s.unresolved, f);
+  pair(b.reached.angle, s.reached.angle, f);
+  pair(b.reached.speed, s.reached.speed, f);
+}
+
+template <class T>
+void put(void* memory, int lane, UnitState& from) noexcept {
+  each(*std::launder(static_cast<Block<T>*>(memory)), from, [lane](T& lanes, double& one) { lanes.set_lane(lane, one); });
+}
+template <class T>
+void take(void* memory, int lane, UnitState& to) noexcept {
+  each(*std::launder(static_cast<Block<T>*>(memory)), to, [lane](T& lanes, double& one) { one = lanes.lane(lane); });
+}
+template <class T>
+void begin(void* memory) noexcept {
+  new (memory) Block<T>();
+}
+
+template <class T>
+[[nodiscard]] LaneTable table(const char* name) noexcept {
+  constexpr int kWidth = T::kWidth;
+  using Isa = typename T::Isa;
+  return {name,
+          kWidth,
+          sizeof(Block<T>),
+          begin<T>,
+          put<T>,
+          take<T>,
+          step<T>,
+          sizeof(Loop<kWidth, Isa>),
+          put_loop<kWidth, Isa>,
+          take_loop<kWidth, Isa>,
+          tick<kWidth, Isa>,
+          refer<kWidth, Isa>};
+}
+
+}  // namespace vsa::device::lane_kernel

@@ -1,0 +1,120 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/device/lever_batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "device/text.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::device {
+namespace {
+
+constexpr double kKeep = std::numeric_limits<double>::quiet_NaN();
+constexpr int kMostSteps = 1'000'000'000, kSlice = 1'000'000;
+
+void check(const Lever& lever) {
+  Problems problems;
+  const auto bad = [&](const char* key, double value, const char* allowed) {
+    problems.add({"", key, text_of(value), "out of range", allowed});
+  };
+  if (!(lever.inertia_kgm2 > 0) || !std::isfinite(1.0 / lever.inertia_kgm2)) bad("inertia_kgm2", lever.inertia_kgm2, "above 0");
+  if (!(lever.damping_Nms_per_rad >= 0) || !std::isfinite(lever.damping_Nms_per_rad))
+    bad("damping_Nms_per_rad", lever.damping_Nms_per_rad, "0 or more");
+  if (!std::isfinite(lever.gravity_Nm)) bad("gravity_Nm", lever.gravity_Nm, "any finite number");
+  problems.throw_if_any();
+}
+
+void check_finite(const char* key, std::size_t unit, double value) {
+  if (!std::isfinite(value))
+    throw InputError({"", std::string(key) + "[" + std::to_string(unit) + "]", text_of(value), "not finite", "a finite number"});
+}
+
+}  // namespace
+
+LeverBatch::LeverBatch(const UnitConfig& config, std::size_t units, const Lever& lever, std::string_view instructions)
+    : units_(config, units, instructions),
+      unit_(config),
+      levers_(units, lever),
+      equilibrium_(units, kKeep),
+      preset_(units, kKeep),
+      push_(units, 0.0),
+      angle_(units, 0.0),
+      speed_(units, 0.0),
+      inverse_inertia_(units, 1.0 / lever.inertia_kgm2),
+      torque_(units, 0.0),
+      held_equilibrium_(units, 0.0),
+      held_preset_(units, 0.0) {
+  check(lever);
+}
+
+void LeverBatch::set_lever(std::size_t i, const Lever& lever) {
+  (void)this->lever(i);
+  check(lever);
+  levers_[i] = lever;
+  inverse_inertia_[i] = 1.0 / lever.inertia_kgm2;
+}
+
+const Lever& LeverBatch::lever(std::size_t i) const {
+  if (i >= levers_.size())
+    throw InputError({"", "unit", std::to_string(i), "there is no such unit", "0 … " + std::to_string(levers_.size() - 1)});
+  return levers_[i];
+}
+
+void LeverBatch::command() {
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (!std::isnan(equilibrium_[i])) check_finite("equilibrium", i, equilibrium_[i]);
+    if (!std::isnan(preset_[i])) check_finite("preset", i, preset_[i]);
+    check_finite("push", i, push_[i]);
+  }
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double q = std::isnan(equilibrium_[i]) ? held_equilibrium_[i] : equilibrium_[i];
+    const double p = std::isnan(preset_[i]) ? held_preset_[i] : preset_[i];
+    if (q == held_equilibrium_[i] && p == held_preset_[i]) continue;
+    units_.command(i, q, p);
+    held_equilibrium_[i] = q;
+    held_preset_[i] = p;
+  }
+}
+
+void LeverBatch::move(double dt) noexcept {
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Lever& l = levers_[i];
+    const double pull = l.gravity_Nm == 0 ? 0.0 : l.gravity_Nm * std::sin(angle_[i]), scale = dt * inverse_inertia_[i];
+    speed_[i] = (speed_[i] + scale * (torque_[i] - pull + push_[i])) / (1.0 + scale * l.damping_Nms_per_rad);
+    angle_[i] += dt * speed_[i];
+  }
+}
+
+void LeverBatch::step(int steps, std::int64_t dt_ns, const std::function<void()>& between) {
+  if (steps < 1 || steps > kMostSteps)
+    throw InputError({"", "steps", std::to_string(steps), "out of range", "1 … " + std::to_string(kMostSteps)});
+  units_.check_step(dt_ns);
+  command();
+  const auto slice = std::max(1, static_cast<int>(kSlice / size()));
+  for (int n = 0; n < steps; ++n) {
+    if (between && n > 0 && n % slice == 0) between();
+    units_.step(dt_ns, angle_, speed_, inverse_inertia_, torque_);
+    move(1e-9 * static_cast<double>(dt_ns));
+  }
+}
+
+void LeverBatch::reset(std::size_t i, double equilibrium_rad, double preset, double shaft_rad, double speed_rad_per_s) {
+  (void)lever(i);
+  for (const auto& [key, value] : {std::pair{"equilibrium_rad", equilibrium_rad}, std::pair{"preset", preset},
+                                   std::pair{"shaft_rad", shaft_rad}, std::pair{"speed_rad_per_s", speed_rad_per_s}})
+    check_finite(key, i, value);
+  UnitState state = unit_.initial(equilibrium_rad, preset, shaft_rad);
+  firmware::Program::shift_time(state.program, units_.time_ns());
+  units_.set(i, state);
+  held_equilibrium_[i] = equilibrium_rad;
+  held_preset_[i] = preset;
+  angle_[i] = shaft_rad;
+  speed_[i] = speed_rad_per_s;
+  torque_[i] = 0;
+}
+
+}  // namespace vsa::device

@@ -1,0 +1,149 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// How a block is stepped, and where its numbers are meanwhile.
+#include <bit>
+#include <cstdint>
+
+#include "device/unit_batch_impl.hpp"
+#include "vsa/device/duty.hpp"
+
+namespace vsa::device {
+
+/// What the ticks of this type's plain units have in common.
+void UnitBatch::Impl::prepare_ticks() noexcept {
+  const UnitConfig& c = unit.config();
+  const drive::MotorParams motor = drive::at_pulley(c.actuator.motor, c.actuator.gearbox.ratio);
+  const int adc = sensor::supply_adc(c.actuator.bridge.supply_V);
+  supply = firmware::supply_reading(adc);
+  common.encoder = c.actuator.encoder;
+  common.shaft_zero_rad = c.actuator.shaft_zero_rad;
+  common.back_emf_Vs_per_rad = motor.back_emf_Vs_per_rad;
+  common.resistance_Ohm = motor.resistance_Ohm + c.actuator.bridge.switch_Ohm;
+  common.limit_pct = c.supply_limited() ? firmware::supply_limit_pct(supply) : kFull;
+  common.volts_of_duty = volts_of_duty.data();
+  for (std::size_t i = 0; i < volts_of_duty.size() && common.limit_pct > 0; ++i) {
+    const double duty = static_cast<double>(i) - kFull;
+    volts_of_duty[i] =
+        c.polarity * drive::bridge_voltage(c.actuator.bridge, duty / common.limit_pct, common.limit_pct / kDutyScale);
+  }
+}
+
+/// Whether a unit's ticks are those of lanes/loop.hpp: nothing but time and references will change what they do.
+bool UnitBatch::Impl::plain(const UnitState& s) const noexcept {
+  const firmware::ProgramState& p = s.program;
+  const firmware::ProgramParams& params = unit.config().program;
+  const firmware::Memory& m = p.memory.current;
+  const bool program = params.model == firmware::Model::maker_pro && params.generation == firmware::Generation::v6 &&
+                       !params.repairs.jump_check_in_16_bits && !params.repairs.watchdog_stops_motors && supply.value > 0 &&
+                       common.limit_pct > 0;
+  const bool mode = m.control_mode == static_cast<std::uint8_t>(firmware::ControlMode::position) && m.input_mode == 0 &&
+                    m.multiplier == std::array{1.0F, 1.0F, 1.0F};
+  const bool idle = !p.in_bootloader && !p.bytes_waiting && !p.buffer.overflow && !p.activation_waits && !p.watchdog.enabled &&
+                    !p.watchdog.expired && p.calibration.stage == firmware::Calibration::Stage::stop &&
+                    p.busy_until_ns - now_ns < firmware::kTickNs;
+  const firmware::ControllerState& c = p.loop;
+  Faults sound;
+  sound.seed = s.faults.seed;
+  const auto alike = [](const firmware::Orders& a, const firmware::Orders& b) {
+    return a.onoff == b.onoff && a.current_mA == b.current_mA && a.pwm == b.pwm;
+  };
+  const bool loop = !c.first_tick && !c.reset_samples && c.supply.value == supply.value && c.limit_pct == common.limit_pct &&
+                    s.limit_pct == common.limit_pct && c.supply_seen && alike(c.orders, c.orders_new) &&
+                    alike(c.orders_old, c.orders_new) && c.current[0].value == c.current_old[0].value &&
+                    c.current[1].value == c.current_old[1].value;
+  return program && mode && idle && loop && p.enable == 3 && s.supply_on && s.faults == sound &&
+         s.held.supply_V == unit.config().actuator.bridge.supply_V;
+}
+
+void UnitBatch::Impl::ticks_to_lanes(std::size_t b) noexcept {
+  for (std::size_t i = 0; i < width; ++i) table.put_loop(loop(b), static_cast<int>(i), states[b * width + i]);
+  for (std::size_t i = b * width; i < (b + 1) * width; ++i)
+    for (std::size_t m = 0; m < 2; ++m) voltage[m][i] = states[i].held.voltage[m];
+  ticks_in_lanes[b] = true;
+}
+
+void UnitBatch::Impl::take_loop(std::size_t i, UnitState& s) const noexcept {
+  table.take_loop(loop(i / width), static_cast<int>(i % width), s);
+  s.program.watchdog.run_to(last_tick_ns);
+  for (std::size_t m = 0; m < 2; ++m) s.held.voltage[m] = voltage[m][i];
+}
+
+void UnitBatch::Impl::ticks_to_states(std::size_t b) noexcept {
+  if (ticks_in_lanes[b] == 0) return;
+  for (std::size_t i = b * width; i < (b + 1) * width; ++i) take_loop(i, states[i]);
+  ticks_in_lanes[b] = false;
+}
+
+/// The ticks of a block at its step's begin. False: they are for the units one by one.
+bool UnitBatch::Impl::tick(std::size_t b) noexcept {
+  if (in_lanes[b] == 0) return false;
+  if (ticks_in_lanes[b] == 0) {
+    for (std::size_t i = b * width; i < (b + 1) * width; ++i)
+      if (!plain(states[i])) return false;
+    ticks_to_lanes(b);
+  }
+  TickStep io = common;
+  const std::size_t first = b * width;
+  io.angle = &angle[first];
+  for (std::size_t m = 0; m < 2; ++m) {
+    io.motor_angle[m] = &motor_angle[m][first];
+    io.motor_speed[m] = &motor_speed[m][first];
+    io.voltage[m] = &voltage[m][first];
+  }
+  table.tick(loop(b), io);
+  return true;
+}
+
+void UnitBatch::Impl::step_in_lanes(std::size_t b, std::int64_t dt_ns) noexcept {
+  const std::size_t first = b * width;
+  for (std::size_t i = first; i < first + width && ticks_in_lanes[b] == 0; ++i)
+    for (std::size_t m = 0; m < 2; ++m) voltage[m][i] = states[i].held.voltage[m];
+  to_lanes(b);
+  BlockStep io;
+  io.dt_s = static_cast<double>(dt_ns) * 1e-9;
+  io.angle = &angle[first];
+  io.speed = &speed[first];
+  io.inverse_inertia = &inverse_inertia[first];
+  io.torque = &torque[first];
+  for (std::size_t m = 0; m < 2; ++m) {
+    io.voltage[m] = &voltage[m][first];
+    io.motor_angle[m] = &motor_angle[m][first];
+    io.motor_speed[m] = &motor_speed[m][first];
+  }
+  unsettled += static_cast<std::size_t>(std::popcount(table.step(unit, block(b), io)));
+}
+
+void UnitBatch::Impl::step_block(std::size_t b, std::int64_t dt_ns) noexcept {
+  const std::size_t first = b * width;
+  const auto in = [&](std::size_t i) { return ShaftIn{angle[i], speed[i], inverse_inertia[i]}; };
+  const auto alone = [&](std::size_t i, auto&& step) {
+    torque[i] = step(states[i]);
+    unsettled += unit.settled() ? 0 : 1;
+  };
+  if (!laned || !unit.whole(now_ns, dt_ns)) {
+    to_states(b);
+    for (std::size_t i = first; i < first + width; ++i) alone(i, [&](UnitState& s) { return unit.step(s, now_ns, dt_ns, in(i)); });
+    return;
+  }
+  const bool ticks = now_ns % firmware::kTickNs == 0;
+  if (ticks ? tick(b) : ticks_in_lanes[b] != 0) return step_in_lanes(b, dt_ns);
+  bool regular = true;
+  for (std::size_t i = first; i < first + width; ++i) {
+    UnitState& s = states[i];
+    if (ticks) {
+      for (std::size_t m = 0; m < 2 && in_lanes[b] != 0; ++m) {
+        s.actuator.motor[m].angle = motor_angle[m][i];
+        s.actuator.motor[m].speed = motor_speed[m][i];
+      }
+      unit.tick(s, now_ns, angle[i]);
+    }
+    regular =
+        regular && s.started && s.held.terminal[0] == drive::Terminal::driven && s.held.terminal[1] == drive::Terminal::driven;
+  }
+  if (regular) return step_in_lanes(b, dt_ns);
+  to_states(b);
+  for (std::size_t i = first; i < first + width; ++i)
+    alone(i, [&](UnitState& s) { return unit.step_held(s, now_ns, dt_ns, in(i)); });
+}
+
+}  // namespace vsa::device

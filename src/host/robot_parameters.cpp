@@ -1,0 +1,188 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Giving actuators other parameters, one by one or all at once.
+#include <algorithm>
+#include <mutex>
+#include <string>
+
+#include "host/robot_impl.hpp"
+
+namespace vsa::host {
+namespace {
+
+/// With which id the unit has them, and whether the page is written, is the unit's own.
+bool same_parameters(firmware::Memory a, const firmware::Memory& b) noexcept {
+  a.id = b.id;
+  a.valid = b.valid;
+  return a == b;
+}
+
+/// What the program works with, and comes back with when it is switched on.
+bool has_own(const firmware::MemoryState& m, const firmware::Memory& own) noexcept {
+  return same_parameters(m.current, own) && same_parameters(m.stored, own);
+}
+
+void put(firmware::MemoryState& m, const firmware::Memory& parameters) noexcept {
+  for (firmware::Memory* copy : {&m.stored, &m.current, &m.user, &m.factory}) {
+    const std::uint8_t id = copy->id;
+    const bool valid = copy->valid;
+    *copy = parameters;
+    copy->id = id;
+    copy->valid = valid;
+  }
+}
+
+/// What a unit works out in its first steps and then keeps takes as long as two steps: once, not each time that a robot goes over to
+/// these parameters.
+std::shared_ptr<const actuator::Actuator> prepared(const UnitConfig& config, std::int64_t dt_ns) {
+  device::Unit unit(config);
+  device::UnitState scratch = unit.initial(0, 0, 0);
+  for (int k = 0; k < 2; ++k) unit.step(scratch, k * dt_ns, dt_ns, {});
+  return std::make_shared<const actuator::Actuator>(unit.physics());
+}
+
+void take_unit(ActuatorConfig& to, const ActuatorConfig& from) {
+  to.unit = from.unit;
+  to.changed = from.changed;
+  to.prepared = from.prepared;
+  if (to.type != from.type) to.type = from.type;
+}
+
+}  // namespace
+
+void check_kind(const std::string& name, const UnitConfig& from, const UnitConfig& to, Problems& problems) {
+  const auto number = [](auto value) { return std::to_string(static_cast<int>(value)); };
+  const auto same = [&](const char* key, const std::string& theirs, const std::string& ours) {
+    if (theirs != ours) problems.add({"", name + ": " + key, theirs, "a unit's state can't go over to this", ours});
+  };
+  same("firmware.model", number(from.program.model), number(to.program.model));
+  same("firmware.dialect", number(from.program.dialect), number(to.program.dialect));
+  same("number of motors", number(from.actuator.transmission->motor_count()), number(to.actuator.transmission->motor_count()));
+}
+
+void Robot::set_parameters(std::size_t actuator, const UnitConfig& unit) {
+  const ActuatorConfig& now = impl_->config.actuators[known(actuator)];
+  Problems problems;
+  device::check(unit, now.name + ": ", problems);
+  problems.throw_if_any();
+  check_kind(now.name, unit, now.unit, problems);
+  problems.throw_if_any();
+  impl_->set_parameters(actuator, unit);
+}
+
+void Robot::set_parameters(std::size_t actuator, const UnitConfig& unit, std::string type,
+                           std::shared_ptr<const Settings> changed) {
+  set_parameters(actuator, unit);
+  impl_->config.actuators[actuator].type = std::move(type);
+  impl_->config.actuators[actuator].changed = std::move(changed);
+  impl_->made_of = impl_->initial.made_of = std::make_shared<const RobotConfig>(impl_->config);
+}
+
+std::shared_ptr<const RobotConfig> Robot::parameters() const { return impl_->made_of; }
+
+std::shared_ptr<const RobotConfig> Robot::parameters_with(const RobotConfig& base,
+                                                          std::span<const std::pair<std::size_t, ActuatorConfig>> changes,
+                                                          std::int64_t dt_ns) const {
+  Problems problems;
+  if (dt_ns < 1 || dt_ns > kLongestStep_ns) problems.add({"", "dt_ns", std::to_string(dt_ns), "is out of range", "1 … 16000000"});
+  for (const auto& [actuator, to] : changes) {
+    const std::string& name = impl_->config.actuators[known(actuator)].name;
+    const std::size_t before = problems.list().size();
+    device::check(to.unit, name + ": ", problems);
+    if (problems.list().size() == before) check_kind(name, to.unit, base.actuators[actuator].unit, problems);
+  }
+  problems.throw_if_any();
+  auto out = std::make_shared<RobotConfig>(base);
+  const ActuatorConfig* last = nullptr;
+  for (const auto& [actuator, to] : changes) {
+    ActuatorConfig& a = out->actuators[actuator];
+    take_unit(a, to);
+    a.prepared = last != nullptr && last->unit == a.unit ? last->prepared : prepared(a.unit, dt_ns);
+    last = &a;
+  }
+  return out;
+}
+
+void Robot::set_parameters(const std::shared_ptr<const RobotConfig>& parameters) {
+  Impl& d = *impl_;
+  if (parameters == d.made_of) return;
+  const std::shared_ptr<const RobotConfig> before = d.made_of;
+  d.use(parameters);
+  const QuietBuses quiet(d.buses);
+  d.adopt(*before);
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (!device::alike(before->actuators[i].unit, d.config.actuators[i].unit)) d.initial.state.actuators[i].unit = d.first_state(i);
+  }
+  d.initial.made_of = d.made_of;
+}
+
+void Robot::use(const std::shared_ptr<const RobotConfig>& parameters) { impl_->use(parameters); }
+
+void Robot::renew_memories() {
+  Impl& d = *impl_;
+  const QuietBuses quiet(d.buses);
+  for (std::size_t i = 0; i < size(); ++i) {
+    firmware::MemoryState& m = d.state.actuators[i].unit.program.memory;
+    const firmware::Memory& ours = d.config.actuators[i].unit.memory;
+    if (!has_own(m, ours)) put(m, ours);
+  }
+}
+
+bool Robot::has_own_memories() const {
+  for (std::size_t i = 0; i < size(); ++i)
+    if (!has_own(impl_->state.actuators[i].unit.program.memory, impl_->config.actuators[i].unit.memory)) return false;
+  return true;
+}
+
+void Robot::Impl::drop_unused() {
+  distinct.erase(std::remove_if(distinct.begin(), distinct.end(), [](const auto& u) { return u.use_count() == 1; }),
+                 distinct.end());
+}
+
+void Robot::Impl::set_parameters(std::size_t i, const UnitConfig& unit) {
+  const UnitConfig before = config.actuators[i].unit;
+  BusLine& bus = *buses[config.actuators[i].bus];
+  const std::shared_ptr<device::Unit> next = unit_for(unit);
+  config.actuators[i].unit = unit;
+  config.actuators[i].prepared = nullptr;
+  made_of = std::make_shared<const RobotConfig>(config);
+  {
+    const std::lock_guard quiet(bus);
+    bus.set_unit(state.actuators[i], *next);
+    units[i] = next;
+    next->adopt(state.actuators[i].unit, before);
+  }
+  make_clusters(std::vector(trees));
+  initial.state.actuators[i].unit = first_state(i);
+  initial.made_of = made_of;
+  drop_unused();
+}
+
+/// All that may fail comes first, but for the clusters' memory.
+void Robot::Impl::use(const std::shared_ptr<const RobotConfig>& to) {
+  if (to == made_of) return;
+  std::vector<std::shared_ptr<device::Unit>> next = units;
+  for (std::size_t i = 0; i < units.size(); ++i)
+    if (!(units[i]->config() == to->actuators[i].unit)) next[i] = unit_for(to->actuators[i].unit, to->actuators[i].prepared.get());
+  {
+    const QuietBuses quiet(buses);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      take_unit(config.actuators[i], to->actuators[i]);
+      if (next[i] != units[i]) buses[config.actuators[i].bus]->set_unit(state.actuators[i], *next[i]);
+    }
+    units.swap(next);
+  }
+  next.clear();
+  made_of = to;
+  make_clusters(std::vector(trees));
+  drop_unused();
+}
+
+void Robot::Impl::adopt(const RobotConfig& from) noexcept {
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!device::alike(from.actuators[i].unit, config.actuators[i].unit))
+      units[i]->adopt(state.actuators[i].unit, from.actuators[i].unit);
+  }
+}
+
+}  // namespace vsa::host

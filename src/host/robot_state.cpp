@@ -1,0 +1,102 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A robot's state as numbers: the actuators' and the robot's own, then bus by bus.
+#include <string>
+
+#include "host/robot_impl.hpp"
+#include "vsa/state_io.hpp"
+
+namespace vsa::host {
+namespace {
+
+/// Program times that far from the line's: a watchdog would count for minutes. 11 days.
+constexpr std::int64_t kFarthestNs = 1'000'000'000'000'000;
+
+template <class Sink>
+void walk_bus(Sink& sink, const BusLine& bus) {
+  sink.enter("");
+  state::walk(sink, "chain", "", bus.chain_state());
+  state::walk(sink, "master", "", bus.master_state());
+  sink.leave();
+}
+
+/// "actuator[1].unit…" → "elbow/unit…", where there is such a beginning.
+std::string renamed(const std::string& name, const std::vector<ActuatorConfig>& actuators) {
+  constexpr std::string_view kBegin = "actuator[";
+  if (name.rfind(kBegin, 0) != 0) return name;
+  const std::size_t close = name.find("].");
+  return actuators[std::stoul(name.substr(kBegin.size()))].name + "/" + name.substr(close + 2);
+}
+
+}  // namespace
+
+StateLayout Robot::Impl::layout() const {
+  StateLayout out = state::layout_of(state);
+  for (StateEntry& e : out.entries()) e.name = renamed(e.name, config.actuators);
+  for (std::size_t b = 0; b < buses.size(); ++b) {
+    StateLayout one;
+    state::Namer namer(one);
+    walk_bus(namer, *buses[b]);
+    out.append("bus " + config.buses[b].name + "/", one);
+  }
+  return out;
+}
+
+std::size_t Robot::Impl::size_as_numbers() const {
+  state::Sizer sizer;
+  state::walk_fields(sizer, state);
+  for (const auto& bus : buses) walk_bus(sizer, *bus);
+  return sizer.size();
+}
+
+void Robot::Impl::read_numbers(std::span<const double> in) {
+  check_state_size(in.size(), numbers);
+  state::Reader reader(in);
+  state::walk_fields(reader, loaded.state);
+  for (BusState& bus : loaded.buses) state::walk_fields(reader, bus);
+  StateFault fault = reader.fault();
+  for (std::size_t b = 0; b < buses.size() && !fault.there(); ++b) {
+    if (const char* wrong = buses[b]->impossible(loaded.buses[b], loaded.state.time_ns))
+      fault = {in.size() - 1, in.back(), "ends what can't be", wrong};
+  }
+  for (std::size_t i = 0; i < units.size() && !fault.there(); ++i) {
+    const firmware::ProgramState& p = loaded.state.actuators[i].unit.program;
+    const std::int64_t line_ns = loaded.buses[config.actuators[i].bus].chain.now_ps / bus::kPsPerNs;
+    const auto [low, high] = std::minmax(line_ns, loaded.state.time_ns);
+    for (const std::int64_t t : {p.busy_until_ns, p.watchdog.next_clock_ns})
+      if (t < low - kFarthestNs || t > high + kFarthestNs)
+        fault = {in.size() - 1, static_cast<double>(t), "is a time that no program waits for", "within 11 days of the robot's, ns"};
+  }
+  if (fault.there()) throw_if_any(fault, layout());
+}
+
+StateLayout Robot::state_layout() const { return impl_->layout(); }
+std::size_t Robot::state_size() const { return impl_->numbers; }
+
+void Robot::save(std::span<double> out) const {
+  const Impl& d = *impl_;
+  check_state_size(out.size(), d.numbers);
+  state::Writer writer(out);
+  {
+    const QuietBuses quiet(d.buses);
+    state::walk_fields(writer, d.state);
+    for (const auto& bus : d.buses) walk_bus(writer, *bus);
+  }
+  if (writer.fault().there()) throw_if_any(writer.fault(), d.layout());
+}
+
+void Robot::check(std::span<const double> in) const { impl_->read_numbers(in); }
+
+void Robot::restore(std::span<const double> in) {
+  impl_->read_numbers(in);
+  impl_->loaded.made_of = impl_->made_of;
+  impl_->restore(impl_->loaded);
+}
+
+std::uint64_t Robot::state_hash() const {
+  std::vector<double> numbers(state_size());
+  save(numbers);
+  return vsa::state_hash(numbers);
+}
+
+}  // namespace vsa::host

@@ -1,0 +1,47 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// One unit by itself on an inertia.
+#include "linear/loops.hpp"
+
+namespace vsa::linear {
+namespace {
+
+void name_signals(Model& m, const Plant& plant) {
+  m.states = {{"shaft angle", "rad"}, {"shaft speed", "rad/s"}};
+  m.inputs = {{"load torque", "N·m"}};
+  m.outputs = {{"shaft angle", "rad"}, {"shaft speed", "rad/s"}, {"spring torque", "N·m"}};
+  for (int i = 0; i < plant.motors; ++i) {
+    m.states.push_back({motor_signal(i, "angle"), "rad"});
+    m.states.push_back({motor_signal(i, "speed"), "rad/s"});
+    if (plant.slopes[i].lag_s) m.states.push_back({motor_signal(i, "current"), "A"});
+    m.inputs.push_back(m.firmware == Firmware::frozen ? Signal{motor_signal(i, "voltage"), "V"}
+                                                      : Signal{motor_signal(i, "reference"), "rad"});
+    m.outputs.push_back({motor_signal(i, "angle"), "rad"});
+  }
+}
+
+}  // namespace
+
+Model linearize(const device::UnitConfig& unit, const OperatingPoint& point, Firmware firmware, DryFriction friction) {
+  const Plant plant = find_plant(unit, point, friction);
+  Model m;
+  m.firmware = firmware;
+  m.rest = plant.rest;
+  m.notices = plant.notices;
+  m.inertia_kgm2 = plant.inertia;
+  m.damping_Nms_per_rad = plant.damping;
+  m.a = state_matrix(plant);
+  m.b = input_matrix(plant);
+  name_signals(m, plant);
+  Loops loops;
+  if (firmware != Firmware::frozen) loops = find_loops(unit, plant, m.notices);
+  if (firmware == Firmware::averaged) average(m, loops);
+  if (firmware == Firmware::sampled) sample(m, loops);
+  m.c = output_matrix(plant, m.a.rows());
+  m.d = Eigen::MatrixXd::Zero(m.c.rows(), m.b.cols());
+  m.held_stiffness_Nm_per_rad = held_stiffness(plant);
+  m.static_stiffness_Nm_per_rad = static_stiffness(plant, loops);
+  return m;
+}
+
+}  // namespace vsa::linear

@@ -1,0 +1,54 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The fields of MuJoCo's model that follow from the links' masses, inertias and frictions, taken out so that they can be put into
+// another model of the same world in no time.
+//
+//   set by us                    body_mass, body_inertia; geom_friction, geom_condim, geom_priority
+//   derived by mj_setConst       body_subtreemass, body_invweight0, dof_M0, dof_invweight0, stat.meanmass, stat.meaninertia
+//
+// Nothing else that mj_setConst derives (lengths, centres, extent, cameras) follows from masses.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "physics/mujoco/model.hpp"
+#include "vsa/physics/physics.hpp"
+
+namespace vsa::physics {
+
+/// Which of MuJoCo's objects are a link's.
+struct LinkObjects {
+  std::vector<int> body;           ///< of a link
+  std::vector<bool> is_static;     ///< of a link
+  std::vector<std::size_t> geoms;  ///< the link of each geom
+};
+
+class MujocoBodies final : public Bodies {
+ public:
+  /// As the model has them.
+  MujocoBodies(const mjModel& model, const LinkObjects& objects);
+  /// `base` with those of its links that differ. `model` and `scratch` are worked with; the model comes out with other masses.
+  MujocoBodies(const MujocoBodies& base, std::span<const scene::LinkParameters> links, const LinkObjects& objects, mjModel& model,
+               mjData& scratch);
+  [[nodiscard]] std::span<const scene::LinkParameters> links() const override { return links_; }
+  /// What differs between a model that has `now` and one with these.
+  void put_into(mjModel& model, const MujocoBodies& now) const;
+  void put_masses_into(mjModel& model) const;
+
+ private:
+  using Masses = std::vector<mjtNum>;
+  struct Surfaces {
+    std::vector<mjtNum> mu;
+    std::vector<int> condim, priority;
+  };
+  [[nodiscard]] static std::shared_ptr<const Masses> masses_of(const mjModel& model);
+  [[nodiscard]] std::shared_ptr<const Surfaces> surfaces_with(const MujocoBodies& base, const LinkObjects& objects,
+                                                              const mjModel& model) const;
+
+  std::vector<scene::LinkParameters> links_;
+  std::shared_ptr<const Masses> masses_;      // shared by all that have the same
+  std::shared_ptr<const Surfaces> surfaces_;  // likewise
+};
+
+}  // namespace vsa::physics

@@ -1,0 +1,54 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "physics/mujoco/model.hpp"
+
+#include <array>
+#include <cstring>
+#include <mutex>
+
+#include "vsa/physics/error.hpp"
+
+namespace vsa::physics {
+namespace {
+
+std::mutex compiling;  // mj_loadXML keeps its last model in a global
+
+void on_warning(const char*) {}  // counted in mjData, where every step looks
+
+[[noreturn]] void on_error(const char* text) { throw SimulationError(std::string("MuJoCo: ") + text); }
+
+struct VfsDeleter {
+  void operator()(mjVFS* vfs) const {
+    mj_deleteVFS(vfs);
+    delete vfs;
+  }
+};
+
+bool add(mjVFS& vfs, const VirtualFile& file) {
+  if (mj_makeEmptyFileVFS(&vfs, file.name.c_str(), static_cast<int>(file.bytes.size())) != 0) return false;
+  const int index = mj_findFileVFS(&vfs, file.name.c_str());
+  std::memcpy(vfs.filedata[index], file.bytes.data(), file.bytes.size());
+  return true;
+}
+
+}  // namespace
+
+ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, std::string& reason) {
+  const std::lock_guard lock(compiling);
+  mju_user_warning = on_warning;
+  mju_user_error = on_error;
+  const std::unique_ptr<mjVFS, VfsDeleter> vfs(new mjVFS);
+  mj_defaultVFS(vfs.get());
+  bool all = add(*vfs, {"world.xml", xml});
+  for (const VirtualFile& file : named) all = all && add(*vfs, file);
+  if (!all) {
+    reason = "the world is too large for MuJoCo's virtual files";
+    return nullptr;
+  }
+  std::array<char, 1000> error{};
+  ModelPtr model(mj_loadXML("world.xml", vfs.get(), error.data(), static_cast<int>(error.size())));
+  mj_freeLastXML();
+  if (!model) reason = error.data();
+  return model;
+}
+
+}  // namespace vsa::physics

@@ -1,0 +1,257 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "physics/mujoco/physics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/mujoco/mjcf.hpp"
+
+namespace vsa::physics {
+namespace {
+
+constexpr int kMaxRows = 12000;  // 12000² doubles of MuJoCo's dual matrix: 1.2 GB, touched only as far as used
+
+const char* warning_text(int kind) {
+  switch (kind) {
+    case mjWARN_INERTIA:
+      return "singular inertia matrix";
+    case mjWARN_CONTACTFULL:
+      return "too many contacts";
+    case mjWARN_CNSTRFULL:
+      return "too many constraints";
+    case mjWARN_BADQPOS:
+      return "bad position";
+    case mjWARN_BADQVEL:
+      return "bad velocity";
+    case mjWARN_BADQACC:
+      return "bad acceleration";
+    default:
+      return "engine warning";
+  }
+}
+
+}  // namespace
+
+MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, const std::vector<TreeNode>& tree)
+    : model_(std::move(model)), joint_(world.joints.size()), root_(world.links.size(), -1) {
+  const mjModel* m = model_.get();
+  q_owner_.resize(static_cast<std::size_t>(m->nq));
+  v_owner_.resize(static_cast<std::size_t>(m->nv));
+  objects_.geoms.resize(static_cast<std::size_t>(m->ngeom));
+  const auto own = [&](int id, const std::string& name) {
+    const int q_end = id + 1 < m->njnt ? m->jnt_qposadr[id + 1] : m->nq, v_end = id + 1 < m->njnt ? m->jnt_dofadr[id + 1] : m->nv;
+    std::fill(q_owner_.begin() + m->jnt_qposadr[id], q_owner_.begin() + q_end, name);
+    std::fill(v_owner_.begin() + m->jnt_dofadr[id], v_owner_.begin() + v_end, name);
+  };
+  for (std::size_t l = 0; l < world.links.size(); ++l) {
+    objects_.body.push_back(mj_name2id(m, mjOBJ_BODY, body_name(l).c_str()));
+    objects_.is_static.push_back(world.links[l].is_static);
+    for (std::size_t k = 0; k < world.links[l].collisions.size(); ++k) {
+      const int geom = mj_name2id(m, mjOBJ_GEOM, geom_name(l, k).c_str());
+      if (geom >= 0) objects_.geoms[static_cast<std::size_t>(geom)] = l;
+    }
+  }
+  for (std::size_t j = 0; j < world.joints.size(); ++j) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const int id = mj_name2id(m, mjOBJ_JOINT, joint_name(j, k).c_str());
+      if (id < 0) continue;
+      own(id, "joint " + world.joints[j].name);
+      if (world.joints[j].one_axis()) joint_[j] = {m->jnt_qposadr[id], m->jnt_dofadr[id]};
+    }
+  }
+  for (const TreeNode& node : tree) {
+    const int id = node.free ? mj_name2id(m, mjOBJ_JOINT, free_joint_name(node.link).c_str()) : -1;
+    if (id >= 0) own(id, "link " + world.links[node.link].name);
+    root_[node.link] = node.free ? id : node.parent ? root_[*node.parent] : -1;
+  }
+  unit_.resize(static_cast<std::size_t>(m->nv));
+  column_.resize(unit_.size());
+  damped_ = std::any_of(m->dof_damping, m->dof_damping + m->nv, [](mjtNum d) { return d > 0; });
+  if (damped_) mass_matrix_.resize(static_cast<std::size_t>(m->nM));
+  jacobian_.resize(3 * unit_.size());
+  mobility_.resize(3 * unit_.size());
+  bodies_ = std::make_shared<const MujocoBodies>(*m, objects_);
+  make_data();
+  before_.resize(state_size());
+  save(before_);
+}
+
+void MujocoPhysics::make_data() {
+  data_.reset(mj_makeData(model_.get()));
+  view_.reset(mj_makeData(model_.get()));
+  if (!data_ || !view_) throw SimulationError("MuJoCo: no memory for the world's state");
+  view_stale_ = true;
+}
+
+void MujocoPhysics::grow() {
+  std::vector<double> state(state_size());
+  save(state);
+  model_ = ModelPtr(mj_copyModel(nullptr, model_.get()));
+  if (!model_) throw SimulationError("MuJoCo: no memory for a larger world");
+  own_ = true;
+  model_->njmax *= 2;
+  model_->nconmax *= 2;
+  model_->nstack *= 4;
+  data_.reset();  // before the new ones: they are large
+  view_.reset();
+  make_data();
+  restore(state);
+}
+
+void MujocoPhysics::changed() { view_stale_ = true; }
+
+void MujocoPhysics::prepare() {
+  const mjModel* m = model_.get();
+  save(before_);
+  for (;;) {
+    mj_fwdPosition(m, data_.get());
+    const bool full = data_->warning[mjWARN_CONTACTFULL].number > 0 || data_->warning[mjWARN_CNSTRFULL].number > 0;
+    if (!full || m->njmax * 2 > kMaxRows) break;
+    grow();
+    m = model_.get();  // another
+  }
+  mj_fwdVelocity(m, data_.get());
+  mju_zero(data_->qfrc_applied, m->nv);
+}
+
+std::vector<std::vector<std::size_t>> MujocoPhysics::trees(std::span<const std::size_t> joints) const {
+  std::vector<std::pair<int, std::vector<std::size_t>>> found;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    int root = joint_[joints[i]].v;
+    while (model_->dof_parentid[root] >= 0) root = model_->dof_parentid[root];
+    const auto same = std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.first == root; });
+    if (same == found.end()) {
+      found.push_back({root, {i}});
+    } else {
+      same->second.push_back(i);
+    }
+  }
+  std::vector<std::vector<std::size_t>> out;
+  for (auto& [root, members] : found) out.push_back(std::move(members));
+  return out;
+}
+
+// mj_Euler steps v' = v + dt·(M + dt·D)⁻¹ f with the joints' damping D.
+void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<double> out) {
+  const mjModel* m = model_.get();
+  if (damped_) {
+    std::copy(data_->qM, data_->qM + m->nM, mass_matrix_.begin());
+    for (int i = 0; i < m->nv; ++i) data_->qM[m->dof_Madr[i]] += m->opt.timestep * m->dof_damping[i];
+    mj_factorM(m, data_.get());
+  }
+  const std::size_t n = joints.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const int v = joint_[joints[i]].v;
+    unit_[static_cast<std::size_t>(v)] = 1;
+    mj_solveM(m, data_.get(), column_.data(), unit_.data(), 1);
+    unit_[static_cast<std::size_t>(v)] = 0;
+    for (std::size_t k = 0; k < n; ++k) out[i * n + k] = column_[static_cast<std::size_t>(joint_[joints[k]].v)];
+  }
+  if (damped_) {
+    std::copy(mass_matrix_.begin(), mass_matrix_.end(), data_->qM);
+    mj_factorM(m, data_.get());
+  }
+}
+
+void MujocoPhysics::apply(std::size_t joint, double torque) { data_->qfrc_applied[joint_[joint].v] = torque; }
+
+std::optional<Refusal> MujocoPhysics::check(const mjtNum* values, int n, bool positions, const char* quantity) const {
+  const auto& owner = positions ? q_owner_ : v_owner_;
+  for (int i = 0; i < n; ++i) {
+    if (!std::isfinite(values[i]) || std::abs(values[i]) > mjMAXVAL)
+      return Refusal{owner[static_cast<std::size_t>(i)], quantity, values[i]};
+  }
+  return std::nullopt;
+}
+
+/// A warning names no joint, so the fastest one is shown.
+std::optional<Refusal> MujocoPhysics::find_fault() const {
+  for (int kind = 0; kind < mjNWARNING; ++kind) {
+    if (data_->warning[kind].number == 0) continue;
+    const auto nv = static_cast<std::size_t>(model_->nv);
+    if (nv == 0) return Refusal{"world", warning_text(kind), 0};
+    const auto* fastest =
+        std::max_element(data_->qvel, data_->qvel + nv, [](mjtNum a, mjtNum b) { return std::abs(a) < std::abs(b); });
+    return Refusal{v_owner_[static_cast<std::size_t>(fastest - data_->qvel)], fmt::format("speed ({})", warning_text(kind)),
+                   *fastest};
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> MujocoPhysics::advance() {
+  const mjModel* m = model_.get();
+  mjData* d = data_.get();
+  std::optional<Refusal> fault = check(d->qpos, m->nq, true, "position");
+  if (!fault) fault = check(d->qvel, m->nv, false, "speed");
+  if (!fault) fault = check(d->qfrc_applied, m->nv, false, "applied torque");
+  if (!fault) {
+    mj_fwdActuation(m, d);
+    mj_fwdAcceleration(m, d);
+    mj_fwdConstraint(m, d);
+    fault = check(d->qacc, m->nv, false, "acceleration");
+  }
+  if (!fault) fault = find_fault();
+  if (!fault) {
+    mj_Euler(m, d);
+    fault = check(d->qvel, m->nv, false, "speed");
+    if (!fault) fault = check(d->qpos, m->nq, true, "position");
+    if (!fault) fault = find_fault();
+  }
+  if (fault) restore(before_);
+  changed();
+  stepped_ = !fault;
+  return fault;
+}
+
+JointState MujocoPhysics::joint(std::size_t joint) const { return {data_->qpos[joint_[joint].q], data_->qvel[joint_[joint].v]}; }
+
+void MujocoPhysics::set_joint(std::size_t joint, JointState state) {
+  data_->qpos[joint_[joint].q] = state.position;
+  data_->qvel[joint_[joint].v] = state.speed;
+  changed();
+}
+
+std::size_t MujocoPhysics::state_size() const {
+  return static_cast<std::size_t>(model_->nq) + 2 * static_cast<std::size_t>(model_->nv);
+}
+
+StateLayout MujocoPhysics::state_layout() const {
+  const mjModel* m = model_.get();
+  StateLayout out;
+  const auto block = [&](const char* what, bool position, const char* turning, const char* sliding, const char* free) {
+    for (int id = 0; id < m->njnt; ++id) {
+      const int at = position ? m->jnt_qposadr[id] : m->jnt_dofadr[id], all = position ? m->nq : m->nv;
+      const int next = id + 1 < m->njnt ? (position ? m->jnt_qposadr[id + 1] : m->jnt_dofadr[id + 1]) : all;
+      const std::string& owner = position ? q_owner_[at] : v_owner_[at];
+      const bool again = id > 0 && owner == v_owner_[m->jnt_dofadr[id - 1]];  // a universal joint's second axis
+      const int type = m->jnt_type[id];
+      const char* unit = type == mjJNT_HINGE ? turning : type == mjJNT_SLIDE ? sliding : free;
+      out.add(owner + (again ? ", second axis." : ".") + what, unit, StateKind::real, static_cast<std::size_t>(next - at));
+    }
+  };
+  block("position", true, "rad", "m", "m, quaternion w x y z");
+  block("speed", false, "rad/s", "m/s", "m/s, rad/s");
+  block("acceleration", false, "rad/s²", "m/s²", "m/s², rad/s²");
+  return out;
+}
+
+void MujocoPhysics::save(std::span<double> out) const {
+  const mjModel* m = model_.get();
+  mju_copy(out.data(), data_->qpos, m->nq);
+  mju_copy(out.data() + m->nq, data_->qvel, m->nv);
+  mju_copy(out.data() + m->nq + m->nv, data_->qacc_warmstart, m->nv);
+}
+
+void MujocoPhysics::restore(std::span<const double> in) {
+  const mjModel* m = model_.get();
+  mju_copy(data_->qpos, in.data(), m->nq);
+  mju_copy(data_->qvel, in.data() + m->nq, m->nv);
+  mju_copy(data_->qacc_warmstart, in.data() + m->nq + m->nv, m->nv);
+  for (mjWarningStat& warning : data_->warning) warning = {};
+  stepped_ = false;
+  changed();
+}
+
+}  // namespace vsa::physics

@@ -1,0 +1,121 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Looking at the world; none of this touches the state that steps, but displace().
+#include <algorithm>
+#include <cmath>
+
+#include "physics/mujoco/physics.hpp"
+
+namespace vsa::physics {
+
+const mjData& MujocoPhysics::view() const {
+  if (view_stale_) {
+    const mjModel* m = model_.get();
+    mju_copy(view_->qpos, data_->qpos, m->nq);
+    mju_copy(view_->qvel, data_->qvel, m->nv);
+    mj_kinematics(m, view_.get());
+    mj_comPos(m, view_.get());
+    view_stale_ = false;
+  }
+  return *view_;
+}
+
+void MujocoPhysics::poses(std::span<scene::Pose> links) const {
+  const mjData& d = view();
+  for (std::size_t i = 0; i < links.size() && i < objects_.body.size(); ++i) {
+    const mjtNum* p = d.xpos + 3 * objects_.body[i];
+    const mjtNum* q = d.xquat + 4 * objects_.body[i];
+    links[i] = {{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}};
+  }
+}
+
+std::array<double, 3> MujocoPhysics::center_of_mass(std::span<const std::size_t> links) const {
+  const mjData& d = view();
+  Vec3 sum;
+  double mass = 0;
+  for (const std::size_t i : links) {
+    const mjtNum* p = d.xipos + 3 * objects_.body[i];
+    const double own = bodies_->links()[i].mass_kg;
+    sum += Vec3(p[0], p[1], p[2]) * own;
+    mass += own;
+  }
+  const Vec3 mean = mass > 0 ? sum / mass : Vec3::Zero;
+  return {mean.X(), mean.Y(), mean.Z()};
+}
+
+bool MujocoPhysics::displace(std::span<const std::size_t> links, double yaw, const std::array<double, 3>& shift) {
+  std::vector<int> roots;
+  for (const std::size_t i : links) {
+    if (root_[i] < 0) return false;
+    if (std::find(roots.begin(), roots.end(), root_[i]) == roots.end()) roots.push_back(root_[i]);
+  }
+  const ignition::math::Quaterniond turn(0, 0, yaw);
+  for (const int id : roots) {
+    mjtNum* q = data_->qpos + model_->jnt_qposadr[id];
+    mjtNum* v = data_->qvel + model_->jnt_dofadr[id];
+    const Vec3 position = turn * Vec3(q[0], q[1], q[2]) + Vec3(shift[0], shift[1], shift[2]);
+    const ignition::math::Quaterniond rotation = turn * ignition::math::Quaterniond(q[3], q[4], q[5], q[6]);
+    const Vec3 velocity = turn * Vec3(v[0], v[1], v[2]);  // the angular one is in the body's own axes
+    for (std::size_t k = 0; k < 3; ++k) {
+      q[k] = position[k];
+      v[k] = velocity[k];
+    }
+    q[3] = rotation.W(), q[4] = rotation.X(), q[5] = rotation.Y(), q[6] = rotation.Z();
+  }
+  changed();
+  return true;
+}
+
+scene::Energy MujocoPhysics::energy() const {
+  const mjModel* m = model_.get();
+  mjData* d = view_.get();
+  view_stale_ = true;
+  mju_copy(d->qpos, data_->qpos, m->nq);
+  mju_copy(d->qvel, data_->qvel, m->nv);
+  mj_integratePos(m, d->qpos, d->qvel, -m->opt.timestep / 2);
+  mj_kinematics(m, d);
+  mj_comPos(m, d);
+  mj_crb(m, d);
+  std::vector<mjtNum> momentum(static_cast<std::size_t>(m->nv));
+  mj_mulM(m, d, momentum.data(), d->qvel);
+  scene::Energy out;
+  out.kinetic = mju_dot(momentum.data(), d->qvel, m->nv) / 2;
+  for (std::size_t i = 0; i < objects_.body.size(); ++i)
+    out.gravitational -= bodies_->links()[i].mass_kg * mju_dot3(m->opt.gravity, d->xipos + 3 * objects_.body[i]);
+  for (int j = 0; j < m->njnt; ++j) {
+    const int q = m->jnt_qposadr[j];
+    const double stretch = m->jnt_stiffness[j] > 0 ? d->qpos[q] - m->qpos_spring[q] : 0;
+    out.springs += m->jnt_stiffness[j] * stretch * stretch / 2;
+  }
+  return out;
+}
+
+int MujocoPhysics::contact_count() const {
+  static_cast<void>(view());
+  mj_collision(model_.get(), view_.get());
+  return view_->ncon;
+}
+
+void MujocoPhysics::contacts(std::vector<scene::Contact>& out) const {
+  out.clear();
+  if (!stepped_) return;
+  const mjData* d = data_.get();
+  for (int i = 0; i < d->ncon; ++i) {
+    const mjContact& c = d->contact[i];
+    if (c.efc_address < 0) continue;
+    mjtNum wrench[6], force[3];
+    mj_contactForce(model_.get(), d, i, wrench);  // on the second body, in the contact's frame, whose axes are rows
+    mju_rotVecMatT(force, wrench, c.frame);
+    scene::Contact contact{{c.pos[0], c.pos[1], c.pos[2]},
+                           {force[0], force[1], force[2]},
+                           objects_.geoms[static_cast<std::size_t>(c.geom2)],
+                           objects_.geoms[static_cast<std::size_t>(c.geom1)]};
+    if (objects_.is_static[contact.link]) {
+      std::swap(contact.link, contact.other);
+      for (double& f : contact.force_N) f = -f;
+    }
+    out.push_back(contact);
+  }
+}
+
+}  // namespace vsa::physics

@@ -1,0 +1,205 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <array>
+#include <ignition/math/Quaternion.hh>
+#include <sdf/Box.hh>
+#include <sdf/Capsule.hh>
+#include <sdf/Cylinder.hh>
+#include <sdf/Ellipsoid.hh>
+#include <sdf/Geometry.hh>
+#include <sdf/Heightmap.hh>
+#include <sdf/Mesh.hh>
+#include <sdf/Plane.hh>
+#include <sdf/Sphere.hh>
+
+#include "sdf/heightmap_file.hpp"
+#include "sdf/mesh_file.hpp"
+#include "sdf/read_context.hpp"
+#include "vsa/files.hpp"
+
+namespace vsa::reader {
+namespace {
+
+constexpr std::array<std::pair<Geometry::Kind, const char*>, 8> kShapes{{{Geometry::Kind::box, "box"},
+                                                                         {Geometry::Kind::sphere, "sphere"},
+                                                                         {Geometry::Kind::cylinder, "cylinder"},
+                                                                         {Geometry::Kind::capsule, "capsule"},
+                                                                         {Geometry::Kind::ellipsoid, "ellipsoid"},
+                                                                         {Geometry::Kind::plane, "plane"},
+                                                                         {Geometry::Kind::heightmap, "heightmap"},
+                                                                         {Geometry::Kind::mesh, "mesh"}}};
+
+std::string collidable(const Capabilities& engine) {
+  std::string all;
+  for (const auto& [kind, name] : kShapes) {
+    if (!engine.takes(kind)) continue;
+    const bool hulls = kind == Geometry::Kind::mesh && !engine.concave_meshes;
+    all += (all.empty() ? "" : ", ") + std::string(hulls ? "convex " : "") + name;
+  }
+  return all;
+}
+
+/// Visuals that can't be shown are only left out; collisions are refused.
+struct Where {
+  ReadContext& c;
+  sdf::ElementPtr element;
+  std::string key;
+  bool collides;
+
+  std::nullopt_t refuse(const std::string& name, const std::string& value, const std::string& message, const std::string& allowed) {
+    if (collides) {
+      c.problem(element, key + "/geometry/" + name, value, message, allowed);
+    } else {
+      c.notes.add("visuals that can't be shown are left out (" + message + ")", key);
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Geometry> sized(Geometry::Kind kind, const Vec3& size, int used, const char* name) {
+    for (int i = 0; i < used; ++i) {
+      const double x = size[static_cast<std::size_t>(i)];
+      if (!std::isfinite(x) || x <= 0) return refuse(name, fmt::format("{}", x), "a length that isn't positive", "> 0, finite");
+    }
+    Geometry g;
+    g.kind = kind;
+    g.size = size;
+    return g;
+  }
+
+  [[nodiscard]] std::filesystem::path base_of(const std::string& given) const {
+    const std::string from = c.files.original(given);
+    const bool known = !from.empty() && from.front() != '<' && std::filesystem::exists(from);
+    return known ? std::filesystem::absolute(from).parent_path() : c.base;
+  }
+  [[nodiscard]] std::filesystem::path locate(const std::string& uri, const std::string& from) const {
+    return c.finder.find(uri, base_of(from));
+  }
+  std::nullopt_t not_found(const char* name, const std::string& uri, const std::string& from) {
+    constexpr std::string_view kModel = "model://";
+    // libsdformat reads a URDF's package:// as model://; users know what their file says.
+    const bool renamed = c.files.top_is_urdf && uri.compare(0, kModel.size(), kModel) == 0;
+    const std::string written = renamed ? "package://" + uri.substr(kModel.size()) : uri;
+    const bool in_file = renamed && read_file(c.file).value_or("").find(written) != std::string::npos;
+    return refuse(name, in_file ? written : uri, "file not found", c.finder.searched(uri, base_of(from)));
+  }
+};
+
+std::optional<Geometry> read_plane(Where& w, const sdf::Plane& plane) {
+  Geometry g;
+  g.kind = Geometry::Kind::plane;
+  g.size = {plane.Size().X(), plane.Size().Y(), 0};
+  const Vec3 normal = plane.Normal();
+  if (!normal.IsFinite() || normal.Length() < 1e-9)
+    return w.refuse("plane/normal", "", "has no direction", "a vector other than zero");
+  g.offset.Rot().From2Axes(Vec3::UnitZ, normal);
+  return g;
+}
+
+Concave wish_of(const Where& w, const sdf::Mesh& mesh) {
+  const sdf::ElementPtr e = mesh.Element();
+  const std::string text = e && e->HasAttribute("vsa:optimization") ? e->GetAttribute("vsa:optimization")->GetAsString() : "";
+  return text == "convex_hull" ? Concave::hull : text == "convex_decomposition" ? Concave::decompose : w.c.concave;
+}
+
+/// Of a collision mesh that isn't convex, `why`: what was asked for.
+std::optional<Geometry> make_convex(Where& w, const sdf::Mesh& mesh, Geometry g, const std::string& why) {
+  constexpr const char* kAllowed =
+      "convex closed meshes, primitives, a heightmap; or ask for the hull or for convex parts: vsa run --concave, "
+      "WorldOptions::concave";
+  const Concave wish = wish_of(w, mesh);
+  if (wish == Concave::refuse && w.c.engine.concave_meshes) return g;
+  const double size = volume(*g.mesh);
+  if (wish == Concave::refuse) return w.refuse("mesh/uri", mesh.Uri(), why, kAllowed);
+  if (wish == Concave::hull) {
+    w.c.notes.add("concave collision meshes are filled to their convex hulls", w.key);
+    g.hull = true;
+    return g;
+  }
+  try {
+    double sum = 0;
+    for (Mesh& part : decompose(*g.mesh)) {
+      sum += std::abs(volume(part));
+      g.parts.push_back(std::make_shared<const Mesh>(std::move(part)));
+    }
+    w.c.notes.add("concave collision meshes are cut into convex parts",
+                  fmt::format("{} into {} of {:.3g} times its volume", w.key, g.parts.size(), sum / std::abs(size)));
+  } catch (const InputError& error) {
+    return w.refuse("mesh/uri", mesh.Uri(), error.problems().front().message, kAllowed);
+  }
+  return g;
+}
+
+std::optional<Geometry> read_mesh_geometry(Where& w, const sdf::Mesh& mesh) {
+  const auto path = w.locate(mesh.Uri(), mesh.FilePath());
+  if (path.empty()) return w.not_found("mesh/uri", mesh.Uri(), mesh.FilePath());
+  if (!mesh.Submesh().empty()) return w.refuse("mesh/submesh", mesh.Submesh(), "submeshes aren't supported", "whole meshes");
+  if (!mesh_format_known(path)) return w.refuse("mesh/uri", mesh.Uri(), "this mesh format isn't read", kMeshFormats);
+  Geometry g;
+  g.kind = Geometry::Kind::mesh;
+  g.size = mesh.Scale();
+  w.c.seen.reads(path);
+  try {
+    g.mesh = std::make_shared<const Mesh>(read_mesh(path, mesh.Scale()));
+  } catch (const InputError& error) {
+    return w.refuse("mesh/uri", mesh.Uri(), error.what(), kMeshFormats);
+  }
+  if (!w.collides) return g;
+  const std::string why = not_convex(*g.mesh);
+  return why.empty() ? std::optional(g) : make_convex(w, mesh, std::move(g), why);
+}
+
+std::optional<Geometry> read_heightmap_geometry(Where& w, const sdf::Heightmap& map) {
+  const auto path = w.locate(map.Uri(), map.FilePath());
+  if (path.empty()) return w.not_found("heightmap/uri", map.Uri(), map.FilePath());
+  std::optional<Geometry> g = w.sized(Geometry::Kind::heightmap, map.Size(), 3, "heightmap/size");
+  if (!g) return g;
+  w.c.seen.reads(path);
+  try {
+    g->heightmap = std::make_shared<const Heightmap>(read_heightmap(path, map.Size(), map.Position()));
+  } catch (const InputError& error) {
+    return w.refuse("heightmap/uri", map.Uri(), error.what(), kImageFormats);
+  }
+  return g;
+}
+
+std::optional<Geometry> read_any(Where& w, const sdf::Geometry& geometry) {
+  switch (geometry.Type()) {
+    case sdf::GeometryType::BOX:
+      return w.sized(Geometry::Kind::box, geometry.BoxShape()->Size(), 3, "box/size");
+    case sdf::GeometryType::SPHERE:
+      return w.sized(Geometry::Kind::sphere, {geometry.SphereShape()->Radius(), 0, 0}, 1, "sphere/radius");
+    case sdf::GeometryType::CYLINDER:
+      return w.sized(Geometry::Kind::cylinder, {geometry.CylinderShape()->Radius(), geometry.CylinderShape()->Length(), 0}, 2,
+                     "cylinder");
+    case sdf::GeometryType::CAPSULE:
+      return w.sized(Geometry::Kind::capsule, {geometry.CapsuleShape()->Radius(), geometry.CapsuleShape()->Length(), 0}, 2,
+                     "capsule");
+    case sdf::GeometryType::ELLIPSOID:
+      return w.sized(Geometry::Kind::ellipsoid, geometry.EllipsoidShape()->Radii(), 3, "ellipsoid/radii");
+    case sdf::GeometryType::PLANE:
+      return read_plane(w, *geometry.PlaneShape());
+    case sdf::GeometryType::MESH:
+      return read_mesh_geometry(w, *geometry.MeshShape());
+    case sdf::GeometryType::HEIGHTMAP:
+      return read_heightmap_geometry(w, *geometry.HeightmapShape());
+    default:
+      // libsdformat calls what it doesn't know empty.
+      if (!geometry.Element() || child(geometry.Element(), "empty") || !geometry.Element()->GetFirstElement()) return std::nullopt;
+      return w.refuse(geometry.Element()->GetFirstElement()->GetName(), "", "this kind of geometry isn't supported",
+                      collidable(w.c.engine));
+  }
+}
+
+}  // namespace
+
+std::optional<Geometry> read_geometry(ReadContext& c, const sdf::Geometry& geometry, const std::string& key, bool collides) {
+  Where w{c, geometry.Element(), key, collides};
+  std::optional<Geometry> g = read_any(w, geometry);
+  if (!g || !collides || c.engine.takes(g->kind)) return g;
+  const std::string name = w.element->GetFirstElement()->GetName();
+  c.cannot(w.element, key + "/geometry/" + name, "", "collisions of this kind aren't", collidable(c.engine));
+  return std::nullopt;
+}
+
+}  // namespace vsa::reader

@@ -1,0 +1,72 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "sdf/input_files.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include "vsa/errors.hpp"
+
+namespace vsa::reader {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string key_of(const fs::path& file) {
+  std::error_code ignored;
+  return fs::weakly_canonical(file, ignored).string();
+}
+
+fs::path make_directory() {
+  std::error_code error;
+  const fs::path base = fs::temp_directory_path(error);
+  std::string name = (base / "vsasim-XXXXXX").string();
+  if (error || mkdtemp(name.data()) == nullptr)
+    throw InputError(Problem{name, "", "", std::string("can't be made: ") + (error ? error.message() : std::strerror(errno)),
+                             "a writable TMPDIR"});
+  return name;
+}
+
+}  // namespace
+
+InputFiles::~InputFiles() {
+  std::error_code ignored;
+  if (!directory_.empty()) fs::remove_all(directory_, ignored);
+}
+
+void InputFiles::replace(const fs::path& file, const std::string& text) {
+  if (directory_.empty()) directory_ = make_directory();
+  const fs::path copy = directory_ / fmt::format("{}_{}", copy_of_.size(), file.filename().string());
+  std::ofstream out(copy, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw InputError(Problem{copy.string(), "", "", "can't be written", "a TMPDIR with space"});
+  copy_of_[key_of(file)] = copy.string();
+  original_of_[copy.string()] = file.string();
+}
+
+void InputFiles::call(const fs::path& file) { original_of_[fs::absolute(file).string()] = file.string(); }
+
+fs::path InputFiles::stand_in(const fs::path& file) const {
+  const auto it = copy_of_.find(key_of(file));
+  return it == copy_of_.end() ? file : fs::path(it->second);
+}
+
+std::string InputFiles::original(const std::string& path) const {
+  const auto it = original_of_.find(path);
+  return it == original_of_.end() ? path : it->second;
+}
+
+std::string InputFiles::with_originals(std::string text) const {
+  for (const auto& [copy, file] : original_of_) {
+    if (file.empty() || copy.find(file) != std::string::npos) continue;
+    for (std::size_t at = text.find(copy); at != std::string::npos; at = text.find(copy, at + file.size()))
+      text.replace(at, copy.size(), file);
+  }
+  return text;
+}
+
+}  // namespace vsa::reader

@@ -1,0 +1,188 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sdf/Joint.hh>
+#include <sdf/JointAxis.hh>
+
+#include "sdf/read_context.hpp"
+#include "vsa/config/text.hpp"
+
+namespace vsa::reader {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = 1e15;  // SDF writes ±1e16 for "none"
+constexpr double kOpenSide = 1e9;  // the other side of a one-sided limit
+constexpr std::array<std::pair<Joint::Kind, const char*>, 5> kTypes{{{Joint::Kind::fixed, "fixed"},
+                                                                     {Joint::Kind::hinge, "revolute, continuous"},
+                                                                     {Joint::Kind::slide, "prismatic"},
+                                                                     {Joint::Kind::ball, "ball"},
+                                                                     {Joint::Kind::universal, "universal"}}};
+
+std::string movable(const Capabilities& engine) {
+  std::string all;
+  for (const auto& [kind, name] : kTypes) all += !engine.takes(kind) ? "" : (all.empty() ? "" : ", ") + std::string(name);
+  return all;
+}
+
+std::optional<Joint::Kind> kind_of(sdf::JointType type) {
+  switch (type) {
+    case sdf::JointType::FIXED:
+      return Joint::Kind::fixed;
+    case sdf::JointType::REVOLUTE:
+    case sdf::JointType::CONTINUOUS:
+      return Joint::Kind::hinge;
+    case sdf::JointType::PRISMATIC:
+      return Joint::Kind::slide;
+    case sdf::JointType::BALL:
+      return Joint::Kind::ball;
+    case sdf::JointType::UNIVERSAL:
+      return Joint::Kind::universal;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::size_t axes_of(Joint::Kind kind) {
+  return kind == Joint::Kind::universal ? 2 : kind == Joint::Kind::hinge || kind == Joint::Kind::slide ? 1 : 0;
+}
+
+/// <stiffness> and <dissipation> of a <limit>.
+void read_stops(ReadContext& c, const sdf::ElementPtr& limit, const std::string& key, Axis& out) {
+  for (const char* name : {"stiffness", "dissipation"}) {
+    if (!child(limit, name)) continue;
+    if (!c.engine.stop_springs) {
+      c.notes.add("the stiffness of joint limits isn't used (the engine has its own)", key);
+      continue;
+    }
+    const double value = c.number(limit, name, 0.0, 0.0, kInfinite, key + "/limit");
+    (std::string_view(name) == "stiffness" ? out.stop_stiffness : out.stop_damping) = value;
+  }
+}
+
+void read_range(ReadContext& c, const sdf::ElementPtr& element, const sdf::JointAxis& axis, const std::string& key, Axis& out) {
+  const double lower = axis.Lower(), upper = axis.Upper();
+  if (std::isnan(lower) || std::isnan(upper) || lower > upper) {
+    c.problem(element, key + "/limit", fmt::format("{} … {}", lower, upper), "isn't a range", "lower ≤ upper");
+    return;
+  }
+  if (lower > -kNoLimit || upper < kNoLimit) out.range = {{std::max(lower, -kOpenSide), std::min(upper, kOpenSide)}};
+  const sdf::ElementPtr limit = child(element, "limit");
+  for (const char* name : {"effort", "velocity"}) {
+    const sdf::ElementPtr e = child(limit, name);
+    if (e && e->Get<double>() >= 0 && e->Get<double>() < kNoLimit) {
+      c.notes.add(fmt::format("{} limits of joints aren't enforced (an actuator's physics sets its own)", name), key);
+    }
+  }
+  read_stops(c, limit, key, out);
+}
+
+/// Elements that libsdformat doesn't know come as text.
+std::optional<double> own_number(ReadContext& c, const sdf::ElementPtr& parent, const std::string& name, const std::string& key) {
+  const sdf::ElementPtr e = child(parent, "vsa:" + name) ? child(parent, "vsa:" + name) : child(parent, name);
+  if (!e) return std::nullopt;
+  const std::string text(config::trim(e->GetValue() ? e->GetValue()->GetAsString() : ""));
+  const std::optional<double> value = config::parse_number(text);
+  if (!value || std::abs(*value) > kOpenSide) {
+    c.problem(e, key + "/" + name, text, "isn't a number in range", fmt::format("{} … {}", -kOpenSide, kOpenSide));
+    return std::nullopt;
+  }
+  return value;
+}
+
+/// SDF 1.11's q = multiplier·(q_leader − reference) + offset.
+void read_mimic(ReadContext& c, const sdf::ElementPtr& axis, const std::string& key, const Joint& joint) {
+  const sdf::ElementPtr mimic = child(axis, "vsa:mimic");
+  if (!mimic) return;
+  if (!c.engine.followers) return c.cannot(mimic, key + "/mimic", "", "joints that follow others aren't", "joints of their own");
+  const auto number = [&](const char* name, double fallback) {
+    return own_number(c, mimic, name, key + "/mimic").value_or(fallback);
+  };
+  const double multiplier = number("multiplier", 1), offset = number("offset", 0), reference = number("reference", 0);
+  const std::string leader = mimic->HasAttribute("joint") ? mimic->GetAttribute("joint")->GetAsString() : std::string{};
+  if (mimic->HasAttribute("axis") && mimic->GetAttribute("axis")->GetAsString() != "axis")
+    c.problem(mimic, key + "/mimic@axis", mimic->GetAttribute("axis")->GetAsString(), "a second axis can't lead", "axis");
+  const std::string scope = joint.name.substr(0, joint.name.rfind("::") + 2);
+  c.mimics.push_back({c.file_of(mimic), joint.name, scope + leader, multiplier, offset - multiplier * reference});
+}
+
+void read_axis(ReadContext& c, const sdf::Joint& joint, unsigned int index, const std::string& key, Joint& out) {
+  const sdf::JointAxis* axis = joint.Axis(index);
+  const std::string name = index == 0 ? "axis" : "axis2";
+  if (axis == nullptr) {
+    c.problem(joint.Element(), key + "/" + name, "", "is missing", "an axis for this type of joint");
+    return;
+  }
+  Axis a;
+  Vec3 local;
+  const sdf::Errors errors = axis->ResolveXyz(local);
+  if (!errors.empty() && c.parsed_clean) c.problem(joint.Element(), key + "/" + name + "/xyz", "", errors.front().Message());
+  if (errors.empty() && (!local.IsFinite() || local.Length() < 1e-9)) {
+    c.problem(joint.Element(), key + "/" + name + "/xyz", "", "has no direction", "a finite vector other than zero");
+    return;
+  }
+  a.xyz = (out.pose.Rot() * local).Normalized();
+  const sdf::ElementPtr element = child(joint.Element(), name);
+  const sdf::ElementPtr dynamics = child(element, "dynamics");
+  const std::string dynamics_key = key + "/" + name + "/dynamics";
+  a.damping = c.number(dynamics, "damping", 0.0, 0.0, kInfinite, dynamics_key);
+  a.friction = c.number(dynamics, "friction", 0.0, 0.0, kInfinite, dynamics_key);
+  a.stiffness = c.number(dynamics, "spring_stiffness", 0.0, 0.0, kInfinite, dynamics_key);
+  a.rest = c.number(dynamics, "spring_reference", 0.0, -kOpenSide, kOpenSide, dynamics_key);
+  a.start = own_number(c, element, "initial_position", key + "/" + name);
+  read_mimic(c, element, key, out);
+  if (joint.Type() != sdf::JointType::CONTINUOUS) read_range(c, element, *axis, key + "/" + name, a);
+  out.axes.push_back(a);
+}
+
+/// An end of the joint: a link's index, or none for the world. False where the link isn't known.
+bool find_end(ReadContext& c, const sdf::Joint& joint, bool is_child, const ModelScope& scope, std::optional<std::size_t>& out) {
+  std::string name;
+  const sdf::Errors errors = is_child ? joint.ResolveChildLink(name) : joint.ResolveParentLink(name);
+  const std::string given = is_child ? joint.ChildLinkName() : joint.ParentLinkName();
+  if (errors.empty() && name == "world") return true;
+  if (errors.empty()) {
+    const std::string full = scope.name + "::" + name;
+    const auto it = std::find_if(c.out.links.begin(), c.out.links.end(), [&](const Link& l) { return l.name == full; });
+    if (it != c.out.links.end()) {
+      out = static_cast<std::size_t>(it - c.out.links.begin());
+      return true;
+    }
+  }
+  if (c.parsed_clean) {
+    c.problem(joint.Element(), scope.name + "::" + joint.Name() + (is_child ? "/child" : "/parent"), given, "no such link",
+              "a link of the model, or world");
+  }
+  return false;
+}
+
+}  // namespace
+
+void read_joint(ReadContext& c, const sdf::Joint& joint, const ModelScope& scope) {
+  const std::string key = scope.name + "::" + joint.Name();
+  if (scope.is_static) {
+    c.notes.add("joints of static models are left out", key);
+    return;
+  }
+  const std::optional<Joint::Kind> kind = kind_of(joint.Type());
+  if (!kind || !c.engine.takes(*kind)) {
+    const std::string type = joint.Element()->GetAttribute("type")->GetAsString();
+    c.cannot(joint.Element(), key + "/type", type, "joint type isn't", movable(c.engine));
+    return;
+  }
+  Joint out;
+  out.kind = *kind;
+  out.name = key;
+  out.pose = scope.pose * c.resolve(joint.SemanticPose(), "__model__", joint.Element(), key);
+  const bool ends = find_end(c, joint, false, scope, out.parent) && find_end(c, joint, true, scope, out.child);
+  for (unsigned int i = 0; i < axes_of(*kind); ++i) read_axis(c, joint, i, key, out);
+  if (joint.SensorCount() > 0) c.notes.add("sensors are left out", key);
+  if (child(joint.Element(), "physics")) c.notes.add("<physics> of joints is left out", key);
+  if (ends && out.axes.size() == axes_of(*kind)) c.out.joints.push_back(std::move(out));
+}
+
+}  // namespace vsa::reader

@@ -1,0 +1,90 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What the readers of an SDF's parts share: where results, problems and warnings go. Private to the files that know
+// libsdformat.
+#pragma once
+
+#include <ignition/math/Pose3.hh>
+#include <map>
+#include <sdf/Element.hh>
+#include <sdf/SemanticPose.hh>
+
+#include "sdf/description.hpp"
+#include "sdf/input_files.hpp"
+#include "sdf/notes.hpp"
+#include "vsa/sdf/finder.hpp"
+#include "vsa/sdf/read.hpp"
+
+namespace sdf {
+inline namespace v12 {
+class Joint;
+class Link;
+class Model;
+class Geometry;
+class Visual;
+class World;
+}  // namespace v12
+}  // namespace sdf
+
+namespace vsa::reader {
+
+/// What a file says of a joint that follows another, before the joints are all known.
+struct Mimic {
+  std::string file, follower, leader;  ///< scoped
+  double multiplier = 1, offset = 0;
+};
+
+struct ReadContext {
+  description::World& out;
+  Problems& problems;
+  Notes& notes;
+  const Finder& finder;
+  InputFiles& files;
+  SeenFiles& seen;
+  std::string file;            ///< the world's, where an element doesn't know its own
+  std::filesystem::path base;  ///< directory for relative paths of elements that don't know their file
+  const Capabilities& engine;
+  Concave concave = Concave::refuse;
+  bool parsed_clean = true;  ///< false: poses may not resolve for reasons already reported
+  std::vector<Mimic> mimics{};
+  std::map<std::string, Pose3> model_poses{};  ///< scoped name → its frame in the world
+
+  void problem(const sdf::ElementPtr& element, std::string key, std::string value, std::string message, std::string allowed = {});
+  [[nodiscard]] std::string file_of(const sdf::ElementPtr& element) const;
+  /// A problem of what this engine can't honour.
+  void cannot(const sdf::ElementPtr& element, std::string key, std::string value, const std::string& what, std::string allowed);
+  /// The pose in the frame `to` (empty: the default one); identity and a problem where it can't be resolved.
+  Pose3 resolve(const sdf::SemanticPose& pose, const std::string& to, const sdf::ElementPtr& element, const std::string& key);
+  /// The number in `name` under `element`, or `fallback`; a problem where it isn't finite or outside [min, max].
+  double number(const sdf::ElementPtr& element, const std::string& name, double fallback, double min, double max,
+                const std::string& key);
+};
+
+/// The child, or null: unlike GetElement() never adds one.
+[[nodiscard]] sdf::ElementPtr child(const sdf::ElementPtr& element, const std::string& name);
+
+/// Model being read: its place in the world and what its links inherit.
+struct ModelScope {
+  std::string name;  ///< scoped
+  std::string top;
+  Pose3 pose;  ///< of the model's frame in the world
+  bool is_static = false;
+  bool self_collide = false;
+};
+
+void read_model(ReadContext& context, const sdf::Model& model, const ModelScope* outer);
+void read_link(ReadContext& context, const sdf::Link& link, const ModelScope& scope);
+void read_joint(ReadContext& context, const sdf::Joint& joint, const ModelScope& scope);
+/// Compares a model that came from a URDF with it; afterwards, that each URDF was.
+void check_urdf(ReadContext& context, const sdf::Model& model, const ModelScope& scope);
+void check_urdfs_found(ReadContext& context);
+/// A world's <state>, once its models are read.
+void read_state(ReadContext& context, const sdf::World& world);
+/// Once all joints are known: welds those without room, finds where each starts, couples followers to leaders.
+void finish_joints(ReadContext& context);
+[[nodiscard]] std::optional<Geometry> read_geometry(ReadContext& context, const sdf::Geometry& geometry, const std::string& key,
+                                                    bool collides);
+[[nodiscard]] Surface read_surface(ReadContext& context, const sdf::ElementPtr& collision, const std::string& key);
+[[nodiscard]] std::vector<scene::Shape> read_visuals(ReadContext& context, const sdf::Link& link, const Link& described);
+
+}  // namespace vsa::reader

@@ -1,0 +1,121 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "sdf/urdf_file.hpp"
+
+#include <algorithm>
+
+#include "vsa/config/text.hpp"
+
+namespace vsa::reader {
+namespace {
+
+using tinyxml2::XMLElement;
+
+std::string attribute(const XMLElement* e, const char* name) {
+  const char* text = e == nullptr ? nullptr : e->Attribute(name);
+  return text == nullptr ? std::string() : std::string(text);
+}
+
+double mimic_number(const XMLElement& mimic, const char* name, double fallback, const Urdf& urdf, const std::string& joint,
+                    Problems& problems) {
+  const char* text = mimic.Attribute(name);
+  if (text == nullptr) return fallback;
+  const auto value = config::parse_number(config::trim(text));
+  if (!value) problems.add({urdf.file, "joint[" + joint + "]/mimic@" + name, text, "isn't a number", "a finite number"});
+  return value.value_or(fallback);
+}
+
+UrdfJoint read_joint(const XMLElement& e, const Urdf& urdf, Problems& problems) {
+  UrdfJoint joint{attribute(&e, "name"),
+                  attribute(&e, "type"),
+                  attribute(e.FirstChildElement("parent"), "link"),
+                  attribute(e.FirstChildElement("child"), "link"),
+                  false,
+                  {}};
+  if (joint.type == "planar" || joint.type == "floating") {
+    const bool free = joint.type == "floating";
+    problems.add(
+        {urdf.file, "joint[" + joint.name + "]@type", joint.type, "joint type isn't supported",
+         std::string("fixed, revolute, continuous, prismatic") +
+             (free ? "; a robot without a link \"world\" floats freely" : "; a plane is two prismatic joints and a revolute")});
+  }
+  const XMLElement* mimic = e.FirstChildElement("mimic");
+  if (mimic == nullptr) return joint;
+  joint.mimic = UrdfMimic{attribute(mimic, "joint"), mimic_number(*mimic, "multiplier", 1, urdf, joint.name, problems),
+                          mimic_number(*mimic, "offset", 0, urdf, joint.name, problems)};
+  return joint;
+}
+
+bool is_true(const char* text) {
+  const std::string word(config::trim(text == nullptr ? "" : text));
+  return word == "true" || word == "True" || word == "TRUE" || word == "yes" || word == "1";
+}
+
+/// libsdformat's two ways of keeping a fixed joint.
+bool stays(const XMLElement& robot, const std::string& joint) {
+  for (const XMLElement* g = robot.FirstChildElement("gazebo"); g != nullptr; g = g->NextSiblingElement("gazebo")) {
+    if (attribute(g, "reference") != joint) continue;
+    for (const char* name : {"preserveFixedJoint", "disableFixedJointLumping"}) {
+      const XMLElement* e = g->FirstChildElement(name);
+      if (e != nullptr && is_true(e->GetText())) return true;
+    }
+  }
+  return false;
+}
+
+/// One <gazebo> for all that speaks of the whole robot: libsdformat lets a second one undo the <static> of the first.
+void join_robot_elements(XMLElement& robot, std::size_t id) {
+  XMLElement* first = nullptr;
+  for (XMLElement *g = robot.FirstChildElement("gazebo"), *next = nullptr; g != nullptr; g = next) {
+    next = g->NextSiblingElement("gazebo");
+    if (g->Attribute("reference") != nullptr) continue;
+    if (first == nullptr) {
+      first = g;
+      continue;
+    }
+    while (tinyxml2::XMLNode* child = g->FirstChild()) first->InsertEndChild(child);
+    robot.DeleteChild(g);
+  }
+  if (first == nullptr) first = robot.InsertNewChildElement("gazebo");
+  first->InsertNewChildElement("vsa:urdf")->SetAttribute("id", static_cast<unsigned>(id));
+}
+
+}  // namespace
+
+const UrdfJoint* Urdf::joint_above(const std::string& link) const {
+  const auto it = std::find_if(joints.begin(), joints.end(), [&](const UrdfJoint& j) { return j.child == link; });
+  return it == joints.end() ? nullptr : &*it;
+}
+
+std::string Urdf::lumped_into(const std::string& link) const {
+  std::string at = link;
+  for (std::size_t i = 0; i <= links.size(); ++i) {
+    const UrdfJoint* above = joint_above(at);
+    if (above == nullptr || !above->lumped) break;
+    at = above->parent;
+  }
+  return at;
+}
+
+Urdf mend_urdf(XMLElement& robot, const std::string& file, std::size_t id, Notes& notes, Problems& problems) {
+  Urdf urdf;
+  urdf.file = file;
+  for (const XMLElement* e = robot.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) {
+    urdf.links.push_back(attribute(e, "name"));
+    if (urdf.links.back() == "world") continue;
+    for (const XMLElement* k = e->FirstChildElement("collision"); k != nullptr; k = k->NextSiblingElement("collision"))
+      ++urdf.collisions;
+  }
+  for (const XMLElement* e = robot.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint")) {
+    UrdfJoint joint = read_joint(*e, urdf, problems);
+    joint.lumped = joint.type == "fixed" && joint.parent != "world" && !stays(robot, joint.name);
+    if (e->FirstChildElement("safety_controller") != nullptr)
+      notes.add("<safety_controller> of joints is a controller's and left out", joint.name);
+    urdf.joints.push_back(std::move(joint));
+  }
+  join_robot_elements(robot, id);
+  mend_gazebo_elements(robot, urdf, notes, problems);
+  mend_massless_links(robot, urdf, notes, problems);
+  return urdf;
+}
+
+}  // namespace vsa::reader

@@ -1,0 +1,192 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Runs that are files: `vsa run SCENARIO.toml`, and the one that each record holds.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "subprocess.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using vsa::test::read_file;
+using vsa::test::run_vsa;
+using vsa::test::Scratch;
+using vsa::test::Subprocess;
+using vsa::test::Surroundings;
+using vsa::test::write_file;
+
+const fs::path kSource = VSA_SOURCE_DIR;
+constexpr const char* kMotion =
+    "title = \"t\"\n[[keyframe]]\ntime_s = 0.0\nequilibrium_deg = { j1 = 0.0 }\n"
+    "[[keyframe]]\ntime_s = 0.3\nequilibrium_deg = { j1 = 20.0 }\n";
+constexpr const char* kScenario = R"([scenario]
+world = "../robot.sdf"
+duration_s = 0.3
+topics = false
+[motion]
+file = "nod.toml"
+period_s = 0.02
+[[command]]
+time_s = 0.1
+actuator = "j1"
+preset_rad = 0.3
+[record]
+directory = "first"
+)";
+
+/// A scenario with a world and a motion of its own in a directory of the scratch.
+fs::path place(const Scratch& scratch, const std::string& scenario = kScenario) {
+  fs::create_directories(scratch / "runs");
+  write_file(scratch / "robot.sdf", read_file(kSource / "tests/sdf/robot_files/actuated.sdf"));
+  write_file(scratch / "runs/nod.toml", kMotion);
+  write_file(scratch / "runs/nod_scenario.toml", scenario);
+  return scratch / "runs/nod_scenario.toml";
+}
+
+void expect_equal_records(const fs::path& a, const fs::path& b) {
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(a)) {
+    if (entry.path().extension() != ".csv") continue;
+    ++files;
+    EXPECT_TRUE(read_file(entry.path()) == read_file(b / entry.path().filename())) << entry.path().filename();
+  }
+  EXPECT_GE(files, 3);
+}
+
+TEST(Scenario, TheExampleIsRepeatedBitForBitByItsRecord) {
+  const Scratch scratch;
+  const std::string example = (kSource / "examples/scenario/snake.toml").string();
+  const auto first = run_vsa({"run", example, "--no-topics", "--duration-s", "1", "--record", (scratch / "a").string()});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const auto second = run_vsa({"run", (scratch / "a/scenario.toml").string(), "--record", (scratch / "b").string()});
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  expect_equal_records(scratch / "a", scratch / "b");
+  EXPECT_EQ(read_file(scratch / "a/scenario.toml"), read_file(scratch / "b/scenario.toml"));
+}
+
+TEST(Scenario, WhatItSaysShapesTheRun) {
+  const Scratch scratch;
+  const std::string example = (kSource / "examples/scenario/snake.toml").string();
+  std::string text = read_file(example);
+  ASSERT_EQ(run_vsa({"run", example, "--no-topics", "--duration-s", "0.7", "--record", (scratch / "whole").string()}).exit_code, 0);
+  for (const char* line : {"joint_3 lost_byte", "\"drive.friction_Nm\" = 0.7", "frequency_rad_per_s = 4.0", "amplitude_deg = 50.0",
+                           "equilibrium_rad = 0.3", "seed = 7"}) {
+    std::string other = text;
+    const std::size_t at = other.find(line);
+    ASSERT_NE(at, std::string::npos) << line;
+    other.replace(at, std::string(line).size(), [&]() -> std::string {
+      const std::string changed(line);
+      if (changed[0] == 'j') return "joint_4 lost_byte";
+      return changed.substr(0, changed.rfind(' ') + 1) + (changed[0] == 's' ? "8" : "0.9");
+    }());
+    write_file(scratch / "other.toml", other);
+    const auto result = run_vsa(
+        {"run", (scratch / "other.toml").string(), "--no-topics", "--duration-s", "0.7", "--record", (scratch / "other").string()});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(read_file(scratch / "whole/energy.csv"), read_file(scratch / "other/energy.csv")) << line;
+  }
+}
+
+TEST(Scenario, FilesAreFoundBesideItFromAnyDirectoryAndItsRecordToo) {
+  const Scratch scratch;
+  const fs::path file = place(scratch), here = fs::current_path();
+  fs::current_path(scratch / "runs");
+  const auto first = run_vsa({"run", "nod_scenario.toml"});
+  fs::current_path("/");
+  const auto second = run_vsa({"run", (scratch / "runs/first/scenario.toml").string(), "--record", (scratch / "second").string()});
+  fs::current_path(here);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  expect_equal_records(scratch / "runs/first", scratch / "second");
+}
+
+TEST(Scenario, FlagsOverrideIt) {
+  const Scratch scratch;
+  const fs::path file = place(scratch);
+  const auto result = run_vsa({"run", file.string(), "--duration-s", "0.2", "--step-s", "0.0005", "--fault", "j1 stuck=shaft",
+                               "--set", "drive.friction_Nm=0.7", "--record", (scratch / "mine").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("0.200 s"), std::string::npos) << result.out;
+  EXPECT_FALSE(fs::exists(scratch / "runs/first"));
+  const std::string saved = read_file(scratch / "mine/scenario.toml");
+  for (const char* part : {"duration_s = 0.2", "step_s = 0.0005", "j1 stuck=shaft", "period_s = 0.02", "preset_rad = 0.3",
+                           "'drive.friction_Nm' = 0.7"})
+    EXPECT_NE(saved.find(part), std::string::npos) << part << " isn't in\n" << saved;
+}
+
+TEST(Scenario, MistakesAreToldAllAtOnceWithFileAndKey) {
+  const Scratch scratch;
+  const fs::path file = place(scratch, R"([scenario]
+world = "../robot.sdf"
+duration = 3
+step_s = "fast"
+seed = -1
+view_port = 70000
+concave = "melt"
+faults = "off"
+[motion]
+file = "noddy.toml"
+[recrod]
+[[command]]
+time_s = 0
+actuator = "j1"
+[record]
+rate_Hz = 0.0
+)");
+  const auto result = run_vsa({"run", file.string(), "--record", (scratch / "out").string()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_FALSE(fs::exists(scratch / "out"));
+  for (const char* part : {"nod_scenario.toml: scenario.duration: unknown key, did you mean duration_s?",
+                           "scenario.step_s = \"fast\": not a number", "scenario.seed = -1: out of range", "scenario.view_port",
+                           "refuse, hull, decompose", "scenario.faults", "motion.file = noddy.toml: no such file",
+                           "recrod: unknown key, did you mean record?", "commands nothing", "record.rate_Hz = 0"})
+    EXPECT_NE(result.err.find(part), std::string::npos) << part << " isn't in\n" << result.err;
+}
+
+TEST(Scenario, AMotionsChangesAndCommandsAreCheckedAgainstTheirs) {
+  const Scratch scratch;
+  const auto told = [&](const std::string& from, const std::string& to) {
+    std::string text = kScenario;
+    text.replace(text.find(from), from.size(), to);
+    const auto result = run_vsa({"run", place(scratch, text).string()});
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_FALSE(fs::exists(scratch / "runs/first"));
+    return result.err;
+  };
+  EXPECT_NE(told("period_s = 0.02", "perriod_s = 0.02").find("motion.perriod_s"), std::string::npos);
+  EXPECT_NE(told("period_s = 0.02", "period_s = 2.0").find("motion.period_s = 2: out of range"), std::string::npos);
+  EXPECT_NE(told("\"j1\"", "\"j7\"").find("command.actuator = j7"), std::string::npos);
+  EXPECT_NE(told("preset_rad = 0.3", "equilibrium_rad = 0.3").find("keyframes command it"), std::string::npos);
+  EXPECT_NE(told("[scenario]", "[scenario").find("nod_scenario.toml:1"), std::string::npos);
+}
+
+TEST(Scenario, ARecordDoesNotWriteOverTheScenarioItComesFrom) {
+  const Scratch scratch;
+  fs::rename(place(scratch), scratch / "runs/scenario.toml");
+  const std::string before = read_file(scratch / "runs/scenario.toml");
+  const auto result = run_vsa({"run", (scratch / "runs/scenario.toml").string(), "--record", (scratch / "runs").string()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("--record"), std::string::npos) << result.err;
+  EXPECT_EQ(read_file(scratch / "runs/scenario.toml"), before);
+}
+
+TEST(Scenario, CommandsFromTopicsAreOwnedUpTo) {
+  const Scratch scratch;
+  const std::string own = "vsa_scenario" + std::to_string(getpid());
+  const std::string port = std::to_string(32'000 + 2 * (getpid() % 6'000)), next = std::to_string(32'001 + 2 * (getpid() % 6'000));
+  const Surroundings around{
+      false, false, std::nullopt, {{"IGN_PARTITION", own}, {"IGN_DISCOVERY_MSG_PORT", port}, {"IGN_DISCOVERY_SRV_PORT", next}}};
+  Subprocess world({"run", "bench_load", "--realtime", "--record", (scratch / "out").string()}, around);
+  EXPECT_EQ(run_vsa({"command", "-20", "30", "--timeout-s", "120"}, around).exit_code, 0);
+  world.send(SIGINT);
+  EXPECT_EQ(world.wait().exit_code, 0);
+  const std::string saved = read_file(scratch / "out/scenario.toml");
+  EXPECT_NE(saved.find("Commands came on topics"), std::string::npos) << saved;
+  EXPECT_NE(saved.find("duration_s = "), std::string::npos) << saved;
+  EXPECT_EQ(saved.find("0000000"), std::string::npos) << "milliseconds as they are\n" << saved;
+}
+
+}  // namespace

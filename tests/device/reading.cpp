@@ -1,0 +1,43 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/device/reading.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/one_joint.hpp"
+
+namespace {
+
+using vsa::test::maker_pro;
+using vsa::test::OneJoint;
+
+TEST(Reading, OfAUnitAtRestTellsWhatItWasPutTo) {
+  const vsa::device::Unit unit(maker_pro());
+  const auto state = unit.initial(0.4, 0.3, 0.5);
+  const auto r = read(unit, state);
+  EXPECT_NEAR(r.equilibrium_rad, 0.4, 2e-4) << "a tick is 1.9e-4 rad";
+  EXPECT_NEAR(r.preset, 0.3, 2e-4);
+  EXPECT_EQ(r.shaft_rad, 0.5);
+  EXPECT_EQ(r.shaft_speed_rad_per_s, 0);
+  EXPECT_EQ(r.current_A, (std::array<double, 2>{0, 0}));
+  const auto law = unit.config().actuator.transmission->evaluate({0.5, r.motor_rad});
+  EXPECT_DOUBLE_EQ(r.stiffness_Nm_per_rad, law.curvature.qq);
+  EXPECT_NEAR(r.torque_Nm, law.torque, 1e-12);
+  EXPECT_LT(r.torque_Nm, 0) << "back to the equilibrium";
+  const auto ticks = measured(unit, state);
+  EXPECT_NEAR(ticks[2].value * 2 * vsa::kPi / 32768, 0.5, 2e-3) << "a count of the 12-bit encoder is 1.5e-3 rad";
+}
+
+TEST(Reading, MeanTorqueIsWhatTheLastStepGaveTheHost) {
+  OneJoint joint(maker_pro(), 0.0, 0.3, 1e-3, 1'000'000);
+  joint.unit.set_inputs(joint.state, joint.unit.inputs_for(0.6, 0.3));
+  for (int n = 0; n < 100; ++n) joint.step();
+  const auto r = read(joint.unit, joint.state);
+  EXPECT_EQ(r.mean_torque_Nm, joint.last_torque);
+  EXPECT_GT(std::abs(r.current_A[0]), 0.01);
+  EXPECT_GT(r.motor_speed_rad_per_s[0], 0.1);
+  EXPECT_NEAR(r.shaft_rad, joint.q, 1e-5);
+}
+
+}  // namespace

@@ -1,0 +1,127 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A gait on a stage that is no world of ours: what any simulator has to give, and what it gets.
+#include "vsa/motion/stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "motion/gait_file.hpp"
+#include "vsa/units.hpp"
+
+namespace vsa::motion {
+namespace {
+
+/// Two actuators that keep what they are told; a body that goes where it is put.
+class TwoActuators final : public Stage {
+ public:
+  std::int64_t time_ns() const override { return now_ns; }
+  std::size_t find_actuator(std::string_view name) const override {
+    if (name == "left" || name == "right") return name == "left" ? 0 : 1;
+    throw InputError(Problem{"", "actuator", std::string(name), "no such actuator", "left, right"});
+  }
+  const std::string& model_of(std::size_t) const override { return model; }
+  void send(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset) override {
+    if (equilibrium_rad) told[actuator].equilibrium_rad = *equilibrium_rad;
+    if (preset) told[actuator].preset = *preset;
+    ++sent;
+  }
+  Commanded commanded(std::size_t actuator) const override { return told[actuator]; }
+  std::array<double, 3> center_of_mass(std::string_view of) const override {
+    asked = std::string(of);
+    return {std::cos(heading_rad) * 1e-9 * static_cast<double>(now_ns), std::sin(heading_rad) * 1e-9 * static_cast<double>(now_ns),
+            0};
+  }
+
+  void play(Gait& gait, double until_s) {
+    for (; now_ns < std::llround(until_s * 1e9); now_ns += 10'000'000) gait.apply(*this);
+  }
+
+  std::string model = "walker";
+  mutable std::string asked;
+  double heading_rad = 0;
+  std::int64_t now_ns = 0;
+  int sent = 0;
+  std::array<Commanded, 2> told{};
+};
+
+GaitParams walk() {
+  GaitParams p;
+  p.frequency_rad_per_s = 2 * kPi;
+  p.groups.push_back({"legs", {"left", "right"}, {0, 1}, 0.5, 0.1, 1.0, 0.0, 0.3});
+  return p;
+}
+
+TEST(OnAnyStage, EveryActuatorGetsItsWaveOnceAControlPeriod) {
+  TwoActuators stage;
+  Gait gait(walk());
+  stage.play(gait, 0.26);
+  EXPECT_EQ(stage.sent, 2 * 26);
+  gait.apply(stage);  // at 0.26 s
+  gait.apply(stage);
+  EXPECT_EQ(stage.sent, 2 * 27) << "once a period";
+  EXPECT_NEAR(stage.told[0].equilibrium_rad, 0.1 + 0.5 * std::sin(2 * kPi * 0.26), 1e-12);
+  EXPECT_NEAR(stage.told[1].equilibrium_rad, 0.1 - 0.5 * std::sin(2 * kPi * 0.26), 1e-12) << "n = 1, λ = 1: half a wave on";
+  EXPECT_EQ(stage.told[1].preset, 0.3);
+}
+
+TEST(OnAnyStage, AnActuatorThatItHasNotIsNamedWithThoseThatItHas) {
+  GaitParams p = walk();
+  p.groups[0].actuators[1] = "tail";
+  TwoActuators stage;
+  Gait gait(p);
+  try {
+    gait.bind(stage);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("group.legs.actuators = tail: no such actuator"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("left, right"), std::string::npos);
+  }
+}
+
+TEST(OnAnyStage, SteeringAsksForTheModelOfTheGroupAndTurnsIt) {
+  GaitParams p = walk();
+  p.steering = SteeringParams{"legs", 1.0, 0.8, 10.0, 0.03, kPi / 2};
+  TwoActuators stage;
+  Gait gait(p);
+  stage.play(gait, 4);
+  EXPECT_EQ(stage.asked, "walker");
+  EXPECT_NEAR(gait.state().steering.phase_rad, 0.8, 1e-12) << "it goes along x and should go along y";
+}
+
+TEST(OnAnyStage, AMotionLeavesWhatHasNoKeyframeYetAlone) {
+  TwoActuators stage;
+  Gait gait = Gait::load(
+      written(replaced(replaced(replaced(replaced(kGoodMotion, "shaft = 0.0", "left = 0.0"), "shaft = 10.0", "left = 10.0"),
+                                "shaft = 20.0", "left = 20.0"),
+                       "shaft = 90.0", "left = 90.0")));
+  stage.told[0] = {0.7, 0.2};
+  stage.play(gait, 0.9);
+  EXPECT_EQ(stage.sent, 0);
+  EXPECT_EQ(stage.told[0].equilibrium_rad, 0.7);
+  stage.play(gait, 2.01);
+  EXPECT_NEAR(stage.told[0].equilibrium_rad, kPi / 4, 1e-12);
+  EXPECT_NEAR(stage.told[0].preset, 20 * kPi / 180, 1e-12);
+  EXPECT_EQ(stage.told[1].equilibrium_rad, 0.0);
+}
+
+TEST(OnAnyStage, WhatComesBackFromAHandStartsWhereTheStageSaysItStands) {
+  TwoActuators stage;
+  Gait gait(walk());
+  stage.play(gait, 0.5);
+  gait.leave("left", {true, true});
+  stage.told[0] = {2.0, 0.6};
+  stage.play(gait, 1.0);
+  EXPECT_EQ(stage.told[0].equilibrium_rad, 2.0) << "the hand's";
+  gait.leave("left", {});
+  gait.apply(stage);
+  EXPECT_NEAR(stage.told[0].equilibrium_rad, 2.0, 1e-12);
+  EXPECT_NEAR(stage.told[0].preset, 0.6, 1e-12);
+  stage.play(gait, 1.0 + Gait::kGiveBack_s + 0.02);
+  EXPECT_NEAR(stage.told[0].preset, 0.3, 1e-12);
+}
+
+}  // namespace
+}  // namespace vsa::motion

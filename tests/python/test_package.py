@@ -1,0 +1,108 @@
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+"""The package itself: stubs, docstrings, examples, data."""
+import ast
+import inspect
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import vsasim
+from support import SOURCE
+
+PACKAGE = pathlib.Path(vsasim.__file__).parent
+MODULES = {"__init__": vsasim, "study": vsasim.study, "identify": vsasim.identify}
+TOLD = {"__getitem__", "__setitem__", "__len__", "__enter__", "__exit__"}  # of the special methods, those that stubs tell
+
+
+def stub_names(body):
+    """name → node of what a stub's body declares for its reader."""
+    out = {}
+    for node in body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            out[node.name] = node
+        elif isinstance(node, ast.AnnAssign):
+            out[node.target.id] = node
+        elif isinstance(node, ast.ImportFrom):
+            out.update({a.asname: node for a in node.names if a.asname})
+    return out
+
+
+def public(thing):
+    return {n for n in dir(thing) if not n.startswith("_")}
+
+
+class Stubs(unittest.TestCase):
+    def test_they_name_every_public_name_and_no_other(self):
+        for name, module in MODULES.items():
+            stub = stub_names(ast.parse((PACKAGE / (name + ".pyi")).read_text(encoding="utf-8")).body)
+            self.assertEqual({n for n in stub if not n.startswith("_")}, set(module.__all__), name)
+            for class_name, node in stub.items():
+                if not isinstance(node, ast.ClassDef) or class_name.endswith("Error"):
+                    continue
+                made = getattr(module, class_name)
+                told = set(stub_names(node.body)) - {"__init__"}
+                self.assertEqual(told, public(made) | {n for n in vars(made) if n in TOLD}, class_name)
+
+    def test_parameters_have_the_names_of_the_functions_own(self):
+        for name, module in MODULES.items():
+            stub = stub_names(ast.parse((PACKAGE / (name + ".pyi")).read_text(encoding="utf-8")).body)
+            functions = {n: (getattr(module, n), f) for n, f in stub.items() if isinstance(f, ast.FunctionDef)}
+            for class_name, node in stub.items():
+                if isinstance(node, ast.ClassDef) and not class_name.endswith("Error"):
+                    for n, f in stub_names(node.body).items():
+                        if isinstance(f, ast.FunctionDef) and not n.startswith("__") and not isinstance(
+                            inspect.getattr_static(getattr(module, class_name), n), property
+                        ):
+                            functions[class_name + "." + n] = (getattr(getattr(module, class_name), n), f)
+            for where, (function, node) in functions.items():
+                arguments = [a.arg for a in node.args.args + node.args.kwonlyargs if a.arg != "self"]
+                signature = function.__doc__.splitlines()[0]
+                for argument in arguments:
+                    self.assertIn(argument + ":", signature, where)
+
+    def test_the_package_says_that_it_is_typed(self):
+        self.assertTrue((PACKAGE / "py.typed").exists())
+
+
+class Docstrings(unittest.TestCase):
+    def test_everything_public_has_one(self):
+        things = [(n, getattr(m, n)) for m in MODULES.values() for n in m.__all__]
+        for name, thing in list(things):
+            if inspect.isclass(thing) and not issubclass(thing, BaseException):
+                things += [(name + "." + n, inspect.getattr_static(thing, n)) for n in public(thing)]
+        for name, thing in things:
+            if type(thing).__name__ == "pybind11_static_property":
+                continue  # it has one, which Python doesn't give out
+            thing = getattr(thing, "__func__", thing)
+            lines = (thing.__doc__ or "").strip().splitlines()
+            if lines and "(" in lines[0] and "->" in lines[0]:
+                lines = lines[1:]  # pybind11's signature
+            self.assertTrue("".join(lines).strip(), name + " has no docstring")
+
+
+class Examples(unittest.TestCase):
+    def test_each_runs_and_says_something(self):
+        examples = sorted((SOURCE / "examples" / "python").glob("*.py"))
+        self.assertGreaterEqual(len(examples), 2)
+        for example in examples:
+            with self.subTest(example.name), tempfile.TemporaryDirectory() as folder:
+                done = subprocess.run([sys.executable, str(example)], cwd=folder, capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertTrue(done.stdout.strip())
+
+
+class Data(unittest.TestCase):
+    def test_the_package_finds_its_own_data_and_vsa_data_dir_comes_first(self):
+        program = "import vsasim; print(vsasim.ActuatorType.load('qbmove_maker_pro').file)"
+        without = {k: v for k, v in os.environ.items() if not k.startswith("VSA_")}
+        own = subprocess.run([sys.executable, "-c", program], env=without, capture_output=True, text=True, check=True)
+        self.assertIn("vsasim", own.stdout)
+        other = subprocess.run([sys.executable, "-c", program], env={**without, "VSA_DATA_DIR": "/nowhere"}, capture_output=True, text=True)
+        self.assertIn("InputError", other.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,96 @@
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+"""Units side by side, each beside a Unit alone."""
+import gc
+import unittest
+
+import numpy as np
+import vsasim
+
+
+def maker_pro():
+    return vsasim.ActuatorType.load("qbmove_maker_pro")
+
+
+def alone(steps, q, p, inertia, damping, gravity, push):
+    unit = vsasim.Unit(maker_pro())
+    unit.command(q, p)
+    angle = speed = 0.0
+    for _ in range(steps):
+        torque = unit.step(1e-3, angle, speed, 1 / inertia)
+        scale = 1e-3 * (1 / inertia)
+        pull = gravity * np.sin(angle) if gravity else 0.0
+        speed = (speed + scale * (torque - pull + push)) / (1 + scale * damping)
+        angle += 1e-3 * speed
+    return angle, speed
+
+
+class UnitBatch(unittest.TestCase):
+    def test_each_goes_as_a_unit_alone_on_every_instruction_set(self):
+        n = 11
+        inertia, damping, gravity = np.geomspace(1e-4, 1e-2, n), np.linspace(0, 0.05, n), np.linspace(-0.2, 0.4, n)
+        for instructions in vsasim.UnitBatch.instruction_sets():
+            units = vsasim.UnitBatch(maker_pro(), n, inertia, damping, gravity, instructions)
+            units.equilibrium = np.linspace(-0.5, 0.5, n)
+            units.preset = 0.3
+            units.push[4] = 0.2
+            units.step(300)
+            self.assertAlmostEqual(units.time_s, 0.3)
+            for i in (0, 4, n - 1):
+                angle, speed = alone(300, units.equilibrium[i], 0.3, inertia[i], damping[i], gravity[i], units.push[i])
+                self.assertAlmostEqual(units.shaft_rad[i], angle, 9)
+                self.assertAlmostEqual(units.shaft_speed_rad_per_s[i], speed, 7)
+
+    def test_reset_takes_some_back_and_the_others_go_on(self):
+        units = vsasim.UnitBatch(maker_pro(), 5)
+        units.equilibrium, units.preset = 0.5, 0.2
+        units.step(200)
+        before = units.shaft_rad.copy()
+        units.equilibrium[[1, 3]] = np.nan
+        units.reset([1, 3], equilibrium_rad=[0.1, -0.1], preset=0.4)
+        np.testing.assert_array_equal(units.shaft_rad, [before[0], 0.1, before[2], -0.1, before[4]])
+        units.reset(np.array([True, False, False, False, False]), 0.2)
+        self.assertEqual(units.shaft_rad[0], 0.2)
+        units.step(50)
+        self.assertLess(abs(units.shaft_rad[3] + 0.1), 0.01)
+
+    def test_views_outlive_the_batch(self):
+        units = vsasim.UnitBatch(maker_pro(), 3)
+        shaft = units.shaft_rad
+        del units
+        gc.collect()
+        self.assertEqual(shaft.tolist(), [0, 0, 0])
+        with self.assertRaises(ValueError):
+            shaft[0] = 1
+
+    def test_bad_input_is_told_and_nothing_moves(self):
+        units = vsasim.UnitBatch(maker_pro(), 3)
+        for call in (
+            lambda: vsasim.UnitBatch(maker_pro(), 0),
+            lambda: vsasim.UnitBatch(maker_pro(), 2, inertia_kgm2=0),
+            lambda: vsasim.UnitBatch(maker_pro(), 2, instructions="abacus"),
+            lambda: units.step(0),
+            lambda: units.step(1, 0.017),
+            lambda: units.step(1, float("nan")),
+            lambda: units.set_levers([1e-3, -1e-3, 1e-3]),
+            lambda: units.set_levers([1e-3, 1e-3]),
+            lambda: units.reset(which=[0.5]),
+            lambda: units.reset(which=[True, False]),
+            lambda: units.reset(equilibrium_rad=[1, 2]),
+            lambda: setattr(units, "push", [1, 2]),
+        ):
+            with self.assertRaises(vsasim.InputError):
+                call()
+        with self.assertRaises(IndexError):
+            units.reset([3])
+        with self.assertRaises(TypeError):
+            units.push = "much"
+        for name in ("equilibrium", "preset", "push"):
+            getattr(units, name)[1] = np.inf
+            with self.assertRaises(vsasim.InputError):
+                units.step()
+            getattr(units, name)[1] = 0
+        self.assertEqual(units.time_s, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,190 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Bad input: each error names what it is about, and nothing gets through in silence.
+#include <filesystem>
+#include <fstream>
+
+#include "engine/worlds.hpp"
+
+namespace vsa::engine::testing {
+namespace {
+
+using ::testing::Test;
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string model(const std::string& content) { return world("<model name='m'>" + content + "</model>"); }
+
+std::string link(const std::string& name, const std::string& content) { return "<link name='" + name + "'>" + content + "</link>"; }
+
+std::string moments(double xx, double yy, double zz) {
+  return "<inertial><mass>1</mass><inertia><ixx>" + std::to_string(xx) + "</ixx><iyy>" + std::to_string(yy) + "</iyy><izz>" +
+         std::to_string(zz) + "</izz></inertia></inertial>";
+}
+
+TEST(BadInput, AMissingFileIsNamed) {
+  try {
+    static_cast<void>(World::load("/nowhere/at/all.sdf"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(has(error.what(), "/nowhere/at/all.sdf: no such file")) << error.what();
+  }
+}
+
+TEST(BadInput, CircularIncludesAreNamedInsteadOfFollowed) {
+  const TempDir dir("circle");
+  const auto write = [&](const char* name, const char* other) {
+    std::ofstream(dir.path() / name) << "<sdf version='1.7'><model name='" << name[0] << "'><link name='l'/><include><uri>" << other
+                                     << "</uri></include></model></sdf>";
+  };
+  write("a.sdf", "b.sdf");
+  write("b.sdf", "a.sdf");
+  try {
+    static_cast<void>(World::load(dir.path() / "a.sdf"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(has(error.what(), "b.sdf: include/uri = a.sdf")) << error.what();
+    EXPECT_TRUE(has(error.what(), "circle")) << error.what();
+  }
+}
+
+TEST(BadInput, AVersionThatIsNotOneIsRefused) {
+  for (const char* version : {"abc", "99", "", "1.13", "-1.7"}) {
+    const std::string text = problems_of("<sdf version='" + std::string(version) + "'><world name='w'/></sdf>");
+    EXPECT_TRUE(has(text, "sdf@version")) << version << ": " << text;
+    EXPECT_TRUE(has(text, "1.6 … 1.12")) << version << ": " << text;
+  }
+}
+
+TEST(BadInput, BrokenXmlIsRefusedAndNothingIsPrinted) {
+  ::testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
+  const std::string text = problems_of("<sdf version='1.9'><world name='w'><model name='m'></world></sdf>");
+  const std::string printed = ::testing::internal::GetCapturedStderr() + ::testing::internal::GetCapturedStdout();
+  EXPECT_TRUE(has(text, "SDF text: Error parsing XML")) << text;
+  EXPECT_TRUE(has(text, "MISMATCHED_ELEMENT")) << text;
+  EXPECT_EQ(printed, "");
+}
+
+TEST(BadInput, SdfErrorsArePrintedNowhereButInTheException) {
+  ::testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
+  const std::string text = problems_of(model(link("a", "<inertial><mass>abc</mass></inertial>") + "<frictoin>3</frictoin>"));
+  const std::string printed = ::testing::internal::GetCapturedStderr() + ::testing::internal::GetCapturedStdout();
+  EXPECT_TRUE(has(text, "Unable to set value [abc ] for key[mass]")) << text;
+  EXPECT_FALSE(has(text, "robot")) << text;
+  EXPECT_EQ(printed, "");
+}
+
+TEST(BadInput, AMisspeltElementIsRefused) {
+  EXPECT_TRUE(has(problems_of(model(link("a", inertial(1, 1)) + "<frictoin>3</frictoin>")), "frictoin"));
+}
+
+TEST(BadInput, MassesThatAreNoMassesAreNamedAllAtOnce) {
+  const std::string text =
+      problems_of(model(link("a", "<inertial><mass>nan</mass></inertial>") + link("b", "<inertial><mass>-1</mass></inertial>") +
+                        link("c", "<inertial><mass>0</mass></inertial>")));
+  EXPECT_TRUE(has(text, "m::a/inertial/mass = nan")) << text;
+  EXPECT_TRUE(has(text, "m::b/inertial/mass = -1")) << text;
+  EXPECT_TRUE(has(text, "m::c/inertial/mass = 0")) << text;
+}
+
+TEST(BadInput, AnInertiaThatViolatesTheTriangleInequalityIsNamed) {
+  const std::string text = problems_of(model(link("a", moments(1, 1, 3)) + link("b", moments(-1, 1, 1))));
+  EXPECT_TRUE(has(text, "m::a/inertial/inertia")) << text;
+  EXPECT_TRUE(has(text, "triangle")) << text;
+  EXPECT_TRUE(has(text, "m::b/inertial/inertia")) << text;
+}
+
+TEST(BadInput, AThinPlateAtTheEdgeOfTheTriangleInequalityIsAccepted) {
+  EXPECT_EQ(problems_of(model(link("a", moments(0.1, 0.2, 0.3)))), "");
+}
+
+TEST(BadInput, UnknownAndUnsupportedJointTypesAreNamed) {
+  const std::string two = link("a", inertial(1, 1)) + link("b", inertial(1, 1));
+  const auto joint = [&](const std::string& type) {
+    return problems_of(model(two + "<joint name='j' type='" + type +
+                             "'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis>" +
+                             (type == "revolute2" ? "<axis2><xyz>1 0 0</xyz></axis2>" : "") + "</joint>"));
+  };
+  for (const char* type : {"wobbly", "screw", "gearbox", "revolute2"}) {
+    const std::string text = joint(type);
+    EXPECT_TRUE(has(text, "m::j/type = ") && has(text, type) && has(text, "revolute, continuous")) << type << ": " << text;
+  }
+  EXPECT_EQ(joint("revolute"), "");
+}
+
+TEST(BadInput, KinematicLoopsAreNamed) {
+  const auto j = [](const std::string& name, const std::string& a, const std::string& b) {
+    return "<joint name='" + name + "' type='revolute'><parent>" + a + "</parent><child>" + b +
+           "</child><axis><xyz>0 0 1</xyz></axis></joint>";
+  };
+  const std::string three = link("a", inertial(1, 1)) + link("b", inertial(1, 1)) + link("c", inertial(1, 1));
+  const std::string text = problems_of(model(three + j("ab", "a", "b") + j("bc", "b", "c") + j("ac", "a", "c")));
+  EXPECT_TRUE(has(text, "closes a kinematic loop")) << text;
+}
+
+TEST(BadInput, AJointToALinkThatIsntThereIsNamed) {
+  EXPECT_TRUE(has(
+      problems_of(model(link("a", inertial(1, 1)) + "<joint name='j' type='fixed'><parent>a</parent><child>ghost</child></joint>")),
+      "ghost"));
+}
+
+TEST(BadInput, AMissingIncludeIsNamed) {
+  EXPECT_TRUE(has(problems_of(world("<include><uri>model://no_such_model</uri></include>")), "model://no_such_model"));
+}
+
+TEST(BadInput, PhysicsThatCantBeHonouredIsNamed) {
+  const auto with = [](const std::string& surface) {
+    return problems_of(
+        model(link("a", inertial(1, 1) + "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry><surface>" +
+                            surface + "</surface></collision>")));
+  };
+  EXPECT_TRUE(
+      has(with("<bounce><restitution_coefficient>0.5</restitution_coefficient></bounce>"), "restitution_coefficient = 0.5"));
+  EXPECT_TRUE(has(with("<friction><ode><mu>0.5</mu><mu2>0.1</mu2></ode></friction>"), "ode/mu2 = 0.1"));
+  EXPECT_TRUE(has(with("<friction><ode><mu>-1</mu></ode></friction>"), "value [-1] is less than the minimum"));
+  EXPECT_TRUE(has(with("<friction><ode><mu>nan</mu></ode></friction>"), "ode/mu = nan"));
+  EXPECT_TRUE(has(with("<friction><ode><slip1>1</slip1></ode></friction>"), "slip1"));
+  EXPECT_EQ(with("<friction><ode><mu>0.5</mu></ode></friction>"), "");
+  EXPECT_TRUE(has(problems_of(model(link("a", inertial(1, 1) + "<gravity>false</gravity>"))), "m::a/gravity"));
+  EXPECT_TRUE(has(problems_of(model(link("a", inertial(1, 1) + "<collision name='c'><geometry><plane/></geometry></collision>"))),
+                  "can't move"));
+  EXPECT_TRUE(has(problems_of(model(link(
+                      "a", inertial(1, 1) + "<collision name='c'><geometry><box><size>1 0 1</size></box></geometry></collision>"))),
+                  "box/size"));
+}
+
+TEST(BadInput, AStepOutOfRangeIsNamed) {
+  WorldOptions options;
+  options.step_s = 0.5;
+  EXPECT_TRUE(has(problems_of(model(link("a", inertial(1, 1))), options), "step_s = 0.5"));
+}
+
+TEST(BadInput, NamesThatArentThereAreAnsweredWithTheNamesThatAre) {
+  World w = World::load_string(
+      model(link("a", inertial(1, 1)) + link("b", inertial(1, 1)) +
+            "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>"));
+  EXPECT_THROW(static_cast<void>(w.joint_angle("m::k")), InputError);
+  EXPECT_THROW(w.set_joint("m::j", 0.0 / 0.0, 0), InputError);
+  EXPECT_THROW(static_cast<void>(w.actuator("m")), InputError);
+  EXPECT_THROW(static_cast<void>(w.center_of_mass("n")), InputError);
+  try {
+    static_cast<void>(w.joint_angle("m::k"));
+  } catch (const InputError& error) {
+    EXPECT_TRUE(has(error.what(), "m::j")) << error.what();
+  }
+}
+
+TEST(Warnings, WhatIsLeftOutIsNamedOnce) {
+  const std::string sensor = "<sensor name='s' type='imu'/>";
+  World w = World::load_string(world("<light name='sun' type='point'/><model name='m'>" + link("a", inertial(1, 1) + sensor) +
+                                     link("b", inertial(1, 1) + sensor) +
+                                     "<plugin name='x::Other' filename='libother.so'><k>1</k></plugin></model>"));
+  ASSERT_EQ(w.warnings().size(), 2u) << "a light is for a renderer";
+  EXPECT_EQ(w.warnings()[0], "sensors are left out: m::a and 1 more");
+  EXPECT_EQ(w.warnings()[1], "foreign plugins are left out: m/plugin[x::Other]");
+}
+
+}  // namespace
+}  // namespace vsa::engine::testing

@@ -1,0 +1,61 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "sdf/robot_files.hpp"
+
+namespace vsa::engine::testing {
+
+std::vector<RobotFile> refused_files() {
+  return {
+      {"screw.sdf", "joint type isn't supported"},
+      {"gearbox.sdf", "m::j1/type = gearbox"},
+      {"revolute2.sdf", "m::j1/type = revolute2"},
+      {"loop.sdf", "closes a kinematic loop"},
+      {"second_world.sdf", "a second world"},
+      {"mu2.sdf", "friction that depends on the direction"},
+      {"restitution.sdf", "restitution_coefficient = 0.5"},
+      {"polyline.sdf", "polyline: this kind of geometry"},
+      {"plane_moving.sdf", "plane: can't move"},
+      {"kinematic.sdf", "m::base/kinematic = true"},
+      {"gravity_off.sdf", "m::base/gravity = false"},
+      {"velocity_decay.sdf", "velocity_decay/linear = 0.1"},
+      {"unknown_tag.sdf", "XML Element[frictoin]"},
+      {"step_20_ms.sdf", "step out of range"},
+      {"torsional.sdf", "use_patch_radius = false"},
+      {"version_1_13.sdf", "1.6 … 1.12"},
+      {"mimic_axis2.sdf", "m::j2/mimic@axis = axis2"},
+      {"world_joint.sdf", "world[w]/joint[outside]: a joint outside a model"},
+      {"cone.sdf", "collision[c]/geometry/cone: this kind of geometry"},
+      {"auto_inertia.sdf", "link[base]/inertial@auto = true"},
+      {"added_mass.sdf", "XML Element[fluid_added_mass]"},
+      {"newer_unknown_tag.sdf", "XML Element[wings]"},
+      {"initial_position_out.sdf", "m::j1/initial_position = 1.5: is outside the joint's limits"},
+      {"initial_position_broken.sdf", "initial_position = half"},
+      {"limits_reversed.sdf", "1 … -1: isn't a range"},
+      {"actuated_prismatic.sdf", "j1: is prismatic"},
+      {"actuated_zero_room.sdf", "j1: can't move"},
+      {"actuated_follower.sdf", "j2: follows another joint"},
+      {"include_unknown_tag.sdf", "parts/unknown_tag.sdf:5"},
+      {"include_missing.sdf", "model://no_such_model"},
+      {"fuel.sdf", "nothing is downloaded"},
+      {"state_impossible.sdf", "poses that joint m::j1 can't reach"},
+      {"state_unknown_model.sdf", "state/model[ghost]: no such model"},
+      {"mesh_concave.sdf", "the mesh is concave"},
+      {"mesh_missing.sdf", "parts/nowhere.stl: file not found"},
+      {"mimic_circle.urdf", "follows itself, or in a circle"},
+      {"mimic_unknown.urdf", "r::ghost: no such joint"},
+      {"dummy_leaf.urdf", "link[tip]: is moved by a joint, and neither it nor what hangs on it has mass"},
+      {"dummy_base.urdf", "link[base]: is the robot's root and has no mass"},
+      {"planar.urdf", "joint[slide]@type = planar"},
+      {"floating.urdf", "joint[free]@type = floating"},
+      {"gazebo_gravity_off.urdf", "r::a/gravity = false"},
+      {"gazebo_not_a_number.urdf", "gazebo[a]/mu1 = slippery"},
+      {"gazebo_damping_factor.urdf", "velocity_decay"},
+      {"mu_differ.urdf", "mu2 = 0.1"},
+      {"no_limit.urdf", "[j1] is of type REVOLUTE but it does not specify limits"},
+      {"two_roots.urdf", "Two root links found"},
+      {"xacro.urdf", ":3: <link>: isn't expanded"},
+      {"xacro_elements.urdf", ":3: <xacro:include>: isn't expanded"},
+      {"package.urdf", "package://robot_parts/box.stl: file not found"},
+  };
+}
+
+}  // namespace vsa::engine::testing
