@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "link_shapes.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::plugins {
 namespace {
@@ -33,7 +34,7 @@ ModelLinks model_links(const ModelPtr& model) {
   int left_out = 0;
   for (const LinkPtr& link : links) {
     const std::string name = link->GetScopedName();
-    out.infos.push_back({name, name.substr(0, name.find("::")), link->GetInertial()->Mass(), model->IsStatic(),
+    out.infos.push_back({name, std::string(outermost(name)), link->GetInertial()->Mass(), model->IsStatic(),
                          link_shapes(link->GetSDF(), left_out)});
   }
   out.notices = left_out_notice(left_out);

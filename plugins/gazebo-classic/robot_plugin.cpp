@@ -13,6 +13,7 @@
 #include "gazebo_transport.hpp"
 #include "model_links.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/scoped_name.hpp"
 #include "vsa/topics/ignition_transport.hpp"
 
 namespace vsa::plugins {
@@ -31,11 +32,12 @@ struct NamedJoint {
   JointPtr joint;
 };
 
-void collect_joints(const ModelPtr& model, const std::string& prefix, std::vector<NamedJoint>& out) {
+void collect_joints(const ModelPtr& model, const std::string& scope, std::vector<NamedJoint>& out) {
   for (const JointPtr& joint : model->GetJoints()) {
-    if (joint->HasType(Base::HINGE_JOINT) || joint->HasType(Base::SLIDER_JOINT)) out.push_back({prefix + joint->GetName(), joint});
+    if (joint->HasType(Base::HINGE_JOINT) || joint->HasType(Base::SLIDER_JOINT))
+      out.push_back({scoped_name(scope, joint->GetName()), joint});
   }
-  for (const ModelPtr& nested : model->NestedModels()) collect_joints(nested, prefix + nested->GetName() + "::", out);
+  for (const ModelPtr& nested : model->NestedModels()) collect_joints(nested, scoped_name(scope, nested->GetName()), out);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compat.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::plugins {
 
@@ -15,12 +16,12 @@ struct NamedEntity {
 
 /// All entities with component Kind in the model and those nested in it.
 template <class Kind>
-std::vector<NamedEntity> entities_below(sim::Entity model, const sim::EntityComponentManager& ecm, const std::string& prefix = "") {
+std::vector<NamedEntity> entities_below(sim::Entity model, const sim::EntityComponentManager& ecm, const std::string& scope = "") {
   std::vector<NamedEntity> out;
-  const auto name_of = [&](sim::Entity e) { return prefix + ecm.ComponentData<sim::components::Name>(e).value_or(""); };
+  const auto name_of = [&](sim::Entity e) { return scoped_name(scope, ecm.ComponentData<sim::components::Name>(e).value_or("")); };
   for (const sim::Entity e : ecm.EntitiesByComponents(sim::components::ParentEntity(model), Kind())) out.push_back({name_of(e), e});
   for (const sim::Entity e : ecm.EntitiesByComponents(sim::components::ParentEntity(model), sim::components::Model())) {
-    for (auto& deeper : entities_below<Kind>(e, ecm, name_of(e) + "::")) out.push_back(std::move(deeper));
+    for (auto& deeper : entities_below<Kind>(e, ecm, name_of(e))) out.push_back(std::move(deeper));
   }
   return out;
 }

@@ -6,6 +6,7 @@
 
 #include "fault_parameter.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::plugins {
 namespace {
@@ -17,8 +18,7 @@ constexpr int kRounds = 50;
 }  // namespace
 
 void FaultParameter::declare(Registry& registry, const std::string& model) {
-  name_ = "model." + model + ".vsa.faults";
-  for (auto at = name_.find("::"); at != std::string::npos; at = name_.find("::")) name_.replace(at, 2, ".");
+  name_ = "model." + joined_by(model, ".") + ".vsa.faults";
   // Of a model that was removed and is back, the parameter is there already.
   if (!registry.DeclareParameter(name_, StringMsg()) && !registry.SetParameter(name_, StringMsg())) return;
   registry_ = &registry;

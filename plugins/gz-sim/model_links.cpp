@@ -5,6 +5,7 @@
 
 #include "entities.hpp"
 #include "link_shapes.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::plugins {
 namespace {
@@ -31,7 +32,7 @@ ModelLinks model_links(sim::Entity model, const std::string& name, const sim::En
   for (const NamedEntity& link : links) {
     const auto inertial = ecm.ComponentData<components::Inertial>(link.entity);
     const sdf::ElementPtr element = element_of(link.entity, ecm);
-    out.infos.push_back({name + "::" + link.name, name.substr(0, name.find("::")), inertial ? inertial->MassMatrix().Mass() : 0,
+    out.infos.push_back({scoped_name(name, link.name), std::string(outermost(name)), inertial ? inertial->MassMatrix().Mass() : 0,
                          false, element ? link_shapes(element, left_out) : std::vector<scene::Shape>{}});
   }
   out.notices = left_out_notice(left_out);

@@ -14,6 +14,7 @@
 #include "vsa/config/older_plugin.hpp"
 #include "vsa/config/plugin_xml.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::config {
 namespace {
@@ -185,7 +186,7 @@ void answer_older_plugin(const XMLElement& root, XmlReader& xml) {
   if (of_2015) {
     driven = std::string(kShaft2015);
     if (submodel != nullptr && submodel->GetText() != nullptr) name = std::string(trim(submodel->GetText()));
-    if (!name.empty()) driven = name + "::" + driven;
+    driven = scoped_name(name, driven);
   }
   xml.add(
       "plugin", file_of(root),
@@ -200,15 +201,14 @@ void check_motor_joints(const host::RobotConfig& config, const std::vector<std::
                         Problems& problems) {
   const auto there = [&](const std::string& name) { return std::find(joints.begin(), joints.end(), name) != joints.end(); };
   for (const host::ActuatorConfig& a : config.actuators) {
-    const std::size_t scope = a.joint.rfind("::");
-    const std::size_t at = scope == std::string::npos ? 0 : scope + 2;
-    const std::string before = a.joint.substr(0, at), last = a.joint.substr(at);
+    const std::string_view scope = scope_of(a.joint), last = name_within(a.joint);
+    const std::string shaft = scoped_name(scope, kShaft2015);
     const std::string key = "actuator[" + a.name + "]/joint";
     for (const std::string_view motor : kMotors2015) {
-      const std::string motor_joint = before + std::string(motor);
-      if (last == motor && there(before + std::string(kShaft2015)))
+      const std::string motor_joint = scoped_name(scope, motor);
+      if (last == motor && there(shaft))
         problems.add({std::string(where), key, '"' + a.joint + '"',
-                      "is a motor of the plug-in of 2015: the motors are in the unit here", before + std::string(kShaft2015)});
+                      "is a motor of the plug-in of 2015: the motors are in the unit here", shaft});
       if (last == kShaft2015 && there(motor_joint))
         problems.add({std::string(where), key, '"' + a.joint + '"',
                       "the model still has " + motor_joint + " of 2015, which would swing freely: the motors are in the unit here",

@@ -10,6 +10,7 @@
 
 #include "engine/world_check.hpp"
 #include "engine/world_impl.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -70,11 +71,10 @@ void World::pull(std::vector<Pull> pulls) {
 }
 
 std::vector<std::size_t> World::Impl::links_of(std::string_view model) const {
-  const std::string prefix = std::string(model) + "::";
   std::vector<std::size_t> out;
   std::vector<std::string> models;
   for (std::size_t i = 0; i < world->links.size(); ++i) {
-    if (world->links[i].name.rfind(prefix, 0) == 0) out.push_back(i);
+    if (is_below(world->links[i].name, model)) out.push_back(i);
     models.push_back(world->links[i].model);
   }
   if (out.empty()) throw InputError(Problem{"", "model", std::string(model), "no such model", list(models)});

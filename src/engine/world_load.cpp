@@ -9,6 +9,7 @@
 #include "engine/world_cache.hpp"
 #include "engine/world_impl.hpp"
 #include "vsa/config/find_file.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -44,11 +45,11 @@ std::vector<seat::Joint> joints_under(const description::World& world, const voi
                                       std::vector<std::size_t>& index) {
   std::vector<seat::Joint> out;
   const std::vector<Joint>& joints = world.joints;
-  const std::string prefix = model + "::";
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (joints[j].name.rfind(prefix, 0) != 0) continue;
+    const auto name = relative_to(model, joints[j].name);
+    if (!name) continue;
     index.push_back(j);
-    out.push_back({joints[j].name.substr(prefix.size()), {owner, j}, refusal_of(world, j), std::nullopt});
+    out.push_back({std::string(*name), {owner, j}, refusal_of(world, j), std::nullopt});
     if (joints[j].one_axis()) out.back().start_rad = joints[j].axes[0].start;
   }
   return out;

@@ -8,6 +8,7 @@
 #include "engine/world_check.hpp"
 #include "engine/world_impl.hpp"
 #include "vsa/host/topics.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -149,7 +150,7 @@ void World::Impl::index_names() {
     if (ref.index == 0) made->first_actuator[ref.robot] = a;
     made->joints[robots[ref.robot].joints[ref.index]].actuator = a;
     made->full.emplace(ref.model + "/" + ref.name, a);
-    made->full.emplace(host::slashed(robots[ref.robot].seat->model()) + "/" + ref.name, a);
+    made->full.emplace(joined_by(robots[ref.robot].seat->model(), "/") + "/" + ref.name, a);
     if (!made->actuator.emplace(ref.name, a).second) made->actuator[ref.name] = WorldNames::kSeveral;
   }
   names = std::move(made);

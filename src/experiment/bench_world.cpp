@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "vsa/errors.hpp"
+#include "vsa/scoped_name.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::experiment {
@@ -49,7 +50,7 @@ Bench::Bench(const Specimen& specimen, const char* world, Watch* watch) : world_
   }
   actuator_ = world_.actuators().front();
   config_ = &world_.robot(actuator_.robot).config().actuators[actuator_.index];
-  load_peak_Nm_ = measure_load_peak(world_, world_.robot_model(actuator_.robot) + "::" + config_->joint);
+  load_peak_Nm_ = measure_load_peak(world_, scoped_name(world_.robot_model(actuator_.robot), config_->joint));
 }
 
 void Bench::step(const elastic::EquilibriumPreset& command) {

@@ -4,6 +4,7 @@
 
 #include "vsa/errors.hpp"
 #include "vsa/host/topics.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::host {
 namespace {
@@ -12,14 +13,8 @@ bool bad_character(char c) { return std::isspace(static_cast<unsigned char>(c)) 
 
 }  // namespace
 
-std::string slashed(std::string_view scoped_name) {
-  std::string out(scoped_name);
-  for (auto at = out.find("::"); at != std::string::npos; at = out.find("::", at + 1)) out.replace(at, 2, "/");
-  return out;
-}
-
 std::string topic_scope(std::string_view scoped_name, std::string_view what) {
-  std::string out = slashed(scoped_name);
+  std::string out = joined_by(scoped_name, "/");
   const bool empty_part = out.empty() || out.front() == '/' || out.back() == '/' || out.find("//") != std::string::npos;
   const bool forbidden = std::any_of(out.begin(), out.end(), bad_character) || out.find(":=") != std::string::npos;
   if (empty_part || forbidden) {

@@ -11,6 +11,7 @@
 #include "vsa/host/topics.hpp"
 #include "vsa/page/json.hpp"
 #include "vsa/record/mcap.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::record {
 namespace {
@@ -63,9 +64,9 @@ struct RunLog::Impl {
     for (const RobotInfo& robot : info.robots) {
       McapMap types;
       for (const ActuatorInfo& a : robot.actuators) types.emplace_back(a.name, a.type);
-      c.channels.push_back({kActuators, unused(c, "/model/" + host::slashed(robot.model), "/actuators"), types});
+      c.channels.push_back({kActuators, unused(c, "/model/" + joined_by(robot.model, "/"), "/actuators"), types});
     }
-    const std::string world = "/world/" + host::slashed(info.world);
+    const std::string world = "/world/" + joined_by(info.world, "/");
     c.channels.push_back({kEnergy, world + "/energy"});
     c.channels.push_back({kTransforms, world + "/links"});
     c.channels.push_back({kTransforms, world + "/static_links"});

@@ -10,6 +10,7 @@
 
 #include "sdf/read_context.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::reader {
 namespace {
@@ -106,8 +107,8 @@ void read_mimic(ReadContext& c, const sdf::ElementPtr& axis, const std::string& 
   const std::string leader = mimic->HasAttribute("joint") ? mimic->GetAttribute("joint")->GetAsString() : std::string{};
   if (mimic->HasAttribute("axis") && mimic->GetAttribute("axis")->GetAsString() != "axis")
     c.problem(mimic, key + "/mimic@axis", mimic->GetAttribute("axis")->GetAsString(), "a second axis can't lead", "axis");
-  const std::string scope = joint.name.substr(0, joint.name.rfind("::") + 2);
-  c.mimics.push_back({c.file_of(mimic), joint.name, scope + leader, multiplier, offset - multiplier * reference});
+  c.mimics.push_back(
+      {c.file_of(mimic), joint.name, scoped_name(scope_of(joint.name), leader), multiplier, offset - multiplier * reference});
 }
 
 void read_axis(ReadContext& c, const sdf::Joint& joint, unsigned int index, const std::string& key, Joint& out) {
@@ -146,7 +147,7 @@ bool find_end(ReadContext& c, const sdf::Joint& joint, bool is_child, const Mode
   const std::string given = is_child ? joint.ChildLinkName() : joint.ParentLinkName();
   if (errors.empty() && name == "world") return true;
   if (errors.empty()) {
-    const std::string full = scope.name + "::" + name;
+    const std::string full = scoped_name(scope.name, name);
     const auto it = std::find_if(c.out.links.begin(), c.out.links.end(), [&](const Link& l) { return l.name == full; });
     if (it != c.out.links.end()) {
       out = static_cast<std::size_t>(it - c.out.links.begin());
@@ -154,7 +155,7 @@ bool find_end(ReadContext& c, const sdf::Joint& joint, bool is_child, const Mode
     }
   }
   if (c.parsed_clean) {
-    c.problem(joint.Element(), scope.name + "::" + joint.Name() + (is_child ? "/child" : "/parent"), given, "no such link",
+    c.problem(joint.Element(), scoped_name(scope.name, joint.Name()) + (is_child ? "/child" : "/parent"), given, "no such link",
               "a link of the model, or world");
   }
   return false;
@@ -163,7 +164,7 @@ bool find_end(ReadContext& c, const sdf::Joint& joint, bool is_child, const Mode
 }  // namespace
 
 void read_joint(ReadContext& c, const sdf::Joint& joint, const ModelScope& scope) {
-  const std::string key = scope.name + "::" + joint.Name();
+  const std::string key = scoped_name(scope.name, joint.Name());
   if (scope.is_static) {
     c.notes.add("joints of static models are left out", key);
     return;

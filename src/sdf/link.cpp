@@ -8,6 +8,7 @@
 #include <sdf/Link.hh>
 
 #include "sdf/read_context.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::reader {
 namespace {
@@ -103,7 +104,7 @@ void read_collision(ReadContext& c, const sdf::Collision& collision, Link& out) 
 
 void read_link(ReadContext& c, const sdf::Link& link, const ModelScope& scope) {
   Link out;
-  out.name = scope.name + "::" + link.Name();
+  out.name = scoped_name(scope.name, link.Name());
   out.model = scope.top;
   out.is_static = scope.is_static;
   out.self_collide = scope.self_collide;

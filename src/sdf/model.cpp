@@ -8,6 +8,7 @@
 #include "sdf/read_context.hpp"
 #include "vsa/config/older_plugin.hpp"
 #include "vsa/config/plugin_xml.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::reader {
 namespace {
@@ -47,7 +48,7 @@ Pose3 model_pose(ReadContext& c, const sdf::Model& model, const ModelScope* oute
 
 void read_model(ReadContext& c, const sdf::Model& model, const ModelScope* outer) {
   ModelScope scope;
-  scope.name = outer == nullptr ? model.Name() : outer->name + "::" + model.Name();
+  scope.name = scoped_name(outer == nullptr ? "" : outer->name, model.Name());
   scope.top = outer == nullptr ? model.Name() : outer->top;
   scope.pose = model_pose(c, model, outer, scope.name);
   c.model_poses[scope.name] = scope.pose;

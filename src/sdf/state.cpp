@@ -13,13 +13,12 @@
 #include <sdf/World.hh>
 
 #include "sdf/read_context.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::reader {
 namespace {
 
 constexpr double kPoseTolerance = 1e-3;  // m and rad: files hold six digits
-
-bool under(const std::string& name, const std::string& model) { return name.rfind(model + "::", 0) == 0; }
 
 class ModelState {
  public:
@@ -46,10 +45,10 @@ class ModelState {
 
   void move(const Pose3& by) {
     for (Link& l : c_.out.links) {
-      if (under(l.name, name_)) l.pose = by * l.pose;
+      if (is_below(l.name, name_)) l.pose = by * l.pose;
     }
     for (Joint& j : c_.out.joints) {
-      if (!under(j.name, name_)) continue;
+      if (!is_below(j.name, name_)) continue;
       j.pose = by * j.pose;
       for (Axis& a : j.axes) a.xyz = by.Rot() * a.xyz;
     }
@@ -57,8 +56,8 @@ class ModelState {
 
   void joint(const sdf::ElementPtr& e) {
     const std::string name = e->GetAttribute("name")->GetAsString();
-    const auto it =
-        std::find_if(c_.out.joints.begin(), c_.out.joints.end(), [&](const Joint& j) { return j.name == name_ + "::" + name; });
+    const auto it = std::find_if(c_.out.joints.begin(), c_.out.joints.end(),
+                                 [&](const Joint& j) { return j.name == scoped_name(name_, name); });
     if (it == c_.out.joints.end() || !it->one_axis())
       return problem(e, "/joint[" + name + "]", "", "no such joint with one axis", "a joint of the model");
     for (sdf::ElementPtr a = child(e, "angle"); a; a = a->GetNextElement("angle")) it->axes[0].start = a->Get<double>();
@@ -67,7 +66,7 @@ class ModelState {
   void link(const sdf::ElementPtr& e) {
     const std::string name = e->GetAttribute("name")->GetAsString();
     const auto it =
-        std::find_if(c_.out.links.begin(), c_.out.links.end(), [&](const Link& l) { return l.name == name_ + "::" + name; });
+        std::find_if(c_.out.links.begin(), c_.out.links.end(), [&](const Link& l) { return l.name == scoped_name(name_, name); });
     if (it == c_.out.links.end()) return problem(e, "/link[" + name + "]", "", "no such link", "a link of the model");
     for (const char* left : {"velocity", "acceleration", "wrench"}) {
       if (child(e, left)) c_.notes.add("speeds, accelerations and forces of a <state> are left out", key_);
@@ -88,7 +87,7 @@ class ModelState {
     for (Joint& j : c_.out.joints) {
       if (j.child) held[*j.child] = true;
       const std::optional<Pose3> parent = pose_of(j.parent), end = pose_of(j.child);
-      if (under(j.name, name_) && parent && end) start_of(j, *parent, *end);
+      if (is_below(j.name, name_) && parent && end) start_of(j, *parent, *end);
     }
     for (const auto& [l, pose] : poses_) {
       const Pose3 off = c_.out.links[l].pose.Inverse() * pose;

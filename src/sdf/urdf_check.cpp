@@ -7,6 +7,7 @@
 
 #include "sdf/read_context.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::reader {
 namespace {
@@ -29,21 +30,22 @@ void check_urdf(ReadContext& c, const sdf::Model& model, const ModelScope& scope
   Urdf& urdf = c.files.urdfs[static_cast<std::size_t>(*id)];
   urdf.found = true;
   for (const std::string& link : urdf.links) {
-    if (link == "world" || has_link(c, scope.name + "::" + urdf.lumped_into(link))) continue;
+    if (link == "world" || has_link(c, scoped_name(scope.name, urdf.lumped_into(link)))) continue;
     c.problems.add({urdf.file, "link[" + link + "]", "", "got lost in libsdformat's conversion", "<inertial> with a mass"});
   }
   std::size_t collisions = 0;
-  for (const Link& l : c.out.links) collisions += l.name.rfind(scope.name + "::", 0) == 0 ? l.collisions.size() : 0;
+  for (const Link& l : c.out.links) collisions += is_below(l.name, scope.name) ? l.collisions.size() : 0;
   if (c.problems.empty() && collisions < urdf.collisions)
     c.problems.add({urdf.file, "collision", std::to_string(urdf.collisions),
                     "got lost in libsdformat's conversion, but for " + std::to_string(collisions), ""});
   for (const UrdfJoint& joint : urdf.joints) {
-    const std::string name = scope.name + "::" + joint.name;
+    const std::string name = scoped_name(scope.name, joint.name);
     if (!joint.lumped && !scope.is_static && !has_joint(c, name) && c.problems.empty())
       c.problems.add(
           {urdf.file, "joint[" + joint.name + "]", "", "got lost in libsdformat's conversion", "links with mass on both sides"});
     if (joint.mimic && !scope.is_static)
-      c.mimics.push_back({urdf.file, name, scope.name + "::" + joint.mimic->leader, joint.mimic->multiplier, joint.mimic->offset});
+      c.mimics.push_back(
+          {urdf.file, name, scoped_name(scope.name, joint.mimic->leader), joint.mimic->multiplier, joint.mimic->offset});
   }
 }
 

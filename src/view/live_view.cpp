@@ -8,6 +8,7 @@
 #include "vsa/page/page.hpp"
 #include "vsa/record/page.hpp"
 #include "vsa/record/recorder.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::view {
 namespace {
@@ -60,7 +61,7 @@ std::vector<LiveView::Impl::Actuator> LiveView::Impl::actuators_of(const host::S
     const std::string& model = world.robot_model(r);
     for (const host::ActuatorConfig& a : world.robot(r).config().actuators) {
       const std::size_t index = out.empty() || out.back().robot != r ? 0 : out.back().index + 1;
-      out.push_back({a.name, model.substr(0, model.find("::")), r, index});
+      out.push_back({a.name, std::string(outermost(model)), r, index});
     }
   }
   return out;

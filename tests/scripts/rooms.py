@@ -11,6 +11,7 @@ arrows    an #include of include, src, apps and plugins, and a link, leads to th
 private   "ROOM/x.hpp" of src is included by that room alone
 cycles    neither the list nor files have any
 core      no header but the standard library's and rooms'
+tests     a source of tests/ROOM with tests in it is called NAME_test.cpp, and no other is
 
 Prints FILE:LINE: what is wrong; exit code 1 where anything is.
 """
@@ -194,6 +195,13 @@ def check_links(root, house, links, complain):
         complain(readme, 1, "links in a circle: " + " → ".join(cycle))
 
 
+def check_tests(root, complain):
+    for path in sorted((root / "tests").glob("*/*.cpp")):
+        tests = re.search(r"^(TYPED_)?TEST(_F|_P)?\(", path.read_text(encoding="utf-8"), re.MULTILINE) is not None
+        if tests != path.name.endswith("_test.cpp"):
+            complain(path, 1, "has tests and isn't called NAME_test.cpp" if tests else "is called a test and has none")
+
+
 def check(root, links_file):
     """All that is wrong, a line each."""
     root = root.resolve()
@@ -209,6 +217,7 @@ def check(root, links_file):
     check_folders(root, house, complain)
     check_links(root, house, links, complain)
     check_includes(Tree(root), house, links, complain)
+    check_tests(root, complain)
     return problems
 
 
@@ -219,5 +228,5 @@ if __name__ == "__main__":
               "rooms.py ROOT LINKS", file=sys.stderr)
         sys.exit(2)
     found = check(*arguments)
-    print("\n".join(found) if found else "Arrows point only downward.")
+    print("\n".join(found) if found else "Arrows point only downward; tests have their names.")
     sys.exit(1 if found else 0)

@@ -54,6 +54,10 @@ class Rooms(unittest.TestCase):
     def test_a_house_in_order_has_no_problems(self):
         self.assertEqual(self.problems(), [])
 
+    def test_a_source_of_tests_with_another_name(self):
+        self.finds("tests/bus/frame.cpp:1: has tests", "tests/bus/help_test.cpp:1: is called a test",
+                   files={"tests/bus/frame.cpp": "TEST_F(A, B) {}\n", "tests/bus/help_test.cpp": "", "tests/bus/help.cpp": ""})
+
     def test_a_room_that_the_list_hasnt(self):
         self.finds("room attic isn't in the list", files={"src/attic/a.cpp": ""})
 

@@ -8,6 +8,7 @@
 #include "terminal/settings.hpp"
 #include "vsa/config/find_file.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/scoped_name.hpp"
 #include "vsa/seat/seat.hpp"
 #include "vsa/units.hpp"
 
@@ -93,12 +94,12 @@ std::optional<double> speed_of(const RunOptions& options) {
 
 std::string travelling_model(const engine::World& world) {
   if (world.robot_count() == 0) return "";
-  const std::string scoped = world.robot_model(0), model = scoped.substr(0, scoped.find("::"));
+  const std::string_view model = outermost(world.robot_model(0));
   const auto& links = world.links();
   const bool free = std::any_of(links.begin(), links.end(), [&](const auto& l) {
     return l.model == model && !l.is_static && world.free_dof(world.link(l.name)).has_value();
   });
-  return free ? model : "";
+  return std::string(free ? model : "");
 }
 
 }  // namespace vsa::app

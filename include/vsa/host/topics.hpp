@@ -104,7 +104,6 @@ class TopicTransport {
 };
 
 /// "a::b" → "a/b". Throws InputError where the name can't be a topic: empty parts, white space, '@', '~' or ":=".
-[[nodiscard]] std::string slashed(std::string_view scoped_name);  ///< "lab::arm" → "lab/arm", whatever it holds
 [[nodiscard]] std::string topic_scope(std::string_view scoped_name, std::string_view what);
 
 /// The topics' names, for hosts and clients alike. Names are scoped with "::" or "/".

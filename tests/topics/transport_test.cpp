@@ -1,4 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "transport_test.hpp"
+
 #include <gtest/gtest.h>
 #include <ignition/msgs/actuators.pb.h>
 #include <ignition/msgs/double.pb.h>
@@ -10,7 +12,6 @@
 #include <map>
 
 #include "support/one_joint.hpp"
-#include "transport_test.hpp"
 #include "vsa/topics/command_client.hpp"
 #include "vsa/topics/ignition_transport.hpp"
 
