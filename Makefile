@@ -5,7 +5,7 @@
 # make test    set up, build, run the tests
 # make test-long   the tests that take minutes
 # make flakes      every test FLAKES_N times (50), beside 0, 2 and 6 busy processes: which fail now and then; hours. FLAKES_FILTER chooses (ctest -R)
-# make mutants     91 one-line mistakes, one at a time, in a copy: which test notices (scripts/mutants.toml); half an hour. MUTANTS_FILTER chooses, MUTANTS_JOBS builds
+# make mutants     98 one-line mistakes, one at a time, in a copy: which test notices (scripts/mutants.toml); half an hour. MUTANTS_FILTER chooses, MUTANTS_JOBS builds
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make bench   run the benchmarks and print their table
 # make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   those of the rooms without engine
@@ -106,12 +106,11 @@ check-asan:
 	@cmake --build build/asan -j $(JOBS) --target core-tests -- --quiet
 	@ctest --test-dir build/asan --output-on-failure -j 1 -L core
 
-# die_after_fork: a batch goes on in a child of fork(), with threads of its own there.
 check-tsan:
 	@sh scripts/setup.sh test
 	@cmake --preset tsan > /dev/null
 	@cmake --build build/tsan -j $(JOBS) --target thread-tests -- --quiet
-	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/support/tsan.txt halt_on_error=1 die_after_fork=0" \
+	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/support/tsan.txt halt_on_error=1" \
 	  ctest --test-dir build/tsan --output-on-failure -j 1 -L threads
 
 asan:

@@ -47,12 +47,9 @@ void substitute(std::span<const double> a, std::size_t size, std::span<double> x
   }
 }
 
-/// How far a joint has come since its unit's last attempt.
-double beyond(const JointInStep& j, double dy) noexcept { return dy - j.plan->dy; }
-
 }  // namespace
 
-JointSolver::JointSolver(std::size_t joints)
+JointSolver::JointSolver(std::size_t joints, std::string_view instructions)
     : n_(joints),
       mobility_(joints * joints),
       inertia_(joints * joints),
@@ -61,11 +58,10 @@ JointSolver::JointSolver(std::size_t joints)
       off_(joints),
       move_(joints),
       gradient_(joints),
-      torque_(joints),
-      slope_(joints),
       factored_(joints),
       column_(joints),
-      carried_(joints) {}
+      trials_(joints, joints > 1 ? joints : 0, instructions),
+      tried_(joints) {}
 
 void JointSolver::set(std::span<const double> mobility, std::int64_t dt_ns) noexcept {
   if (dt_ns == dt_ns_ && std::equal(mobility.begin(), mobility.end(), mobility_.begin())) return;
@@ -89,11 +85,11 @@ void JointSolver::factor_mobility() noexcept {
   }
 }
 
-void JointSolver::gradient(std::span<const JointInStep> joints) noexcept {
-  for (std::size_t i = 0; i < n_; ++i) off_[i] = dy_[i] - joints[i].plan->free;
+void JointSolver::gradient() noexcept {
+  for (std::size_t i = 0; i < n_; ++i) off_[i] = dy_[i] - tried_.free[i];
   for (std::size_t i = 0; i < n_; ++i) {
     const double* const row = &inertia_[i * n_];
-    double sum = joints[i].plan->last_torque - torque_[i];
+    double sum = tried_.last_torque[i] - tried_.torque[i];
     for (std::size_t k = 0; k < n_; ++k) sum += row[k] * off_[k];
     gradient_[i] = sum;
   }
@@ -103,8 +99,8 @@ void JointSolver::gradient(std::span<const JointInStep> joints) noexcept {
 bool JointSolver::factor_slopes() noexcept {
   std::copy(inertia_.begin(), inertia_.end(), work_.begin());
   for (std::size_t i = 0; i < n_; ++i) {
-    work_[i * n_ + i] += slope_[i];
-    factored_[i] = slope_[i];
+    work_[i * n_ + i] += tried_.slope[i];
+    factored_[i] = tried_.slope[i];
   }
   return factor(work_, n_, column_.data());
 }
@@ -112,7 +108,7 @@ bool JointSolver::factor_slopes() noexcept {
 /// Whether the slopes are others than those of the factor.
 bool JointSolver::stale() const noexcept {
   for (std::size_t i = 0; i < n_; ++i)
-    if (std::abs(slope_[i] - factored_[i]) > kStale * (inertia_[i * n_ + i] + slope_[i])) return true;
+    if (std::abs(tried_.slope[i] - factored_[i]) > kStale * (inertia_[i * n_ + i] + tried_.slope[i])) return true;
   return false;
 }
 
@@ -122,27 +118,8 @@ void JointSolver::newton() noexcept {
   substitute(work_, n_, move_);
 }
 
-/// Whether every unit takes move_ for the last one; the torques that it leads to.
-bool JointSolver::near(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
-  bool all = true;
-  for (std::size_t i = 0; i < n_; ++i) {
-    carried_[i] = joints[i].unit->carried(*joints[i].state, *joints[i].plan, beyond(joints[i], dy_[i]) + move_[i]);
-    torques[i] = carried_[i].torque;
-    all = all && carried_[i].settled;
-  }
-  return all;
-}
-
-/// After a whole move_: who took it for the last keeps what that foretold, the others try it.
-void JointSolver::go_on(std::span<const JointInStep> joints) noexcept {
-  for (std::size_t i = 0; i < n_; ++i) {
-    const JointInStep& j = joints[i];
-    const ShaftTorque t = carried_[i].settled ? carried_[i] : j.unit->attempt(*j.state, *j.plan, dy_[i], false);
-    torque_[i] = t.torque;
-    slope_[i] = t.slope;
-  }
-  gradient(joints);
-}
+/// Whether every unit takes move_ for the last one.
+bool JointSolver::near(std::span<const JointInStep> joints) noexcept { return trials_.carry(joints, tried_, dy_, move_); }
 
 double JointSolver::along() const noexcept {
   double sum = 0;
@@ -150,9 +127,9 @@ double JointSolver::along() const noexcept {
   return sum;
 }
 
-/// dy_ := a linear step from where the joints would go without new torques, with what torque_ and slope_ tell of there.
-void JointSolver::guess(std::span<const JointInStep> joints) noexcept {
-  gradient(joints);
+/// dy_ := a linear step from where the joints would go without new torques, with what is known of there.
+void JointSolver::guess() noexcept {
+  gradient();
   if (!factor_slopes()) return;
   newton();
   for (std::size_t i = 0; i < n_; ++i) dy_[i] = std::clamp(dy_[i] + move_[i], -kReach_rad, kReach_rad);
@@ -161,12 +138,14 @@ void JointSolver::guess(std::span<const JointInStep> joints) noexcept {
 void JointSolver::predict(std::span<const JointInStep> joints) noexcept {
   for (std::size_t i = 0; i < n_; ++i) {
     const JointInStep& j = joints[i];
+    tried_.free[i] = j.plan->free;
+    tried_.last_torque[i] = j.plan->last_torque;
     dy_[i] = std::clamp(j.plan->free, -kReach_rad, kReach_rad);
     const ShaftTorque t = j.state->started ? j.unit->expect(*j.state, *j.plan, dy_[i]) : ShaftTorque{};
-    torque_[i] = t.torque;
-    slope_[i] = t.slope;
+    tried_.torque[i] = t.torque;
+    tried_.slope[i] = t.slope;
   }
-  guess(joints);
+  guess();
   for (std::size_t i = 0; i < n_; ++i) joints[i].plan->dy = dy_[i];
 }
 
@@ -195,13 +174,10 @@ bool JointSolver::solve_alone(const JointInStep& j, double& torque) noexcept {
   return settled;
 }
 
-void JointSolver::attempt(std::span<const JointInStep> joints, bool rough) noexcept {
-  for (std::size_t i = 0; i < n_; ++i) {
-    const ShaftTorque t = joints[i].unit->attempt(*joints[i].state, *joints[i].plan, dy_[i], rough);
-    torque_[i] = t.torque;
-    slope_[i] = t.slope;
-  }
-  gradient(joints);
+/// `keep`: after a whole move_, who took it for the last has what that foretold.
+void JointSolver::attempt(std::span<const JointInStep> joints, bool rough, bool keep) noexcept {
+  trials_.attempt(joints, tried_, dy_, rough, keep);
+  gradient();
 }
 
 /// Newton's way from the last attempt; how long it may be. Returns where the slope along it begins.
@@ -213,20 +189,20 @@ double JointSolver::set_out(double& part) noexcept {
   return along();
 }
 
-bool JointSolver::search(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
+bool JointSolver::search(std::span<const JointInStep> joints) noexcept {
   // The guess is mostly good: what is left is linear, and the slopes foreseen serve once more.
   attempt(joints, true);
   newton();
-  if (near(joints, torques)) return true;
+  if (near(joints)) return true;
   if (stale()) {
     if (!factor_slopes()) return false;
     newton();
-    near(joints, torques);
+    near(joints);
   }
   double part = 1, descent = set_out(part);  // of move_; the slope along it where it began
   bool some = true;                          // tries only the units that aren't settled
   for (int iteration = 1; iteration < kMaxIterations; ++iteration) {
-    some ? go_on(joints) : attempt(joints, false);
+    attempt(joints, false, some);
     const double now = along();
     const bool too_far = !(now <= -(iteration < kEarly ? kOvershoot : kOvershootLater) * descent);
     if (too_far && some) {
@@ -242,7 +218,7 @@ bool JointSolver::search(std::span<const JointInStep> joints, std::span<double> 
     }
     if ((!some || stale()) && !factor_slopes()) return false;
     newton();
-    if (near(joints, torques)) return true;
+    if (near(joints)) return true;
     descent = set_out(part);
     some = some && part == 1;
   }
@@ -251,26 +227,21 @@ bool JointSolver::search(std::span<const JointInStep> joints, std::span<double> 
 
 bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
   if (n_ == 1) return solve_alone(joints[0], torques[0]);
-  for (std::size_t i = 0; i < n_; ++i) {
-    const JointInStep& j = joints[i];
-    dy_[i] = std::clamp(j.plan->free, -kReach_rad, kReach_rad);
-    j.unit->begin_trials(*j.state, *j.plan);
-    const ShaftTorque t = j.unit->foresee(*j.state, *j.plan, dy_[i]);
-    torque_[i] = t.torque;
-    slope_[i] = t.slope;
-  }
-  guess(joints);
-  bool settled = search(joints, torques);
+  trials_.begin(joints, tried_, kReach_rad);
+  for (std::size_t i = 0; i < n_; ++i) dy_[i] = std::clamp(tried_.free[i], -kReach_rad, kReach_rad);
+  guess();
+  bool settled = search(joints);
   if (!settled) {
     // Where a friction's edge keeps Newton going to and fro, what is left may be little all the same.
     std::fill(move_.begin(), move_.end(), 0.0);
     attempt(joints, false);
-    near(joints, torques);
+    near(joints);
     settled = true;
-    for (std::size_t i = 0; i < n_; ++i) settled = settled && std::abs(gradient_[i]) <= kLeft * std::abs(torque_[i]) + kLeft_Nm;
+    for (std::size_t i = 0; i < n_; ++i)
+      settled = settled && std::abs(gradient_[i]) <= kLeft * std::abs(tried_.torque[i]) + kLeft_Nm;
   }
-  for (std::size_t i = 0; i < n_; ++i)
-    joints[i].unit->finish(*joints[i].state, *joints[i].plan, beyond(joints[i], dy_[i]) + move_[i], torques[i]);
+  for (std::size_t i = 0; i < n_; ++i) torques[i] = tried_.carried[i].torque;
+  trials_.finish(joints, tried_, dy_, move_, torques);
   return settled;
 }
 

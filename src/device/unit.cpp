@@ -15,13 +15,9 @@ double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9
 }  // namespace
 
 // A step is many small functions, and calls between them cost a tenth of it: each of these is one piece.
-[[gnu::flatten]] void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns,
-                                       const ShaftIn& in) const noexcept {
-  const double dt = seconds(dt_ns);
-  plan.t_ns = t_ns;
-  plan.dt_ns = dt_ns;
-  plan.whole = segment_ns(plan, 0) == dt_ns;
-  plan.in = in;
+[[gnu::flatten]] void Unit::set_out(UnitState& s, StepPlan& plan) const noexcept {
+  const ShaftIn& in = plan.in;
+  const double dt = seconds(plan.dt_ns);
   if (s.started && !in.placed) {
     steps<double>().begin(s, plan, dt);
   } else {
@@ -31,6 +27,16 @@ double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9
     s.started ? actuator_.relocate(s.actuator, plan.y) : actuator_.place(s.actuator, plan.y);
   }
   steps<double>().look_ahead(s, plan, dt);
+}
+
+void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept {
+  plan.t_ns = t_ns;
+  plan.dt_ns = dt_ns;
+  plan.whole = segment_ns(plan, 0) == dt_ns;
+  plan.in = in;
+  plan.dy = seconds(dt_ns) * in.speed;
+  // The actuator of a whole step sets out with the trials: no tick sees it on its way.
+  if (!plan.whole) set_out(s, plan);
   plan.walked_ns = 0;
   plan.held_count = 0;
   if (t_ns % kTickNs != 0) plan.held[plan.held_count++] = s.held;
@@ -130,9 +136,10 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
   } else if (!plan.whole) {
     plan.start = s.actuator;
   }
-  if (plan.whole)
-    actuator_.begin(s.actuator, plan.last, seconds(plan.dt_ns),
-                    actuator::SegmentInput{0.0, plan.held[0].voltage, plan.held[0].terminal, plan.lead, plan.held[0].supply_V});
+  if (!plan.whole) return;
+  set_out(s, plan);
+  actuator_.begin(s.actuator, plan.last, seconds(plan.dt_ns),
+                  actuator::SegmentInput{0.0, plan.held[0].voltage, plan.held[0].terminal, plan.lead, plan.held[0].supply_V});
 }
 
 [[gnu::flatten]] ShaftTorque Unit::foresee(const UnitState& s, StepPlan& plan, double dy) const noexcept {
@@ -169,6 +176,11 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
 [[gnu::flatten]] ShaftTorque Unit::carried(const UnitState& s, const StepPlan& plan, double move) const noexcept {
   if (!plan.path.settled) return {0, 0, false};
   return steps<double>().carried(s, plan, move, seconds(plan.dt_ns));
+}
+
+bool Unit::may_go_beside(const UnitState& s, const StepPlan& plan) const noexcept {
+  constexpr auto kDriven = drive::Terminal::driven;
+  return plan.whole && s.started && !plan.in.placed && plan.held[0].terminal == std::array{kDriven, kDriven};
 }
 
 [[gnu::flatten]] void Unit::finish(UnitState& s, StepPlan& plan, double move, double torque) noexcept {

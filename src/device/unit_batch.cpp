@@ -15,20 +15,11 @@ namespace {
 
 constexpr std::int64_t kLongest_ns = 16'000'000;
 
-const LaneTable& chosen(std::string_view instructions) {
-  std::string here;
-  for (const LaneTable& table : lane_tables()) {
-    if (instructions.empty() || instructions == table.name) return table;
-    here += std::string(here.empty() ? "" : ", ") + table.name;
-  }
-  throw InputError({"", "instructions", std::string(instructions), "this machine doesn't have them", here});
-}
-
 }  // namespace
 
 UnitBatch::UnitBatch(const UnitConfig& config, std::size_t units, std::string_view instructions) {
   if (units == 0) throw InputError({"", "units", "0", "out of range", "1 or more"});
-  impl_ = std::make_unique<Impl>(config, units, chosen(instructions));
+  impl_ = std::make_unique<Impl>(config, units, lane_table(instructions));
 }
 UnitBatch::~UnitBatch() = default;
 UnitBatch::UnitBatch(UnitBatch&&) noexcept = default;

@@ -74,6 +74,16 @@ std::vector<Cluster> make_clusters(const ClusterParts& parts) {
   return out;
 }
 
+Cluster::Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees)
+    : buses_(std::move(buses)),
+      trees_(std::move(trees)),
+      lone_at_(static_cast<std::size_t>(
+          std::stable_partition(trees_.begin(), trees_.end(), [](const Tree& t) { return t.joints.size() > 1; }) - trees_.begin())),
+      lone_torques_(trees_.size() - lone_at_),
+      lone_trials_(lone_torques_.size(), 0) {
+  for (std::size_t k = lone_at_; k < trees_.size(); ++k) lone_.push_back(trees_[k].joints.front());
+}
+
 void Cluster::use(std::span<device::StepPlan> plans) noexcept {
   std::size_t next = 0;
   for (BusLine* bus : buses_) next = bus->use(plans, next);
@@ -85,6 +95,7 @@ void Cluster::use(std::span<device::StepPlan> plans) noexcept {
       }
     }
   }
+  for (std::size_t k = 0; k < lone_.size(); ++k) lone_[k] = trees_[lone_at_ + k].joints.front();
 }
 
 void Cluster::begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
@@ -115,8 +126,9 @@ std::size_t Cluster::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<co
     for (Tree& tree : trees_) tree.solver.predict(tree.joints);
   }
   for (BusLine* bus : buses_) bus->run_ticks(t_ns, t_ns + dt_ns);
-  std::size_t unsettled = 0;
-  for (Tree& tree : trees_) {
+  std::size_t unsettled = lone_trials_.solve_each(lone_, lone_torques_);
+  for (std::size_t k = 0; k < lone_.size(); ++k) torques_out[trees_[lone_at_ + k].actuators.front()] = lone_torques_[k];
+  for (Tree& tree : std::span(trees_).first(lone_at_)) {
     if (!tree.solver.solve(tree.joints, tree.torques)) unsettled += tree.joints.size();
     for (std::size_t i = 0; i < tree.joints.size(); ++i) torques_out[tree.actuators[i]] = tree.torques[i];
   }

@@ -31,7 +31,7 @@ struct Tree {
 
 class Cluster {
  public:
-  Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees) : buses_(std::move(buses)), trees_(std::move(trees)) {}
+  Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees);
 
   /// Where its units may write during a step; as many as it has, and clusters may share them.
   void use(std::span<device::StepPlan> plans) noexcept;
@@ -45,7 +45,11 @@ class Cluster {
                     std::span<const double> mobility) noexcept;
 
   std::vector<BusLine*> buses_;
-  std::vector<Tree> trees_;
+  std::vector<Tree> trees_;  ///< those of one joint come last
+  std::size_t lone_at_;      ///< the first of those
+  std::vector<device::JointInStep> lone_;
+  std::vector<double> lone_torques_;
+  device::JointTrials lone_trials_;
 };
 
 /// What they are made of. Every actuator gets a tree, if not by `trees` one of its own; every bus is in one cluster.

@@ -15,24 +15,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
-#include "vsa/lanes.hpp"
+#include "vsa/device/joint_trials.hpp"
 
 namespace vsa::device {
-
-class Unit;
-struct UnitState;
-struct StepPlan;
-
-/// The whole torque on a shaft for a displacement Δy of its step.
-template <class T>
-struct ShaftTorqueOf {
-  T torque = 0;  ///< N·m
-  T slope = 0;   ///< −dτ/d(Δy), N·m/rad
-  lanes::Truth<T> settled = lanes::truth<T>(true);
-};
-using ShaftTorque = ShaftTorqueOf<double>;
 
 namespace solver {
 inline constexpr int kMaxIterations = 80;
@@ -46,16 +34,10 @@ inline constexpr int kEarly = 8;
 inline constexpr double kLeft = 1e-3, kLeft_Nm = 1e-4;
 }  // namespace solver
 
-struct JointInStep {
-  Unit* unit = nullptr;
-  UnitState* state = nullptr;
-  StepPlan* plan = nullptr;
-};
-
 class JointSolver {
  public:
-  /// Everything that a step needs is allocated here.
-  explicit JointSolver(std::size_t joints);
+  /// Everything that a step needs is allocated here. `instructions`: as JointTrials has them.
+  explicit JointSolver(std::size_t joints, std::string_view instructions = {});
 
   [[nodiscard]] std::size_t size() const noexcept { return n_; }
 
@@ -74,16 +56,15 @@ class JointSolver {
  private:
   void factor_mobility() noexcept;
   [[nodiscard]] bool solve_alone(const JointInStep& joint, double& torque) noexcept;
-  void gradient(std::span<const JointInStep> joints) noexcept;
+  void gradient() noexcept;
   bool factor_slopes() noexcept;
   [[nodiscard]] bool stale() const noexcept;
   void newton() noexcept;
-  bool near(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
-  void attempt(std::span<const JointInStep> joints, bool rough) noexcept;
-  void go_on(std::span<const JointInStep> joints) noexcept;
+  void attempt(std::span<const JointInStep> joints, bool rough, bool keep = false) noexcept;
   double set_out(double& part) noexcept;
-  bool search(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
-  void guess(std::span<const JointInStep> joints) noexcept;
+  bool search(std::span<const JointInStep> joints) noexcept;
+  bool near(std::span<const JointInStep> joints) noexcept;
+  void guess() noexcept;
   [[nodiscard]] double along() const noexcept;
 
   std::size_t n_;
@@ -91,8 +72,9 @@ class JointSolver {
   std::vector<double> mobility_;  // as set
   std::vector<double> inertia_;   // C⁻¹
   std::vector<double> work_;      // the factor of C⁻¹ + S
-  std::vector<double> dy_, off_, move_, gradient_, torque_, slope_, factored_, column_;
-  std::vector<ShaftTorque> carried_;  // what the last move_ foretold
+  std::vector<double> dy_, off_, move_, gradient_, factored_, column_;
+  JointTrials trials_;
+  TrialColumns tried_;
 };
 
 }  // namespace vsa::device

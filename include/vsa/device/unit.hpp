@@ -169,6 +169,7 @@ class Unit {
   /// Whether the last step ended by this object found its solution (JointSolver::solve).
   [[nodiscard]] bool settled() const noexcept { return settled_; }
 
+  /// A step of several segments has its Δy expected from here on; one of a single segment sets out with its trials.
   void begin_step(UnitState& state, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept;
   /// Goes to the next tick, at `at_ns`, and reads the sensors there.
   firmware::TickInputs sample(UnitState& state, StepPlan& plan, std::int64_t at_ns) noexcept;
@@ -182,6 +183,8 @@ class Unit {
   /// The torque for a small Δy, from what the last step left.
   [[nodiscard]] ShaftTorque expect(const UnitState& state, const StepPlan& plan, double dy) const noexcept;
   void begin_trials(UnitState& state, StepPlan& plan) noexcept;
+  /// Instead of them, of units that have lanes: whether this step is one for src/device/lanes/kernel.hpp.
+  [[nodiscard]] bool may_go_beside(const UnitState& state, const StepPlan& plan) const noexcept;
   /// As `expect`, with what the bridges do now. Steps of one segment only; the others keep to `expect`.
   [[nodiscard]] ShaftTorque foresee(const UnitState& state, StepPlan& plan, double dy) const noexcept;
   /// The torque along y → y + dy. `rough`: of a step with one segment, as Actuator::attempt has it.
@@ -226,6 +229,7 @@ class Unit {
   void tick(UnitState& state, std::int64_t t_ns, double shaft_rad) noexcept;
   double step_held(UnitState& state, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept;
   double end_whole(UnitState& state, StepPlan& plan) noexcept;
+  void set_out(UnitState& state, StepPlan& plan) const noexcept;
   void drive_bridges(UnitState& state) const noexcept;
   [[nodiscard]] std::int64_t segment_ns(const StepPlan& plan, std::int64_t walked_ns) const noexcept;
 

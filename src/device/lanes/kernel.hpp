@@ -52,18 +52,24 @@ struct Plan {
 };
 
 template <class T>
+void set_out(Unit& unit, const UnitPhysics<T>& physics, Block<T>& s, Plan<T>& plan, double dt,
+             const std::array<T, 2>& voltage) noexcept {
+  physics.begin(s, plan, dt);
+  physics.look_ahead(s, plan, dt);
+  actuator::SegmentInputOf<T> in;
+  in.voltage = voltage;
+  in.lead = plan.lead;
+  unit.physics().begin(s.actuator, plan.last, dt, in);
+}
+
+template <class T>
 [[gnu::flatten]] unsigned step(Unit& unit, void* memory, const BlockStep& io) noexcept {
   Block<T>& s = *std::launder(static_cast<Block<T>*>(memory));
   const UnitPhysics<T> physics = unit.template steps<T>();
   const double dt = io.dt_s;
   Plan<T> plan;
   plan.in = {load<T>(io.angle), load<T>(io.speed), load<T>(io.inverse_inertia)};
-  physics.begin(s, plan, dt);
-  physics.look_ahead(s, plan, dt);
-  actuator::SegmentInputOf<T> in;
-  in.voltage = {load<T>(io.voltage[0]), load<T>(io.voltage[1])};
-  in.lead = plan.lead;
-  unit.physics().begin(s.actuator, plan.last, dt, in);
+  set_out<T>(unit, physics, s, plan, dt, {load<T>(io.voltage[0]), load<T>(io.voltage[1])});
   T torque;
   const auto settled = solve_whole<T>(physics, s, plan, dt, torque);
   store(torque, io.torque);
@@ -72,7 +78,55 @@ template <class T>
   return ~settled.bits() & ((1U << T::kWidth) - 1);
 }
 
-// Between a block's lane and a unit's state, number by number.
+/// A block and its step while somebody else solves it.
+template <class T>
+struct Trials {
+  Block<T> s;
+  Plan<T> plan;
+};
+
+template <class T>
+[[gnu::flatten]] void begin_trials(Unit& unit, void* memory, const BlockTrials& io) noexcept {
+  Trials<T>& t = *std::launder(static_cast<Trials<T>*>(memory));
+  const UnitPhysics<T> physics = unit.template steps<T>();
+  new (&t.plan) Plan<T>();
+  t.plan.in = {load<T>(io.angle), load<T>(io.speed), load<T>(io.inverse_inertia)};
+  set_out<T>(unit, physics, t.s, t.plan, io.dt_s, {load<T>(io.voltage[0]), load<T>(io.voltage[1])});
+  const ShaftTorqueOf<T> r = physics.foresee(t.s, t.plan, lanes::clamp(t.plan.free, -T(io.reach), io.reach));
+  store(t.plan.free, io.free);
+  store(t.plan.last_torque, io.last_torque);
+  store(r.torque, io.torque);
+  store(r.slope, io.slope);
+}
+
+template <class T>
+[[gnu::flatten]] void attempt(Unit& unit, void* memory, const double* dy, bool rough, unsigned which, double* torque,
+                              double* slope) noexcept {
+  Trials<T>& t = *std::launder(static_cast<Trials<T>*>(memory));
+  T tries;
+  for (int i = 0; i < T::kWidth; ++i) tries.set_lane(i, static_cast<double>(which >> i & 1U));
+  const ShaftTorqueOf<T> r = unit.template steps<T>().attempt(t.s, t.plan, load<T>(dy), rough, tries != 0.0);
+  store(r.torque, torque);
+  store(r.slope, slope);
+}
+
+template <class T>
+[[gnu::flatten]] unsigned carry(const Unit& unit, const void* memory, const double* move, double dt_s, double* torque,
+                                double* slope) noexcept {
+  const Trials<T>& t = *std::launder(static_cast<const Trials<T>*>(memory));
+  const ShaftTorqueOf<T> r = unit.template steps<T>().carried(t.s, t.plan, load<T>(move), dt_s);
+  store(r.torque, torque);
+  store(r.slope, slope);
+  return r.settled.bits();
+}
+
+template <class T>
+[[gnu::flatten]] void finish(const Unit& unit, void* memory, const double* move, const double* torque, double dt_s) noexcept {
+  Trials<T>& t = *std::launder(static_cast<Trials<T>*>(memory));
+  unit.template steps<T>().finish(t.s, t.plan, load<T>(move), load<T>(torque), dt_s);
+}
+
+// Between a block's lane and a unit's state, number by number. A block lies at its trials' begin.
 
 template <class T, class F>
 void pair(T& lanes, double& one, F&& f) noexcept {
@@ -136,6 +190,11 @@ template <class T>
           put<T>,
           take<T>,
           step<T>,
+          sizeof(Trials<T>),
+          begin_trials<T>,
+          attempt<T>,
+          carry<T>,
+          finish<T>,
           sizeof(Loop<kWidth, Isa>),
           put_loop<kWidth, Isa>,
           take_loop<kWidth, Isa>,

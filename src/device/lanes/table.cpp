@@ -1,7 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "device/lanes/table.hpp"
 
+#include <string>
 #include <vector>
+
+#include "vsa/errors.hpp"
 
 namespace vsa::device {
 
@@ -23,6 +26,15 @@ std::span<const LaneTable> lane_tables() {
     return found;
   }();
   return tables;
+}
+
+const LaneTable& lane_table(std::string_view instructions) {
+  std::string here;
+  for (const LaneTable& table : lane_tables()) {
+    if (instructions.empty() || instructions == table.name) return table;
+    here += std::string(here.empty() ? "" : ", ") + table.name;
+  }
+  throw InputError({"", "instructions", std::string(instructions), "this machine doesn't have them", here});
 }
 
 }  // namespace vsa::device

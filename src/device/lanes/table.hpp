@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "vsa/sensor/sensors.hpp"
 
@@ -21,6 +22,14 @@ struct BlockStep {
   const double* voltage[2]{};
   double* torque = nullptr;
   double *motor_angle[2]{}, *motor_speed[2]{};
+};
+
+/// What the trials of a block begin with: `width` numbers each, and what comes out.
+struct BlockTrials {
+  double dt_s = 0, reach = 0;
+  const double *angle = nullptr, *speed = nullptr, *inverse_inertia = nullptr;
+  const double* voltage[2]{};
+  double *free = nullptr, *last_torque = nullptr, *torque = nullptr, *slope = nullptr;
 };
 
 /// What goes into a block's tick: `width` numbers each, and what all units of a type have in common.
@@ -42,6 +51,13 @@ struct LaneTable {
   void (*take)(void* block, int lane, UnitState& to) noexcept;
   /// Of units whose motors are driven, in a step of one segment. Returns a bit for each lane that didn't settle.
   unsigned (*step)(Unit& unit, void* block, const BlockStep& io) noexcept;
+  // A step that somebody else solves (vsa/device/joint_trials.hpp), with as much of a unit's as a step has; put and take serve here,
+  // too. Bits are for lanes: of those that try, and of those that settled.
+  std::size_t trials_bytes;  ///< aligned to 64
+  void (*begin_trials)(Unit& unit, void* block, const BlockTrials& io) noexcept;
+  void (*attempt)(Unit& unit, void* block, const double* dy, bool rough, unsigned which, double* torque, double* slope) noexcept;
+  unsigned (*carry)(const Unit& unit, const void* block, const double* move, double dt_s, double* torque, double* slope) noexcept;
+  void (*finish)(const Unit& unit, void* block, const double* move, const double* torque, double dt_s) noexcept;
   // The program's loop of units that do nothing but hold their references (lanes/loop.hpp).
   std::size_t loop_bytes;
   void (*put_loop)(void* loop, int lane, const UnitState& from) noexcept;
@@ -52,5 +68,7 @@ struct LaneTable {
 
 /// Those that this machine can run, the fastest first; the last runs on any.
 [[nodiscard]] std::span<const LaneTable> lane_tables();
+/// One of them by its name; empty: the first. Throws InputError.
+[[nodiscard]] const LaneTable& lane_table(std::string_view instructions);
 
 }  // namespace vsa::device

@@ -1,0 +1,98 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The units of a tree's joints while their step is solved (device/joint_solver.hpp): tried for one displacement after another, each
+// by itself or, where neighbours are of one type and their step is of the usual kind, side by side in lanes (vsa/lanes.hpp). A lane
+// has the bits of the unit by itself, so which it is changes nothing but the time it takes.
+//
+// States: none between steps.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "vsa/lanes.hpp"
+
+namespace vsa::device {
+
+class Unit;
+struct UnitState;
+struct StepPlan;
+struct LaneTable;
+
+/// The whole torque on a shaft for a displacement Δy of its step.
+template <class T>
+struct ShaftTorqueOf {
+  T torque = 0;  ///< N·m
+  T slope = 0;   ///< −dτ/d(Δy), N·m/rad
+  lanes::Truth<T> settled = lanes::truth<T>(true);
+};
+using ShaftTorque = ShaftTorqueOf<double>;
+
+struct JointInStep {
+  Unit* unit = nullptr;
+  UnitState* state = nullptr;
+  StepPlan* plan = nullptr;
+};
+
+/// What is known of each joint of a tree for the Δy that was tried last: as many numbers as it has joints.
+struct TrialColumns {
+  explicit TrialColumns(std::size_t joints)
+      : free(joints), last_torque(joints), dy(joints), torque(joints), slope(joints), carried(joints) {}
+  std::vector<double> free, last_torque;  ///< Δy without new torques, and the torques it goes with
+  std::vector<double> dy;                 ///< of each unit's last attempt
+  std::vector<double> torque, slope;      ///< there, or where the solver took `carried` for it
+  std::vector<ShaftTorque> carried;       ///< what the last attempt foretells of a move from there
+};
+
+class JointTrials {
+ public:
+  /// Everything that a step needs is allocated here, for so many joints that are solved together (0: all for solve_each).
+  /// `instructions`: one of UnitBatch::instruction_sets(), and with it those of fewer lanes; empty: the fastest; "none": each unit by
+  /// itself. InputError where this machine doesn't have them.
+  explicit JointTrials(std::size_t joints, std::size_t together, std::string_view instructions = {});
+
+  /// Begins the trials of a step: free, last_torque, and torque and slope as foreseen for free, at most `reach` away.
+  void begin(std::span<const JointInStep> joints, TrialColumns& c, double reach) noexcept;
+  /// Tries these displacements: torque and slope. `rough`: as Unit::attempt has it. Where `keep`, a unit whose `carried` is settled has
+  /// that for its answer.
+  void attempt(std::span<const JointInStep> joints, TrialColumns& c, std::span<const double> dy, bool rough, bool keep) noexcept;
+  /// What the last attempts foretell of dy + move. Whether it may be the answer of all.
+  bool carry(std::span<const JointInStep> joints, TrialColumns& c, std::span<const double> dy,
+             std::span<const double> move) noexcept;
+  /// Ends every unit's step at dy + move, with the torques that the host gets.
+  void finish(std::span<const JointInStep> joints, TrialColumns& c, std::span<const double> dy, std::span<const double> move,
+              std::span<const double> torques) noexcept;
+
+  /// Instead of all that: joints that know nothing of each other, each of them solved and its step ended. How many didn't settle.
+  std::size_t solve_each(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
+
+ private:
+  struct alignas(64) Line {
+    std::byte bytes[64];
+  };
+  /// Joints that are tried together: one by itself, or a block.
+  struct Group {
+    std::size_t first = 0, count = 1;
+    const LaneTable* lanes = nullptr;
+    Line* block = nullptr;
+  };
+  static constexpr std::size_t kWidest = 8;
+  using Row = std::array<double, kWidest>;  // a number for each lane
+  template <class Value>
+  [[nodiscard]] static Row row(const Group& group, Value&& value) noexcept;
+  void group(std::span<const JointInStep> joints) noexcept;
+  static void put(const Group& group, std::span<const JointInStep> joints) noexcept;
+  static void take(const Group& group, std::span<const JointInStep> joints) noexcept;
+  struct Inputs;
+  [[nodiscard]] const LaneTable* table_for(std::size_t units) const noexcept;
+
+  std::vector<const LaneTable*> tables_;  // the widest first
+  std::vector<Line> memory_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace vsa::device

@@ -1,0 +1,230 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/device/joint_trials.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "device/lanes/table.hpp"
+#include "vsa/device/unit.hpp"
+
+namespace vsa::device {
+namespace {
+
+double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
+
+std::size_t lines(std::size_t bytes) noexcept { return (bytes + 63) / 64; }
+
+}  // namespace
+
+JointTrials::JointTrials(std::size_t joints, std::size_t together, std::string_view instructions) {
+  if (instructions != "none") {
+    const LaneTable& first = lane_table(instructions);
+    for (const LaneTable& table : lane_tables())
+      if (table.width <= first.width) tables_.push_back(&table);
+  }
+  // A block's lanes are at most twice its units, whichever table serves it.
+  std::size_t lines_a_lane = 0;
+  for (const LaneTable* table : tables_)
+    lines_a_lane = std::max(lines_a_lane, lines(table->trials_bytes) / static_cast<std::size_t>(table->width) + 1);
+  const std::size_t at_once = std::max(together, std::min(joints, kWidest));
+  if (joints > 1) memory_.resize(2 * at_once * lines_a_lane);
+  groups_.reserve(joints);
+}
+
+/// The fewest lanes that hold so many units, or the most that there are.
+const LaneTable* JointTrials::table_for(std::size_t units) const noexcept {
+  const LaneTable* best = nullptr;
+  for (const LaneTable* table : tables_)
+    if (best == nullptr || static_cast<std::size_t>(table->width) >= units) best = table;
+  return best;
+}
+
+void JointTrials::group(std::span<const JointInStep> joints) noexcept {
+  groups_.clear();
+  std::size_t used = 0;
+  const auto beside = [&](std::size_t i) {
+    return joints[i].unit->physics().has_lanes() && joints[i].unit->may_go_beside(*joints[i].state, *joints[i].plan);
+  };
+  for (std::size_t first = 0; first < joints.size();) {
+    std::size_t end = first + 1;
+    if (!tables_.empty() && beside(first))
+      while (end < joints.size() && joints[end].unit == joints[first].unit && beside(end)) ++end;
+    if (end - first == 1) {
+      groups_.push_back({first++, 1, nullptr, nullptr});
+      continue;
+    }
+    while (first < end) {
+      const LaneTable* const table = table_for(end - first);
+      const std::size_t count = std::min(end - first, static_cast<std::size_t>(table->width));
+      const std::size_t needs = lines(table->trials_bytes);
+      if (used + needs > memory_.size()) used = 0;  // of solve_each: one block after the other
+      groups_.push_back({first, count, table, &memory_[used]});
+      used += needs;
+      first += count;
+    }
+  }
+}
+
+/// A number of each joint of a group; lanes that nobody needs have the first one's, so that they ask for nothing else.
+template <class Value>
+JointTrials::Row JointTrials::row(const Group& g, Value&& value) noexcept {
+  const std::size_t width = g.lanes == nullptr ? 1 : static_cast<std::size_t>(g.lanes->width);
+  Row r{};
+  for (std::size_t l = 0; l < width; ++l) r[l] = value(g.first + (l < g.count ? l : 0));
+  return r;
+}
+
+/// What a block's step begins with.
+struct JointTrials::Inputs {
+  Inputs(const Group& g, std::span<const JointInStep> joints) noexcept
+      : dt_s(seconds(joints[g.first].plan->dt_ns)),
+        angle(row(g, [&](std::size_t i) { return joints[i].plan->in.angle; })),
+        speed(row(g, [&](std::size_t i) { return joints[i].plan->in.speed; })),
+        inverse_inertia(row(g, [&](std::size_t i) { return joints[i].plan->in.inverse_inertia; })),
+        voltage{row(g, [&](std::size_t i) { return joints[i].plan->held[0].voltage[0]; }),
+                row(g, [&](std::size_t i) { return joints[i].plan->held[0].voltage[1]; })} {}
+  double dt_s;
+  Row angle, speed, inverse_inertia;
+  std::array<Row, 2> voltage;
+};
+
+void JointTrials::put(const Group& g, std::span<const JointInStep> joints) noexcept {
+  for (int l = 0; l < g.lanes->width; ++l) {
+    const auto lane = static_cast<std::size_t>(l);
+    g.lanes->put(g.block, l, *joints[g.first + (lane < g.count ? lane : 0)].state);
+  }
+}
+void JointTrials::take(const Group& g, std::span<const JointInStep> joints) noexcept {
+  for (std::size_t l = 0; l < g.count; ++l) g.lanes->take(g.block, static_cast<int>(l), *joints[g.first + l].state);
+}
+
+void JointTrials::begin(std::span<const JointInStep> joints, TrialColumns& c, double reach) noexcept {
+  group(joints);
+  for (const Group& g : groups_) {
+    const JointInStep& first = joints[g.first];
+    if (g.lanes == nullptr) {
+      first.unit->begin_trials(*first.state, *first.plan);
+      const double free = c.free[g.first] = first.plan->free;
+      const ShaftTorque t = first.unit->foresee(*first.state, *first.plan, std::clamp(free, -reach, reach));
+      c.last_torque[g.first] = first.plan->last_torque;
+      c.torque[g.first] = t.torque;
+      c.slope[g.first] = t.slope;
+      continue;
+    }
+    put(g, joints);
+    const Inputs in(g, joints);
+    Row free, last_torque, torque, slope;
+    g.lanes->begin_trials(*first.unit, g.block,
+                          {in.dt_s,
+                           reach,
+                           in.angle.data(),
+                           in.speed.data(),
+                           in.inverse_inertia.data(),
+                           {in.voltage[0].data(), in.voltage[1].data()},
+                           free.data(),
+                           last_torque.data(),
+                           torque.data(),
+                           slope.data()});
+    std::copy_n(free.data(), g.count, &c.free[g.first]);
+    std::copy_n(last_torque.data(), g.count, &c.last_torque[g.first]);
+    std::copy_n(torque.data(), g.count, &c.torque[g.first]);
+    std::copy_n(slope.data(), g.count, &c.slope[g.first]);
+  }
+}
+
+void JointTrials::attempt(std::span<const JointInStep> joints, TrialColumns& c, std::span<const double> dy, bool rough,
+                          bool keep) noexcept {
+  for (const Group& g : groups_) {
+    unsigned which = 0;
+    const Row at = row(g, [&](std::size_t i) { return dy[i]; });
+    const Row tries = row(g, [&](std::size_t i) { return keep && c.carried[i].settled ? 0.0 : 1.0; });
+    for (std::size_t l = 0; l < kWidest; ++l) which |= tries[l] > 0 ? 1U << l : 0U;
+    Row torque{}, slope{};
+    if (const JointInStep& first = joints[g.first]; which == 0) {
+    } else if (g.lanes == nullptr) {
+      const ShaftTorque t = first.unit->attempt(*first.state, *first.plan, at[0], rough);
+      torque[0] = t.torque;
+      slope[0] = t.slope;
+    } else {
+      g.lanes->attempt(*first.unit, g.block, at.data(), rough, which, torque.data(), slope.data());
+    }
+    for (std::size_t l = 0; l < g.count; ++l) {
+      const std::size_t i = g.first + l;
+      const bool tried = tries[l] > 0;
+      if (tried) c.dy[i] = at[l];
+      c.torque[i] = tried ? torque[l] : c.carried[i].torque;
+      c.slope[i] = tried ? slope[l] : c.carried[i].slope;
+    }
+  }
+}
+
+bool JointTrials::carry(std::span<const JointInStep> joints, TrialColumns& c, std::span<const double> dy,
+                        std::span<const double> move) noexcept {
+  bool all = true;
+  for (const Group& g : groups_) {
+    const JointInStep& first = joints[g.first];
+    const Row beyond = row(g, [&](std::size_t i) { return dy[i] - c.dy[i] + move[i]; });
+    if (g.lanes == nullptr) {
+      c.carried[g.first] = first.unit->carried(*first.state, *first.plan, beyond[0]);
+      all = all && c.carried[g.first].settled;
+      continue;
+    }
+    Row torque, slope;
+    const unsigned settled =
+        g.lanes->carry(*first.unit, g.block, beyond.data(), seconds(first.plan->dt_ns), torque.data(), slope.data());
+    for (std::size_t l = 0; l < g.count; ++l) {
+      c.carried[g.first + l] = {torque[l], slope[l], (settled >> l & 1U) != 0};
+      all = all && c.carried[g.first + l].settled;
+    }
+  }
+  return all;
+}
+
+void JointTrials::finish(std::span<const JointInStep> joints, TrialColumns& c, std::span<const double> dy,
+                         std::span<const double> move, std::span<const double> torques) noexcept {
+  for (const Group& g : groups_) {
+    const JointInStep& first = joints[g.first];
+    const Row beyond = row(g, [&](std::size_t i) { return dy[i] - c.dy[i] + move[i]; });
+    if (g.lanes == nullptr) {
+      first.unit->finish(*first.state, *first.plan, beyond[0], torques[g.first]);
+      continue;
+    }
+    const Row torque = row(g, [&](std::size_t i) { return torques[i]; });
+    g.lanes->finish(*first.unit, g.block, beyond.data(), torque.data(), seconds(first.plan->dt_ns));
+    take(g, joints);
+  }
+}
+
+std::size_t JointTrials::solve_each(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
+  std::size_t unsettled = 0;
+  group(joints);
+  for (const Group& g : groups_) {
+    const JointInStep& first = joints[g.first];
+    if (g.lanes == nullptr) {
+      torques[g.first] = first.unit->end_step(*first.state, *first.plan);
+      unsettled += first.unit->settled() ? 0 : 1;
+      continue;
+    }
+    put(g, joints);
+    const Inputs in(g, joints);
+    Row torque;
+    std::array<Row, 2> motor_angle, motor_speed;
+    const unsigned open = g.lanes->step(*first.unit, g.block,
+                                        {in.dt_s,
+                                         in.angle.data(),
+                                         in.speed.data(),
+                                         in.inverse_inertia.data(),
+                                         {in.voltage[0].data(), in.voltage[1].data()},
+                                         torque.data(),
+                                         {motor_angle[0].data(), motor_angle[1].data()},
+                                         {motor_speed[0].data(), motor_speed[1].data()}});
+    take(g, joints);
+    for (std::size_t l = 0; l < g.count; ++l) {
+      torques[g.first + l] = torque[l];
+      unsettled += open >> l & 1U;
+    }
+  }
+  return unsettled;
+}
+
+}  // namespace vsa::device

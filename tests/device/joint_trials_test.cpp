@@ -1,0 +1,152 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Coupled joints whose units are tried side by side, beside each by itself: the same bits, for every instruction set that this
+// machine has, whatever stands beside whom.
+#include "vsa/device/joint_trials.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "support/one_joint.hpp"
+#include "vsa/device/joint_solver.hpp"
+#include "vsa/device/unit_batch.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::test {
+namespace {
+
+using device::JointInStep;
+using device::JointSolver;
+using device::StepPlan;
+using device::Unit;
+using device::UnitBatch;
+using device::UnitConfig;
+using device::UnitState;
+
+UnitConfig with_tendons() {
+  UnitConfig config = maker_pro();
+  config.actuator.tendon = {0.06, 2e-3, 3e-3};
+  return config;
+}
+UnitConfig without_lanes() {
+  UnitConfig config = maker_pro();
+  config.actuator.motor.inductance_H = 1e-3;
+  return config;
+}
+
+/// A tree of joints: a letter for each unit's type, and the mobility of a random chain.
+struct TreeOfUnits {
+  TreeOfUnits(const std::string& types, std::string_view instructions, unsigned seed)
+      : units{Unit(maker_pro()), Unit(with_tendons()), Unit(without_lanes())},
+        n(types.size()),
+        solver(n, instructions),
+        states(n),
+        plans(n),
+        angle(n),
+        speed(n),
+        torque(n),
+        mobility(n * n) {
+    std::mt19937 rng(seed);
+    const auto draw = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(rng); };
+    std::vector<double> root(n * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      Unit& unit = units[static_cast<std::size_t>(types[i] - 'a')];
+      states[i] = unit.initial(draw(-0.5, 0.5), draw(0, 0.7), angle[i] = draw(-0.5, 0.5));
+      speed[i] = draw(-2, 2);
+      joints.push_back({&unit, &states[i], &plans[i]});
+      for (std::size_t k = 0; k <= i; ++k) root[i * n + k] = k == i ? draw(5, 60) : draw(-8, 8);
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t m = 0; m < n; ++m) mobility[i * n + k] += root[i * n + m] * root[k * n + m];
+  }
+
+  void step(std::int64_t dt_ns) {
+    solver.set(mobility, dt_ns);
+    for (std::size_t i = 0; i < n; ++i)
+      joints[i].unit->begin_step(states[i], plans[i], now_ns, dt_ns, {angle[i], speed[i], mobility[i * n + i], placed == i});
+    placed = n;
+    if (Unit::first_tick_ns(now_ns + 1) < now_ns + dt_ns) solver.predict(joints);
+    for (std::int64_t at = Unit::first_tick_ns(now_ns); at < now_ns + dt_ns; at += firmware::kTickNs) {
+      for (std::size_t i = 0; i < n; ++i) {
+        firmware::Output out;
+        const firmware::TickInputs sensors = joints[i].unit->sample(states[i], plans[i], at);
+        joints[i].unit->program().tick(states[i].program, sensors, at, out);
+        joints[i].unit->hold(states[i], plans[i]);
+      }
+    }
+    unsettled += solver.solve(joints, torque) ? 0 : 1;
+    const double dt = 1e-9 * static_cast<double>(dt_ns);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k) speed[i] += dt * mobility[i * n + k] * (torque[k] - 0.02 * speed[k]);
+    for (std::size_t i = 0; i < n; ++i) angle[i] += dt * speed[i];
+    now_ns += dt_ns;
+  }
+
+  [[nodiscard]] std::vector<double> numbers() const {
+    std::vector<double> all(n * Unit::state_size());
+    for (std::size_t i = 0; i < n; ++i) Unit::save(states[i], std::span(all).subspan(i * Unit::state_size(), Unit::state_size()));
+    return all;
+  }
+
+  std::array<Unit, 3> units;
+  std::size_t n;
+  JointSolver solver;
+  std::vector<UnitState> states;
+  std::vector<StepPlan> plans;
+  std::vector<double> angle, speed, torque, mobility;
+  std::vector<JointInStep> joints;
+  std::size_t placed = static_cast<std::size_t>(-1);
+  std::int64_t now_ns = 0;
+  int unsettled = 0;
+};
+
+void compare(const std::string& types, std::int64_t dt_ns, std::string_view instructions, unsigned seed) {
+  TreeOfUnits beside(types, instructions, seed), alone(types, "none", seed);
+  std::mt19937 rng(seed + 1);
+  const auto draw = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(rng); };
+  for (int step = 0; step < 400; ++step) {
+    const std::size_t whose = static_cast<std::size_t>(step) % types.size();
+    const double q = draw(-1, 1), p = draw(0, 0.7), blow = draw(-60, 60);
+    for (TreeOfUnits* tree : {&beside, &alone}) {
+      const JointInStep& j = tree->joints[whose];
+      if (step % 7 == 0) j.unit->set_inputs(*j.state, j.unit->inputs_for(q, p));
+      if (step % 31 == 30) tree->speed[whose] += blow;  // Newton needs many rounds for it, in one lane of many
+      if (step == 150 || step == 250) j.state->faults.motor_unplugged[1] = true;
+      if (step == 200) tree->states[150 % types.size()].faults.motor_unplugged[1] = false;
+      if (step == 300) tree->angle[tree->placed = whose] = q;
+      tree->step(dt_ns);
+    }
+    ASSERT_EQ(beside.torque, alone.torque) << types << ", " << instructions << ", step " << step;
+  }
+  ASSERT_EQ(beside.numbers(), alone.numbers()) << types << ", " << instructions;
+  EXPECT_EQ(beside.unsettled, alone.unsettled);
+}
+
+TEST(JointTrials, OfUnitsSideBySideHaveTheBitsOfEachByItself) {
+  for (const std::string_view set : UnitBatch::instruction_sets()) {
+    unsigned seed = 1;
+    for (const char* types : {"aa", "aaa", "aaaaa", "aaaaaaaa", "aaaaaaaaa", "aaaaaaaaaaaa", "bbbbbbb", "abab", "aabbbaac",
+                              "caaacaaaaaaaaaaaac", "aaaaaaaaaaaaaaaaaaaaa"})
+      compare(types, 1'000'000, set, ++seed);
+  }
+}
+
+TEST(JointTrials, SoTheyDoInStepsOfOtherLengths) {
+  for (const std::string_view set : UnitBatch::instruction_sets())
+    for (const std::int64_t dt_ns : {250'000, 500'000, 700'000, 2'000'000, 3'300'000}) compare("aaaaabbbbbbaac", dt_ns, set, 5);
+}
+
+TEST(JointTrials, RefuseInstructionsThatThisMachineHasnt) {
+  EXPECT_THROW(JointSolver(3, "avx1024"), InputError);
+  EXPECT_NO_THROW(JointSolver(3, "none"));
+}
+
+}  // namespace
+}  // namespace vsa::test
