@@ -95,7 +95,7 @@ py::array_t<double> copied(const std::vector<double>& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-void fill(py::array to, const py::object& value, const char* name) {
+void fill(const py::array& to, const py::object& value, const char* name) {
   const auto given = py::array::ensure(value);
   if (!given) PyErr_Clear();
   const char kind = given ? given.dtype().kind() : 'O';

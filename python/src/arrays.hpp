@@ -39,7 +39,7 @@ template <std::size_t N>
 [[nodiscard]] py::array_t<double> copied(const std::vector<double>& values);
 
 /// `to` := what broadcasts to it. TypeError for what is no real numbers, InputError for another shape.
-void fill(py::array to, const py::object& value, const char* name);
+void fill(const py::array& to, const py::object& value, const char* name);
 
 /// Fields of a struct, for a structured dtype: `length` doubles (or whatever `format` says) at an offset.
 struct Field {

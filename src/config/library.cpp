@@ -74,7 +74,7 @@ fs::path TypeLibrary::find(std::string_view name) const {
   const std::vector<std::string> known = names();
   if (std::find(known.begin(), known.end(), name) != known.end()) {
     for (const fs::path& directory : directories_) {
-      const fs::path file = directory / (std::string(name) + std::string(kEnding));
+      fs::path file = directory / (std::string(name) + std::string(kEnding));
       std::error_code error;
       if (fs::exists(file, error)) return file;
     }

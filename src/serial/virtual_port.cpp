@@ -58,7 +58,7 @@ Descriptor make_event() {
 
 class VirtualPort::Server {
  public:
-  Server(bus::SerialLine& line, VirtualPortOptions options)
+  Server(bus::SerialLine& line, const VirtualPortOptions& options)
       : line_(line), most_held_(options.most_held_bytes), link_(options.path), stop_(make_event()) {
     link_.point_to(pair_.device());
     // Signals are for the program's own threads.
@@ -185,8 +185,8 @@ bool VirtualPort::Server::clients_left() {
   return true;
 }
 
-VirtualPort::VirtualPort(bus::SerialLine& line, VirtualPortOptions options)
-    : server_(std::make_unique<Server>(line, std::move(options))) {}
+VirtualPort::VirtualPort(bus::SerialLine& line, const VirtualPortOptions& options)
+    : server_(std::make_unique<Server>(line, options)) {}
 VirtualPort::~VirtualPort() = default;
 
 const std::string& VirtualPort::path() const noexcept { return server_->path(); }

@@ -14,8 +14,6 @@
 namespace vsa::topics {
 namespace {
 
-namespace msgs = ignition::msgs;
-
 constexpr std::string_view kPrefix = "/model/";
 constexpr std::string_view kSuffix = "/vsa/joint_state";
 

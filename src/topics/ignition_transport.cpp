@@ -30,7 +30,7 @@ struct Gate {
 /// A topic: what waits to be sent on it, and what was last known of its listeners.
 class Topic {
  public:
-  explicit Topic(Node::Publisher publisher) : publisher_(std::move(publisher)) {}
+  explicit Topic(const Node::Publisher& publisher) : publisher_(publisher) {}
   virtual ~Topic() = default;
   Topic(const Topic&) = delete;
   Topic& operator=(const Topic&) = delete;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string_view>
 
@@ -62,7 +63,7 @@ void encode(const host::Trajectory& trajectory, msgs::JointTrajectory& out) {
   for (const auto& point : trajectory.points) {
     auto& to = *out.add_points();
     for (const double position : point.positions) to.add_positions(position);
-    const auto ns = static_cast<std::int64_t>(point.time_from_start_s * 1e9 + 0.5);
+    const std::int64_t ns = std::llround(point.time_from_start_s * 1e9);
     to.mutable_time_from_start()->set_sec(ns / kNsPerSecond);
     to.mutable_time_from_start()->set_nsec(static_cast<std::int32_t>(ns % kNsPerSecond));
   }

@@ -8,8 +8,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <ignition/transport/Node.hh>
-#include <ignition/transport/TopicUtils.hh>
 #include <mutex>
 #include <set>
 #include <vector>
@@ -24,7 +24,6 @@ namespace {
 
 namespace msgs = ignition::msgs;
 using ignition::transport::Node;
-using ignition::transport::TopicUtils;
 using std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
@@ -146,7 +145,7 @@ void WorldServer::Impl::publish_stats(steady_clock::time_point now) {
   set_time(*message.mutable_header()->mutable_stamp(), world.time_ns());
   set_time(*message.mutable_sim_time(), world.time_ns());
   set_time(*message.mutable_real_time(), std::chrono::nanoseconds(now - start).count());
-  set_time(*message.mutable_step_size(), static_cast<std::int64_t>(world.step_s() * 1e9 + 0.5));
+  set_time(*message.mutable_step_size(), std::llround(world.step_s() * 1e9));
   message.set_paused(control.paused());
   message.set_iterations(iterations);
   message.set_real_time_factor(wall_s > 0 && sim_s > 0 ? sim_s / wall_s : 0.0);
@@ -160,7 +159,7 @@ void WorldServer::Impl::refresh(steady_clock::time_point now) {
   stats_wanted = stats.HasConnections();
 }
 
-WorldServer::WorldServer(engine::World& world, seat::RunControl& control, host::RobotTopics::Report report) {
+WorldServer::WorldServer(engine::World& world, seat::RunControl& control, const host::RobotTopics::Report& report) {
   prefer_loopback();
   impl_ = std::make_unique<Impl>(world, control);
   impl_->advertise(report);

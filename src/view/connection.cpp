@@ -22,7 +22,7 @@ std::string_view view_of(boost::string_view text) { return {text.data(), text.si
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(Hub& hub, tcp::socket socket) : hub_(hub), seat_(std::make_unique<Seat>(hub)), stream_(std::move(socket)) {
+  Connection(Hub& hub, Tcp::socket socket) : hub_(hub), seat_(std::make_unique<Seat>(hub)), stream_(std::move(socket)) {
     parser_.header_limit(kHeaderMax);
     parser_.body_limit(0);
   }
@@ -90,7 +90,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     stream_.expires_after(kAnswerTime);
     http::async_write(stream_, response_, [self = shared_from_this()](Error, std::size_t) {
       Error ignored;
-      self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+      self->stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
     });
   }
 
@@ -104,7 +104,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
 }  // namespace
 
-void greet_connection(Hub& hub, tcp::socket socket) { std::make_shared<Connection>(hub, std::move(socket))->run(); }
+void greet_connection(Hub& hub, Tcp::socket socket) { std::make_shared<Connection>(hub, std::move(socket))->run(); }
 
 bool is_loopback_host(std::string_view host) noexcept {
   std::string_view port;

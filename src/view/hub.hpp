@@ -25,7 +25,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
-using tcp = asio::ip::tcp;
+using Tcp = asio::ip::tcp;
 using Error = boost::system::error_code;
 using Frame = std::shared_ptr<const std::string>;
 
@@ -72,7 +72,7 @@ class Seat {
 };
 
 /// Reads one HTTP request, answers it or makes a viewer of its sender.
-void greet_connection(Hub& hub, tcp::socket socket);
+void greet_connection(Hub& hub, Tcp::socket socket);
 
 class Viewer : public std::enable_shared_from_this<Viewer> {
  public:

@@ -27,7 +27,7 @@ struct Server::Impl {
   void farewell(int looks);
 
   Hub hub;
-  tcp::acceptor acceptor{hub.io};
+  Tcp::acceptor acceptor{hub.io};
   asio::steady_timer pause{hub.io};
   std::uint16_t port = 0;
   std::thread thread;
@@ -39,7 +39,7 @@ void Server::Impl::listen() {
                              "a free port, or 0 for any"});
   };
   Error error;
-  acceptor.open(tcp::v4(), error);
+  acceptor.open(Tcp::v4(), error);
   if (error) fail(error);
   acceptor.set_option(asio::socket_base::reuse_address(true), error);
   acceptor.bind({asio::ip::address_v4::loopback(), hub.options.port}, error);
@@ -50,7 +50,7 @@ void Server::Impl::listen() {
 }
 
 void Server::Impl::accept() {
-  acceptor.async_accept([this](Error error, tcp::socket socket) {
+  acceptor.async_accept([this](Error error, Tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
     if (error) {  // out of file descriptors, say: a moment later there may be one
       pause.expires_after(kRetryAccept);

@@ -28,7 +28,7 @@ void Viewer::run(http::request<http::empty_body> upgrade) {
   upgrade_ = std::move(upgrade);
   Error ignored;
   auto& tcp_socket = beast::get_lowest_layer(socket_).socket();
-  tcp_socket.set_option(tcp::no_delay(true), ignored);
+  tcp_socket.set_option(Tcp::no_delay(true), ignored);
   tcp_socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
   beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has its own clock
   socket_.set_option(websocket::stream_base::timeout{kHandshake, kSilence, true});

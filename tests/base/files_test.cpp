@@ -27,7 +27,7 @@ class Files : public testing::Test {
 TEST_F(Files, AreReadByteForByte) {
   const std::string bytes = std::string("a\0\r\n\xff", 5) + ", no line's end";
   std::ofstream(folder / "some", std::ios::binary) << bytes;
-  std::ofstream(folder / "empty");
+  std::ofstream(folder / "empty").close();
   EXPECT_EQ(vsa::read_file(folder / "some"), bytes);
   EXPECT_EQ(vsa::read_file(folder / "empty"), "");
 }

@@ -62,7 +62,7 @@ class Hidden {
 
  private:
   double kept_ = 0;
-  std::array<double, 2> forgotten_{};
+  [[maybe_unused]] std::array<double, 2> forgotten_{};
 };
 static_assert(vsa::state::names_all<Everything>() && vsa::state::names_all<Inner>());
 static_assert(!vsa::state::names_all<Forgetful>(), "a forgotten member is noticed");

@@ -62,8 +62,8 @@ TEST(TenThousandTimes, AWorld) {
 TEST(HundredsOfTimes, AWorldFromItsFileOrNone) {
   again_and_again(kTimes / 25, [&](int k) {
     if (k % 2 == 0) World::load("bench_load.sdf").step();
-    EXPECT_THROW(World::load("no_such_world.sdf"), InputError);
-    EXPECT_THROW(World::load_string("<sdf version='1.6'><world name='w'><model"), InputError);
+    EXPECT_THROW((void)World::load("no_such_world.sdf"), InputError);
+    EXPECT_THROW((void)World::load_string("<sdf version='1.6'><world name='w'><model"), InputError);
   });
 }
 

@@ -193,7 +193,7 @@ TEST(Hostile, AWorldThatWasMovedFromSaysSo) {
   const JointHandle joint = full.joint("arm::elbow");
   const LinkHandle link = full.link("arm::fore");
   World taken = std::move(full);
-  World& w = full;
+  World& w = full;  // NOLINT(bugprone-use-after-move): that is what is tested
   std::vector<Contact> contacts;
   std::vector<double> numbers(36);
   const auto says_so = [](auto&& call) { EXPECT_THROW(static_cast<void>(call()), std::logic_error); };
@@ -261,8 +261,6 @@ using motion::GaitParams;
 using motion::motion_time;
 using motion::motion_value;
 using motion::MotionParams;
-using motion::steer;
-using motion::SteeringState;
 
 GaitParams wave() {
   GaitParams params;

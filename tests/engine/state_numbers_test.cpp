@@ -165,9 +165,9 @@ TEST_F(StateFile, IsRefusedWhereItDoesntFit) {
   const Numbers before = numbers_of(other);
   EXPECT_NE(what_of([&] { other.restore_file(file); }).find("another world"), std::string::npos);
   EXPECT_EQ(first_difference(numbers_of(other), before), std::nullopt);
-  const auto said = [&](std::string bytes) {
+  const auto said = [&](const std::string& bytes) {
     write(bytes);
-    const std::string out = what_of([&] { w.restore_file(file); });
+    std::string out = what_of([&] { w.restore_file(file); });
     EXPECT_NE(out.find("at.state"), std::string::npos) << out;
     return out;
   };

@@ -139,6 +139,7 @@ void client_side(Wire wire, std::uint8_t id, Input bytes) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2) return 0;
   const Wire wire{(data[0] & 1) != 0 ? Dialect::seven : Dialect::six, (data[0] & 2) != 0, (data[0] & 4) != 0};

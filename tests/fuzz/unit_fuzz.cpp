@@ -142,6 +142,7 @@ void through_the_port(bus::ByteReader in, Units& units) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2) return 0;
   const std::size_t count = 1 + data[1] % 4;

@@ -101,7 +101,7 @@ inline void expect_recording(const std::filesystem::path& out, const std::string
 
 inline int free_port() {
   view::testing::asio::io_context io;
-  view::testing::tcp::acceptor acceptor(io, {view::testing::asio::ip::address_v4::loopback(), 0});
+  view::testing::Tcp::acceptor acceptor(io, {view::testing::asio::ip::address_v4::loopback(), 0});
   return acceptor.local_endpoint().port();
 }
 

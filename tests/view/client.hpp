@@ -25,7 +25,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
-using tcp = asio::ip::tcp;
+using Tcp = asio::ip::tcp;
 using Error = boost::system::error_code;
 
 inline std::string own_host(std::uint16_t port) { return "127.0.0.1:" + std::to_string(port); }
@@ -42,7 +42,7 @@ inline bool eventually(const std::function<bool()>& holds) {
 
 struct Socket {
   asio::io_context io;
-  tcp::socket tcp_socket{io};
+  Tcp::socket tcp_socket{io};
   explicit Socket(std::uint16_t port) { tcp_socket.connect({asio::ip::address_v4::loopback(), port}); }
   void write(const std::string& bytes) {
     Error ignored;
@@ -119,13 +119,13 @@ class Client {
     Error error;
     socket_.close(websocket::close_code::normal, error);
   }
-  tcp::socket& below() { return beast::get_lowest_layer(socket_); }
+  Tcp::socket& below() { return beast::get_lowest_layer(socket_); }
 
   bool open = false, binary = false;
 
  private:
   asio::io_context io_;
-  websocket::stream<tcp::socket> socket_{io_};
+  websocket::stream<Tcp::socket> socket_{io_};
 };
 
 inline constexpr const char* kNext = R"({"do":"next"})";

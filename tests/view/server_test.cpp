@@ -235,7 +235,7 @@ TEST(Server, SurvivesRandomBytesBeforeAndAfterTheHandshake) {
     socket.write(text);
     if (i % 2 == 0) {
       Error ignored;
-      socket.tcp_socket.shutdown(tcp::socket::shutdown_send, ignored);
+      socket.tcp_socket.shutdown(Tcp::socket::shutdown_send, ignored);
       socket.read_all();
     } else {
       socket.abort();

@@ -13,7 +13,7 @@ namespace vsa::elastic {
   // ln 2 in two parts; the first has 32 bits, so that k times it is exact.
   constexpr double kLn2High = 0x1.62e42fefp-1, kLn2Low = 0x1.473de6af278edp-34;
   if (!(x < 709.0)) return x == x ? HUGE_VAL : x;
-  const int k = static_cast<int>(x * kPerLn2 + 0.5);  // NOLINT(bugprone-incorrect-rounding): a tie may go either way
+  const int k = static_cast<int>(x * kPerLn2 + 0.5);  // NOLINT(bugprone-incorrect-roundings): a tie may go either way
   const double high = x - k * kLn2High, low = k * kLn2Low, r = high - low, lost = (high - r) - low;
   double series = 1.0 / 87178291200.0;  // 1/14!
   constexpr double kTerms[] = {1.0 / 6227020800.0, 1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0,

@@ -30,7 +30,8 @@ inline bool follow_word(std::int32_t sample, bool whole_jump, std::int32_t& last
   const bool suspect = down + up == 0 && size > kSuspectJump;
   const std::int32_t refused = suspect ? rejected + 1 : 0;
   const bool believed = refused == 0 || refused >= kBelieveAfter;
-  turns = static_cast<Turns>(static_cast<std::int8_t>(turns + up - down));
+  const auto counted = static_cast<std::int8_t>(turns + up - down);  // it wraps as the firmware's own
+  turns = Turns{counted};
   rejected = static_cast<Rejected>(believed ? 0 : refused);
   last = believed ? sample : last;
   return believed;

@@ -43,7 +43,7 @@ class VirtualPort {
  public:
   /// Serves at once. `line` must outlive the port, and may be locked by others for microseconds only. Throws InputError for a path
   /// that can't be had, std::system_error where the system has no pseudo-terminal left.
-  VirtualPort(bus::SerialLine& line, VirtualPortOptions options);
+  VirtualPort(bus::SerialLine& line, const VirtualPortOptions& options);
   /// Ends the thread and removes the link.
   ~VirtualPort();
   VirtualPort(const VirtualPort&) = delete;

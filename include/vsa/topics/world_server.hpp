@@ -22,7 +22,7 @@ class WorldServer {
  public:
   /// Throws InputError for names that can't be topics. `report` gets readable lines, from any thread: all that the robots' seats
   /// have to tell as long as the server lives.
-  WorldServer(engine::World& world, seat::RunControl& control, host::RobotTopics::Report report);
+  WorldServer(engine::World& world, seat::RunControl& control, const host::RobotTopics::Report& report);
   ~WorldServer();
   WorldServer(const WorldServer&) = delete;
   WorldServer& operator=(const WorldServer&) = delete;

@@ -26,7 +26,7 @@ struct Loop {
       meas[e][lane] = c.meas[n];
       meas_old[e][lane] = c.meas_old[n];
       last_sample[e][lane] = c.last_sample[n];
-      turns[e][lane] = c.turns[n];
+      turns[e][lane] = std::int32_t{c.turns[n]};
       rejected[e][lane] = c.rejected[n];
       offset[e][lane] = s.program.memory.stored.offset[n];
       word[e][lane] = s.last_encoder[n];
@@ -40,7 +40,7 @@ struct Loop {
       pwm[m][lane] = c.pwm[n];
       duty[m][lane] = c.duty[n];
       forward[m][lane] = c.forward[n] ? 1 : 0;
-      sign[m][lane] = c.current_sign[n];
+      sign[m][lane] = std::int32_t{c.current_sign[n]};
       filter[m][lane] = c.current_filter[n];
       current_old[m][lane] = c.current_old[n].value;
       current_before[m][lane] = c.current_before[n].value;
