@@ -133,6 +133,42 @@ std::vector<std::vector<std::size_t>> MujocoPhysics::trees(std::span<const std::
   return out;
 }
 
+/// What equalities take from B: with J of their rows (mimics, closures of loops) and R, by which MuJoCo softens them,
+///   B −= X^T (J M⁻¹ J^T + R)⁻¹ X,   X = J M⁻¹ of the joints' columns
+void MujocoPhysics::tie(std::span<const std::size_t> joints, std::span<double> out) {
+  const mjModel* m = model_.get();
+  const auto rows = static_cast<std::size_t>(data_->ne), nv = static_cast<std::size_t>(m->nv), n = joints.size();
+  if (rows == 0) return;
+  row_.resize(static_cast<std::size_t>(m->njmax));  // once: equalities stay as many as they are
+  tied_.resize(rows * nv);
+  ties_.resize(rows * rows);
+  of_joint_.resize(2 * rows);
+  for (std::size_t r = 0; r < rows; ++r) {
+    row_[r] = 1;
+    mj_mulJacTVec(m, data_.get(), unit_.data(), row_.data());
+    row_[r] = 0;
+    mj_solveM(m, data_.get(), &tied_[r * nv], unit_.data(), 1);
+    mju_zero(unit_.data(), m->nv);
+    mj_mulJacVec(m, data_.get(), row_.data(), &tied_[r * nv]);
+    std::copy_n(row_.data(), rows, &ties_[r * rows]);
+    ties_[r * rows + r] += data_->efc_R[r];
+    mju_zero(row_.data(), data_->nefc);
+  }
+  mju_cholFactor(ties_.data(), data_->ne, mjMINVAL);
+  mjtNum *const x = of_joint_.data(), *const y = x + rows;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t r = 0; r < rows; ++r) x[r] = tied_[r * nv + static_cast<std::size_t>(joint_[joints[i]].v)];
+    mju_cholSolve(y, ties_.data(), x, data_->ne);
+    for (std::size_t k = 0; k <= i; ++k) {
+      const auto v = static_cast<std::size_t>(joint_[joints[k]].v);
+      mjtNum sum = 0;
+      for (std::size_t r = 0; r < rows; ++r) sum += tied_[r * nv + v] * y[r];
+      out[i * n + k] -= sum;
+      if (k < i) out[k * n + i] -= sum;
+    }
+  }
+}
+
 // mj_Euler steps v' = v + dt·(M + dt·D)⁻¹ f with the joints' damping D.
 void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<double> out) {
   const mjModel* m = model_.get();
@@ -149,6 +185,7 @@ void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<doub
     unit_[static_cast<std::size_t>(v)] = 0;
     for (std::size_t k = 0; k < n; ++k) out[i * n + k] = column_[static_cast<std::size_t>(joint_[joints[k]].v)];
   }
+  tie(joints, out);
   if (damped_) {
     std::copy(mass_matrix_.begin(), mass_matrix_.end(), data_->qM);
     mj_factorM(m, data_.get());

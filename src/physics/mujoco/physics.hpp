@@ -70,6 +70,7 @@ class MujocoPhysics final : public Physics {
   std::optional<Refusal> find_fault() const;
   std::optional<Refusal> check(const mjtNum* values, int n, bool positions, const char* quantity) const;
 
+  void tie(std::span<const std::size_t> joints, std::span<double> out);
   mjModel& own_model();
 
   std::shared_ptr<mjModel> model_;  // of all of the file: never changed, but replaced by grow() and own_model()
@@ -84,8 +85,9 @@ class MujocoPhysics final : public Physics {
   std::vector<std::string> q_owner_, v_owner_;
   std::vector<double> before_;  // the state, of the last prepare()
   std::vector<mjtNum> unit_, column_, jacobian_, mobility_, mass_matrix_;
-  bool damped_ = false;   // some joint has damping, which MuJoCo's Euler takes implicitly
-  bool stepped_ = false;  // data_ holds the contacts of the last step
+  std::vector<mjtNum> row_, tied_, ties_, of_joint_;  // of equalities; row_ is 0
+  bool damped_ = false;                               // some joint has damping, which MuJoCo's Euler takes implicitly
+  bool stepped_ = false;                              // data_ holds the contacts of the last step
 };
 
 }  // namespace vsa::physics
