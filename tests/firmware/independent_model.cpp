@@ -36,13 +36,13 @@ std::int64_t kept_below(std::int64_t wish, std::int64_t limit) noexcept {
 }
 
 /// Percent for 8 V in steps of 0.512 V, from 8 V up.
-std::int64_t eight_volts(std::int64_t mV) noexcept {
+std::int64_t eight_volts(std::int64_t millivolts) noexcept {
   static constexpr const char* digits =
       "100 76 71 69 67 65 63 61 60 58 57 56 55 54 53 52 51 50 49 49 48 47 47 46 45 45 45 44 44 43 43 43 43 42 42";
-  if (mV < 8000) return 100;
-  if (mV > 25500) return 0;
+  if (millivolts < 8000) return 100;
+  if (millivolts > 25500) return 0;
   const char* p = digits;
-  for (std::int64_t skip = (mV - 8000) / 512; skip > 0; --skip)
+  for (std::int64_t skip = (millivolts - 8000) / 512; skip > 0; --skip)
     while (*p++ != ' ') continue;
   std::int64_t v = 0;
   for (; *p >= '0' && *p <= '9'; ++p) v = 10 * v + (*p - '0');
@@ -149,8 +149,8 @@ void IndependentUnit::analog(const Scenario& in) noexcept {
       continue;
     }
     limit_ = eight_volts(supply_);
-    const std::int64_t mA = sign_[i] * floor_part(word(residue(in.adc[1 + i] - 1638, 16) * 25771), 13);
-    filter_[i] = floor_part(word(filter_[i] * 1021 + mA * 64 * 3), 10);
+    const std::int64_t milliamps = sign_[i] * floor_part(word(residue(in.adc[1 + i] - 1638, 16) * 25771), 13);
+    filter_[i] = floor_part(word(filter_[i] * 1021 + milliamps * 64 * 3), 10);
     current_[i] = floor_part(filter_[i], 6);
   }
 }

@@ -262,7 +262,7 @@ TEST(Generation, OnePercentDownWasLostToo) {
 }
 
 TEST(Generation, TheSupplysTablesAreThoseOfTheirTime) {
-  const auto pct = [](int mV, Generation g) { return supply_limit_pct(vsa::MilliVolt{mV}, g); };
+  const auto pct = [](int millivolts, Generation g) { return supply_limit_pct(vsa::MilliVolt{millivolts}, g); };
   EXPECT_EQ(pct(12000, Generation::v6), 61);
   EXPECT_EQ(pct(12000, Generation::v4), 60);
   EXPECT_EQ(pct(11999, Generation::v4), 61);

@@ -16,7 +16,6 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/numbers.hpp"
 #include "terminal/output_files.hpp"
-#include "terminal/settings.hpp"
 
 namespace vsa::app {
 namespace {
@@ -37,7 +36,7 @@ Examples:
 study::CharacterizationOptions study_of(const CharacterizeOptions& o) {
   study::CharacterizationOptions out;
   out.specimen.type = o.type;
-  out.specimen.overrides = parse_settings(o.set, "--set");
+  out.specimen.overrides = config::parse_overrides(o.set, "--set");
   out.specimen.step_s = o.step_s;
   for (const auto e : {study::Experiment::stiffness, study::Experiment::speed, study::Experiment::preset_step}) {
     if (std::find(o.experiments.begin(), o.experiments.end(), study::word(e)) != o.experiments.end()) out.experiments.push_back(e);

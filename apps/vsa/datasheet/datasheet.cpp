@@ -14,7 +14,6 @@
 #include "terminal/follow.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/numbers.hpp"
-#include "terminal/settings.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::app {
@@ -58,7 +57,7 @@ int run_datasheet(const DatasheetOptions& options) {
   const std::filesystem::path file = options.out.empty() ? "datasheet_" + options.type + ".html" : options.out;
   experiment::Specimen specimen;
   specimen.type = options.type;
-  specimen.overrides = parse_settings(options.set, "--set");
+  specimen.overrides = config::parse_overrides(options.set, "--set");
   specimen.step_s = options.step_s;
   study::DataSheet plan = study::plan_data_sheet(specimen);
   check_writable(file);

@@ -18,7 +18,6 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/numbers.hpp"
 #include "terminal/output_files.hpp"
-#include "terminal/settings.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/identify/bench_model.hpp"
@@ -186,7 +185,7 @@ int run_identify(const IdentifyOptions& o) {
   Identification r;
   experiment::Specimen specimen;
   specimen.type = o.type;
-  specimen.overrides = parse_settings(o.set, "--set");
+  specimen.overrides = config::parse_overrides(o.set, "--set");
   r.type = specimen.library.load(o.type, specimen.overrides);
   r.command = command_of(o);
   r.name = o.name;

@@ -16,7 +16,6 @@
 #include "terminal/exit_codes.hpp"
 #include "terminal/numbers.hpp"
 #include "terminal/output_files.hpp"
-#include "terminal/settings.hpp"
 #include "vsa/config/find_file.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
@@ -65,7 +64,7 @@ linear::DryFriction friction_of(const LinearizeOptions& o) {
 study::LinearizationOptions study_of(const LinearizeOptions& o) {
   study::LinearizationOptions out;
   out.specimen.type = o.target;
-  out.specimen.overrides = parse_settings(o.set, "--set");
+  out.specimen.overrides = config::parse_overrides(o.set, "--set");
   out.point = {o.equilibrium_rad.value_or(0), o.preset_rad.value_or(0), o.at_rad,
                o.load_Nm.value_or(0),         o.inertia_kgm2,           o.damping_Nms_per_rad.value_or(0)};
   out.firmware = firmware_of(o);
@@ -155,7 +154,7 @@ study::WorldLinearization world_of(const LinearizeOptions& o) {
   engine::WorldOptions with;
   if (!o.type.empty()) with.actuator.type = o.type;
   with.actuator.flag = "--set";
-  with.actuator.overrides = parse_settings(o.set, "--set");
+  with.actuator.overrides = config::parse_overrides(o.set, "--set");
   return study::linearize(engine::World::load(o.target, std::move(with)), point, firmware_of(o), friction_of(o));
 }
 

@@ -43,7 +43,7 @@ void check(const RunOptions& options) {
   if (options.paused && options.no_topics && !options.view) {
     throw InputError({"", "--paused", "", "with --no-topics nobody could let it run", "--view, or topics"});
   }
-  if (options.duration_s && !(*options.duration_s > 0 && *options.duration_s <= kLongest_s)) {
+  if (options.duration_s && !(*options.duration_s > 0 && *options.duration_s <= scenario::kLongest_s)) {
     throw InputError({"", "--duration-s", fmt::format("{}", *options.duration_s), "out of range", "above 0 to 1e8 s"});
   }
   std::error_code differs;
@@ -96,14 +96,15 @@ class Flags {
   explicit Flags(CLI::App& sub) : sub_(sub) {}
   RunOptions options;
 
-  template <class T>
-  CLI::Option* value(const char* name, T RunOptions::*to, const std::string& help) {
+  /// Of: RunOptions or the scenario that it is.
+  template <class T, class Of>
+  CLI::Option* value(const char* name, T Of::*to, const std::string& help) {
     return kept(sub_.add_option(name, options.*to, help), [this, to](RunOptions& over) { over.*to = options.*to; });
   }
   CLI::Option* flag(const char* name, bool RunOptions::*to, const std::string& help) {
     return kept(sub_.add_flag(name, options.*to, help), [this, to](RunOptions& over) { over.*to = options.*to; });
   }
-  CLI::Option* list(const char* name, std::vector<std::string> RunOptions::*to, const std::string& help) {
+  CLI::Option* list(const char* name, std::vector<std::string> scenario::Scenario::*to, const std::string& help) {
     return kept(sub_.add_option(name, options.*to, help)->allow_extra_args(false),
                 [this, to](RunOptions& over) { (over.*to).insert((over.*to).end(), (options.*to).begin(), (options.*to).end()); });
   }
@@ -146,7 +147,7 @@ void add_world(Flags& flags) {
   flags
       .value("--seed", &RunOptions::seed,
              "Of faults that draw by chance without a seed of their own: the first one's; each further one's is 1000 more")
-      ->check(CLI::Range(0.0, kLargestSeed));
+      ->check(CLI::Range(0.0, scenario::kLargestSeed));
   flags
       .value("--concave", &RunOptions::concave, "Concave collision meshes: refuse (default), hull (fill), decompose (convex parts)")
       ->check(CLI::IsMember({"refuse", "hull", "decompose"}));

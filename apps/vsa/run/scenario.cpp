@@ -1,36 +1,17 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "run/scenario.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <sstream>
 
-#include "vsa/config/find_file.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/config/toml_section.hpp"
-#include "vsa/motion/gait_text.hpp"
+#include "vsa/scenario/toml.hpp"
 
 namespace vsa::app {
 namespace {
 
 namespace fs = std::filesystem;
 using config::TomlSection;
-
-constexpr const char* kWorlds = "models/worlds";
-constexpr const char* kGaits = "models/gaits";
-constexpr double kAny = std::numeric_limits<double>::max();
-
-/// A file beside the scenario, or a built-in one.
-std::string file_at(TomlSection& section, const char* key, const fs::path& scenario, const char* folder, const char* extension) {
-  const std::string given = section.text(key).value_or("");
-  if (given.empty()) return "";
-  try {
-    return config::find_file(given, key, folder, extension, scenario.parent_path()).string();
-  } catch (const InputError& error) {
-    section.add(key, given, error.problems().front().message, error.problems().front().allowed);
-    return "";
-  }
-}
 
 /// A directory or file that needn't be there yet.
 std::string path_at(TomlSection& section, const char* key, const fs::path& scenario, const std::string& otherwise) {
@@ -46,14 +27,7 @@ std::string speed_at(TomlSection& section) {
   return factor ? config::number_text(*factor) : "";
 }
 
-void read_run(TomlSection s, const fs::path& file, RunOptions& out) {
-  out.world = file_at(s.need("world", "an SDF file, or a built-in world's name"), "world", file, kWorlds, ".sdf");
-  out.duration_s = s.number("duration_s", kShortest_s, kLongest_s);
-  out.step_s = s.number("step_s", kShortest_s, 1);
-  out.type = s.text("type").value_or("");
-  out.concave = s.word("concave", {"refuse", "hull", "decompose"}).value_or(out.concave);
-  if (const auto seed = s.whole("seed", 0, kLargestSeed)) out.seed = static_cast<std::uint64_t>(*seed);
-  out.faults = s.texts("faults");
+void read_run(TomlSection& s, const fs::path& file, RunOptions& out) {
   out.speed = speed_at(s);
   out.low_latency = s.flag("low_latency").value_or(false);
   out.view = s.flag("view").value_or(false);
@@ -61,110 +35,13 @@ void read_run(TomlSection s, const fs::path& file, RunOptions& out) {
   out.view_records = path_at(s, "view_records", file, out.view_records);
   out.paused = s.flag("paused").value_or(false);
   out.no_topics = !s.flag("topics").value_or(true);
+}
+
+void read_record(TomlSection s, const fs::path& file, RunOptions& out) {
+  out.record = path_at(s, "directory", file, "");
+  out.record_rate_Hz = s.number("rate_Hz", kSlowestRecord_Hz, kFastestRecord_Hz).value_or(out.record_rate_Hz);
+  out.page_rate_Hz = s.number("page_rate_Hz", kSlowestRecord_Hz, kFastestRecord_Hz).value_or(out.page_rate_Hz);
   s.refuse_others();
-}
-
-/// All but its file is what a gait file may say, too, and read as one.
-void read_motion(const toml::table* table, const fs::path& file, Problems& problems, RunOptions& out) {
-  if (table == nullptr) return;
-  TomlSection s(table, file.string(), "motion.", problems);
-  out.gait = file_at(s, "file", file, kGaits, ".toml");
-  if (table->contains("base")) s.add("base", "", "is for gait files", "file = the gait to begin with");
-  toml::table changes(*table);
-  changes.erase("file");
-  if (changes.empty()) return;
-  std::ostringstream text;
-  text << changes;
-  out.motion = text.str();
-}
-
-void read_commands(const std::vector<const toml::table*>& all, const fs::path& file, Problems& problems, RunOptions& out) {
-  for (const toml::table* table : all) {
-    const std::string place = file.string() + ":" + std::to_string(table->source().begin.line);
-    TomlSection s(table, place, "command.", problems);
-    s.need("time_s", "0 … 1e8").need("actuator", "its name");
-    RunOptions::Command c;
-    c.time_s = s.number("time_s", 0, kLongest_s).value_or(0);
-    c.actuator = s.text("actuator").value_or("");
-    c.equilibrium_rad = s.number("equilibrium_rad", -kAny, kAny);
-    c.preset_rad = s.number("preset_rad", -kAny, kAny);
-    s.refuse_others();
-    if (s.find("equilibrium_rad") == nullptr && s.find("preset_rad") == nullptr)
-      s.add("equilibrium_rad", "", "commands nothing", "equilibrium_rad, preset_rad or both");
-    out.commands.push_back(std::move(c));
-  }
-  const auto earlier = [](const RunOptions::Command& a, const RunOptions::Command& b) { return a.time_s < b.time_s; };
-  std::stable_sort(out.commands.begin(), out.commands.end(), earlier);
-}
-
-/// A built-in file's name, or the whole path.
-std::string name_of(const fs::path& file, const fs::path& folder) {
-  std::error_code differs;
-  const auto built_in = config::find_data(folder / file.filename());
-  return built_in && fs::equivalent(*built_in, file, differs) ? file.stem().string()
-                                                              : fs::absolute(file).lexically_normal().string();
-}
-
-toml::table set_table(const std::vector<std::string>& set) {
-  toml::table out;
-  for (const std::string& text : set) {
-    const std::string key = text.substr(0, text.find('=')), value = text.substr(text.find('=') + 1);
-    const auto number = config::parse_number(value);
-    // A number that would come back in other digits stays the text that was given.
-    if (const auto whole = config::parse_integer(value); whole && std::to_string(*whole) == value) {
-      out.insert_or_assign(key, *whole);
-    } else if (number && config::number_text(*number) == value) {
-      out.insert_or_assign(key, *number);
-    } else if (value == "true" || value == "false") {
-      out.insert_or_assign(key, value == "true");
-    } else {
-      out.insert_or_assign(key, value);
-    }
-  }
-  return out;
-}
-
-toml::table run_table(const RunOptions& o, double duration_s) {
-  toml::table out{{"world", name_of(config::find_file(o.world, "world", kWorlds, ".sdf"), kWorlds)}};
-  if (duration_s > 0) out.insert("duration_s", duration_s);
-  if (o.step_s) out.insert("step_s", *o.step_s);
-  if (!o.type.empty()) out.insert("type", o.type);
-  if (o.concave != RunOptions{}.concave) out.insert("concave", o.concave);
-  if (o.seed) out.insert("seed", static_cast<std::int64_t>(*o.seed));
-  toml::array faults;
-  for (const std::string& fault : o.faults) faults.push_back(fault);
-  if (!faults.empty()) out.insert("faults", std::move(faults));
-  return out;
-}
-
-toml::table motion_table(const RunOptions& o) {
-  toml::table out = toml::parse(o.motion);
-  if (!o.gait.empty()) out.insert("file", name_of(config::find_file(o.gait, "gait", kGaits, ".toml"), kGaits));
-  return out;
-}
-
-toml::array commands_array(const RunOptions& o) {
-  toml::array out;
-  for (const RunOptions::Command& c : o.commands) {
-    toml::table one{{"time_s", c.time_s}, {"actuator", c.actuator}};
-    if (c.equilibrium_rad) one.insert("equilibrium_rad", *c.equilibrium_rad);
-    if (c.preset_rad) one.insert("preset_rad", *c.preset_rad);
-    out.push_back(std::move(one));
-  }
-  return out;
-}
-
-/// toml++ writes 0.3 with seventeen digits.
-std::string with_short_numbers(const std::string& text) {
-  constexpr std::size_t kLong = 15;
-  std::string out;
-  for (const std::string& line : config::split(text, '\n')) {
-    const std::size_t at = line.rfind(" = ") + 3;
-    const auto number = line.find(" = ") == std::string::npos ? std::nullopt : config::parse_number(line.substr(at));
-    out +=
-        (out.empty() ? "" : "\n") + (number && line.size() - at > kLong ? line.substr(0, at) + config::number_text(*number) : line);
-  }
-  return out;
 }
 
 }  // namespace
@@ -176,51 +53,29 @@ RunOptions read_scenario(const fs::path& file) {
   Problems problems;
   TomlSection top(&root, file.string(), "", problems);
   RunOptions out;
-  out.scenario = file.string();
-  top.need("scenario", "a table with the world");
-  if (const toml::table* run = top.table("scenario")) read_run({run, file.string(), "scenario.", problems}, file, out);
-  for (const config::Override& o : top.overrides("set")) out.set.push_back(o.key + '=' + o.value);
-  read_motion(top.table("motion"), file, problems, out);
-  read_commands(top.tables("command"), file, problems, out);
-  TomlSection record(top.table("record"), file.string(), "record.", problems);
-  out.record = path_at(record, "directory", file, "");
-  out.record_rate_Hz = record.number("rate_Hz", kSlowestRecord_Hz, kFastestRecord_Hz).value_or(out.record_rate_Hz);
-  out.page_rate_Hz = record.number("page_rate_Hz", kSlowestRecord_Hz, kFastestRecord_Hz).value_or(out.page_rate_Hz);
-  record.refuse_others();
-  top.refuse_others();
+  if (const toml::table* table = top.need("scenario", "a table with the world").table("scenario")) {
+    TomlSection run(table, file.string(), "scenario.", problems);
+    static_cast<scenario::Scenario&>(out) = scenario::read(top, run, file, problems);
+    read_run(run, file, out);
+    run.refuse_others();
+    read_record({top.table("record"), file.string(), "record.", problems}, file, out);
+    top.refuse_others();
+  }
   problems.throw_if_any();
   return out;
-}
-
-std::optional<motion::Gait> load_motion(const RunOptions& options) {
-  const fs::path file = options.gait.empty() ? fs::path() : config::find_file(options.gait, "gait", kGaits, ".toml");
-  if (options.motion.empty()) return file.empty() ? std::nullopt : std::optional(motion::Gait::load(file));
-  toml::table whole = toml::parse(options.motion);
-  if (!file.empty()) whole.insert("base", fs::absolute(file).string());
-  std::ostringstream text;
-  text << whole;
-  try {
-    return motion::parse_gait(text.str(), options.scenario);
-  } catch (const InputError& error) {
-    std::vector<Problem> problems = error.problems();
-    for (Problem& p : problems) {
-      if (p.file == options.scenario) p.key = "motion." + p.key;
-    }
-    throw InputError(std::move(problems));
-  }
 }
 
 std::string scenario_text(const RunOptions& options, double duration_s, const std::vector<std::string>& remarks) {
   std::ostringstream out;
   out << "# Written by vsa run; `vsa run` with this file repeats the run.\n";
   for (const std::string& remark : remarks) out << "# " << remark << '\n';
-  out << '\n' << toml::table{{"scenario", run_table(options, duration_s)}} << '\n';
-  if (!options.set.empty()) out << '\n' << toml::table{{"set", set_table(options.set)}} << '\n';
-  if (const toml::table motion = motion_table(options); !motion.empty()) out << '\n' << toml::table{{"motion", motion}} << '\n';
-  if (!options.commands.empty()) out << '\n' << toml::table{{"command", commands_array(options)}} << '\n';
-  const toml::table record{{"rate_Hz", options.record_rate_Hz}, {"page_rate_Hz", options.page_rate_Hz}};
-  out << '\n' << toml::table{{"record", record}} << '\n';
-  return with_short_numbers(out.str());
+  out << '\n' << scenario::text(options, duration_s);
+  const auto number = [](double value) {
+    const std::string text = config::number_text(value);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+  };
+  out << "\n[record]\nrate_Hz = " << number(options.record_rate_Hz) << "\npage_rate_Hz = " << number(options.page_rate_Hz) << "\n";
+  return out.str();
 }
 
 }  // namespace vsa::app

@@ -29,18 +29,17 @@ RunSession::RunSession(const RunOptions& options, Console& console)
     : console_(console),
       options_(seeded(options)),
       speed_(speed_of(options)),
-      world_(load_world(options)),
-      gait_(load_motion(options)),
-      commands_(options, world_, gait_ ? &*gait_ : nullptr),
-      robot_model_(travelling_model(world_)),
-      travel_window_s_(travel_window_s(gait_)),
+      world_(scenario::load_world(options)),
+      player_(options, world_),
+      robot_model_(scenario::travelling_model(world_)),
+      travel_window_s_(scenario::travel_window_s(player_.gait())),
       control_(options.paused),
       travel_(travel_window_s_, 1 / kTravelRate_Hz),
       travel_cadence_(kTravelRate_Hz) {
   for (const auto& warning : world_.warnings()) console_.line("warning: " + warning);
   if (world_.robot_count() == 0)
     console_.line("warning: the world has no actuator: no model that moves has a <plugin name=\"vsa::Robot\">");
-  break_robots(world_, options_.faults);
+  scenario::break_robots(world_, options_.faults);
   const auto report = [&console](const std::string& line) { console.line(line); };
   for (std::size_t i = 0; i < world_.robot_count(); ++i) world_.seat(i).report_to(report);
   if (!options.no_topics) server_.emplace(world_, control_, report);
@@ -62,7 +61,7 @@ void RunSession::open_view(const RunOptions& options) {
   with.replay_template = config::find_data("web/replay.html").value_or("");
   with.records = options.view_records;
   with.speed = speed_;
-  view_.emplace(world_, gait_ ? &*gait_ : nullptr, &control_, std::move(with));
+  view_.emplace(world_, player_.gait(), &control_, std::move(with));
   console_.line("live view: " + view_->url());
 }
 
@@ -143,8 +142,7 @@ int RunSession::run() {
 
 void RunSession::step() {
   wall_.run();
-  if (gait_) gait_->apply(world_);
-  commands_.apply(world_, gait_ ? &*gait_ : nullptr);
+  player_.apply(world_);
   world_.step();
   ++steps_;
   if (recorder_) recorder_->sample(world_);
@@ -181,10 +179,9 @@ void RunSession::keep_time() {
 
 void RunSession::reset() {
   world_.reset();
-  break_robots(world_, options_.faults);
+  scenario::break_robots(world_, options_.faults);
   ++resets_;
-  commands_.reset(gait_ ? &*gait_ : nullptr);
-  if (gait_) gait_->reset();
+  player_.reset();
   travel_.restart();
   travel_cadence_.restart();
   if (recorder_) recorder_->sample(world_);

@@ -2,20 +2,19 @@
 //
 // One run of a world: what is loaded, in which order a step does what, and what is told at the end.
 //
-//   pages' requests → control requests → gait → scenario's commands → world.step() → record → travel → topics → view → wall clock
+//   pages' requests → control requests → gait, scenario's commands → world.step() → record → travel → topics → view → wall clock
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "run/command_player.hpp"
 #include "run/run.hpp"
 #include "terminal/console.hpp"
 #include "terminal/pace.hpp"
 #include "vsa/engine/world.hpp"
-#include "vsa/motion/gait.hpp"
 #include "vsa/record/recorder.hpp"
+#include "vsa/scenario/player.hpp"
 #include "vsa/seat/run_control.hpp"
 #include "vsa/study/travel.hpp"
 #include "vsa/topics/world_server.hpp"
@@ -54,8 +53,7 @@ class RunSession {
   RunOptions options_;
   std::optional<double> speed_;  // simulated by wall time; none: as fast as it can
   engine::World world_;
-  std::optional<motion::Gait> gait_;
-  CommandPlayer commands_;
+  scenario::Player player_;
   std::string robot_model_;  // top-level model of the first robot; empty: none, or one that is bolted down
   double travel_window_s_;
   seat::RunControl control_;

@@ -15,7 +15,6 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/numbers.hpp"
 #include "terminal/pace.hpp"
-#include "terminal/settings.hpp"
 #include "unit/port.hpp"
 #include "unit/port_report.hpp"
 #include "vsa/config/actuator_type.hpp"
@@ -60,7 +59,7 @@ void check(const EmulateOptions& o) {
 }
 
 std::vector<device::EmulatedUnit> units_of(const EmulateOptions& o) {
-  device::UnitConfig config = config::TypeLibrary().load(o.type, parse_settings(o.set, "--set")).unit;
+  device::UnitConfig config = config::TypeLibrary().load(o.type, config::parse_overrides(o.set, "--set")).unit;
   if (o.dialect) config.program.dialect = *o.dialect == 7 ? bus::Dialect::seven : bus::Dialect::six;
   if (o.active) config.memory.startup_activation = kMotorsOn;
   std::vector<device::EmulatedUnit> units(static_cast<std::size_t>(o.units));

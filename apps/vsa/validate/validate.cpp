@@ -12,7 +12,6 @@
 #include "terminal/follow.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/output_files.hpp"
-#include "terminal/settings.hpp"
 #include "validate/output.hpp"
 
 namespace vsa::app {
@@ -42,7 +41,7 @@ std::string command_of(const ValidateOptions& o) {
 study::ValidationOptions study_of(const ValidateOptions& o) {
   study::ValidationOptions out;
   out.specimen.type = o.type;
-  out.specimen.overrides = parse_settings(o.set, "--set");
+  out.specimen.overrides = config::parse_overrides(o.set, "--set");
   out.recordings.assign(o.recordings.begin(), o.recordings.end());
   out.leave_one_out = o.leave_one_out;
   out.bounds = o.bounds;

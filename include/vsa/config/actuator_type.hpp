@@ -86,6 +86,8 @@ class LawRegistry {
 struct Override {
   std::string key, value;
 };
+/// "drive.friction_Nm=0.7" → an override. Throws InputError with every text that has no key or no value. `from`: "--set".
+[[nodiscard]] std::vector<Override> parse_overrides(const std::vector<std::string>& texts, const std::string& from);
 
 struct Document;
 

@@ -1,17 +1,16 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "terminal/settings.hpp"
-
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/errors.hpp"
 
-namespace vsa::app {
+namespace vsa::config {
 
-std::vector<config::Override> parse_settings(const std::vector<std::string>& texts, const std::string& flag) {
-  std::vector<config::Override> out;
+std::vector<Override> parse_overrides(const std::vector<std::string>& texts, const std::string& from) {
+  std::vector<Override> out;
   Problems problems;
   for (const std::string& text : texts) {
     const std::size_t at = text.find('=');
     if (at == std::string::npos || at == 0 || at + 1 == text.size()) {
-      problems.add({"", flag, '"' + text + '"', "isn't a parameter and its value", "key=value, as drive.friction_Nm=0.7"});
+      problems.add({"", from, '"' + text + '"', "isn't a parameter and its value", "key=value, as drive.friction_Nm=0.7"});
       continue;
     }
     out.push_back({text.substr(0, at), text.substr(at + 1)});
@@ -20,4 +19,4 @@ std::vector<config::Override> parse_settings(const std::vector<std::string>& tex
   return out;
 }
 
-}  // namespace vsa::app
+}  // namespace vsa::config

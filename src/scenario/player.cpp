@@ -1,9 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "run/command_player.hpp"
+#include "vsa/scenario/player.hpp"
 
 #include "vsa/errors.hpp"
 
-namespace vsa::app {
+namespace vsa::scenario {
 namespace {
 
 bool same(const engine::ActuatorRef& a, const engine::ActuatorRef& b) { return a.robot == b.robot && a.index == b.index; }
@@ -17,8 +17,7 @@ std::string in_waves(const engine::World& world, const motion::Gait* gait, const
   return "";
 }
 
-bool in_keyframes(const engine::World& world, const motion::Gait* gait, const engine::ActuatorRef& actuator,
-                  const RunOptions::Command& c) {
+bool in_keyframes(const engine::World& world, const motion::Gait* gait, const engine::ActuatorRef& actuator, const Command& c) {
   if (gait == nullptr || !gait->params().motion) return false;
   for (const motion::MotionTrack& track : gait->params().motion->tracks) {
     if (!same(world.actuator(track.actuator), actuator)) continue;
@@ -29,38 +28,40 @@ bool in_keyframes(const engine::World& world, const motion::Gait* gait, const en
 
 }  // namespace
 
-CommandPlayer::CommandPlayer(const RunOptions& options, const engine::World& world, motion::Gait* gait) {
-  if (gait != nullptr) gait->bind(world);
+Player::Player(const Scenario& scenario, const engine::World& world) : gait_(load_motion(scenario)) {
+  if (gait_) gait_->bind(world);
   Problems problems;
-  for (const RunOptions::Command& c : options.commands) {
+  for (const Command& c : scenario.commands) {
     try {
       const engine::ActuatorRef& actuator = world.actuator(c.actuator);
-      if (in_keyframes(world, gait, actuator, c))
-        problems.add({options.scenario, "command.actuator", c.actuator, "the motion's keyframes command it", "another actuator"});
-      orders_.push_back({c, actuator, in_waves(world, gait, actuator)});
+      if (in_keyframes(world, gait(), actuator, c))
+        problems.add({scenario.scenario, "command.actuator", c.actuator, "the motion's keyframes command it", "another actuator"});
+      orders_.push_back({c, actuator, in_waves(world, gait(), actuator)});
     } catch (const InputError& error) {
       for (const Problem& p : error.problems())
-        problems.add({options.scenario, "command.actuator", c.actuator, p.message, p.allowed});
+        problems.add({scenario.scenario, "command.actuator", c.actuator, p.message, p.allowed});
     }
   }
   problems.throw_if_any();
 }
 
-void CommandPlayer::apply(engine::World& world, motion::Gait* gait) {
+void Player::apply(engine::World& world) {
+  if (gait_) gait_->apply(world);
   for (; next_ < orders_.size() && world.time_s() >= orders_[next_].command.time_s; ++next_) {
     const auto& [c, actuator, name] = orders_[next_];
     world.robot(actuator.robot).command(actuator.index, c.equilibrium_rad, c.preset_rad);
     if (name.empty()) continue;
-    const motion::ByHand before = gait->by_hand(name);
-    gait->leave(name, {before.equilibrium || c.equilibrium_rad, before.preset || c.preset_rad});
+    const motion::ByHand before = gait_->by_hand(name);
+    gait_->leave(name, {before.equilibrium || c.equilibrium_rad, before.preset || c.preset_rad});
   }
 }
 
-void CommandPlayer::reset(motion::Gait* gait) {
+void Player::reset() {
   for (std::size_t i = 0; i < next_; ++i) {
-    if (!orders_[i].in_gait.empty()) gait->leave(orders_[i].in_gait, {});
+    if (!orders_[i].in_gait.empty()) gait_->leave(orders_[i].in_gait, {});
   }
   next_ = 0;
+  if (gait_) gait_->reset();
 }
 
-}  // namespace vsa::app
+}  // namespace vsa::scenario

@@ -1,0 +1,104 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "vsa/scenario/scenario.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "vsa/config/find_file.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/motion/gait_text.hpp"
+#include "vsa/scoped_name.hpp"
+#include "vsa/seat/seat.hpp"
+#include "vsa/units.hpp"
+
+namespace vsa::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kTravelWindow_s = 1.3;  // where no gait tells its period; close to Table II's 2π/4.71 s
+constexpr std::uint64_t kSeedsApart = 1000;
+
+engine::Concave concave_of(const std::string& text) {
+  return text == "hull" ? engine::Concave::hull : text == "decompose" ? engine::Concave::decompose : engine::Concave::refuse;
+}
+
+}  // namespace
+
+engine::World load_world(const Scenario& scenario) {
+  engine::WorldOptions with;
+  with.step_s = scenario.step_s;
+  with.concave = concave_of(scenario.concave);
+  with.actuator.flag = scenario.scenario.empty() ? "--set" : "--set or [set]";
+  with.actuator.overrides = config::parse_overrides(scenario.set, with.actuator.flag);
+  if (!scenario.type.empty()) {
+    with.actuator.type = scenario.type;
+    static_cast<void>(with.types.load(scenario.type, with.actuator.overrides));  // its problems, once and by their own names
+  }
+  return engine::World::load(config::find_file(scenario.world, "world", "models/worlds", ".sdf"), std::move(with));
+}
+
+std::optional<motion::Gait> load_motion(const Scenario& scenario) {
+  const fs::path file = scenario.gait.empty() ? fs::path() : config::find_file(scenario.gait, "gait", "models/gaits", ".toml");
+  if (scenario.motion.empty()) return file.empty() ? std::nullopt : std::optional(motion::Gait::load(file));
+  toml::table whole = toml::parse(scenario.motion);
+  if (!file.empty()) whole.insert("base", fs::absolute(file).string());
+  std::ostringstream text;
+  text << whole;
+  try {
+    return motion::parse_gait(text.str(), scenario.scenario);
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& p : problems) {
+      if (p.file == scenario.scenario) p.key = "motion." + p.key;
+    }
+    throw InputError(std::move(problems));
+  }
+}
+
+std::vector<std::string> seeded_faults(const Scenario& scenario) {
+  std::vector<std::string> faults = scenario.faults;
+  for (std::size_t i = 0; scenario.seed && i < faults.size(); ++i) {
+    if (faults[i].find(" seed=") == std::string::npos) faults[i] += " seed=" + std::to_string(*scenario.seed + kSeedsApart * i);
+  }
+  return faults;
+}
+
+void break_robots(engine::World& world, const std::vector<std::string>& faults) {
+  Problems problems;
+  for (const std::string& text : faults) {
+    const std::string who = text.substr(0, text.find(' '));
+    bool known = false;
+    try {
+      for (std::size_t i = 0; i < world.robot_count(); ++i) {
+        const bool last = i + 1 == world.robot_count() && !known;
+        if (who != "all" && !world.robot(i).find(who) && !last) continue;
+        known = true;
+        (void)world.seat(i).apply_faults(text, "--fault");
+      }
+    } catch (const InputError& error) {
+      problems.add_all(error);
+    }
+    if (world.robot_count() == 0) problems.add({"", "--fault", text, "the world has no actuator", ""});
+  }
+  problems.throw_if_any();
+}
+
+std::string travelling_model(const engine::World& world) {
+  if (world.robot_count() == 0) return "";
+  const std::string_view model = outermost(world.robot_model(0));
+  const auto& links = world.links();
+  const bool free = std::any_of(links.begin(), links.end(), [&](const auto& l) {
+    return l.model == model && !l.is_static && world.free_dof(world.link(l.name)).has_value();
+  });
+  return std::string(free ? model : "");
+}
+
+double travel_window_s(const motion::Gait* gait) {
+  return gait != nullptr && gait->params().frequency_rad_per_s > 0 ? 2 * kPi / gait->params().frequency_rad_per_s : kTravelWindow_s;
+}
+
+}  // namespace vsa::scenario
