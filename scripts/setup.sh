@@ -6,18 +6,19 @@ set -eu
 packages="
   build-essential cmake ninja-build pkg-config git ca-certificates
   libmujoco-dev libqhull-dev libgl-dev libopengl-dev libsdformat-dev libassimp-dev libbullet-extras-dev liblodepng-dev libignition-transport-dev libignition-msgs-dev ignition-transport-cli
-  libtomlplusplus-dev libtinyxml2-dev libcli11-dev libfmt-dev nlohmann-json3-dev libboost-dev libceres-dev libeigen3-dev libnlopt-cxx-dev
+  libtomlplusplus-dev libtinyxml2-dev libcli11-dev libfmt-dev nlohmann-json3-dev libboost-dev libceres-dev libeigen3-dev libnlopt-cxx-dev libhdf5-dev
   libgtest-dev libbenchmark-dev python3-yaml
   python3-dev python3-numpy pybind11-dev
 "
 # The page tests drive Debian's Chromium, the man page's groff; a developer's tools are asked for by name: setup.sh test tidy
 for group in "$@"; do
   case "$group" in
-    test) packages="$packages chromium groff-base" ;;
+    test) packages="$packages chromium groff-base libopenmpi-dev openmpi-bin" ;;
+    mpi) packages="$packages libopenmpi-dev openmpi-bin" ;;
     tidy) packages="$packages clang-format clang-tidy" ;;
     fuzz) packages="$packages clang-14 libclang-rt-14-dev" ;;
     classic) packages="$packages debootstrap" ;;
-    *) echo "setup.sh: unknown group '$group' (allowed: test, tidy, fuzz, classic)" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown group '$group' (allowed: test, mpi, tidy, fuzz, classic)" >&2; exit 2 ;;
   esac
 done
 

@@ -34,7 +34,7 @@ equilibrium_deg = { shaft = 90.0 }
 )";
 
 inline std::filesystem::path written(const std::string& text) {
-  const std::filesystem::path file = kOwnDirectory.path() / "vsa_gait_test.toml";
+  std::filesystem::path file = kOwnDirectory.path() / "vsa_gait_test.toml";
   std::ofstream(file) << text;
   return file;
 }

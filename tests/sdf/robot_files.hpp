@@ -27,6 +27,7 @@ struct RobotFile {
   std::vector<Place> places{};
 };
 
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest calls it so
 inline void PrintTo(const RobotFile& row, std::ostream* out) { *out << row.file; }
 
 [[nodiscard]] std::vector<RobotFile> refused_files();

@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kFiles = fs::path(VSA_SOURCE_DIR) / "tests/sdf/robot_files";
-constexpr double kHalfPi = 1.5707963267948966;
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 

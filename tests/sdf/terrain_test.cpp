@@ -77,7 +77,8 @@ TEST(Terrain, APngOfEightOrSixteenBitsHasTheSameGround) {
   };
   const auto pgm = floor_of(dir.write("hills.pgm", pgm16()));
   EXPECT_EQ(floor_of(png(raw, 16)), pgm);
-  EXPECT_NEAR(floor_of(png(shallow, 8))[2], 0.5 + 2.0 * (10000 / 256) / (40000 / 256), 1e-6) << "only the upper eight bits";
+  constexpr int kUpper = 10000 / 256, kMostUpper = 40000 / 256;  // a picture of eight bits has only these
+  EXPECT_NEAR(floor_of(png(shallow, 8))[2], 0.5 + 2.0 * kUpper / kMostUpper, 1e-6);
 }
 
 TEST(Terrain, BrokenAndMissingPicturesAreNamed) {

@@ -1,0 +1,61 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// What launchers of a sweep share: vsa sweep's threads, vsa-mpi's ranks.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sweep/sweep.hpp"
+#include "terminal/console.hpp"
+#include "vsa/sweep/folder.hpp"
+#include "vsa/sweep/pool.hpp"
+
+namespace vsa::app {
+
+[[nodiscard]] std::filesystem::path folder_of(const SweepOptions& options);
+
+/// Runs that are still to be made, as begin and end of ranges.
+struct Todo {
+  std::vector<std::pair<std::size_t, std::size_t>> ranges;
+  std::size_t count = 0;
+  void add(std::size_t run);
+};
+/// Claims the folder and reads what is there. Throws InputError: it has results and nobody said --resume.
+[[nodiscard]] Todo what_is_left(const sweep::Plan& plan, const SweepOptions& options);
+
+/// Numbers of a todo list, one after the other. Not for several threads.
+class Dealer {
+ public:
+  explicit Dealer(Todo todo) : todo_(std::move(todo)), left_(todo_.count) {}
+  [[nodiscard]] std::size_t left() const noexcept { return left_; }
+  /// The next `count`, or all that are left.
+  [[nodiscard]] std::vector<std::size_t> deal(std::size_t count);
+
+ private:
+  Todo todo_;
+  std::size_t left_, range_ = 0, at_ = 0;
+};
+
+/// "12,345 runs: 3 axes …": what the plan asks for.
+void tell_plan(const sweep::Plan& plan, Console& console);
+/// "123 of 1000 runs, 45.6 a second, 20 s left"
+class RunProgress {
+ public:
+  explicit RunProgress(std::size_t total) : total_(total), began_(std::chrono::steady_clock::now()) {}
+  [[nodiscard]] std::string text(std::size_t done, std::size_t failed) const;
+
+ private:
+  std::size_t total_;
+  std::chrono::steady_clock::time_point began_;
+};
+
+/// How well the processors were used.
+[[nodiscard]] std::string account_text(const sweep::Account& account, std::size_t processes);
+
+/// Reads all logs, writes the tables, tells what came of it. The exit code: failed where a run did or isn't there.
+int merge(const sweep::Plan& plan, const SweepOptions& options, Console& console);
+
+}  // namespace vsa::app

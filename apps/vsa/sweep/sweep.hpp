@@ -1,0 +1,26 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+namespace vsa::app {
+
+struct SweepOptions {
+  std::string plan;  ///< TOML
+  std::string out;   ///< folder; empty: sweep_PLAN
+  unsigned threads = 0;
+  std::string part;  ///< "2/8"
+  bool resume = false, retry_failed = false;
+  bool check = false, merge = false;
+  long long run = -1;  ///< only that one, to see it; −1: all
+};
+
+/// The options that every launcher has.
+void add_sweep_options(CLI::App& sub, SweepOptions& options);
+/// `vsa sweep PLAN.toml`. Sets the exit code when it was the subcommand.
+void setup_sweep(CLI::App& app, int& exit_code);
+/// Throws InputError, OutputError.
+int run_sweep(const SweepOptions& options);
+
+}  // namespace vsa::app

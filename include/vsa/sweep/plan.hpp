@@ -1,0 +1,108 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A plan of many runs (TOML, docs/reference/sweep-files.md): a scenario, what varies in it, how often each is repeated from another
+// start, and what is measured.
+//
+//   points = (product of all lists, ranges, logs) × samples        samples: of random and Sobol' axes, taken together
+//   run r  = repetition r mod R of point r div R
+//
+// A run follows from the plan and its number alone: not from who runs it, when, or what else ran.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "vsa/sweep/measure.hpp"
+
+namespace vsa::sweep {
+
+using Value = std::variant<double, std::int64_t, bool, std::string>;
+[[nodiscard]] std::string value_text(const Value& value);
+
+/// What varies.
+struct Axis {
+  enum class Kind { listed, random, sobol } kind = Kind::listed;
+  enum class Law { uniform, log_uniform, normal } law = Law::uniform;  ///< of random
+  std::string name;                                                    ///< the column; else the first key
+  std::vector<std::string>
+      keys;                ///< in the scenario's file, "motion.group.vertical.preset_deg"; or of its parameters. All have its value
+  std::string of;          ///< of parameters: actuator or link; empty: all that have the key
+  bool parameter = false;  ///< key is a parameter of actuators or links (batch::Batch::set), not of the scenario
+  bool factor = false;     ///< of parameters: times what the world has
+  std::vector<Value> values;  ///< of listed ones, ranges and logs written out
+  double a = 0, b = 0;        ///< of the others: bounds, or mean and standard deviation (cut off at three)
+};
+
+/// Where a repetition begins: the first robot's model, if it flies free, is turned and moved by up to so much, each by chance.
+struct Start {
+  double yaw_deg = 0, xy_m = 0;
+};
+
+class Plan {
+ public:
+  /// Throws InputError with every problem that can be seen without a world.
+  [[nodiscard]] static Plan load(const std::filesystem::path& file);
+  static constexpr double kMostRuns = 1e8;
+
+  /// Also what a world shows: each value of each list, and the ends of each range, beside the first value of all others. Loads a world
+  /// for each. Throws InputError with every problem.
+  void check() const;
+
+  [[nodiscard]] const std::string& title() const;
+  [[nodiscard]] const std::vector<Axis>& axes() const;
+  [[nodiscard]] const std::vector<Measure>& measures() const;
+  [[nodiscard]] std::size_t points() const;
+  [[nodiscard]] std::size_t repetitions() const;
+  [[nodiscard]] std::size_t runs() const { return points() * repetitions(); }
+  [[nodiscard]] double limit_s() const;  ///< of a run, by the wall clock
+  /// One an axis.
+  [[nodiscard]] std::vector<Value> values(std::size_t point) const;
+  /// Of its text and of the files that it names: equal plans give equal tables.
+  [[nodiscard]] std::uint64_t fingerprint() const;
+  [[nodiscard]] const std::string& text() const;  ///< the file
+  /// The scenario of a run as a file, with a comment on what it hasn't: start and parameters.
+  [[nodiscard]] std::string scenario_text(std::size_t run) const;
+
+  struct Impl;
+
+ private:
+  friend class Runner;
+  explicit Plan(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  std::shared_ptr<const Impl> impl_;
+};
+
+/// What came of a run.
+struct Outcome {
+  std::size_t run = 0;
+  std::vector<double> values;  ///< one a measure; none where it failed
+  std::string error;           ///< why it failed; empty: it didn't
+  std::string notice;          ///< what the robots had to tell, a command that was clamped; the first of it
+  double wall_s = 0, cpu_s = 0;
+};
+
+/// Runs of a plan, one after the other, in one thread. What it keeps between them (a world that was read) changes no bit.
+class Runner {
+ public:
+  explicit Runner(const Plan& plan);
+  ~Runner();
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
+
+  /// What goes wrong in the run is its outcome's error. `wanted`: asked now and then; false ends it, and there is no outcome.
+  [[nodiscard]] std::optional<Outcome> run(std::size_t number, const std::function<bool()>& wanted = {});
+  /// How long that run takes, by running at most `probe_s` of it.
+  [[nodiscard]] double estimate_s(std::size_t number, double probe_s);
+
+ private:
+  friend class Plan;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vsa::sweep

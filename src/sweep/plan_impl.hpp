@@ -1,0 +1,36 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vsa/scenario/scenario.hpp"
+#include "vsa/sweep/plan.hpp"
+
+namespace vsa::sweep {
+
+struct Plan::Impl {
+  std::filesystem::path file;
+  std::string text;
+  std::string title;
+  toml::table base;                 ///< the scenario's tables
+  std::filesystem::path base_file;  ///< where they stand
+  std::vector<Axis> axes;
+  std::vector<Measure> measures;
+  Start start;
+  std::size_t repetitions = 1, samples = 1, cells = 1;
+  std::uint64_t seed = 1, fingerprint = 0;
+  double limit_s = 3600;
+
+  [[nodiscard]] std::vector<Value> values(std::size_t point) const;
+  /// The scenario with these values, of which those of parameters have no place in it. Throws InputError.
+  [[nodiscard]] scenario::Scenario scenario_with(const std::vector<Value>& values, std::size_t repetition) const;
+};
+
+/// Puts a value where a scenario's key is. Throws InputError where there is no such place.
+void put(toml::table& scenario, const std::string& key, const Value& value);
+
+}  // namespace vsa::sweep
