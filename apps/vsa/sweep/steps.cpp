@@ -12,6 +12,7 @@
 #include "terminal/exit_codes.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/sweep/summary.hpp"
 
 namespace vsa::app {
 namespace {
@@ -117,7 +118,13 @@ int merge(const sweep::Plan& plan, const SweepOptions& options, Console& console
   constexpr std::size_t kShown = 10;
   const fs::path folder = folder_of(options);
   const sweep::Results results = sweep::read_logs(folder, plan);
-  const auto files = sweep::write_tables(folder, plan, results);
+  auto files = sweep::write_tables(folder, plan, results);
+  try {
+    report::write_report(sweep::summary(plan, results, "vsa sweep " + options.plan), folder / "page.html");
+    files.push_back(folder / "page.html");
+  } catch (const InputError& error) {  // without the page's program there are the tables
+    console.line("page left out: " + error.problems().front().text());
+  }
   console.wipe();
   if (results.damaged > 0)
     console.line(
@@ -136,7 +143,12 @@ int merge(const sweep::Plan& plan, const SweepOptions& options, Console& console
   std::cout << fmt::format("runs                {} of {}{}{}\n", results.outcomes.size() - failed, plan.runs(),
                            failed > 0 ? fmt::format(", {} failed", failed) : "",
                            missing > 0 ? fmt::format(", {} not run (--resume)", missing) : "");
-  for (const fs::path& file : files) std::cout << fmt::format("{:<20}{}\n", file == files.front() ? "tables" : "", file.string());
+  for (const fs::path& file : files)
+    std::cout << fmt::format("{:<20}{}\n",
+                             file.extension() == ".html" ? "page"
+                             : file == files.front()     ? "tables"
+                                                         : "",
+                             file.string());
   std::cout.flush();
   if (!std::cout) throw std::runtime_error("can't write the summary to standard output");
   return failed > 0 || missing > 0 ? kFailed : kDone;

@@ -1,0 +1,23 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A sweep's table as a page: each measure by each axis, maps over two axes, and all of them at once as parallel coordinates.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vsa/report/report.hpp"
+#include "vsa/sweep/folder.hpp"
+
+namespace vsa::sweep {
+
+/// Quartiles, interpolated; NaN of nothing. What isn't finite doesn't count.
+struct Quartiles {
+  std::size_t count = 0;
+  double low = 0, median = 0, high = 0;
+};
+[[nodiscard]] Quartiles quartiles(std::vector<double> values);
+
+[[nodiscard]] report::Report summary(const Plan& plan, const Results& results, const std::string& command);
+
+}  // namespace vsa::sweep
