@@ -13,7 +13,7 @@ packages="
 # The page tests drive Debian's Chromium, the man page's groff; a developer's tools are asked for by name: setup.sh test tidy
 for group in "$@"; do
   case "$group" in
-    test) packages="$packages chromium groff-base libopenmpi-dev openmpi-bin" ;;
+    test) packages="$packages chromium groff-base libopenmpi-dev openmpi-bin iproute2" ;;
     mpi) packages="$packages libopenmpi-dev openmpi-bin" ;;
     tidy) packages="$packages clang-format clang-tidy" ;;
     fuzz) packages="$packages clang-14 libclang-rt-14-dev" ;;

@@ -213,12 +213,18 @@ sweep::Account Job::gathered(const sweep::Account& own) const {
                          own.run_cpu_s,
                          own.all_cpu_s};
   constexpr int kCount = 7;
-  std::vector<double> all(static_cast<std::size_t>(kCount * size_));
+  std::vector<double> all(kCount * static_cast<std::size_t>(size_));
   MPI_Gather(mine, kCount, MPI_DOUBLE, all.data(), kCount, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  std::vector<sweep::Account> each;
   sweep::Account out;
-  for (int r = 0; rank_ == 0 && r < size_; ++r) {
-    const double* a = &all[static_cast<std::size_t>(kCount * r)];
-    out += {static_cast<std::size_t>(a[0]), static_cast<std::size_t>(a[1]), static_cast<std::size_t>(a[2]), a[3], a[4], a[5], a[6]};
+  for (auto a = all.begin(); rank_ == 0 && a != all.end(); a += kCount) {
+    each.push_back(
+        {static_cast<std::size_t>(a[0]), static_cast<std::size_t>(a[1]), static_cast<std::size_t>(a[2]), a[3], a[4], a[5], a[6]});
+    out += each.back();
+  }
+  for (sweep::Account& one : each) {
+    one.span_s = out.span_s;  // who was done early waited for the others
+    out.most_waited = std::max(out.most_waited, one.waited());
   }
   return out;
 }

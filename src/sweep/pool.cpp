@@ -27,6 +27,11 @@ double process_cpu_s() {
 
 }  // namespace
 
+double Account::waited() const noexcept {
+  const double offered = span_s * static_cast<double>(threads);
+  return offered > 0 ? std::max(0.0, 1 - run_wall_s / offered) : 0.0;
+}
+
 Account& Account::operator+=(const Account& other) noexcept {
   runs += other.runs;
   failed += other.failed;

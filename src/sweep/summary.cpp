@@ -37,6 +37,7 @@ class Fifths {
     return static_cast<int>(std::upper_bound(edges_.begin(), edges_.end(), v) - edges_.begin());
   }
   [[nodiscard]] std::string name(int k) const {
+    if (edges_.empty()) return "none";
     const auto i = static_cast<std::size_t>(k);
     return digits(k == 0 ? least_ : edges_[i - 1]) + " … " + digits(i == edges_.size() ? most_ : edges_[i]);
   }

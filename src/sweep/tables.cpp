@@ -72,9 +72,10 @@ std::vector<Column> columns(const Plan& plan, const Results& results) {
   out.push_back({"error", false, {}, std::vector<std::string>(rows)});
   std::vector<Value> values;
   for (std::size_t r = 0; r < rows; ++r) {
-    point[r] = static_cast<double>(r / plan.repetitions());
+    const std::size_t number = r / plan.repetitions();
+    point[r] = static_cast<double>(number);
     repetition[r] = static_cast<double>(r % plan.repetitions());
-    if (r % plan.repetitions() == 0) values = plan.values(r / plan.repetitions());
+    if (r % plan.repetitions() == 0) values = plan.values(number);
     for (std::size_t k = 0; k < axes; ++k) {
       Column& c = out[2 + k];
       if (c.is_number) {

@@ -227,6 +227,7 @@ class Ranks : public ::testing::Test {
     s.environment = {{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
                      {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
                      {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+                     {"ASAN_OPTIONS", "detect_leaks=0"},  // Open MPI's own
                      {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"}};
     return s;
   }

@@ -106,12 +106,12 @@ std::string RunProgress::text(std::size_t done, std::size_t failed) const {
 }
 
 std::string account_text(const sweep::Account& a, std::size_t processes) {
-  const double offered = a.span_s * static_cast<double>(a.threads);
   return fmt::format(
-      "{} runs in {:.3g} s on {} thread{} of {} process{}: {:.1f} % of their CPU time was the runs', {:.1f} % of the time "
-      "a thread waited",
+      "{} runs in {:.3g} s on {} thread{} of {} process{}: {:.1f} % of their CPU time was the runs'; a thread waited "
+      "{:.1f} % of the time{}",
       a.runs, a.span_s, a.threads, a.threads == 1 ? "" : "s", processes, processes == 1 ? "" : "es",
-      100 * a.run_cpu_s / std::max(a.all_cpu_s, 1e-9), 100 * std::max(0.0, 1 - a.run_wall_s / std::max(offered, 1e-9)));
+      100 * a.run_cpu_s / std::max(a.all_cpu_s, 1e-9), 100 * a.waited(),
+      processes == 1 ? "" : fmt::format(", in the process that waited most {:.1f} %", 100 * a.most_waited));
 }
 
 int merge(const sweep::Plan& plan, const SweepOptions& options, Console& console) {
