@@ -10,9 +10,11 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "ranks.hpp"
-#include "sweep/steps.hpp"
+#include "sweep/optimize.hpp"
 #include "terminal/exit_codes.hpp"
 #include "terminal/interrupt.hpp"
 #include "vsa/errors.hpp"
@@ -59,28 +61,31 @@ std::optional<sweep::Plan> agreed_plan(const Job& job, const std::string& file) 
   return plan;
 }
 
-int run(const Job& job, const SweepOptions& options) {
-  const auto plan = agreed_plan(job, options.plan);
-  if (!plan) return kBadInput;
-  Console console;
+/// What every rank does with its share of a plan's runs.
+RankWork rank_work(const SweepOptions& options, sweep::Log& log) {
+  RankWork work;
+  work.threads = std::max(1U, options.threads);
+  work.done = [&log](const sweep::Outcome& outcome) { log.add(outcome); };
+  work.wanted = [] { return interrupted() == 0; };
+  return work;
+}
+
+int run_sweep_job(const Job& job, const SweepOptions& options, const sweep::Plan& plan, Console& console) {
   std::optional<Dealer> dealer;
   int code = first_does(job, [&] {
-    plan->check();
-    dealer.emplace(what_is_left(*plan, options));
-    tell_plan(*plan, console);
+    refuse_search(plan, options);
+    plan.check();
+    dealer.emplace(what_is_left(plan, options));
+    tell_plan(plan, console);
   });
   if (code != kDone) return code;
-  sweep::claim(folder_of(options), *plan);  // where nodes share none, each has its own
-  catch_interrupts();
+  sweep::claim(folder_of(options), plan);  // where nodes share none, each has its own
   if (job.from_first(dealer && dealer->left() > 0 ? 1 : 0) != 0) {
-    sweep::Log log(folder_of(options), *plan);
-    RankWork work;
-    work.threads = std::max(1U, options.threads);
-    work.done = [&](const sweep::Outcome& outcome) { log.add(outcome); };
-    work.wanted = [] { return interrupted() == 0; };
+    sweep::Log log(folder_of(options), plan);
+    RankWork work = rank_work(options, log);
     const RunProgress progress(dealer ? dealer->left() : 0);
     if (job.rank() == 0) work.progress = [&](std::size_t dealt) { console.status("dealt " + progress.text(dealt, 0)); };
-    const sweep::Account account = job.gathered(run_ranks(job, *plan, dealer ? &*dealer : nullptr, work));
+    const sweep::Account account = job.gathered(run_ranks(job, plan, dealer ? &*dealer : nullptr, work));
     console.wipe();
     if (job.rank() == 0) console.line(account_text(account, static_cast<std::size_t>(job.size())));
   }
@@ -89,8 +94,52 @@ int run(const Job& job, const SweepOptions& options) {
     return kSignalled + std::max(1, interrupted());
   }
   code = kDone;
-  if (job.rank() == 0) code = merge(*plan, options, console);
+  if (job.rank() == 0) code = merge(plan, options, console);
   return job.from_first(code);
+}
+
+/// Rank 0 searches; all make the runs of each generation, for which it tells them the candidates. None: the search is over.
+int run_optimize_job(const Job& job, const SweepOptions& options, const sweep::Plan& plan, Console& console) {
+  int code = first_does(job, [&] {
+    begin_search(plan, options);
+    plan.check();
+  });
+  if (code != kDone) return code;
+  sweep::claim(folder_of(options), plan);
+  sweep::Log log(folder_of(options), plan);
+  const RankWork work = rank_work(options, log);
+  if (job.rank() == 0) {
+    code = search(plan, options, console, [&](const sweep::Plan& with, const Todo& runs) {
+      std::vector<double> flat;
+      for (const auto& candidate : with.candidate_list()) flat.insert(flat.end(), candidate.begin(), candidate.end());
+      job.share(flat);
+      Dealer dealer(runs);
+      static_cast<void>(run_ranks(job, with, &dealer, work));
+      return !job.any(interrupted() != 0);
+    });
+    std::vector<double> over;
+    if (code == kDone || code == kFailed) job.share(over);
+    return code;
+  }
+  const auto is_searched = [](const sweep::Axis& a) { return a.kind == sweep::Axis::Kind::searched; };
+  const auto dimensions = std::count_if(plan.axes().begin(), plan.axes().end(), is_searched);
+  for (std::vector<double> flat;;) {
+    job.share(flat);
+    if (flat.empty()) return kDone;
+    std::vector<std::vector<double>> candidates;
+    for (auto at = flat.begin(); at != flat.end(); at += dimensions) candidates.emplace_back(at, at + dimensions);
+    static_cast<void>(run_ranks(job, plan.with(std::move(candidates)), nullptr, work));
+    if (job.any(interrupted() != 0)) return kSignalled + std::max(1, interrupted());
+  }
+}
+
+int run(const Job& job, const SweepOptions& options) {
+  const auto plan = agreed_plan(job, options.plan);
+  if (!plan) return kBadInput;
+  catch_interrupts();
+  Console console;
+  return options.command == "optimize" ? run_optimize_job(job, options, *plan, console)
+                                       : run_sweep_job(job, options, *plan, console);
 }
 
 }  // namespace
@@ -100,20 +149,23 @@ int main(int argc, char** argv) {
   std::optional<Job> job;
   try {
     job.emplace(argc, argv);
-    CLI::App app("vsa sweep on all ranks of an MPI job: mpirun -n N vsa-mpi sweep PLAN.toml --out DIR", "vsa-mpi");
+    CLI::App app("vsa sweep and vsa optimize on all ranks of an MPI job: mpirun -n N vsa-mpi sweep PLAN.toml --out DIR", "vsa-mpi");
     app.set_version_flag("--version", "vsa-mpi " VSA_VERSION);
     app.require_subcommand(1);
     SweepOptions options;
     options.threads = 1;
-    CLI::App* sub = app.add_subcommand("sweep", "Many runs of a plan, and their table");
-    add_sweep_options(*sub, options);
+    SweepOptions to_search = options;
+    to_search.command = "optimize";
+    add_sweep_options(*app.add_subcommand("sweep", "Many runs of a plan, and their table"), options);
+    const CLI::App* searches = app.add_subcommand("optimize", "The best values of a plan's searched axes");
+    add_sweep_options(*app.get_subcommand("optimize"), to_search);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
       if (job->rank() != 0) return error.get_exit_code() == 0 ? kDone : kBadInput;
       return app.exit(error) == 0 ? kDone : kBadInput;
     }
-    return run(*job, options);
+    return run(*job, searches->parsed() ? to_search : options);
   } catch (const std::exception& error) {
     std::cerr << "vsa-mpi: " << (job ? "rank " + std::to_string(job->rank()) + ": " : "") << error.what() << '\n';
     if (job && job->size() > 1) job->abort();

@@ -195,6 +195,12 @@ std::size_t Job::total(std::size_t value) const {
   MPI_Allreduce(&own, &all, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
   return all;
 }
+void Job::share(std::vector<double>& numbers) const {
+  std::uint64_t size = numbers.size();
+  MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+  numbers.resize(size);
+  MPI_Bcast(numbers.data(), static_cast<int>(size), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+}
 bool Job::any(bool value) const { return total(value ? 1 : 0) > 0; }
 int Job::first_apart(std::uint64_t value) const {
   std::uint64_t first = value;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "sweep/steps.hpp"
 
@@ -27,6 +28,8 @@ class Job {
   [[nodiscard]] int from_first(int value) const;
   [[nodiscard]] std::size_t total(std::size_t value) const;
   /// The first rank whose value differs from rank 0's; −1: none.
+  /// Rank 0's numbers, on all.
+  void share(std::vector<double>& numbers) const;
   [[nodiscard]] int first_apart(std::uint64_t value) const;
   [[nodiscard]] bool any(bool value) const;
   /// Of all, on rank 0.

@@ -16,6 +16,7 @@
 #include "identify/identify.hpp"
 #include "linearize/linearize.hpp"
 #include "run/run.hpp"
+#include "sweep/optimize.hpp"
 #include "sweep/sweep.hpp"
 #include "terminal/completion.hpp"
 #include "terminal/exit_codes.hpp"
@@ -70,6 +71,7 @@ void set_up(CLI::App& app, int& exit_code) {
   vsa::app::setup_linearize(app, exit_code);
   vsa::app::setup_identify(app, exit_code);
   vsa::app::setup_sweep(app, exit_code);
+  vsa::app::setup_optimize(app, exit_code);
   vsa::app::setup_validate(app, exit_code);
   vsa::app::setup_datasheet(app, exit_code);
   vsa::app::setup_doctor(app, exit_code);

@@ -80,7 +80,7 @@ std::optional<Outcome> outcome_of(std::string_view line, const Plan& plan) {
   if (fields.size() != 6) return std::nullopt;
   Outcome o;
   const auto run = config::parse_integer(fields[0]);
-  if (!run || *run < 0 || static_cast<std::size_t>(*run) >= plan.runs()) return std::nullopt;
+  if (!run || *run < 0 || static_cast<std::size_t>(*run) >= plan.most_runs()) return std::nullopt;
   o.run = static_cast<std::size_t>(*run);
   o.wall_s = config::parse_number(fields[1]).value_or(0);
   o.cpu_s = config::parse_number(fields[2]).value_or(0);

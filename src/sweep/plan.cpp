@@ -76,9 +76,12 @@ void put(toml::table& scenario, const std::string& key, const Value& value) {
 }
 
 std::vector<Value> Plan::Impl::values(std::size_t point) const {
-  const std::size_t sample = point % samples;
-  std::size_t cell = point / samples, dimensions = 0;
-  for (const Axis& axis : axes) dimensions += axis.kind == Axis::Kind::sobol ? 1 : 0;
+  const std::size_t sample = point % samples, candidate = point / (samples * cells);
+  std::size_t cell = point / samples % cells, dimensions = 0, searched = 0;
+  for (const Axis& axis : axes) {
+    dimensions += axis.kind == Axis::Kind::sobol ? 1 : 0;
+    searched += axis.kind == Axis::Kind::searched ? 1 : 0;
+  }
   const std::vector<double> even = sobol_point(dimensions, sample);
   std::vector<Value> out(axes.size());
   std::size_t next = dimensions;
@@ -87,6 +90,14 @@ std::vector<Value> Plan::Impl::values(std::size_t point) const {
     if (axis.kind == Axis::Kind::listed) {
       out[k] = axis.values[cell % axis.values.size()];
       cell /= axis.values.size();
+    } else if (axis.kind == Axis::Kind::searched) {
+      --searched;
+      const double part = candidates.empty() ? 0.5 : candidates[candidate][searched];
+      const bool log = axis.law == Axis::Law::log_uniform;
+      out[k] = part <= 0   ? axis.a
+               : part >= 1 ? axis.b
+               : log       ? axis.a * std::pow(axis.b / axis.a, part)
+                           : axis.a + (axis.b - axis.a) * part;
     } else if (axis.kind == Axis::Kind::sobol) {
       out[k] = axis.a + (axis.b - axis.a) * even[--next];
     } else {
@@ -117,8 +128,22 @@ scenario::Scenario Plan::Impl::scenario_with(const std::vector<Value>& with, std
 const std::string& Plan::title() const { return impl_->title; }
 const std::vector<Axis>& Plan::axes() const { return impl_->axes; }
 const std::vector<Measure>& Plan::measures() const { return impl_->measures; }
-std::size_t Plan::points() const { return impl_->cells * impl_->samples; }
+std::size_t Plan::points() const { return impl_->cells * impl_->samples * candidates(); }
+std::size_t Plan::candidates() const { return impl_->search ? impl_->candidates.size() : 1; }
+const std::vector<std::vector<double>>& Plan::candidate_list() const { return impl_->candidates; }
+std::size_t Plan::most_runs() const {
+  const std::size_t each = impl_->cells * impl_->samples * repetitions();
+  return impl_->search ? each * impl_->search->population * (impl_->search->generations + 1) : each;
+}
+const std::optional<Search>& Plan::search() const { return impl_->search; }
+
+Plan Plan::with(std::vector<std::vector<double>> candidates) const {
+  auto impl = std::make_shared<Impl>(*impl_);
+  impl->candidates = std::move(candidates);
+  return Plan(std::move(impl));
+}
 std::size_t Plan::repetitions() const { return impl_->repetitions; }
+std::uint64_t Plan::seed() const { return impl_->seed; }
 double Plan::limit_s() const { return impl_->limit_s; }
 std::vector<Value> Plan::values(std::size_t point) const { return impl_->values(point); }
 std::uint64_t Plan::fingerprint() const { return impl_->fingerprint; }

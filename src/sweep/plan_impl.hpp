@@ -21,6 +21,8 @@ struct Plan::Impl {
   std::vector<Axis> axes;
   std::vector<Measure> measures;
   Start start;
+  std::optional<Search> search;
+  std::vector<std::vector<double>> candidates;  ///< none: all searched axes in their middle
   std::size_t repetitions = 1, samples = 1, cells = 1;
   std::uint64_t seed = 1, fingerprint = 0;
   double limit_s = 3600;

@@ -85,11 +85,13 @@ void read_spaced(TomlSection& s, Axis& axis, const char* key, bool log) {
 void read_drawn(TomlSection& s, Axis& axis, const char* key) {
   const auto ends = pair_of(s, key);
   if (!ends) return;
-  const bool random = std::string(key) == "random";
-  axis.kind = random ? Axis::Kind::random : Axis::Kind::sobol;
+  const std::string way = key;
+  axis.kind = way == "random" ? Axis::Kind::random : way == "sobol" ? Axis::Kind::sobol : Axis::Kind::searched;
   std::tie(axis.a, axis.b) = std::tie((*ends)[0], (*ends)[1]);
-  if (random) {
-    const auto law = s.word("law", {"uniform", "log_uniform", "normal"}).value_or("uniform");
+  if (axis.kind != Axis::Kind::sobol) {
+    std::vector<std::string> laws{"uniform", "log_uniform"};
+    if (axis.kind == Axis::Kind::random) laws.emplace_back("normal");
+    const auto law = s.word("law", laws).value_or("uniform");
     axis.law = law == "normal" ? Axis::Law::normal : law == "log_uniform" ? Axis::Law::log_uniform : Axis::Law::uniform;
   }
   if (axis.law == Axis::Law::normal) {
@@ -132,14 +134,14 @@ Axis read_axis(TomlSection s) {
   if (!axis.parameter && axis.factor) s.add("factor", "true", "is for parameters; this key is the scenario's", "no factor");
   int ways = 0;
   std::string found;
-  for (const char* way : {"list", "range", "log", "random", "sobol"}) {
+  for (const char* way : {"list", "range", "log", "random", "sobol", "search"}) {
     if (s.find(way) == nullptr) continue;
     ++ways;
     found += (found.empty() ? "" : ", ") + std::string(way);
   }
   if (ways != 1)
     s.add("list", found, ways == 0 ? "nothing says which values" : "several say which values",
-          "one of list, range, log, random, sobol");
+          "one of list, range, log, random, sobol, search");
   axis.values = listed(s);
   if (axis.factor && std::any_of(axis.values.begin(), axis.values.end(), [](const Value& v) { return v.index() >= 2; }))
     s.add("list", "", "a factor is a number", "numbers");
@@ -147,6 +149,7 @@ Axis read_axis(TomlSection s) {
   read_spaced(s, axis, "log", true);
   read_drawn(s, axis, "random");
   read_drawn(s, axis, "sobol");
+  read_drawn(s, axis, "search");
   s.refuse_others();
   return axis;
 }
@@ -258,6 +261,46 @@ void read_base(TomlSection& top, Plan::Impl& out, Problems& problems) {
   }
 }
 
+Objective read_objective(TomlSection s, const std::vector<Measure>& measures) {
+  Objective out;
+  std::vector<std::string> names;
+  for (const Measure& m : measures) names.push_back(m.name);
+  const std::string name = s.need("measure", config::join(names)).text("measure").value_or("");
+  const auto at = std::find(names.begin(), names.end(), name);
+  out.measure = static_cast<std::size_t>(at - names.begin());
+  if (at == names.end() && !name.empty()) s.add("measure", name, "there is none of that name", config::join(names));
+  out.maximize = s.need("goal", "\"minimize\", \"maximize\"").word("goal", {"minimize", "maximize"}).value_or("") == "maximize";
+  const std::string over = s.word("over", {"mean", "median", "worst"}).value_or("median");
+  out.over = over == "mean" ? Objective::Over::mean : over == "worst" ? Objective::Over::worst : Objective::Over::median;
+  s.refuse_others();
+  return out;
+}
+
+/// [optimize] and [[objective]]; they and searched axes go together.
+void read_search(TomlSection& top, const std::string& file, Plan::Impl& out, Problems& problems) {
+  const toml::table* table = top.table("optimize");
+  const auto objectives = top.tables("objective");
+  const auto searched =
+      std::count_if(out.axes.begin(), out.axes.end(), [](const Axis& a) { return a.kind == Axis::Kind::searched; });
+  if (table == nullptr && objectives.empty() && searched == 0) return;
+  if (searched == 0) top.add("vary", "", "nothing is searched", "an axis with search = [from, to]");
+  if (objectives.empty()) top.add("objective", "", "is missing", "[[objective]] with measure and goal");
+  Search search;
+  for (const toml::table* t : objectives)
+    search.objectives.push_back(
+        read_objective({t, file + ":" + std::to_string(t->source().begin.line), "objective.", problems}, out.measures));
+  TomlSection s(table, file, "optimize.", problems);
+  const bool several = objectives.size() > 1;
+  const std::vector<std::string> known =
+      several ? std::vector<std::string>{"nsga2", "nspso", "maco"} : std::vector<std::string>{"pso", "gaco"};
+  search.algorithm = s.word("algorithm", known).value_or(known.front());
+  search.population = static_cast<unsigned>(s.whole("population", 8, 1e6).value_or(search.population));
+  search.generations = static_cast<unsigned>(s.whole("generations", 1, 1e6).value_or(search.generations));
+  if (search.population % 4 != 0) s.add("population", std::to_string(search.population), "isn't a multiple of 4", "8, 12, 16, …");
+  s.refuse_others();
+  out.search = std::move(search);
+}
+
 void count(TomlSection& top, Plan::Impl& out) {
   double cells = 1;
   std::size_t sobol = 0;
@@ -265,7 +308,7 @@ void count(TomlSection& top, Plan::Impl& out) {
   for (const Axis& axis : out.axes) {
     if (axis.kind == Axis::Kind::listed) cells *= static_cast<double>(std::max<std::size_t>(1, axis.values.size()));
     sobol += axis.kind == Axis::Kind::sobol ? 1 : 0;
-    drawn = drawn || axis.kind != Axis::Kind::listed;
+    drawn = drawn || axis.kind == Axis::Kind::random || axis.kind == Axis::Kind::sobol;
   }
   if (drawn) top.need("samples", "how many draws of the random and Sobol' axes, 1 …");
   const auto samples = top.whole("samples", 1, kMostSamples);
@@ -275,7 +318,8 @@ void count(TomlSection& top, Plan::Impl& out) {
   constexpr std::size_t kMostSobol = boost::random::default_sobol_table::max_dimension;
   if (sobol > kMostSobol)
     top.add("vary", std::to_string(sobol), "more Sobol' axes than can be", "at most " + std::to_string(kMostSobol));
-  const double runs = cells * static_cast<double>(out.samples) * static_cast<double>(out.repetitions);
+  double runs = cells * static_cast<double>(out.samples) * static_cast<double>(out.repetitions);
+  if (out.search) runs *= static_cast<double>(out.search->population) * (out.search->generations + 1.0);
   if (runs > Plan::kMostRuns) {
     top.add("vary", config::number_text(runs), "runs are more than a plan may have",
             "at most " + config::number_text(Plan::kMostRuns));
@@ -312,6 +356,7 @@ Plan Plan::load(const fs::path& file) {
   std::set<std::string> names{"point", "repetition", "error"};
   refuse_twice(impl->axes, "vary.name", file.string(), names, problems);
   refuse_twice(impl->measures, "measure.name", file.string(), names, problems);
+  read_search(top, file.string(), *impl, problems);
   count(top, *impl);
   top.refuse_others();
   problems.throw_if_any();

@@ -183,7 +183,7 @@ void Plan::check() const {
       if (told.insert(error.what()).second) problems.add({impl_->file.string(), key, value, error.what(), ""});
     }
   };
-  const std::vector<Value> first = values(0);
+  const std::vector<Value> first = impl_->values(0);
   attempt(first, "", "");
   if (!problems.empty()) problems.throw_if_any();
   for (std::size_t k = 0; k < axes().size(); ++k) {

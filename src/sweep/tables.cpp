@@ -54,7 +54,8 @@ std::vector<Column> columns(const Plan& plan, const Results& results) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const std::size_t rows = plan.runs(), axes = plan.axes().size();
   std::vector<const Outcome*> of(rows, nullptr);
-  for (const Outcome& o : results.outcomes) of[o.run] = &o;
+  for (const Outcome& o : results.outcomes)
+    if (o.run < rows) of[o.run] = &o;
   std::vector<Column> out;
   const auto numbers = [&](const std::string& name) -> std::vector<double>& {
     out.push_back({name, true, std::vector<double>(rows, kNone), {}});

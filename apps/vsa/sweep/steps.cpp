@@ -19,9 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Part {
-  std::size_t number = 1, of = 1;
-};
+std::string duration_text(double s) {
+  if (!(s < 1e9)) return "a long time";
+  if (s < 100) return fmt::format("{:.0f} s", s);
+  return s < 6000 ? fmt::format("{:.0f} min", s / 60) : fmt::format("{:.1f} h", s / 3600);
+}
+
+}  // namespace
 
 Part part_of(const std::string& text) {
   if (text.empty()) return {};
@@ -33,16 +37,8 @@ Part part_of(const std::string& text) {
   return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
 }
 
-std::string duration_text(double s) {
-  if (!(s < 1e9)) return "a long time";
-  if (s < 100) return fmt::format("{:.0f} s", s);
-  return s < 6000 ? fmt::format("{:.0f} min", s / 60) : fmt::format("{:.1f} h", s / 3600);
-}
-
-}  // namespace
-
 fs::path folder_of(const SweepOptions& options) {
-  return options.out.empty() ? fs::path("sweep_" + fs::path(options.plan).stem().string()) : fs::path(options.out);
+  return options.out.empty() ? fs::path(options.command + "_" + fs::path(options.plan).stem().string()) : fs::path(options.out);
 }
 
 void Todo::add(std::size_t run) {
@@ -62,7 +58,7 @@ Todo what_is_left(const sweep::Plan& plan, const SweepOptions& options) {
   std::vector<bool> done(plan.runs(), false);
   std::size_t known = 0;
   for (const sweep::Outcome& o : there.outcomes) {
-    if (o.run % part.of != part.number - 1) continue;
+    if (!part.has(o.run)) continue;
     ++known;
     done[o.run] = o.error.empty() || !options.retry_failed;
   }
@@ -85,12 +81,17 @@ std::vector<std::size_t> Dealer::deal(std::size_t count) {
   return out;
 }
 
+void refuse_search(const sweep::Plan& plan, const SweepOptions& options) {
+  if (plan.search()) throw InputError({options.plan, "vary.search", "", "is to be searched, not swept", "vsa optimize"});
+}
+
 void tell_plan(const sweep::Plan& plan, Console& console) {
   std::string axes;
   for (const sweep::Axis& a : plan.axes()) {
-    const std::string many = a.kind == sweep::Axis::Kind::listed   ? std::to_string(a.values.size())
-                             : a.kind == sweep::Axis::Kind::random ? "random"
-                                                                   : "Sobol'";
+    const std::string many = a.kind == sweep::Axis::Kind::listed     ? std::to_string(a.values.size())
+                             : a.kind == sweep::Axis::Kind::random   ? "random"
+                             : a.kind == sweep::Axis::Kind::searched ? "searched"
+                                                                     : "Sobol'";
     axes += (axes.empty() ? "" : ", ") + a.name + " (" + many + ")";
   }
   console.line(fmt::format("{}{} runs: {} points × {} repetitions{}", plan.title().empty() ? "" : plan.title() + ": ", plan.runs(),

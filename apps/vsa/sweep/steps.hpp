@@ -26,6 +26,14 @@ struct Todo {
 /// Claims the folder and reads what is there. Throws InputError: it has results and nobody said --resume.
 [[nodiscard]] Todo what_is_left(const sweep::Plan& plan, const SweepOptions& options);
 
+/// Every Nth run, from the Ith on.
+struct Part {
+  std::size_t number = 1, of = 1;
+  [[nodiscard]] bool has(std::size_t run) const noexcept { return run % of == number - 1; }
+};
+/// "2/8"; empty: the whole. Throws InputError.
+[[nodiscard]] Part part_of(const std::string& text);
+
 /// Numbers of a todo list, one after the other. Not for several threads.
 class Dealer {
  public:
@@ -38,6 +46,9 @@ class Dealer {
   Todo todo_;
   std::size_t left_, range_ = 0, at_ = 0;
 };
+
+/// Throws InputError where a plan is one to be searched (vsa optimize).
+void refuse_search(const sweep::Plan& plan, const SweepOptions& options);
 
 /// "12,345 runs: 3 axes …": what the plan asks for.
 void tell_plan(const sweep::Plan& plan, Console& console);

@@ -104,6 +104,7 @@ int run_here(const sweep::Plan& plan, const SweepOptions& options, Console& cons
 
 int run_sweep(const SweepOptions& options) {
   const sweep::Plan plan = sweep::Plan::load(options.plan);
+  refuse_search(plan, options);
   Console console;
   catch_interrupts();
   if (options.merge) {
@@ -119,7 +120,7 @@ int run_sweep(const SweepOptions& options) {
 
 void add_sweep_options(CLI::App& sub, SweepOptions& options) {
   sub.add_option("PLAN", options.plan, "The plan: a TOML file")->required();
-  sub.add_option("--out", options.out, "Folder for logs and tables; default: sweep_PLAN");
+  sub.add_option("--out", options.out, "Folder for logs and tables; default: " + options.command + "_PLAN");
   sub.add_option("--threads", options.threads, "Runs at once in each process")->check(CLI::Range(1, 4096));
   sub.add_flag("--resume", options.resume, "Go on where a folder's runs ended");
   sub.add_flag("--retry-failed", options.retry_failed, "And run again what failed")->needs("--resume");

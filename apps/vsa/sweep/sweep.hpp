@@ -7,8 +7,9 @@
 namespace vsa::app {
 
 struct SweepOptions {
+  std::string command = "sweep";
   std::string plan;  ///< TOML
-  std::string out;   ///< folder; empty: sweep_PLAN
+  std::string out;   ///< folder; empty: COMMAND_PLAN
   unsigned threads = 0;
   std::string part;  ///< "2/8"
   bool resume = false, retry_failed = false;

@@ -27,8 +27,8 @@ using Value = std::variant<double, std::int64_t, bool, std::string>;
 
 /// What varies.
 struct Axis {
-  enum class Kind { listed, random, sobol } kind = Kind::listed;
-  enum class Law { uniform, log_uniform, normal } law = Law::uniform;  ///< of random
+  enum class Kind { listed, random, sobol, searched } kind = Kind::listed;
+  enum class Law { uniform, log_uniform, normal } law = Law::uniform;  ///< of random and searched
   std::string name;                                                    ///< the column; else the first key
   std::vector<std::string>
       keys;                ///< in the scenario's file, "motion.group.vertical.preset_deg"; or of its parameters. All have its value
@@ -42,6 +42,18 @@ struct Axis {
 /// Where a repetition begins: the first robot's model, if it flies free, is turned and moved by up to so much, each by chance.
 struct Start {
   double yaw_deg = 0, xy_m = 0;
+};
+
+/// What an optimiser is to make of a plan's searched axes (vsa/sweep/optimize.hpp).
+struct Objective {
+  enum class Over { mean, median, worst } over = Over::median;  ///< of all runs of a candidate
+  std::size_t measure = 0;
+  bool maximize = false;
+};
+struct Search {
+  std::string algorithm;
+  unsigned population = 24, generations = 20;
+  std::vector<Objective> objectives;
 };
 
 class Plan {
@@ -59,7 +71,16 @@ class Plan {
   [[nodiscard]] const std::vector<Measure>& measures() const;
   [[nodiscard]] std::size_t points() const;
   [[nodiscard]] std::size_t repetitions() const;
+  /// None: nothing is searched.
+  [[nodiscard]] const std::optional<Search>& search() const;
+  /// The plan with candidates for its searched axes: as many numbers each, 0 … 1 from end to end. Its points are those of the first
+  /// candidate, then those of the next.
+  [[nodiscard]] Plan with(std::vector<std::vector<double>> candidates) const;
+  [[nodiscard]] std::size_t candidates() const;  ///< 1 where nothing is searched
+  [[nodiscard]] const std::vector<std::vector<double>>& candidate_list() const;
+  [[nodiscard]] std::size_t most_runs() const;  ///< that a search comes to; else runs()
   [[nodiscard]] std::size_t runs() const { return points() * repetitions(); }
+  [[nodiscard]] std::uint64_t seed() const;
   [[nodiscard]] double limit_s() const;  ///< of a run, by the wall clock
   /// One an axis.
   [[nodiscard]] std::vector<Value> values(std::size_t point) const;

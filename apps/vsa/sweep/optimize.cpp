@@ -1,0 +1,158 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "sweep/optimize.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "terminal/exit_codes.hpp"
+#include "terminal/interrupt.hpp"
+#include "terminal/output_files.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/sweep/optimize.hpp"
+#include "vsa/sweep/summary.hpp"
+
+namespace vsa::app {
+namespace {
+
+constexpr const char* kNotes =
+    R"(The plan is one of vsa sweep's with axes that are searched, an algorithm and objectives (docs/reference/sweep-files.md). A generation's
+runs are made at once; what comes next follows from the plan and the numbers so far alone, so that the same seed finds the same
+whoever runs what. With --part every part of N runs its share of each generation and waits for the others', so all of them have to
+run at once, over one folder.
+
+Examples:
+  vsa optimize examples/sweep/settle.toml --out out
+  vsa optimize examples/sweep/settle.toml --out out --part 3/8
+  mpirun -n 16 vsa-mpi optimize examples/sweep/settle.toml --out out
+
+Exit codes: 0 done, 1 every candidate failed, 2 bad input, 130 interrupted; --resume goes on.)";
+
+struct Interrupted {};
+
+/// All outcomes up to the plan's last run; waits for those that others make.
+std::vector<sweep::Outcome> whole_outcomes(const sweep::Plan& plan, const SweepOptions& options, Console& console) {
+  for (int looks = 0;; ++looks) {
+    sweep::Results all = sweep::read_logs(folder_of(options), plan);
+    std::erase_if(all.outcomes, [&](const sweep::Outcome& o) { return o.run >= plan.runs(); });
+    if (all.outcomes.size() == plan.runs()) return std::move(all.outcomes);
+    if (looks > 0) console.status(fmt::format("waiting for {} runs of other parts", plan.runs() - all.outcomes.size()));
+    if (interrupted() != 0) throw Interrupted{};
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+}
+
+void write_findings(const sweep::Optimum& found, const SweepOptions& options, Console& console) {
+  const std::filesystem::path folder = folder_of(options);
+  write_whole(folder / "candidates.csv", sweep::candidates_csv(found));
+  const auto tables = sweep::write_tables(folder, found.plan, sweep::read_logs(folder, found.plan));
+  report::write_report(sweep::optimum_page(found, "vsa optimize " + options.plan), folder / "page.html");
+  console.wipe();
+  const sweep::Search& search = *found.plan.search();
+  std::cout << fmt::format("candidates          {} in {} generations by {}, {} runs\n", found.plan.candidates(),
+                           (found.plan.candidates() + search.population - 1) / search.population, search.algorithm,
+                           found.plan.runs())
+            << fmt::format("not beaten          {}\n", found.best.size());
+  if (!found.best.empty()) {
+    const std::size_t first = found.best.front(), points = found.plan.points() / found.plan.candidates();
+    const auto values = found.plan.values(first * points);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (found.plan.axes()[k].kind == sweep::Axis::Kind::searched)
+        std::cout << fmt::format("  {:<18}{}\n", found.plan.axes()[k].name, sweep::value_text(values[k]));
+    for (std::size_t o = 0; o < search.objectives.size(); ++o)
+      std::cout << fmt::format("  {:<18}{:.6g}\n", found.plan.measures()[search.objectives[o].measure].name,
+                               found.objectives[first][o]);
+  }
+  std::cout << fmt::format("tables              {}\n", (folder / "candidates.csv").string());
+  for (const auto& table : tables) std::cout << fmt::format("{:<20}{}\n", "", table.string());
+  std::cout << fmt::format("page                {}\n", (folder / "page.html").string());
+  std::cout.flush();
+  if (!std::cout) throw std::runtime_error("can't write the summary to standard output");
+}
+
+}  // namespace
+
+void begin_search(const sweep::Plan& plan, const SweepOptions& options) {
+  if (!plan.search())
+    throw InputError({options.plan, "vary", "", "nothing is searched", "an axis with search = [from, to]; vsa sweep"});
+  if (!sweep::has_optimizer())
+    throw InputError(
+        {"", "vsa optimize", "", "this build has no optimiser", "one that was configured where pagmo is (libpagmo-dev)"});
+  const Part part = part_of(options.part);
+  sweep::claim(folder_of(options), plan);
+  const sweep::Results there = sweep::read_logs(folder_of(options), plan);
+  const bool any =
+      std::any_of(there.outcomes.begin(), there.outcomes.end(), [&](const sweep::Outcome& o) { return part.has(o.run); });
+  if (any && !options.resume)
+    throw InputError(
+        {"", "--out", folder_of(options).string(), "has results already", "--resume, which goes on; or another folder"});
+}
+
+int search(const sweep::Plan& plan, const SweepOptions& options, Console& console, const MakeRuns& make) {
+  const Part part = part_of(options.part);
+  std::size_t generation = 0;
+  const sweep::Evaluate evaluate = [&](const sweep::Plan& with, std::size_t first) {
+    const sweep::Results there = sweep::read_logs(folder_of(options), with);
+    std::vector<bool> known(with.runs(), false);
+    for (const sweep::Outcome& o : there.outcomes)
+      if (o.run < with.runs()) known[o.run] = true;
+    Todo todo;
+    for (std::size_t run = first; run < with.runs(); ++run)
+      if (!known[run] && part.has(run)) todo.add(run);
+    console.status(fmt::format("generation {} of {}", generation++, plan.search()->generations));
+    if (todo.count > 0 && !make(with, todo)) throw Interrupted{};
+    return whole_outcomes(with, options, console);
+  };
+  try {
+    const sweep::Optimum found = sweep::optimize(plan, evaluate);
+    if (part.number == 1) write_findings(found, options, console);
+    return found.best.empty() ? kFailed : kDone;
+  } catch (const Interrupted&) {
+    console.wipe();
+    console.line("interrupted: --resume goes on");
+    return kSignalled + std::max(1, interrupted());
+  }
+}
+
+int run_optimize(const SweepOptions& options) {
+  const sweep::Plan plan = sweep::Plan::load(options.plan);
+  begin_search(plan, options);
+  plan.check();
+  Console console;
+  catch_interrupts();
+  sweep::Log log(folder_of(options), plan);
+  return search(plan, options, console, [&](const sweep::Plan& with, const Todo& runs) {
+    Dealer dealer(runs);
+    std::mutex lock;
+    sweep::Work work;
+    work.next = [&]() -> std::optional<std::size_t> {
+      const std::scoped_lock guard(lock);
+      const auto one = dealer.deal(1);
+      return one.empty() ? std::nullopt : std::optional(one.front());
+    };
+    work.done = [&](const sweep::Outcome& outcome) { log.add(outcome); };
+    work.wanted = [] { return interrupted() == 0; };
+    static_cast<void>(sweep::run_pool(with, options.threads, work));
+    return interrupted() == 0;
+  });
+}
+
+void setup_optimize(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<SweepOptions>();
+  options->command = "optimize";
+  CLI::App* sub = app.add_subcommand("optimize", "The best values of a plan's searched axes");
+  add_sweep_options(*sub, *options);
+  sub->add_option("--part", options->part, "Run every Nth run, from the Ith on, beside the other parts: I/N");
+  sub->footer(kNotes);
+  sub->callback([options, &exit_code] { exit_code = run_optimize(*options); });
+}
+
+}  // namespace vsa::app
