@@ -379,6 +379,21 @@ TEST_F(Optimize, KilledItGoesOnWhereItWas) {
   }
 }
 
+TEST_F(Optimize, WhatFailedIsTriedAgainWhereThatIsWanted) {
+  std::string text = search_text();
+  text.replace(text.find("duration_s = 0.3"), 16, "duration_s = 1e7");
+  write_file(scratch_ / "long.toml", text + "[limits]\nrun_s = 0.001\n");
+  std::vector<std::string> arguments{"optimize", scratch_ / "long.toml", "--out", scratch_ / "failed"};
+  EXPECT_EQ(run_vsa(arguments).exit_code, 1) << "every candidate failed";
+  EXPECT_EQ(runs_in(scratch_ / "failed"), 2U * 8 * 7);
+  arguments.emplace_back("--resume");
+  EXPECT_EQ(run_vsa(arguments).exit_code, 1);
+  EXPECT_EQ(runs_in(scratch_ / "failed"), 2U * 8 * 7);
+  arguments.emplace_back("--retry-failed");
+  EXPECT_EQ(run_vsa(arguments).exit_code, 1);
+  EXPECT_EQ(runs_in(scratch_ / "failed"), 4U * 8 * 7);
+}
+
 TEST_F(Optimize, RanksFindTheSame) {
   Ranks::SetUp();
   if (IsSkipped()) return;

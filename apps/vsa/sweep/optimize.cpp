@@ -10,6 +10,7 @@
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -99,11 +100,16 @@ void begin_search(const sweep::Plan& plan, const SweepOptions& options) {
 int search(const sweep::Plan& plan, const SweepOptions& options, Console& console, const MakeRuns& make) {
   const Part part = part_of(options.part);
   std::size_t generation = 0;
+  std::set<std::size_t> again;  // what had failed before
+  if (options.retry_failed) {
+    for (const sweep::Outcome& o : sweep::read_logs(folder_of(options), plan).outcomes)
+      if (!o.error.empty()) again.insert(o.run);
+  }
   const sweep::Evaluate evaluate = [&](const sweep::Plan& with, std::size_t first) {
     const sweep::Results there = sweep::read_logs(folder_of(options), with);
     std::vector<bool> known(with.runs(), false);
     for (const sweep::Outcome& o : there.outcomes)
-      if (o.run < with.runs()) known[o.run] = true;
+      if (o.run < with.runs()) known[o.run] = again.erase(o.run) == 0;
     Todo todo;
     for (std::size_t run = first; run < with.runs(); ++run)
       if (!known[run] && part.has(run)) todo.add(run);
