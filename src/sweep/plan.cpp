@@ -160,6 +160,13 @@ std::string Plan::scenario_text(std::size_t run) const {
   }
   if (impl_->start.yaw_deg > 0 || impl_->start.xy_m > 0)
     out << "# Not in it: the start of repetition " << run % repetitions() << ".\n";
+  if (impl_->is_study()) {
+    toml::table root = impl_->base;
+    for (std::size_t k = 0; k < with.size(); ++k)
+      for (const std::string& key : impl_->axes[k].keys) put(root, key, with[k]);
+    out << '\n' << root << '\n';
+    return out.str();
+  }
   const scenario::Scenario s = impl_->scenario_with(with, run % repetitions());
   out << '\n' << scenario::text(s, *s.duration_s);
   return out.str();

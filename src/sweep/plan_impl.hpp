@@ -4,6 +4,8 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,9 +30,16 @@ struct Plan::Impl {
   double limit_s = 3600;
 
   [[nodiscard]] std::vector<Value> values(std::size_t point) const;
+  [[nodiscard]] bool is_study() const { return base.contains("study"); }
   /// The scenario with these values, of which those of parameters have no place in it. Throws InputError.
   [[nodiscard]] scenario::Scenario scenario_with(const std::vector<Value>& values, std::size_t repetition) const;
 };
+
+/// A study (vsa/study/) with these values of the plan's axes: what has to be right before it runs. Throws InputError.
+void check_study(const Plan::Impl& plan, const std::vector<Value>& values);
+/// Its numbers, one a measure; none: not wanted any more. Throws what a study throws.
+[[nodiscard]] std::optional<std::vector<double>> run_study(const Plan::Impl& plan, const std::vector<Value>& values,
+                                                           const std::function<bool()>& wanted);
 
 /// Puts a value where a scenario's key is. Throws InputError where there is no such place.
 void put(toml::table& scenario, const std::string& key, const Value& value);

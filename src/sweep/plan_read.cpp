@@ -1,4 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/random/sobol.hpp>
 #include <cmath>
@@ -23,7 +25,7 @@ using config::TomlSection;
 constexpr double kAny = std::numeric_limits<double>::max();
 constexpr double kMostSamples = Plan::kMostRuns;
 
-constexpr const char* kParts[] = {"scenario", "set", "motion", "command"};
+constexpr const char* kParts[] = {"scenario", "study", "set", "motion", "command"};
 constexpr const char* kOutside[] = {"speed", "low_latency", "view", "view_port", "view_records", "paused", "topics"};
 
 std::optional<Value> value_of(const toml::node& node) {
@@ -61,13 +63,15 @@ std::optional<std::array<double, 2>> pair_of(TomlSection& s, const char* key) {
   return std::array<double, 2>{numbers[0], numbers[1]};
 }
 
-/// a, …, b; exact at both ends.
+/// a, …, b; exact at both ends, and to 14 digits between.
 std::vector<Value> spaced(double a, double b, std::size_t count, bool log) {
   std::vector<Value> out;
   for (std::size_t i = 0; i < count; ++i) {
     const double part = count == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(count - 1);
     const double between = log ? a * std::pow(b / a, part) : a + (b - a) * part;
-    out.emplace_back(i == 0 ? a : i + 1 == count ? b : between);
+    // A third of 0.3 is to be read as 0.1.
+    const double short_one = config::parse_number(fmt::format("{:.14g}", between)).value_or(between);
+    out.emplace_back(i == 0 ? a : i + 1 == count ? b : short_one);
   }
   return out;
 }
@@ -154,6 +158,14 @@ Axis read_axis(TomlSection s) {
   return axis;
 }
 
+Measure read_study_measure(TomlSection s) {
+  Measure m;
+  m.name = s.need("name", "the column's name, with its unit").text("name").value_or("");
+  m.value = s.need("value", "a place in the study's results.json, or a quantity's name").text("value").value_or("");
+  s.refuse_others();
+  return m;
+}
+
 Measure read_measure(TomlSection s) {
   Measure m;
   s.need("name", "the column's name, with its unit")
@@ -204,7 +216,7 @@ std::string shown(const toml::table& table) {
 
 /// What a key of the scenario names as files, as they are now.
 std::string contents(const std::string& key, const std::string& name, const fs::path& beside) {
-  const bool world = key == "scenario.world", gait = key == "motion.file", type = key == "scenario.type";
+  const bool world = key == "scenario.world", gait = key == "motion.file", type = key == "scenario.type" || key == "study.type";
   if (!world && !gait && !type) return "";
   try {
     const auto file = world  ? config::find_file(name, "world", "models/worlds", ".sdf", beside)
@@ -221,7 +233,7 @@ std::uint64_t fingerprint_of(const toml::table& root, const Plan::Impl& plan) {
   h = hashed(h, shown(root));
   h = hashed(h, shown(plan.base));
   const fs::path beside = plan.base_file.parent_path();
-  for (const char* key : {"scenario.world", "motion.file", "scenario.type"}) {
+  for (const char* key : {"scenario.world", "motion.file", "scenario.type", "study.type"}) {
     if (const auto name = plan.base.at_path(key).value<std::string>()) h = hashed(h, contents(key, *name, beside));
   }
   for (const Axis& axis : plan.axes) {
@@ -238,9 +250,14 @@ void read_base(TomlSection& top, Plan::Impl& out, Problems& problems) {
     const toml::node* node = top.find(part);
     if (node == nullptr || (std::string(part) == "scenario" && !node->is_table())) continue;
     out.base.insert(part, *node);
-    own = own || std::string(part) == "scenario";
+    own = own || std::string(part) == "scenario" || std::string(part) == "study";
   }
   out.base_file = out.file;
+  if (out.is_study()) {
+    for (const char* other : {"scenario", "motion", "command", "start"})
+      if (top.find(other) != nullptr) top.add(other, "", "is a scenario's, and this plan has a study", "[study] or [scenario]");
+    return;
+  }
   const toml::node* named = top.find("scenario");
   if (own) return;
   const auto name = named == nullptr ? std::nullopt : named->value_exact<std::string>();
@@ -351,7 +368,13 @@ Plan Plan::load(const fs::path& file) {
   const auto vary = top.tables("vary"), measure = top.tables("measure");
   const auto place = [&](const toml::table* t) { return file.string() + ":" + std::to_string(t->source().begin.line); };
   for (const toml::table* t : vary) impl->axes.push_back(read_axis({t, place(t), "vary.", problems}));
-  for (const toml::table* t : measure) impl->measures.push_back(read_measure({t, place(t), "measure.", problems}));
+  for (const toml::table* t : measure) {
+    const TomlSection section(t, place(t), "measure.", problems);
+    impl->measures.push_back(impl->is_study() ? read_study_measure(section) : read_measure(section));
+  }
+  for (const Axis& axis : impl->axes)
+    if (impl->is_study() && axis.parameter)
+      problems.add({file.string(), "vary.key", config::join(axis.keys), "is no key of a study", "study.…, set.…"});
   if (measure.empty()) top.add("measure", "", "is missing", "[[measure]] with name and signal");
   std::set<std::string> names{"point", "repetition", "error"};
   refuse_twice(impl->axes, "vary.name", file.string(), names, problems);

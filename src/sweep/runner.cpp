@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -32,6 +33,10 @@ double number_of(const Value& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? 1 : 0;
   return std::get<double>(value);
+}
+
+std::runtime_error beyond(double limit_s) {
+  return std::runtime_error(fmt::format("the limit: run_s = {:g} s of wall time", limit_s));
 }
 
 /// What a world is made of, as a key to those that were read.
@@ -135,6 +140,18 @@ std::optional<Outcome> Runner::run(std::size_t number, const std::function<bool(
   Outcome out;
   out.run = number;
   try {
+    if (impl_->plan.impl_->is_study()) {
+      const auto in_time = [&] {
+        if (seconds_since(began) > limit_s) throw beyond(limit_s);
+        return !wanted || wanted();
+      };
+      auto values = run_study(*impl_->plan.impl_, impl_->plan.values(number / impl_->plan.repetitions()), in_time);
+      if (!values) return std::nullopt;
+      out.values = std::move(*values);
+      out.wall_s = seconds_since(began);
+      out.cpu_s = std::numeric_limits<double>::quiet_NaN();  // a study works in a thread of its own
+      return out;
+    }
     const auto ready = impl_->ready(number);
     for (unsigned n = 0; ready->world.time_ns() < ready->end_ns; ++n) {
       if (n % kLook == 0 && wanted && !wanted()) return std::nullopt;
@@ -156,6 +173,10 @@ std::optional<Outcome> Runner::run(std::size_t number, const std::function<bool(
 
 double Runner::estimate_s(std::size_t number, double probe_s) {
   const Clock::time_point began = Clock::now();
+  if (impl_->plan.impl_->is_study()) {
+    const auto whole = run(number);
+    return whole ? whole->wall_s : 0;
+  }
   const auto ready = impl_->ready(number);
   const double loading_s = seconds_since(began);
   const std::int64_t first_ns = ready->world.time_ns();
@@ -171,6 +192,7 @@ void Plan::check() const {
   Runner::Impl runner(*this);
   const auto attempt = [&](const std::vector<Value>& with, const std::string& key, const std::string& value) {
     try {
+      if (impl_->is_study()) return check_study(*impl_, with);
       static_cast<void>(runner.ready(with, 0));
     } catch (const InputError& error) {
       for (Problem p : error.problems()) {

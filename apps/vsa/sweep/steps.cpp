@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <iterator>
 #include <set>
@@ -107,12 +108,11 @@ std::string RunProgress::text(std::size_t done, std::size_t failed) const {
 }
 
 std::string account_text(const sweep::Account& a, std::size_t processes) {
-  return fmt::format(
-      "{} runs in {:.3g} s on {} thread{} of {} process{}: {:.1f} % of their CPU time was the runs'; a thread waited "
-      "{:.1f} % of the time{}",
-      a.runs, a.span_s, a.threads, a.threads == 1 ? "" : "s", processes, processes == 1 ? "" : "es",
-      100 * a.run_cpu_s / std::max(a.all_cpu_s, 1e-9), 100 * a.waited(),
-      processes == 1 ? "" : fmt::format(", in the process that waited most {:.1f} %", 100 * a.most_waited));
+  const double part = 100 * a.run_cpu_s / std::max(a.all_cpu_s, 1e-9);
+  return fmt::format("{} runs in {:.3g} s on {} thread{} of {} process{}: {}a thread waited {:.1f} % of the time{}", a.runs,
+                     a.span_s, a.threads, a.threads == 1 ? "" : "s", processes, processes == 1 ? "" : "es",
+                     std::isfinite(part) ? fmt::format("{:.1f} % of their CPU time was the runs'; ", part) : "", 100 * a.waited(),
+                     processes == 1 ? "" : fmt::format(", in the process that waited most {:.1f} %", 100 * a.most_waited));
 }
 
 int merge(const sweep::Plan& plan, const SweepOptions& options, Console& console) {

@@ -24,6 +24,7 @@ namespace vsa::sweep {
 
 struct Measure {
   std::string name;
+  std::string value;  ///< of a study, in place of all below: a place in its results.json, or a quantity's name
   std::string signal;
   std::string statistic = "last";
   std::string actuator, joint, link;  ///< at most one

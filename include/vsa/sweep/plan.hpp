@@ -104,7 +104,7 @@ struct Outcome {
   std::vector<double> values;  ///< one a measure; none where it failed
   std::string error;           ///< why it failed; empty: it didn't
   std::string notice;          ///< what the robots had to tell, a command that was clamped; the first of it
-  double wall_s = 0, cpu_s = 0;
+  double wall_s = 0, cpu_s = 0;  ///< cpu_s: NaN where nobody knows
 };
 
 /// Runs of a plan, one after the other, in one thread. What it keeps between them (a world that was read) changes no bit.
