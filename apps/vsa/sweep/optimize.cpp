@@ -55,7 +55,7 @@ void write_findings(const sweep::Optimum& found, const SweepOptions& options, Co
   const std::filesystem::path folder = folder_of(options);
   write_whole(folder / "candidates.csv", sweep::candidates_csv(found));
   const auto tables = sweep::write_tables(folder, found.plan, sweep::read_logs(folder, found.plan));
-  report::write_report(sweep::optimum_page(found, "vsa optimize " + options.plan), folder / "page.html");
+  const bool page = write_page(sweep::optimum_page(found, "vsa optimize " + options.plan), folder / "page.html", console);
   console.wipe();
   const sweep::Search& search = *found.plan.search();
   std::cout << fmt::format("candidates          {} in {} generations by {}, {} runs\n", found.plan.candidates(),
@@ -74,7 +74,7 @@ void write_findings(const sweep::Optimum& found, const SweepOptions& options, Co
   }
   std::cout << fmt::format("tables              {}\n", (folder / "candidates.csv").string());
   for (const auto& table : tables) std::cout << fmt::format("{:<20}{}\n", "", table.string());
-  std::cout << fmt::format("page                {}\n", (folder / "page.html").string());
+  if (page) std::cout << fmt::format("page                {}\n", (folder / "page.html").string());
   std::cout.flush();
   if (!std::cout) throw std::runtime_error("can't write the summary to standard output");
 }

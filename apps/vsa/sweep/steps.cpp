@@ -115,17 +115,23 @@ std::string account_text(const sweep::Account& a, std::size_t processes) {
                      processes == 1 ? "" : fmt::format(", in the process that waited most {:.1f} %", 100 * a.most_waited));
 }
 
+bool write_page(const report::Report& page, const fs::path& file, Console& console) {
+  try {
+    report::write_report(page, file);
+    return true;
+  } catch (const InputError& error) {
+    console.line("page left out: " + error.problems().front().text());
+    return false;
+  }
+}
+
 int merge(const sweep::Plan& plan, const SweepOptions& options, Console& console) {
   constexpr std::size_t kShown = 10;
   const fs::path folder = folder_of(options);
   const sweep::Results results = sweep::read_logs(folder, plan);
   auto files = sweep::write_tables(folder, plan, results);
-  try {
-    report::write_report(sweep::summary(plan, results, "vsa sweep " + options.plan), folder / "page.html");
-    files.push_back(folder / "page.html");
-  } catch (const InputError& error) {  // without the page's program there are the tables
-    console.line("page left out: " + error.problems().front().text());
-  }
+  const fs::path page = folder / "page.html";
+  if (write_page(sweep::summary(plan, results, "vsa sweep " + options.plan), page, console)) files.push_back(page);
   console.wipe();
   if (results.damaged > 0)
     console.line(

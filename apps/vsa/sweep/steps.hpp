@@ -10,6 +10,7 @@
 
 #include "sweep/sweep.hpp"
 #include "terminal/console.hpp"
+#include "vsa/report/report.hpp"
 #include "vsa/sweep/folder.hpp"
 #include "vsa/sweep/pool.hpp"
 
@@ -65,6 +66,9 @@ class RunProgress {
 
 /// How well the processors were used.
 [[nodiscard]] std::string account_text(const sweep::Account& account, std::size_t processes);
+
+/// Writes the page beside its tables; where this installation lacks the page's program, that is said, and there is none.
+[[nodiscard]] bool write_page(const report::Report& page, const std::filesystem::path& file, Console& console);
 
 /// Reads all logs, writes the tables, tells what came of it. The exit code: failed where a run did or isn't there.
 int merge(const sweep::Plan& plan, const SweepOptions& options, Console& console);
