@@ -16,6 +16,8 @@ struct Column {
   std::vector<double> numbers;  ///< NaN: none
   std::vector<std::string> texts;
 };
+/// A text as a CSV file has it (RFC 4180).
+[[nodiscard]] std::string cell(const std::string& text);
 [[nodiscard]] std::vector<Column> columns(const Plan& plan, const Results& results);
 
 }  // namespace vsa::sweep

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sweep/columns.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/sweep/optimize.hpp"
 
@@ -93,13 +94,8 @@ std::string candidates_csv(const Optimum& optimum) {
   const Plan& plan = optimum.plan;
   const auto axes = searched_axes(plan);
   std::string out = "candidate,generation";
-  const auto quoted = [](const std::string& name) {
-    std::string text = "\"";
-    for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return text + '"';
-  };
-  for (const std::size_t k : axes) out += ',' + quoted(plan.axes()[k].name);
-  for (std::size_t o = 0; o < plan.search()->objectives.size(); ++o) out += ',' + quoted(name_of(plan, o));
+  for (const std::size_t k : axes) out += ',' + cell(plan.axes()[k].name);
+  for (std::size_t o = 0; o < plan.search()->objectives.size(); ++o) out += ',' + cell(name_of(plan, o));
   out += ",not_beaten\n";
   for (std::size_t c = 0; c < plan.candidates(); ++c) {
     out += fmt::format("{},{}", c, c / plan.search()->population);

@@ -13,6 +13,14 @@ const std::vector<std::string>& statistic_names() {
   return names;
 }
 
+double quantile(const std::vector<double>& sorted, double order) {
+  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double at = order * static_cast<double>(sorted.size() - 1);
+  const auto low = static_cast<std::size_t>(at);
+  const std::size_t high = std::min(low + 1, sorted.size() - 1);
+  return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
+}
+
 Statistic::Statistic(const Measure& measure) : band_(measure.band), order_(measure.order) {
   const auto& names = statistic_names();
   const auto at = std::find(names.begin(), names.end(), measure.statistic);
@@ -73,10 +81,7 @@ double Statistic::value() const {
     case Kind::quantile: {
       std::vector<double> sorted = values_;
       std::sort(sorted.begin(), sorted.end());
-      const double at = order_ * (n - 1);
-      const auto low = static_cast<std::size_t>(at);
-      const std::size_t high = std::min(low + 1, sorted.size() - 1);
-      return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
+      return quantile(sorted, order_);
     }
     case Kind::settle:
       return settled();

@@ -177,15 +177,8 @@ report::Table failures(const Results& results) {
 
 Quartiles quartiles(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  if (values.empty()) return {0, kNone, kNone, kNone};
   std::sort(values.begin(), values.end());
-  const auto at = [&](double order) {
-    const double place = order * static_cast<double>(values.size() - 1);
-    const auto low = static_cast<std::size_t>(place);
-    const std::size_t high = std::min(low + 1, values.size() - 1);
-    return values[low] + (place - static_cast<double>(low)) * (values[high] - values[low]);
-  };
-  return {values.size(), at(0.25), at(0.5), at(0.75)};
+  return {values.size(), quantile(values, 0.25), quantile(values, 0.5), quantile(values, 0.75)};
 }
 
 report::Report summary(const Plan& plan, const Results& results, const std::string& command) {

@@ -19,14 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// RFC 4180.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
 bool numeric(const Axis& axis) {
   return axis.kind != Axis::Kind::listed ||
          std::all_of(axis.values.begin(), axis.values.end(), [](const Value& v) { return v.index() < 2; });
@@ -49,6 +41,13 @@ void put_whole(const fs::path& file, Write&& write) {
 }
 
 }  // namespace
+
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
 
 std::vector<Column> columns(const Plan& plan, const Results& results) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

@@ -101,9 +101,9 @@ class Plan {
 /// What came of a run.
 struct Outcome {
   std::size_t run = 0;
-  std::vector<double> values;  ///< one a measure; none where it failed
-  std::string error;           ///< why it failed; empty: it didn't
-  std::string notice;          ///< what the robots had to tell, a command that was clamped; the first of it
+  std::vector<double> values;    ///< one a measure; none where it failed
+  std::string error;             ///< why it failed; empty: it didn't
+  std::string notice;            ///< what the robots had to tell, a command that was clamped; the first of it
   double wall_s = 0, cpu_s = 0;  ///< cpu_s: NaN where nobody knows
 };
 
