@@ -49,8 +49,10 @@ void put(toml::table& scenario, const std::string& key, const Value& value) {
   if (dot == std::string::npos || dot + 1 == key.size()) nowhere("names no key");
   const std::string part = key.substr(0, dot);
   // The parameters' own keys have points in them.
-  std::vector<std::string> rest =
-      part == "set" ? std::vector<std::string>{key.substr(dot + 1)} : config::split(key.substr(dot + 1), '.');
+  std::vector<std::string> rest = config::split(key.substr(dot + 1), '.');
+  if (part == "set") rest = {key.substr(dot + 1)};
+  if (part == "study" && rest.size() > 1 && (rest[0] == "from" || rest[0] == "hold"))
+    rest = {rest[0], key.substr(dot + 2 + rest[0].size())};
   toml::node* at = scenario.get(part);
   if (at == nullptr) {
     if (part == "command") nowhere("the scenario has no commands");

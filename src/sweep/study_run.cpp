@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <variant>
 
+#include "sweep/fit_run.hpp"
 #include "sweep/plan_impl.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/config/toml_section.hpp"
@@ -20,7 +22,7 @@ namespace {
 
 using config::TomlSection;
 using Json = nlohmann::json;
-using Task = std::variant<study::CharacterizationOptions, study::ValidationOptions>;
+using Task = std::variant<study::CharacterizationOptions, study::ValidationOptions, FitTask>;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kAny = std::numeric_limits<double>::max();
@@ -50,7 +52,8 @@ Task task_of(const Plan::Impl& plan, const std::vector<Value>& values) {
   Problems problems;
   TomlSection top(&root, plan.base_file.string(), "", problems);
   TomlSection s(top.table("study"), plan.base_file.string(), "study.", problems);
-  const std::string kind = s.need("kind", "characterize, validate").word("kind", {"characterize", "validate"}).value_or("validate");
+  const std::string kind =
+      s.need("kind", "characterize, validate, fit").word("kind", {"characterize", "validate", "fit"}).value_or("validate");
   experiment::Specimen specimen;
   specimen.type = s.need("type", "an actuator type's name").text("type").value_or("qbmove_maker_pro");
   for (const config::Override& o : top.overrides("set")) specimen.overrides.push_back(o);
@@ -61,6 +64,8 @@ Task task_of(const Plan::Impl& plan, const std::vector<Value>& values) {
     options.specimen = std::move(specimen);
     read_characterization(s, options);
     out = std::move(options);
+  } else if (kind == "fit") {
+    out = read_fit(s, plan.base_file, std::move(specimen), problems);
   } else {
     study::ValidationOptions options;
     options.specimen = std::move(specimen);
@@ -140,7 +145,9 @@ void check_study(const Plan::Impl& plan, const std::vector<Value>& values) {
     }
     return;
   }
-  const std::vector<std::string> known = quantity_names(study::plan_validation(std::get<study::ValidationOptions>(task)));
+  const auto* fit = std::get_if<FitTask>(&task);
+  const std::vector<std::string> known =
+      fit != nullptr ? fit_numbers(*fit) : quantity_names(study::plan_validation(std::get<study::ValidationOptions>(task)));
   for (const Measure& m : plan.measures)
     if (std::find(known.begin(), known.end(), m.value) == known.end()) refuse_place(m, plan, known);
 }
@@ -157,9 +164,16 @@ std::optional<std::vector<double>> run_study(const Plan::Impl& plan, const std::
     for (const Measure& m : plan.measures) out.push_back(number_at(results, m.value).value_or(kNone));
     return out;
   }
-  const auto done = study::run(study::plan_validation(std::get<study::ValidationOptions>(task)), on_progress, 1);
-  if (!done) return std::nullopt;
-  const auto quantities = study::quantities(*done);
+  std::map<std::string, double> quantities;
+  if (const auto* fit = std::get_if<FitTask>(&task)) {
+    auto done = run_fit(*fit, wanted);
+    if (!done) return std::nullopt;
+    quantities = std::move(*done);
+  } else {
+    const auto done = study::run(study::plan_validation(std::get<study::ValidationOptions>(task)), on_progress, 1);
+    if (!done) return std::nullopt;
+    quantities = study::quantities(*done);
+  }
   for (const Measure& m : plan.measures) {
     const auto at = quantities.find(m.value);
     out.push_back(at == quantities.end() ? kNone : at->second);
