@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"MixedKeys", vary("key = [\"set.drive.friction_Nm\", \"link.mass_kg\"]\nlist = [1.0]"), "mixes"},
         Bad{"WhatChangesNoNumber", vary("key = \"scenario.view\"\nlist = [true]"), "changes none of a run's numbers"},
         Bad{"TooMany", "repetitions = 1000000\n" + vary("key = \"set.drive.friction_Nm\"\nrange = [0.1, 0.2]\ncount = 1000000"),
-            "runs are more than a plan may have (allowed: at most 100000000)"},
+            "runs are more than a plan may have (allowed: at most 10000000)"},
         Bad{"TwoColumnsOfAName", kScenario + kMeasure + kMeasure, "two columns of one name"},
         Bad{"ColumnPoint", measure("signal = \"supply_J\"") + "\n[[measure]]\nname = \"point\"\nsignal = \"supply_J\"",
             "two columns of one name"},

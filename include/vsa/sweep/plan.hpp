@@ -60,7 +60,7 @@ class Plan {
  public:
   /// Throws InputError with every problem that can be seen without a world.
   [[nodiscard]] static Plan load(const std::filesystem::path& file);
-  static constexpr double kMostRuns = 1e8;
+  static constexpr double kMostRuns = 1e7;
 
   /// Also what a world shows: each value of each list, and the ends of each range, beside the first value of all others. Loads a world
   /// for each. Throws InputError with every problem.
