@@ -3,7 +3,7 @@
 #
 # sweep_nodes.sh BIN: a sweep of 1,000 points on two nodes that have nothing in common but the disk: network namespaces with hostnames
 # of their own and TCP between them. Its table must be that of this machine's threads, byte for byte; then once more over a slow link
-# (50 ms each way), and with the second node killed half-way and --resume.
+# (50 ms each way), and with a rank killed half-way and --resume.
 # Ends with 77 (left out) where it isn't root, namespaces can't be made, or there is no Open MPI.
 set -eu
 export ASAN_OPTIONS="${ASAN_OPTIONS:-}"
@@ -11,7 +11,7 @@ bin=$1
 left_out() { echo "left out: $1"; exit 77; }
 [ -x "$bin/vsa-mpi" ] || left_out "this build has no vsa-mpi"
 [ "$(id -u)" -eq 0 ] || left_out "namespaces need root"
-for tool in mpirun ip tc unshare nsenter; do command -v $tool > /dev/null || left_out "no $tool"; done
+for tool in mpirun ip unshare nsenter; do command -v $tool > /dev/null || left_out "no $tool"; done
 mpirun --version 2> /dev/null | grep -q 'Open MPI' || left_out "mpirun isn't Open MPI's"
 
 work=$(mktemp -d)
@@ -41,7 +41,7 @@ in_node "$b" sh -c "ip link set lo up; ip addr add 10.213.7.2/24 dev vsa$$b; ip 
 # What ssh is to a cluster: AGENT HOST COMMAND…
 cat > "$work/agent" << AGENT
 #!/bin/sh
-case "\$1" in 10.213.7.1) node=$a ;; *) node=$b ;; esac
+case "\$1" in *.1) node=$a ;; *) node=$b ;; esac
 shift
 exec nsenter -t \$node -n -u sh -c "\$*"
 AGENT
@@ -68,10 +68,11 @@ name = "supply_J"
 signal = "supply_J"
 PLAN
 
+net=10.213.7
 job() {  # ARGUMENTS…
-  in_node "$a" env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --host 10.213.7.1:1,10.213.7.2:1 \
-    --mca plm_rsh_agent "$work/agent" --mca btl tcp,self --mca oob_tcp_if_include 10.213.7.0/24 \
-    --mca btl_tcp_if_include 10.213.7.0/24 -x ASAN_OPTIONS "$bin/vsa-mpi" sweep "$work/plan.toml" "$@"
+  in_node "$a" env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --host $net.1:1,$net.2:1 \
+    --mca plm_rsh_agent "$work/agent" --mca btl tcp,self --mca oob_tcp_if_include $net.0/24 \
+    --mca btl_tcp_if_include $net.0/24 -x ASAN_OPTIONS "$bin/vsa-mpi" sweep "$work/plan.toml" "$@"
 }
 same() {  # FOLDER
   for table in results.csv results.h5; do
@@ -86,14 +87,19 @@ hosts=$(ls "$work/nodes/log" | sed 's/-[0-9]*-[0-9]*$//' | sort -u | wc -l)
 [ "$hosts" -eq 2 ] || { echo "the logs are of $hosts hosts, not of 2"; exit 1; }
 same nodes
 
-if in_node "$a" tc qdisc add dev "vsa$$a" root netem delay 50ms 2> /dev/null; then
-  in_node "$b" tc qdisc add dev "vsa$$b" root netem delay 50ms
+# The same over a link that keeps each packet for 50 ms.
+python3 "$(dirname "$0")/slow_link.py" "$a" "$b" 0.05 > "$work/slow.txt" &
+nodes="$nodes $!"
+for _ in 1 2 3 4 5 6 7 8 9 10; do grep -qs ready "$work/slow.txt" && break; sleep 0.2; done
+if grep -qs ready "$work/slow.txt"; then
+  in_node "$a" sh -c "ip addr add 10.213.8.1 peer 10.213.8.2 dev slow0; ip link set slow0 up"
+  in_node "$b" sh -c "ip addr add 10.213.8.2 peer 10.213.8.1 dev slow0; ip link set slow0 up"
+  net=10.213.8
   job --out "$work/slow" > /dev/null
   same slow
-  in_node "$a" tc qdisc del dev "vsa$$a" root
-  in_node "$b" tc qdisc del dev "vsa$$b" root
+  net=10.213.7
 else
-  echo "slow link left out: this kernel has no netem"
+  echo "slow link left out: this kernel has no tunnels"
 fi
 
 job --out "$work/died" > /dev/null 2>&1 &
