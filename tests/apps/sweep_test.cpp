@@ -214,11 +214,12 @@ TEST(Sweep, BadInputIsRefusedBeforeAnythingRuns) {
 }
 
 /// vsa-mpi as `mpirun` starts it; where this build has none, or the machine no mpirun, that is said.
-class Ranks : public ::testing::Test {
+class WithRanks : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (!fs::exists(kBin / "vsa-mpi")) GTEST_SKIP() << "this build found no MPI";
-    if (std::system("command -v mpirun > /dev/null") != 0) GTEST_SKIP() << "no mpirun on this machine";
+  /// Why there are none; empty: there are.
+  [[nodiscard]] static std::string no_ranks() {
+    if (!fs::exists(kBin / "vsa-mpi")) return "this build found no MPI";
+    return std::system("command -v mpirun > /dev/null") != 0 ? "no mpirun on this machine" : "";
   }
   [[nodiscard]] static Surroundings mpirun() {
     Surroundings s;
@@ -235,6 +236,13 @@ class Ranks : public ::testing::Test {
     std::vector<std::string> out{"mpirun", "-n", std::to_string(ranks), (kBin / "vsa-mpi").string(), "sweep"};
     out.insert(out.end(), arguments.begin(), arguments.end());
     return out;
+  }
+};
+
+class Ranks : public WithRanks {
+ protected:
+  void SetUp() override {
+    if (const std::string why = no_ranks(); !why.empty()) GTEST_SKIP() << why;
   }
 };
 
@@ -339,7 +347,7 @@ goal = "minimize"
 
 std::string findings(const fs::path& folder) { return read_file(folder / "candidates.csv") + tables(folder); }
 
-class Optimize : public Ranks {
+class Optimize : public WithRanks {
  protected:
   void SetUp() override {
     write_file(scratch_ / "plan.toml", search_text());
@@ -395,8 +403,7 @@ TEST_F(Optimize, WhatFailedIsTriedAgainWhereThatIsWanted) {
 }
 
 TEST_F(Optimize, RanksFindTheSame) {
-  Ranks::SetUp();
-  if (IsSkipped()) return;
+  if (const std::string why = no_ranks(); !why.empty()) GTEST_SKIP() << why;
   for (const int ranks : {1, 3}) {
     const fs::path out = scratch_ / ("ranks_" + std::to_string(ranks));
     std::vector<std::string> arguments = job(ranks, {plan_, "--out", out});
