@@ -109,16 +109,18 @@ int run_optimize_job(const Job& job, const SweepOptions& options, const sweep::P
   sweep::Log log(folder_of(options), plan);
   const RankWork work = rank_work(options, log);
   if (job.rank() == 0) {
+    bool others_wait = true;
     code = search(plan, options, console, [&](const sweep::Plan& with, const Todo& runs) {
       std::vector<double> flat;
       for (const auto& candidate : with.candidate_list()) flat.insert(flat.end(), candidate.begin(), candidate.end());
       job.share(flat);
       Dealer dealer(runs);
       static_cast<void>(run_ranks(job, with, &dealer, work));
-      return !job.any(interrupted() != 0);
+      others_wait = !job.any(interrupted() != 0);
+      return others_wait;
     });
     std::vector<double> over;
-    if (code == kDone || code == kFailed) job.share(over);
+    if (others_wait) job.share(over);
     return code;
   }
   const auto is_searched = [](const sweep::Axis& a) { return a.kind == sweep::Axis::Kind::searched; };

@@ -185,17 +185,26 @@ Job::Job(int& argc, char**& argv) {
 }
 Job::~Job() { MPI_Finalize(); }
 
+void Job::meet() const {
+  MPI_Request all = MPI_REQUEST_NULL;
+  MPI_Ibarrier(MPI_COMM_WORLD, &all);
+  for (int here = 0; MPI_Test(&all, &here, MPI_STATUS_IGNORE) == MPI_SUCCESS && here == 0;) std::this_thread::sleep_for(kSoon);
+}
+
 int Job::from_first(int value) const {
+  meet();
   MPI_Bcast(&value, 1, MPI_INT, 0, MPI_COMM_WORLD);
   return value;
 }
 std::size_t Job::total(std::size_t value) const {
+  meet();
   const std::uint64_t own = value;
   std::uint64_t all = 0;
   MPI_Allreduce(&own, &all, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
   return all;
 }
 void Job::share(std::vector<double>& numbers) const {
+  meet();
   std::uint64_t size = numbers.size();
   MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
   numbers.resize(size);
@@ -203,6 +212,7 @@ void Job::share(std::vector<double>& numbers) const {
 }
 bool Job::any(bool value) const { return total(value ? 1 : 0) > 0; }
 int Job::first_apart(std::uint64_t value) const {
+  meet();
   std::uint64_t first = value;
   MPI_Bcast(&first, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
   const int own = first == value ? std::numeric_limits<int>::max() : rank_;
@@ -211,6 +221,7 @@ int Job::first_apart(std::uint64_t value) const {
   return least == std::numeric_limits<int>::max() ? -1 : least;
 }
 sweep::Account Job::gathered(const sweep::Account& own) const {
+  meet();
   const double mine[] = {static_cast<double>(own.runs),
                          static_cast<double>(own.failed),
                          static_cast<double>(own.threads),

@@ -24,6 +24,7 @@ class Job {
   Job& operator=(const Job&) = delete;
   [[nodiscard]] int rank() const noexcept { return rank_; }
   [[nodiscard]] int size() const noexcept { return size_; }
+  // Each of these waits for all ranks asleep, not spinning as MPI's own waiting does.
   /// Rank 0's, on all.
   [[nodiscard]] int from_first(int value) const;
   [[nodiscard]] std::size_t total(std::size_t value) const;
@@ -38,6 +39,7 @@ class Job {
   [[noreturn]] void abort() const;
 
  private:
+  void meet() const;
   int rank_ = 0, size_ = 1;
 };
 

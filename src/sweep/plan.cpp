@@ -41,6 +41,12 @@ std::string value_text(const Value& value) {
   return std::get<std::string>(value);
 }
 
+double number_of(const Value& value) {
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? 1 : 0;
+  return std::get<double>(value);
+}
+
 void put(toml::table& scenario, const std::string& key, const Value& value) {
   const auto nowhere = [&](const std::string& what) {
     throw InputError({"", "vary.key", key, what, "a key of the scenario's file"});

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <time.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -27,12 +28,6 @@ double thread_cpu_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double number_of(const Value& value) {
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? 1 : 0;
-  return std::get<double>(value);
 }
 
 std::runtime_error beyond(double limit_s) {
@@ -107,7 +102,14 @@ struct Runner::Impl {
           world(std::move(w)),
           player(scenario, world),
           observer(plan.measures(), world, scenario::travel_window_s(player.gait())),
-          end_ns(world.time_ns() + std::llround(*scenario.duration_s * 1e9)) {}
+          end_ns(world.time_ns() + std::llround(*scenario.duration_s * 1e9)) {
+      Problems problems;
+      for (const Measure& m : plan.measures())
+        if (m.from_s >= *scenario.duration_s)
+          problems.add({"", "measure.from_s", config::number_text(m.from_s), "the run is over before (" + m.name + ")",
+                        "below duration_s = " + config::number_text(*scenario.duration_s)});
+      problems.throw_if_any();
+    }
     void step() {
       player.apply(world);
       world.step();
@@ -205,6 +207,13 @@ void Plan::check() const {
       if (told.insert(error.what()).second) problems.add({impl_->file.string(), key, value, error.what(), ""});
     }
   };
+  const bool faulty =
+      impl_->base.at_path("scenario.faults").is_array() || std::any_of(axes().begin(), axes().end(), [](const Axis& a) {
+        return std::find(a.keys.begin(), a.keys.end(), "scenario.faults") != a.keys.end();
+      });
+  if (repetitions() > 1 && !faulty && impl_->start.yaw_deg <= 0 && impl_->start.xy_m <= 0)
+    throw InputError({impl_->file.string(), "repetitions", std::to_string(repetitions()), "nothing differs between them",
+                      "[start] of a robot that flies free, faults that draw, or 1"});
   const std::vector<Value> first = impl_->values(0);
   attempt(first, "", "");
   if (!problems.empty()) problems.throw_if_any();

@@ -24,8 +24,6 @@ bool numeric(const Axis& axis) {
          std::all_of(axis.values.begin(), axis.values.end(), [](const Value& v) { return v.index() < 2; });
 }
 
-double number_of(const Value& v) { return v.index() == 0 ? std::get<0>(v) : static_cast<double>(std::get<1>(v)); }
-
 /// Renamed when it is whole, so that two who write at once leave the file of one of them.
 template <class Write>
 void put_whole(const fs::path& file, Write&& write) {

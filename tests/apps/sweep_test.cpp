@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 
@@ -29,7 +30,7 @@ std::string plan_text(const std::string& more = "") {
 repetitions = 2
 [scenario]
 world = "bench_pole"
-duration_s = 0.02
+duration_s = 0.2
 faults = ["shaft noise_rad=0.003"]
 [[vary]]
 key = "set.drive.friction_Nm"
@@ -38,7 +39,7 @@ range = [0.3, 0.6]
 count = 2
 [[vary]]
 key = "scenario.duration_s"
-log = [0.02, 2.0]
+log = [0.2, 20.0]
 count = 10
 [[measure]]
 name = "shaft_rad"
@@ -76,6 +77,16 @@ std::size_t runs_in(const fs::path& folder) {
     lines -= text.empty() ? 0 : 1;
   }
   return lines;
+}
+
+/// Until the folder has so many; false: the tests' patience is at its end.
+bool wait_for_runs(const fs::path& folder, std::size_t count) {
+  const auto end = std::chrono::steady_clock::now() + vsa::test::kPatience;
+  while (runs_in(folder) < count) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    usleep(1000);
+  }
+  return true;
 }
 
 TEST(Sweep, ThreadsAndPartsGiveTheSameBytes) {
@@ -117,16 +128,19 @@ TEST(Sweep, KilledAnywhereItGoesOnWhereItWas) {
   for (const int signal : {SIGKILL, SIGINT, SIGTERM}) {
     const fs::path out = scratch / ("killed_" + std::to_string(signal));
     std::size_t known = 0;
-    for (int death = 0; death < 3; ++death) {
+    int deaths = 0;
+    while (known < 40 && deaths < 3) {
       Subprocess sweep(
-          {"sweep", plan(scratch), "--out", out, death == 0 ? "--threads" : "--resume", death == 0 ? "2" : "--threads=2"});
-      while (runs_in(out) < known + 3) usleep(1000);
+          {"sweep", plan(scratch), "--out", out, known == 0 ? "--threads" : "--resume", known == 0 ? "2" : "--threads=2"});
+      ASSERT_TRUE(wait_for_runs(out, std::min<std::size_t>(known + 3, 40)));
       sweep.send(signal);
-      const Result r = sweep.wait();
-      if (r.exit_code == 0) break;  // it was quicker
-      EXPECT_EQ(r.exit_code, 128 + signal) << r.err;
+      const int code = sweep.wait().exit_code;
       known = runs_in(out);
+      if (code == 0) break;  // it was quicker than the signal
+      EXPECT_EQ(code, 128 + signal);
+      ++deaths;
     }
+    EXPECT_GE(deaths, 1);
     const Result r = run_vsa({"sweep", plan(scratch), "--out", out, "--resume"});
     EXPECT_EQ(r.exit_code, 0) << r.err;
     EXPECT_TRUE(tables(out) == expected) << signal;
@@ -155,7 +169,7 @@ TEST(Sweep, WhatFailsIsListedWithTheCommandThatRepeatsIt) {
   EXPECT_NE(none.err.find("the scenario has no commands"), std::string::npos) << none.err;
   EXPECT_FALSE(fs::exists(scratch / "out"));
   std::string hangs = plan_text() + "[limits]\nrun_s = 0.5\n";
-  hangs.replace(hangs.find("log = [0.02, 2.0]\ncount = 10"), 28, "list = [0.02, 1e7]");
+  hangs.replace(hangs.find("log = [0.2, 20.0]\ncount = 10"), 28, "list = [0.02, 1e7]");
   write_file(scratch / "plan.toml", hangs);
   const Result r = run_vsa({"sweep", scratch / "plan.toml", "--out", scratch / "out"});
   EXPECT_EQ(r.exit_code, 1);
@@ -199,6 +213,10 @@ TEST(Sweep, BadInputIsRefusedBeforeAnythingRuns) {
                                                                                    {"--threads", "0"},
                                                                                    {"--merge", "--part", "1/2"},
                                                                                    {"--retry-failed"},
+                                                                                   {"--run", "1"},
+                                                                                   {"--check"},
+                                                                                   {"--merge", "--resume"},
+                                                                                   {"--merge"},
                                                                                    {"--run", "-1"}}) {
     std::vector<std::string> arguments{"sweep", file, "--out", scratch / "out"};
     arguments.insert(arguments.end(), bad.begin(), bad.end());
@@ -280,7 +298,8 @@ TEST_F(Ranks, AJobOfWhichAnyoneDiesGoesOnWhereItWas) {
   for (const int who : {0, 1, 2}) {  // a rank (the first started is 0), another one, mpirun itself
     const fs::path out = scratch / ("died_" + std::to_string(who));
     Subprocess sweep(job(2, {plan(scratch), "--out", out}), mpirun());
-    while (ranks_of(out).size() < 2 || runs_in(out) < 4) usleep(1000);
+    ASSERT_TRUE(wait_for_runs(out, 4));
+    ASSERT_EQ(ranks_of(out).size(), 2U) << "each made its log before the first run was dealt";
     if (who == 2) {
       sweep.send(SIGKILL);
     } else {
@@ -310,7 +329,7 @@ std::string search_text() {
 repetitions = 2
 [scenario]
 world = "bench_pole"
-duration_s = 0.3
+duration_s = 5.0
 faults = ["shaft noise_rad=0.003"]
 [[command]]
 time_s = 0.0
@@ -377,7 +396,7 @@ TEST_F(Optimize, KilledItGoesOnWhereItWas) {
   for (const int signal : {SIGKILL, SIGINT}) {
     const fs::path out = scratch_ / ("killed_" + std::to_string(signal));
     Subprocess sweep({"optimize", plan_, "--out", out, "--threads", "1"});
-    while (runs_in(out) < 20) usleep(500);
+    ASSERT_TRUE(wait_for_runs(out, 20));
     sweep.send(signal);
     EXPECT_EQ(sweep.wait().exit_code, 128 + signal);
     EXPECT_EQ(run_vsa({"optimize", plan_, "--out", out}).exit_code, 2) << "without --resume";
@@ -389,7 +408,7 @@ TEST_F(Optimize, KilledItGoesOnWhereItWas) {
 
 TEST_F(Optimize, WhatFailedIsTriedAgainWhereThatIsWanted) {
   std::string text = search_text();
-  text.replace(text.find("duration_s = 0.3"), 16, "duration_s = 1e7");
+  text.replace(text.find("duration_s = 5.0"), 16, "duration_s = 1e7");
   write_file(scratch_ / "long.toml", text + "[limits]\nrun_s = 0.001\n");
   std::vector<std::string> arguments{"optimize", scratch_ / "long.toml", "--out", scratch_ / "failed"};
   EXPECT_EQ(run_vsa(arguments).exit_code, 1) << "every candidate failed";

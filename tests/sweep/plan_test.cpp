@@ -190,6 +190,8 @@ INSTANTIATE_TEST_SUITE_P(
             "(with set.drive.friction_Nm = 1000000000)", true},
         Bad{"UnknownParameter", vary("key = \"drive.frictions\"\nlist = [0.1]"), "drive.frictions", true},
         Bad{"UnknownLink", vary("key = \"link.mass_kg\"\nof = \"arm\"\nlist = [0.1]"), "arm", true},
+        Bad{"RepetitionsThatAreAllTheSame", "repetitions = 2\n" + kScenario + kMeasure, "nothing differs between them", true},
+        Bad{"ARunThatIsOverBefore", measure("signal = \"supply_J\"\nfrom_s = 0.05"), "the run is over before (m)", true},
         Bad{"UnknownWorld", "[scenario]\nworld = \"nowhere\"\nduration_s = 1.0\n" + kMeasure, "nowhere", true}),
     [](const auto& row) { return row.param.name; });
 

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <thread>
 #include <utility>
@@ -137,13 +136,8 @@ int run_optimize(const SweepOptions& options) {
   sweep::Log log(folder_of(options), plan);
   return search(plan, options, console, [&](const sweep::Plan& with, const Todo& runs) {
     Dealer dealer(runs);
-    std::mutex lock;
     sweep::Work work;
-    work.next = [&]() -> std::optional<std::size_t> {
-      const std::scoped_lock guard(lock);
-      const auto one = dealer.deal(1);
-      return one.empty() ? std::nullopt : std::optional(one.front());
-    };
+    work.next = [&] { return dealer.next(); };
     work.done = [&](const sweep::Outcome& outcome) { log.add(outcome); };
     work.wanted = [] { return interrupted() == 0; };
     static_cast<void>(sweep::run_pool(with, options.threads, work));

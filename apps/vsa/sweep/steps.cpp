@@ -2,6 +2,7 @@
 #include "sweep/steps.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +73,13 @@ Todo what_is_left(const sweep::Plan& plan, const SweepOptions& options) {
   return out;
 }
 
+std::optional<std::size_t> Dealer::next() {
+  const auto one = deal(1);
+  return one.empty() ? std::nullopt : std::optional(one.front());
+}
+
 std::vector<std::size_t> Dealer::deal(std::size_t count) {
+  const std::scoped_lock lock(mutex_);
   std::vector<std::size_t> out;
   for (; out.size() < count && left_ > 0; --left_) {
     const auto& [begin, end] = todo_.ranges[range_];
@@ -117,7 +124,10 @@ std::string account_text(const sweep::Account& a, std::size_t processes) {
 
 bool write_page(const report::Report& page, const fs::path& file, Console& console) {
   try {
-    report::write_report(page, file);
+    // Two merges at once each write a file of their own first.
+    const fs::path own = file.string() + '.' + std::to_string(getpid());
+    report::write_report(page, own);
+    fs::rename(own, file);
     return true;
   } catch (const InputError& error) {
     console.line("page left out: " + error.problems().front().text());

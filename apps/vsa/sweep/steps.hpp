@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <filesystem>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,15 +37,20 @@ struct Part {
 /// "2/8"; empty: the whole. Throws InputError.
 [[nodiscard]] Part part_of(const std::string& text);
 
-/// Numbers of a todo list, one after the other. Not for several threads.
+/// Numbers of a todo list, one after the other. From any thread.
 class Dealer {
  public:
   explicit Dealer(Todo todo) : todo_(std::move(todo)), left_(todo_.count) {}
-  [[nodiscard]] std::size_t left() const noexcept { return left_; }
+  [[nodiscard]] std::size_t left() const {
+    const std::scoped_lock lock(mutex_);
+    return left_;
+  }
+  [[nodiscard]] std::optional<std::size_t> next();  ///< one; none: no more
   /// The next `count`, or all that are left.
   [[nodiscard]] std::vector<std::size_t> deal(std::size_t count);
 
  private:
+  mutable std::mutex mutex_;
   Todo todo_;
   std::size_t left_, range_ = 0, at_ = 0;
 };

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <mutex>
@@ -73,11 +74,7 @@ int run_here(const sweep::Plan& plan, const SweepOptions& options, Console& cons
     std::mutex lock;
     std::size_t done = 0, failed = 0;
     sweep::Work work;
-    work.next = [&]() -> std::optional<std::size_t> {
-      const std::scoped_lock guard(lock);
-      const auto one = dealer.deal(1);
-      return one.empty() ? std::nullopt : std::optional(one.front());
-    };
+    work.next = [&] { return dealer.next(); };
     work.done = [&](const sweep::Outcome& outcome) {
       log.add(outcome);
       const std::scoped_lock guard(lock);
@@ -108,6 +105,8 @@ int run_sweep(const SweepOptions& options) {
   Console console;
   catch_interrupts();
   if (options.merge) {
+    if (!std::filesystem::is_directory(folder_of(options) / "log"))
+      throw InputError({"", "--out", folder_of(options).string(), "holds no sweep", "a sweep's folder"});
     sweep::claim(folder_of(options), plan);
     return merge(plan, options, console);
   }
@@ -130,15 +129,16 @@ void setup_sweep(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SweepOptions>();
   CLI::App* sub = app.add_subcommand("sweep", "Many runs of a plan, and their table");
   add_sweep_options(*sub, *options);
-  CLI::Option* part = sub->add_option("--part", options->part, "Only every Nth run, from the Ith on: I/N; for job arrays");
-  CLI::Option* merge = sub->add_flag("--merge", options->merge, "Run nothing; make the tables of all logs")->excludes(part);
-  CLI::Option* check =
-      sub->add_flag("--check", options->check, "Run nothing; check the plan, and say how long it takes")->excludes(merge);
+  const auto given = [sub](const char* name) { return sub->get_option(name); };
+  sub->add_option("--part", options->part, "Only every Nth run, from the Ith on: I/N; for job arrays");
+  sub->add_flag("--merge", options->merge, "Run nothing; make the tables of all logs");
+  sub->add_flag("--check", options->check, "Run nothing; check the plan, and say how long it takes");
   sub->add_option("--run", options->run, "Only this run: its scenario and its numbers")
-      ->check(CLI::Range(0.0, sweep::Plan::kMostRuns))
-      ->excludes(part)
-      ->excludes(merge)
-      ->excludes(check);
+      ->check(CLI::Range(0.0, sweep::Plan::kMostRuns));
+  // What one of them wouldn't look at isn't taken.
+  for (const char* other : {"--part", "--threads", "--resume", "--check", "--run"}) given("--merge")->excludes(given(other));
+  for (const char* other : {"--part", "--out", "--resume", "--run"}) given("--check")->excludes(given(other));
+  for (const char* other : {"--part", "--out", "--threads", "--resume"}) given("--run")->excludes(given(other));
   sub->footer(kNotes);
   sub->callback([options, &exit_code] { exit_code = run_sweep(*options); });
 }

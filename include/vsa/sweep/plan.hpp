@@ -24,6 +24,8 @@ namespace vsa::sweep {
 
 using Value = std::variant<double, std::int64_t, bool, std::string>;
 [[nodiscard]] std::string value_text(const Value& value);
+/// A switch: 0 or 1. Not for texts (std::bad_variant_access).
+[[nodiscard]] double number_of(const Value& value);
 
 /// What varies.
 struct Axis {
