@@ -22,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using config::TomlSection;
 
-
 template <class Item>
 void refuse_twice(const std::vector<Item>& items, const char* key, const std::string& file, std::set<std::string>& names,
                   Problems& problems) {
