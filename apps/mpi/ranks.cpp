@@ -67,10 +67,10 @@ class Reserve {
 /// The threads that run, beside the one that talks.
 class Crew {
  public:
-  Crew(const sweep::Plan& plan, const RankWork& work)
-      : thread_([this, &plan, &work] {
+  Crew(const sweep::Series& series, const RankWork& work)
+      : thread_([this, &series, &work] {
           try {
-            account_ = sweep::run_pool(plan, work.threads, {[this] { return reserve.take(); }, work.done, work.wanted});
+            account_ = sweep::run_pool(series, work.threads, {[this] { return reserve.take(); }, work.done, work.wanted});
           } catch (...) {
             failure_ = std::current_exception();
           }
@@ -250,9 +250,9 @@ void Job::abort() const {
   std::abort();
 }
 
-sweep::Account run_ranks(const Job& job, const sweep::Plan& plan, Dealer* dealer, const RankWork& work) {
+sweep::Account run_ranks(const Job& job, const sweep::Series& series, Dealer* dealer, const RankWork& work) {
   const std::size_t takers = job.total(work.threads);
-  Crew crew(plan, work);
+  Crew crew(series, work);
   dealer != nullptr ? lead(job, *dealer, takers, work, crew) : follow(crew);
   return crew.account();
 }

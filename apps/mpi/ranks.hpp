@@ -28,9 +28,9 @@ class Job {
   /// Rank 0's, on all.
   [[nodiscard]] int from_first(int value) const;
   [[nodiscard]] std::size_t total(std::size_t value) const;
-  /// The first rank whose value differs from rank 0's; −1: none.
   /// Rank 0's numbers, on all.
   void share(std::vector<double>& numbers) const;
+  /// The first rank whose value differs from rank 0's; −1: none.
   [[nodiscard]] int first_apart(std::uint64_t value) const;
   [[nodiscard]] bool any(bool value) const;
   /// Of all, on rank 0.
@@ -50,6 +50,6 @@ struct RankWork {
   std::function<void(std::size_t dealt)> progress;  ///< rank 0
 };
 /// `dealer`: rank 0's; null on the others. Throws what a run's `done` throws; the job can't go on then.
-[[nodiscard]] sweep::Account run_ranks(const Job& job, const sweep::Plan& plan, Dealer* dealer, const RankWork& work);
+[[nodiscard]] sweep::Account run_ranks(const Job& job, const sweep::Series& series, Dealer* dealer, const RankWork& work);
 
 }  // namespace vsa::app

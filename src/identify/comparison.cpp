@@ -6,22 +6,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "vsa/config/text.hpp"
 #include "vsa/experiment/parallel.hpp"
+#include "vsa/hash.hpp"
 #include "vsa/identify/uncertainty.hpp"
 
 namespace vsa::identify {
 namespace {
-
-/// FNV-1a, 64 bits.
-std::string hash_of(const std::string& text) {
-  std::uint64_t h = 0xcbf29ce484222325ULL;
-  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  return fmt::format("{:016x}", h);
-}
 
 std::string list(const std::vector<double>& values) {
   std::string out;
@@ -124,7 +117,7 @@ std::vector<std::string> request_hashes(const Comparison& c, const std::vector<F
     std::string text = text_of(c, c.hypotheses[request.hypothesis]);
     for (std::size_t o = 0; o < n; ++o) text += physics[request.hypothesis * n + o] + text_of(c.recordings[o]);
     if (request.without) text += "without " + text_of(c.recordings[*request.without]);
-    out.push_back(hash_of(text));
+    out.push_back(fmt::format("{:016x}", fnv1a(text)));
   }
   return out;
 }

@@ -75,15 +75,6 @@ bool add_global(std::vector<std::vector<double>>& to, const Residuals& residuals
   return !search.points.empty();
 }
 
-std::vector<std::vector<double>> starting_points(const Residuals& residuals, const FitOptions& o) {
-  std::vector<double> first;
-  for (const Parameter& p : residuals.task().parameters) first.push_back(p.start);
-  std::vector<std::vector<double>> out{first};
-  if (o.starts <= 1 || first.empty()) return out;
-  if (!o.global || !add_global(out, residuals, o)) add_trials(out, residuals, static_cast<std::size_t>(o.starts));
-  return out;
-}
-
 }  // namespace
 
 void evaluate_at(Fit& fit, const Residuals& residuals, double effect_rad) {
@@ -105,43 +96,50 @@ void evaluate_at(Fit& fit, const Residuals& residuals, double effect_rad) {
   }
 }
 
-Fit fit(const Residuals& residuals, const FitOptions& o) {
+std::vector<std::vector<double>> starting_points(const Residuals& residuals, const FitOptions& o) {
   const Task& task = residuals.task();
-  const std::vector<bool> none(task.parameters.size(), false);
   std::vector<double> first;
   for (const Parameter& p : task.parameters) first.push_back(p.start);
   if (task.prepare) task.prepare(first);
   (void)residuals.at(first);  // what is wrong with the type's own values is told before anything else
-  Fit out;
-  for (const std::vector<double>& from : starting_points(residuals, o)) {
-    try {
-      if (task.prepare) task.prepare(from);
-      const std::vector<double> near = o.global ? led_by_surrogate(residuals, from) : from;
-      out.starts.push_back(solve(residuals, near, none, o));
-      out.starts.back().from = from;
-    } catch (const InputError&) {
-      if (out.starts.empty()) throw;  // a trial's values may make no sense together; the type's do
-      continue;
-    }
-    tell(o, fmt::format("start {}: RMS {:.5f} rad after {} iterations", out.starts.size(), out.starts.back().rms_rad,
-                        out.starts.back().iterations));
-  }
+  std::vector<std::vector<double>> out{first};
+  if (o.starts <= 1 || first.empty()) return out;
+  if (!o.global || !add_global(out, residuals, o)) add_trials(out, residuals, static_cast<std::size_t>(o.starts));
+  return out;
+}
+
+Fit best_of(const Residuals& residuals, std::vector<StartResult> starts, const FitOptions& o) {
   // Costs, not RMS, decide: the recordings have weights. Each is judged with what the model held constant on its way.
-  std::vector<double> costs;
-  for (StartResult& s : out.starts) {
-    if (task.prepare) task.prepare(s.to);
-    costs.push_back(s.cost = residuals.cost(residuals.at(s.to)));
-  }
-  std::vector<std::size_t> order(costs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
-  std::vector<StartResult> sorted;
-  for (std::size_t i : order) sorted.push_back(out.starts[i]);
-  out.starts = std::move(sorted);
+  std::stable_sort(starts.begin(), starts.end(), [](const StartResult& a, const StartResult& b) { return a.cost < b.cost; });
+  Fit out;
+  out.starts = std::move(starts);
   out.values = out.starts.front().to;
   out.steps = out.starts.front().steps;
   evaluate_at(out, residuals, o.interval_effect_rad);
   return out;
+}
+
+Fit fit(const Residuals& residuals, const FitOptions& o) {
+  const Task& task = residuals.task();
+  const std::vector<bool> none(task.parameters.size(), false);
+  std::vector<StartResult> found;
+  for (const std::vector<double>& from : starting_points(residuals, o)) {
+    try {
+      if (task.prepare) task.prepare(from);
+      const std::vector<double> near = o.global ? led_by_surrogate(residuals, from) : from;
+      found.push_back(solve(residuals, near, none, o));
+      StartResult& s = found.back();
+      s.from = from;
+      if (task.prepare) task.prepare(s.to);
+      s.cost = residuals.cost(residuals.at(s.to));
+    } catch (const InputError&) {
+      if (found.empty()) throw;  // a trial's values may make no sense together; the type's do
+      continue;
+    }
+    tell(o,
+         fmt::format("start {}: RMS {:.5f} rad after {} iterations", found.size(), found.back().rms_rad, found.back().iterations));
+  }
+  return best_of(residuals, std::move(found), o);
 }
 
 }  // namespace vsa::identify

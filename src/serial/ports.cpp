@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "serial/descriptor.hpp"
+#include "vsa/hash.hpp"
 
 namespace vsa::serial {
 namespace {
@@ -32,12 +33,10 @@ fs::path lock_directory() {
   return fs::is_directory(kLocks, none) && access(kLocks, W_OK | X_OK) == 0 ? fs::path(kLocks) : directory();
 }
 
-/// FNV-1a, 64 bits, in hex.
+/// In hex.
 std::string hash_of(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : text) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3;
   std::array<char, 17> hex{};
-  std::snprintf(hex.data(), hex.size(), "%016llx", static_cast<unsigned long long>(hash));
+  std::snprintf(hex.data(), hex.size(), "%016llx", static_cast<unsigned long long>(fnv1a(text)));
   return hex.data();
 }
 

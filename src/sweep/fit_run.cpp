@@ -2,11 +2,10 @@
 #include "sweep/fit_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <future>
 #include <utility>
 
+#include "sweep/stoppable.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/identify/fit.hpp"
@@ -160,23 +159,7 @@ std::vector<std::string> fit_numbers(const FitTask& task) {
 
 std::optional<std::map<std::string, double>> run_fit(const FitTask& task, const std::function<bool()>& wanted) {
   experiment::Watch watch;
-  auto work = std::async(std::launch::async, [&] { return solve(prepare(task, &watch), task.iterations); });
-  try {
-    bool stopped = false;
-    while (work.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
-      try {
-        stopped = stopped || !wanted();
-      } catch (...) {
-        watch.stop = true;
-        work.wait();
-        throw;
-      }
-      watch.stop = stopped;
-    }
-    return work.get();
-  } catch (const experiment::Stopped&) {
-    return std::nullopt;
-  }
+  return stoppable(wanted, watch, [&] { return solve(prepare(task, &watch), task.iterations); });
 }
 
 }  // namespace vsa::sweep

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr const char* kIdentity = "sweep.id";
 constexpr const char* kLogs = "log";
 
-std::string head(const Plan& plan) { return fmt::format("vsasim sweep 1 {:016x}\n", plan.fingerprint()); }
+std::string head(const Series& series) { return fmt::format("vsasim sweep 1 {:016x}\n", series.fingerprint); }
 
 std::uint32_t checksum(std::string_view text) {
   boost::crc_32_type crc;
@@ -71,7 +71,7 @@ std::string line_of(const Outcome& o) {
 }
 
 /// None: damaged.
-std::optional<Outcome> outcome_of(std::string_view line, const Plan& plan) {
+std::optional<Outcome> outcome_of(std::string_view line, const Series& series) {
   constexpr std::size_t kSum = 8;
   if (line.size() <= kSum + 1 || line[kSum] != '\t') return std::nullopt;
   const std::string_view text = line.substr(kSum + 1);
@@ -80,7 +80,7 @@ std::optional<Outcome> outcome_of(std::string_view line, const Plan& plan) {
   if (fields.size() != 6) return std::nullopt;
   Outcome o;
   const auto run = config::parse_integer(fields[0]);
-  if (!run || *run < 0 || static_cast<std::size_t>(*run) >= plan.most_runs()) return std::nullopt;
+  if (!run || *run < 0 || static_cast<std::size_t>(*run) >= series.most_runs) return std::nullopt;
   o.run = static_cast<std::size_t>(*run);
   o.wall_s = config::parse_number(fields[1]).value_or(0);
   o.cpu_s = config::parse_number(fields[2]).value_or(0);
@@ -89,7 +89,7 @@ std::optional<Outcome> outcome_of(std::string_view line, const Plan& plan) {
   }
   o.notice = out_of_field(fields[4]);
   o.error = out_of_field(fields[5]);
-  if (o.values.size() != (o.error.empty() ? plan.measures().size() : 0)) return std::nullopt;
+  if (o.values.size() != (o.error.empty() ? series.columns : 0)) return std::nullopt;
   return o;
 }
 
@@ -136,7 +136,7 @@ bool create_whole(const fs::path& file, std::string_view text) {
 
 }  // namespace
 
-void claim(const fs::path& folder, const Plan& plan) {
+void claim(const fs::path& folder, const Series& series) {
   std::error_code error;
   fs::create_directories(folder / kLogs, error);
   if (!fs::is_directory(folder / kLogs))
@@ -146,7 +146,7 @@ void claim(const fs::path& folder, const Plan& plan) {
                       "another folder; " + (folder / "plan.toml").string() + " is the plan that it holds"});
   };
   if (const auto identity = read_file(folder / kIdentity)) {
-    if (*identity != head(plan)) other();
+    if (*identity != head(series)) other();
     return;
   }
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -154,12 +154,12 @@ void claim(const fs::path& folder, const Plan& plan) {
     if (name == kLogs || name.rfind(kIdentity, 0) == 0 || name.rfind("plan.toml", 0) == 0) continue;
     throw InputError({"", "--out", folder.string(), "holds something else: " + name, "a new or empty folder"});
   }
-  create_whole(folder / "plan.toml", plan.text());
-  create_whole(folder / kIdentity, head(plan));
-  if (read_file(folder / kIdentity).value_or("") != head(plan)) other();
+  create_whole(folder / "plan.toml", series.text);
+  create_whole(folder / kIdentity, head(series));
+  if (read_file(folder / kIdentity).value_or("") != head(series)) other();
 }
 
-Log::Log(const fs::path& folder, const Plan& plan) : file_(fresh_log(folder)) { file_.append(head(plan)); }
+Log::Log(const fs::path& folder, const Series& series) : file_(fresh_log(folder)) { file_.append(head(series)); }
 
 void Log::add(const Outcome& outcome) {
   const std::string line = line_of(outcome);
@@ -167,7 +167,7 @@ void Log::add(const Outcome& outcome) {
   file_.append(line);
 }
 
-Results read_logs(const fs::path& folder, const Plan& plan) {
+Results read_logs(const fs::path& folder, const Series& series) {
   Results out;
   std::map<std::size_t, Outcome> known;
   std::vector<fs::path> files;
@@ -176,13 +176,13 @@ Results read_logs(const fs::path& folder, const Plan& plan) {
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
     const std::string text = read_file(file).value_or("");
-    const std::string first = head(plan);
+    const std::string first = head(series);
     if (text.size() < first.size() && first.compare(0, text.size(), text) == 0) continue;  // its writer has just begun, or died so
     if (text.compare(0, first.size(), first) != 0)
       throw InputError({file.string(), "", "", "isn't a log of this plan, or of it as it is now", "logs of one plan"});
     for (std::size_t at = first.size(); at < text.size();) {
       const std::size_t end = text.find('\n', at);
-      const auto outcome = outcome_of(std::string_view(text).substr(at, end - at), plan);
+      const auto outcome = outcome_of(std::string_view(text).substr(at, end - at), series);
       at = end == std::string::npos ? text.size() : end + 1;
       if (!outcome || end == std::string::npos) {
         ++out.damaged;

@@ -15,6 +15,7 @@
 #include "vsa/config/toml_section.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/files.hpp"
+#include "vsa/hash.hpp"
 
 namespace vsa::sweep {
 namespace {
@@ -31,10 +32,7 @@ void refuse_twice(const std::vector<Item>& items, const char* key, const std::st
   }
 }
 
-std::uint64_t hashed(std::uint64_t h, std::string_view text) {
-  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
-  return (h ^ 0xFFU) * 0x100000001B3ULL;
-}
+std::uint64_t hashed(std::uint64_t h, std::string_view text) { return fnv1a("\xFF", fnv1a(text, h)); }
 
 std::string shown(const toml::table& table) {
   std::ostringstream out;
@@ -57,7 +55,7 @@ std::string contents(const std::string& key, const std::string& name, const fs::
 }
 
 std::uint64_t fingerprint_of(const toml::table& root, const Plan::Impl& plan) {
-  std::uint64_t h = hashed(0xCBF29CE484222325ULL, "vsasim sweep 1");
+  std::uint64_t h = hashed(fnv1a(""), "vsasim sweep 1");
   h = hashed(h, shown(root));
   h = hashed(h, shown(plan.base));
   const fs::path beside = plan.base_file.parent_path();

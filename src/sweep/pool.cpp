@@ -43,7 +43,7 @@ Account& Account::operator+=(const Account& other) noexcept {
   return *this;
 }
 
-Account run_pool(const Plan& plan, unsigned threads, const Work& work) {
+Account run_pool(const Series& series, unsigned threads, const Work& work) {
   std::atomic<bool> stopped{false};
   std::mutex lock;
   std::exception_ptr failure;
@@ -63,11 +63,11 @@ Account run_pool(const Plan& plan, unsigned threads, const Work& work) {
   const auto wanted = [&] { return !stopped.load(std::memory_order_relaxed) && (!work.wanted || work.wanted()); };
   const auto serve = [&] {
     try {
-      Runner runner(plan);
+      const MakeRun make = series.maker();
       while (wanted()) {
         const auto run = work.next();
         if (!run) return;
-        const auto outcome = runner.run(*run, wanted);
+        const auto outcome = make(*run, wanted);
         if (!outcome) return;
         work.done(*outcome);
         book(*outcome);

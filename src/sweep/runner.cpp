@@ -157,7 +157,7 @@ std::optional<Outcome> Runner::run(std::size_t number, const std::function<bool(
     const auto ready = impl_->ready(number);
     for (unsigned n = 0; ready->world.time_ns() < ready->end_ns; ++n) {
       if (n % kLook == 0 && wanted && !wanted()) return std::nullopt;
-      if (seconds_since(began) > limit_s) throw std::runtime_error(fmt::format("the limit: run_s = {:g} s of wall time", limit_s));
+      if (seconds_since(began) > limit_s) throw beyond(limit_s);
       ready->step();
     }
     out.values = ready->observer.values();
@@ -171,6 +171,14 @@ std::optional<Outcome> Runner::run(std::size_t number, const std::function<bool(
   out.wall_s = seconds_since(began);
   out.cpu_s = thread_cpu_s() - cpu_began;
   return out;
+}
+
+Plan::operator Series() const {
+  return {fingerprint(), text(), most_runs(), measures().size(), [plan = *this]() -> MakeRun {
+            return [runner = std::make_shared<Runner>(plan)](std::size_t run, const std::function<bool()>& wanted) {
+              return runner->run(run, wanted);
+            };
+          }};
 }
 
 double Runner::estimate_s(std::size_t number, double probe_s) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "vsa/quantile.hpp"
 #include "vsa/sweep/measure.hpp"
 
 namespace vsa::sweep {
@@ -11,14 +12,6 @@ const std::vector<std::string>& statistic_names() {
   static const std::vector<std::string> names{"last",  "first", "mean", "min",      "max",      "peak",
                                               "range", "rms",   "std",  "integral", "quantile", "settle_s"};
   return names;
-}
-
-double quantile(const std::vector<double>& sorted, double order) {
-  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double at = order * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<std::size_t>(at);
-  const std::size_t high = std::min(low + 1, sorted.size() - 1);
-  return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
 }
 
 Statistic::Statistic(const Measure& measure) : band_(measure.band), order_(measure.order) {

@@ -10,6 +10,7 @@
 
 #include "sweep/columns.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/quantile.hpp"
 
 namespace vsa::sweep {
 namespace {

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <filesystem>
 
-#include "subprocess.hpp"
+#include "pool_runs.hpp"
 
 namespace {
 
@@ -63,6 +63,39 @@ TEST(Compare, PrintsATableAndGoesOnFromTheFitsThatAreThere) {
   EXPECT_EQ(count(third.err, "kept: other"), 0u) << "it is another hypothesis now:\n" << third.err;
 }
 
+/// The rows of the table without what lasted how long.
+std::string rows_of(const Result& r) {
+  EXPECT_EQ(r.exit_code, 0) << r.err;
+  std::string out;
+  for (const char* name : {"\none ", "\nother "}) {
+    const std::size_t at = r.out.find(name);
+    EXPECT_NE(at, std::string::npos) << r.out;
+    out += r.out.substr(at, r.out.find("all", at) - at);
+  }
+  return out;
+}
+
+class CompareRanks : public vsa::test::WithRanks {};
+
+TEST_F(CompareRanks, AndPartsJudgeTheSame) {
+  const Scratch scratch;
+  write_file(scratch / "two.toml", comparison(hypothesis("one", "") + hypothesis("other", "\"tendon.friction\" = 0.05")));
+  const auto to = [&](const char* out) {
+    return std::vector<std::string>{"identify", "--compare", scratch / "two.toml", "--out", scratch / out};
+  };
+  const std::string alone = rows_of(run_vsa(to("alone")));
+  std::vector<std::string> first = to("parts"), second = to("parts");
+  first.insert(first.end(), {"--part", "1/2"});
+  second.insert(second.end(), {"--part", "2/2"});
+  {
+    Subprocess other(second);
+    EXPECT_EQ(rows_of(run_vsa(first)), alone);
+    EXPECT_EQ(other.wait().exit_code, 0);
+  }
+  if (const std::string why = no_ranks(); !why.empty()) GTEST_SKIP() << why;
+  EXPECT_EQ(rows_of(run_vsa(job(3, to("ranks")), mpirun())), alone);
+}
+
 TEST(Compare, KeepsWhatWasDoneWhenItIsInterrupted) {
   const Scratch scratch;
   write_file(scratch / "two.toml", comparison(hypothesis("one", "") + hypothesis("other", "\"tendon.friction\" = 0.05"), "19"));
@@ -91,11 +124,9 @@ TEST(Compare, RefusesWhatDoesntGoTogetherAndWritesNothing) {
   refused(compare(scratch), "tendon.friction");
   write_file(scratch / "two.toml", comparison(hypothesis("one", "")));
   refused(compare(scratch, {"--type", "qbmove_maker_pro"}), "--type");
-  refused(compare(scratch, {"--jobs", "-1"}), "--jobs");
+  refused(compare(scratch, {"--threads", "-1"}), "--threads");
   refused(compare(scratch, {"--jobs", ""}), "--jobs");
-  refused(run_vsa({"identify", kData + "stiffness_preset_0.0000rad_branches.csv", "--jobs", "2", "--type", "qbmove_maker_pro",
-                   "--parameters", "tendon.friction", "--out", (scratch / "out").string()}),
-          "--jobs");
+  refused(compare(scratch, {"--resume"}), "--resume");
 }
 
 }  // namespace

@@ -1,17 +1,23 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// `vsa identify`: what it refuses, before it simulates anything. Its mathematics is tested in tests/identify.
+// `vsa identify`: what it refuses, before it simulates anything; the same bytes by threads, parts and ranks, killed and resumed. Its
+// mathematics is tested in tests/identify.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <filesystem>
 
-#include "subprocess.hpp"
+#include "pool_runs.hpp"
 
 namespace {
 
+using vsa::test::read_file;
 using vsa::test::Result;
 using vsa::test::run_vsa;
+using vsa::test::runs_in;
 using vsa::test::Scratch;
+using vsa::test::Subprocess;
+using vsa::test::wait_for_runs;
 using vsa::test::write_file;
 
 const std::string kRecording = std::string(VSA_SOURCE_DIR) + "/data/qbmove_maker_pro/stiffness_preset_0.0000rad_branches.csv";
@@ -58,6 +64,11 @@ TEST(Identify, RefusesPresetsRecordingsAndNumbersThatArentFine) {
   expect_refused(with({"--starts", "0"}), "--starts");
   expect_refused(with({"--weights", "none"}), "--weights");
   expect_refused(with({"--name", "../x"}), "--name");
+  expect_refused(with({"--bootstrap", "1"}), "scatter");
+  expect_refused(with({"--bootstrap", "-1"}), "--bootstrap");
+  expect_refused(with({"--part", "3/2"}), "--part");
+  expect_refused(with({"--threads", "-1"}), "--threads");
+  expect_refused(with({"--retry-failed"}), "--resume");
 }
 
 TEST(Identify, RefusesBadRecordingsAllAtOnceAndWritesNothing) {
@@ -77,6 +88,80 @@ TEST(Identify, RefusesBadRecordingsAllAtOnceAndWritesNothing) {
                                (scratch / "out").string()});
   expect_refused(beyond, "beyond what");
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
+/// 11 short fits: one start, two profile points, eight draws.
+class IdentifyPool : public vsa::test::WithRanks {
+ protected:
+  void SetUp() override {
+    const Result r = run_vsa(asked("threads", {"--threads", "2"}));
+    ASSERT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_NE(r.out.find("Bootstrap, 8 draws"), std::string::npos) << r.out;
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / "threads/jobs")) << "what nobody needs any more";
+    expected_ = found("threads");
+  }
+  [[nodiscard]] std::vector<std::string> asked(const std::string& out, const std::vector<std::string>& more) const {
+    std::vector<std::string> all{"identify",        kRecording,
+                                 "--type",          "qbmove_maker_pro",
+                                 "--parameters",    "shaft.friction_Nm",
+                                 "--starts",        "1",
+                                 "--iterations",    "2",
+                                 "--period-s",      "2",
+                                 "--amplitude-rad", "1.5",
+                                 "--profile",       "2",
+                                 "--bootstrap",     "8",
+                                 "--out",           (scratch_ / out).string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  [[nodiscard]] std::string found(const std::string& out) const {
+    return read_file(scratch_ / out / "results.json") + read_file(scratch_ / out / "identified.toml");
+  }
+  Scratch scratch_;
+  std::string expected_;
+};
+
+TEST_F(IdentifyPool, OneThreadAndPartsFindTheSame) {
+  EXPECT_EQ(run_vsa(asked("one", {"--threads", "1"})).exit_code, 0);
+  EXPECT_TRUE(found("one") == expected_);
+  {
+    Subprocess second(asked("parts", {"--part", "2/2"}));
+    EXPECT_EQ(run_vsa(asked("parts", {"--part", "1/2"})).exit_code, 0);
+    EXPECT_EQ(second.wait().exit_code, 0);
+  }
+  EXPECT_TRUE(found("parts") == expected_);
+  EXPECT_EQ(runs_in(scratch_ / "parts/jobs"), 11U) << "nothing twice";
+}
+
+TEST_F(IdentifyPool, KilledItGoesOnWhereItWas) {
+  for (const int signal : {SIGKILL, SIGINT}) {
+    const std::string out = "killed_" + std::to_string(signal);
+    Subprocess running(asked(out, {"--threads", "1"}));
+    ASSERT_TRUE(wait_for_runs(scratch_ / out / "jobs", 3));
+    running.send(signal);
+    EXPECT_EQ(running.wait().exit_code, 128 + signal);
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / out / "results.json"));
+    const Result anew = run_vsa(asked(out, {}));
+    expect_refused(anew, "--resume");
+    const Result other = run_vsa(asked(out, {"--resume", "--seed", "2"}));
+    expect_refused(other, "of another");
+    EXPECT_EQ(run_vsa(asked(out, {"--resume"})).exit_code, 0);
+    EXPECT_TRUE(found(out) == expected_) << signal;
+  }
+}
+
+TEST_F(IdentifyPool, RanksFindTheSame) {
+  if (const std::string why = no_ranks(); !why.empty()) GTEST_SKIP() << why;
+  for (const int ranks : {1, 3}) {
+    const std::string out = "ranks_" + std::to_string(ranks);
+    const Result r = run_vsa(job(ranks, asked(out, {})), mpirun());
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_TRUE(found(out) == expected_) << ranks;
+  }
+  const Result refused = run_vsa(job(2, asked("refused", {"--seed", "-1"})), mpirun());
+  expect_refused(refused, "--seed");
+  EXPECT_EQ(refused.err.find("--seed"), refused.err.rfind("--seed")) << "told once:\n" << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "refused"));
 }
 
 }  // namespace

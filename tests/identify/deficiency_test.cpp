@@ -1,13 +1,12 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// What the data can't tell is said; profiles and cross-validation show what they should.
+// What the data can't tell is said.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "closed_form.hpp"
 #include "vsa/errors.hpp"
-#include "vsa/identify/checks.hpp"
 #include "vsa/identify/uncertainty.hpp"
 
 namespace vsa::identify {
@@ -86,73 +85,6 @@ TEST(Deficiency, AWellPosedTaskHasNone) {
     EXPECT_NEAR(u.correlation[i][i], 1.0, 1e-9);
     for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(u.correlation[i][k], u.correlation[k][i], 1e-9);
   }
-}
-
-TEST(Profile, IsLowestAtTheEstimateAndRisesToBothSides) {
-  const Task task = task_of(parse_parameters(test::kFour, paper_type()), kPresets, noisy(kPresets, 0.003));
-  const Residuals residuals(task, 2);
-  const Fit f = fit(residuals, {});
-  const Uncertainty u = uncertainty(residuals, f);
-  const auto curve = profile(residuals, f, 2, f.values[2] - 4 * u.standard_error[2], f.values[2] + 4 * u.standard_error[2], 5, {});
-  ASSERT_EQ(curve.size(), 5u);
-  EXPECT_NEAR(curve[2].value, f.values[2], 1e-9);
-  EXPECT_GT(curve[0].rms_rad, curve[1].rms_rad);
-  EXPECT_GT(curve[1].rms_rad, curve[2].rms_rad);
-  EXPECT_LT(curve[2].rms_rad, curve[3].rms_rad);
-  EXPECT_LT(curve[3].rms_rad, curve[4].rms_rad);
-}
-
-TEST(CrossValidation, OfATrueModelPredictsTheLeftOutPresetAboutAsWellAsTheRest) {
-  const std::vector<double> presets{0.0, 0.1, 0.45, 0.69};  // without either of the first two, the other still tells k from a
-  const Task task = task_of(parse_parameters(test::kFour, paper_type()), presets, noisy(presets, 0.003));
-  const Residuals residuals(task, 2);
-  const Fit f = fit(residuals, {});
-  const auto left = leave_one_preset_out(task, f, {}, 2);
-  ASSERT_EQ(left.size(), 4u);
-  for (const LeftOut& l : left) {
-    EXPECT_LT(l.rms_rad, 2 * l.rms_rad_of_all) << l.preset << " " << l.rms_rad_of_all;
-    EXPECT_EQ(l.misfits.size(), 1u);
-  }
-}
-
-TEST(CrossValidation, OfAWrongModelFails) {
-  std::vector<experiment::Branches> data = noisy(kPresets);
-  for (double& v : data[2].rising_rad) v *= 1.5;  // one preset that obeys another law
-  for (double& v : data[2].falling_rad) v *= 1.5;
-  const Task task = task_of(parse_parameters(test::kFour, paper_type()), kPresets, data);
-  const Residuals residuals(task, 2);
-  const auto left = leave_one_preset_out(task, fit(residuals, {}), {}, 2);
-  EXPECT_GT(left[2].rms_rad, 10 * 0.001);
-  EXPECT_GT(left[2].rms_rad, left[2].rms_rad_of_all);
-}
-
-TEST(CrossValidation, OfATrueModelThatTheRestDoesNotDetermineSaysSo) {
-  const Task task = task_of(parse_parameters(test::kFour, paper_type()), kPresets, noisy(kPresets, 0.003));
-  const Residuals residuals(task, 2);
-  const auto left = leave_one_preset_out(task, fit(residuals, {}), {}, 2);
-  EXPECT_GT(left[0].rms_rad, 5 * left[0].rms_rad_of_all) << "two stiff presets fit k·e^(a·preset), not k and a";
-}
-
-TEST(CrossValidation, BeginsNothingAtTheFitToEverything) {
-  const Task task = task_of(parse_parameters(test::kFour, paper_type()), kPresets, noisy(kPresets, 0.003));
-  const Residuals residuals(task, 2);
-  Fit f = fit(residuals, {});
-  const auto left = leave_one_preset_out(task, f, {}, 2);
-  for (double& v : f.values) v *= 1.05;
-  const auto again = leave_one_preset_out(task, f, {}, 2);
-  for (std::size_t i = 0; i < left.size(); ++i) EXPECT_EQ(left[i].values, again[i].values) << left[i].preset;
-}
-
-TEST(CrossValidation, NeedsTwoPresetsAndTakesTwoRecordingsOfOne) {
-  const std::vector<double> twice{0.45, 0.45};
-  const Task one = task_of(parse_parameters("shaft.friction_Nm", paper_type()), twice, noisy(twice));
-  Task task = one;
-  task.model = [](const std::vector<double>& v, std::size_t) { return closed_form({kTruth[0], kTruth[1], v[0], kTruth[3]}, 0.45); };
-  const Residuals residuals(task, 2);
-  const Fit f = fit(residuals, {});
-  EXPECT_NEAR(f.values[0], kTruth[2], 1e-3);
-  EXPECT_EQ(misfits(residuals, f.residuals).size(), 2u);
-  EXPECT_TRUE(leave_one_preset_out(task, f, {}, 2).empty());
 }
 
 TEST(Failures, OfTheModelAtTheStartAreToldAndElsewhereSteppedAround) {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "closed_form.hpp"
-#include "vsa/identify/checks.hpp"
 #include "vsa/identify/uncertainty.hpp"
 
 namespace vsa::identify {

@@ -4,96 +4,47 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <future>
 #include <iostream>
 #include <thread>
+#include <utility>
 
-#include "identify/compare_output.hpp"
-#include "terminal/console.hpp"
+#include "identify/signal_watch.hpp"
 #include "terminal/exit_codes.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/output_files.hpp"
 #include "terminal/table.hpp"
+#include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
-#include "vsa/experiment/parallel.hpp"
+#include "vsa/hash.hpp"
+#include "vsa/sweep/fits.hpp"
+#include "vsa/sweep/pool.hpp"
 
 namespace vsa::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string command_of(const CompareOptions& o) {
-  std::string out = "vsa identify --compare " + o.file;
-  if (!o.out.empty()) out += " --out " + o.out;
-  return out;
-}
-
 /// How many fits at once, and on how many threads each.
 struct Share {
   unsigned fits, threads;
 };
-Share share(int jobs, std::size_t fits) {
-  const unsigned machine = std::max(1u, std::thread::hardware_concurrency());
+Share share(int wanted, std::size_t fits) {
+  const unsigned machine = std::max(1U, std::thread::hardware_concurrency());
   const auto most = static_cast<unsigned>(std::max<std::size_t>(1, fits));
-  const unsigned wanted = std::min(jobs > 0 ? static_cast<unsigned>(jobs) : machine, most);
-  return {wanted, std::max(1u, machine / wanted)};
+  const unsigned at_once = std::min(wanted > 0 ? static_cast<unsigned>(wanted) : machine, most);
+  return {at_once, std::max(1U, machine / at_once)};
 }
 
-/// The fits that aren't in `fits` yet, each written when it is done.
-void fit_all(Compared& c, const fs::path& fits, int jobs, Console& console, experiment::Watch& watch) {
-  const std::vector<identify::FitRequest> all = identify::requests(c.comparison);
-  const std::vector<std::string> hashes = identify::request_hashes(c.comparison, all, share(jobs, all.size()).fits, &watch);
-  c.records.resize(all.size());
-  std::vector<std::size_t> missing;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::string name = identify::request_name(c.comparison, all[i]);
-    if (auto kept = stored_fit(fits / (name + ".json"), hashes[i])) {
-      c.records[i] = std::move(*kept);
-      console.line("kept: " + name);
-    } else {
-      missing.push_back(i);
-    }
-  }
-  const Share work = share(jobs, missing.size());
-  std::atomic<std::size_t> done{all.size() - missing.size()};
-  experiment::run_in_parallel(missing.size(), work.fits, [&](std::size_t m) {
-    const std::size_t i = missing[m];
-    identify::FitRecord record = identify::run_fit(c.comparison, all[i], work.threads, &watch);
-    record.asked = hashes[i];
-    const std::string name = identify::request_name(c.comparison, all[i]);
-    write_whole(fits / (name + ".json"), fit_json(record));
-    console.line(fmt::format("{} of {}: {} in {:.0f} s", ++done, all.size(), name, record.seconds));
-    c.records[i] = std::move(record);
-  });
-  c.rows = identify::judge(c.comparison, c.records);
-}
+fs::path file_of(const Comparing& what, std::size_t fit) { return what.out() / "fits" / (what.name(fit) + ".json"); }
 
-}  // namespace
-
-int run_compare(const CompareOptions& o) {
-  if (o.jobs && !(*o.jobs >= 0 && *o.jobs <= 1024))
-    throw InputError({"", "--jobs", std::to_string(*o.jobs), "out of range", "0 … 1024"});
+void write_judgement(const Comparing& what, std::vector<identify::FitRecord> records) {
   Compared c;
-  c.comparison = identify::read_comparison(o.file);
-  c.command = command_of(o);
-  const fs::path out = o.out.empty() ? "compare_" + fs::path(o.file).stem().string() : o.out;
-  make_directory(out, "--out");
-  make_directory(out / "fits", "--out");
-  catch_interrupts();
-  Console console;
-  experiment::Watch watch;
-  auto work = std::async(std::launch::async, [&] { fit_all(c, out / "fits", o.jobs.value_or(c.comparison.jobs), console, watch); });
-  while (work.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-    if (interrupted() != 0) watch.stop = true;
-  }
-  try {
-    work.get();
-  } catch (const experiment::Stopped&) {
-    console.line("stopped: the same command goes on from the fits in " + (out / "fits").string());
-    return kSignalled + interrupted();
-  }
+  c.comparison = what.comparison();
+  c.command = what.command();
+  c.records = std::move(records);
+  c.rows = identify::judge(c.comparison, c.records);
+  const fs::path out = what.out();
   const report::Table table = comparison_table(c);
   write_whole(out / "comparison.json", comparison_json(c));
   write_whole(out / "comparison.md", comparison_markdown(c));
@@ -101,7 +52,106 @@ int run_compare(const CompareOptions& o) {
   rows.insert(rows.end(), table.rows.begin(), table.rows.end());
   std::cout << table.title << '\n' << table_text(rows, terminal_width()) << '\n';
   std::cout << "written: " << (out / "comparison.md").string() << ", comparison.json\n";
-  return std::cout.flush() ? kDone : kFailed;
+  if (!std::cout.flush()) throw std::runtime_error("can't write the table to standard output");
+}
+
+}  // namespace
+
+Comparing::Comparing(const CompareOptions& options) : options_(options) {
+  (void)part_of(options.part);
+  comparison_ = identify::read_comparison(options.file);
+  requests_ = identify::requests(comparison_);
+  make_directory(out(), "--out");
+  make_directory(out() / "fits", "--out");
+  experiment::Watch watch;
+  const SignalWatch signals(watch);
+  hashes_ = identify::request_hashes(comparison_, requests_, share(options_.threads.value_or(0), fits()).fits, &watch);
+}
+
+fs::path Comparing::out() const {
+  return options_.out.empty() ? fs::path("compare_" + fs::path(options_.file).stem().string()) : fs::path(options_.out);
+}
+
+std::optional<identify::FitRecord> Comparing::stored(std::size_t fit) const {
+  return stored_fit(file_of(*this, fit), hashes_[fit]);
+}
+
+sweep::Series Comparing::series(unsigned threads, Console& console) const {
+  return sweep::series_of(comparison_, threads, [this, &console](std::size_t fit, identify::FitRecord record) {
+    record.asked = hashes_[fit];
+    write_whole(file_of(*this, fit), fit_json(record));
+    console.line(fmt::format("fit {} of {}: {} in {:.0f} s", fit + 1, fits(), name(fit), record.seconds));
+  });
+}
+
+std::uint64_t Comparing::fingerprint() const { return fnv1a(config::join(hashes_)); }
+
+std::string Comparing::command() const {
+  std::string out = "vsa identify --compare " + options_.file;
+  if (!options_.out.empty()) out += " --out " + options_.out;
+  return out;
+}
+
+int compare_with(const Comparing& what, Console& console, const MakeFits& make) {
+  const Part part = part_of(what.options().part);
+  Todo todo;
+  for (std::size_t fit = 0; fit < what.fits(); ++fit) {
+    if (!part.has(fit)) continue;
+    if (what.stored(fit)) {
+      console.line("kept: " + what.name(fit));
+    } else {
+      todo.add(fit);
+    }
+  }
+  const auto stopped = [&] {
+    console.line("stopped: the same command goes on from the fits in " + (what.out() / "fits").string());
+    return kSignalled + std::max(1, interrupted());
+  };
+  if (todo.count > 0 && !make(todo)) return stopped();
+  if (part.number != 1) return kDone;
+  for (;;) {
+    std::vector<identify::FitRecord> records;
+    bool failed = false;
+    for (std::size_t fit = 0; fit < what.fits(); ++fit) {
+      if (auto record = what.stored(fit)) {
+        records.push_back(std::move(*record));
+      } else {
+        failed = failed || part.has(fit);
+      }
+    }
+    if (failed) return kFailed;
+    if (records.size() == what.fits()) {
+      write_judgement(what, std::move(records));
+      return kDone;
+    }
+    console.status(fmt::format("waiting for {} fits of other parts", what.fits() - records.size()));
+    if (interrupted() != 0) return stopped();
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  }
+}
+
+int run_compare(const CompareOptions& o) {
+  catch_interrupts();
+  Console console;
+  try {
+    const Comparing what(o);
+    return compare_with(what, console, [&](const Todo& fits) {
+      const Share work = share(o.threads.value_or(what.comparison().jobs), fits.count);
+      Dealer dealer(fits);
+      const sweep::Work each{[&] { return dealer.next(); },
+                             [&](const sweep::Outcome& outcome) { tell_failed(what, outcome, console); },
+                             [] { return interrupted() == 0; }};
+      static_cast<void>(sweep::run_pool(what.series(work.threads, console), work.fits, each));
+      return interrupted() == 0;
+    });
+  } catch (const experiment::Stopped&) {
+    console.line("stopped: nothing was fitted");
+    return kSignalled + std::max(1, interrupted());
+  }
+}
+
+void tell_failed(const Comparing& what, const sweep::Outcome& outcome, Console& console) {
+  if (!outcome.error.empty()) console.line(fmt::format("{} failed: {}", what.name(outcome.run), outcome.error));
 }
 
 }  // namespace vsa::app

@@ -1,31 +1,18 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "identify/identify.hpp"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <future>
-#include <iostream>
 #include <memory>
 
+#include "identify/asked.hpp"
 #include "identify/compare.hpp"
-#include "identify/output.hpp"
 #include "terminal/console.hpp"
-#include "terminal/exit_codes.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/numbers.hpp"
-#include "terminal/output_files.hpp"
-#include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
-#include "vsa/identify/bench_model.hpp"
 
 namespace vsa::app {
 namespace {
-
-constexpr int kDigits = 5;  // of the estimates: more than any interval is narrow
 
 constexpr const char* kNotes =
     R"(Fits the simulated load test (world bench_load, full dynamics, read by the unit's encoders) to recordings by least
@@ -45,181 +32,33 @@ Examples:
     --parameters elastic.k1_Nm=elastic.k2_Nm,drive.dead_band,shaft.friction_Nm,sensor.encoder_zero_rad
   vsa identify --compare data/qbmove_maker_pro/hypotheses.toml)";
 
-identify::Task read_task(const IdentifyOptions& o, const config::ActuatorType& type) {
-  Problems problems;
-  identify::Task task;
-  const auto collect = [&](const auto& step) {
-    try {
-      step();
-    } catch (const InputError& error) {
-      problems.add_all(error);
-    }
-  };
-  collect([&] { task.parameters = identify::parse_parameters(o.parameters, type); });
-  for (const std::string& file : o.recordings) {
-    collect([&] {
-      task.observations.push_back(identify::read_observation(file, type));
-      identify::Observation& last = task.observations.back();
-      if (o.weights == "scatter") last.weight = identify::scatter_weight(last.data);
-    });
-  }
-  problems.throw_if_any();
-  return task;
-}
-
-void check_numbers(const IdentifyOptions& o) {
-  Problems problems;
-  const auto require = [&](double value, const char* flag, double least, double most, const char* unit) {
-    if (value >= least && value <= most) return;
-    problems.add({"", flag, fmt::format("{}", value), "out of range", fmt::format("{} … {} {}", least, most, unit)});
-  };
-  require(o.period_s, "--period-s", 1, 3600, "s");
-  if (o.amplitude_rad) require(*o.amplitude_rad, "--amplitude-rad", 0.01, 3, "rad");
-  require(o.cycles, "--cycles", 1.5, 100, "cycles");
-  require(o.starts, "--starts", 1, 100, "starts");
-  require(o.seed, "--seed", 0, 1e9, "");
-  require(o.iterations, "--iterations", 1, 1000, "iterations");
-  require(o.profile, "--profile", 0, 101, "points");
-  if (o.name.empty() ||
-      o.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos) {
-    problems.add({"", "--name", o.name, "isn't a type's name", "letters, digits, _ and -"});
-  }
-  problems.throw_if_any();
-}
-
-/// What has no default, where there is no file of hypotheses that says it.
-void check_given(const IdentifyOptions& o) {
-  Problems problems;
-  if (o.recordings.empty()) problems.add({"", "RECORDING", "", "is missing", "CSV files, or --compare FILE"});
-  if (o.type.empty()) problems.add({"", "--type", "", "is missing", "an actuator type, see vsa actuators"});
-  if (o.parameters.empty()) problems.add({"", "--parameters", "", "is missing", "keys, see vsa actuators NAME"});
-  problems.throw_if_any();
-}
-
 /// A file of hypotheses says all but where to write and how many fits at once.
-void refuse_mixed(const CLI::App& sub, bool comparing) {
+void refuse_mixed(const CLI::App& sub) {
   Problems problems;
   for (const CLI::Option* option : sub.get_options()) {
     const std::string name = option->get_name();
-    const bool either = name == "--help" || name == "--out" || name == "--compare";
-    if (option->count() == 0 || either || (name == "--jobs") == comparing) continue;
-    problems.add({"", name, "", comparing ? "isn't for --compare: its file says it" : "is for --compare only",
-                  comparing ? "--out, --jobs" : "--compare FILE --jobs N"});
+    const bool either = name == "--help" || name == "--out" || name == "--compare" || name == "--threads" || name == "--part";
+    if (option->count() == 0 || either) continue;
+    problems.add({"", name, "", "isn't for --compare: its file says it, and it goes on by itself", "--out, --threads, --part"});
   }
   problems.throw_if_any();
-}
-
-std::string command_of(const IdentifyOptions& o) {
-  const IdentifyOptions usual;
-  std::string out = "vsa identify " + config::join(o.recordings, " ") + " --type " + o.type + " --parameters " + o.parameters;
-  for (const auto& s : o.set) out += " --set " + s;
-  if (o.name != usual.name) out += " --name " + o.name;
-  if (o.period_s != usual.period_s) out += fmt::format(" --period-s {}", o.period_s);
-  if (o.amplitude_rad) out += fmt::format(" --amplitude-rad {}", *o.amplitude_rad);
-  if (o.cycles != usual.cycles) out += fmt::format(" --cycles {}", o.cycles);
-  if (o.starts != usual.starts) out += fmt::format(" --starts {}", o.starts);
-  if (o.seed != usual.seed) out += fmt::format(" --seed {}", o.seed);
-  if (o.no_global) out += " --no-global";
-  if (o.iterations != usual.iterations) out += fmt::format(" --iterations {}", o.iterations);
-  if (o.profile != usual.profile) out += fmt::format(" --profile {}", o.profile);
-  if (o.weights != usual.weights) out += " --weights " + o.weights;
-  if (o.no_cross_validation) out += " --no-cross-validation";
-  return out;
-}
-
-void add_profiles(Identification& r, const identify::Residuals& residuals, int points, const identify::FitOptions& fit) {
-  for (std::size_t k = 0; k < r.fit.values.size(); ++k) {
-    const double se = r.uncertainty.standard_error[k];
-    const identify::Parameter& p = r.task.parameters[k];
-    const double half = std::isfinite(se) ? 3 * se : 0.1 * (p.max - p.min);
-    r.profiles.push_back(identify::profile(residuals, r.fit, k, r.fit.values[k] - half, r.fit.values[k] + half, points, fit));
-  }
-}
-
-void identify_all(Identification& r, const IdentifyOptions& o, Console& console) {
-  const identify::Residuals residuals(r.task, 0);
-  r.points = residuals.points();
-  identify::FitOptions fit;
-  fit.starts = o.starts;
-  fit.iterations = o.iterations;
-  fit.global = !o.no_global;
-  fit.seed = static_cast<unsigned>(o.seed);
-  fit.progress = [&](const std::string& text) { console.line(text); };
-  std::vector<double> start;
-  for (const identify::Parameter& p : r.task.parameters) start.push_back(p.start);
-  r.task.prepare(start);
-  r.residuals_before = residuals.at(start);
-  r.misfits_before = identify::misfits(residuals, r.residuals_before);
-  r.fit = identify::fit(residuals, fit);
-  for (std::size_t k = 0; k < r.fit.values.size(); ++k) {
-    const identify::Parameter& p = r.task.parameters[k];
-    r.fit.values[k] = std::clamp(identify::rounded(r.fit.values[k], kDigits), p.min, p.max);
-  }
-  identify::evaluate_at(r.fit, residuals, fit.interval_effect_rad);
-  r.misfits = identify::misfits(residuals, r.fit.residuals);
-  r.uncertainty = identify::uncertainty(residuals, r.fit);
-  if (!o.no_cross_validation) r.left_out = identify::leave_one_preset_out(r.task, r.fit, fit, 0);
-  if (o.profile > 0) add_profiles(r, residuals, o.profile, fit);
-  r.evaluations = residuals.evaluations();
-}
-
-/// Waits for the work on another thread, so that a signal can end it. False: it did.
-bool wait_for(std::future<void>& work, experiment::Watch& watch) {
-  while (work.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-    if (interrupted() != 0) watch.stop = true;
-  }
-  try {
-    work.get();
-  } catch (const experiment::Stopped&) {
-    return false;
-  }
-  return true;
 }
 
 }  // namespace
 
 int run_identify(const IdentifyOptions& o) {
-  check_given(o);
-  check_numbers(o);
-  (void)report::page_template();  // told before the work, not after it
-  Identification r;
-  experiment::Specimen specimen;
-  specimen.type = o.type;
-  specimen.overrides = config::parse_overrides(o.set, "--set");
-  r.type = specimen.library.load(o.type, specimen.overrides);
-  r.command = command_of(o);
-  r.name = o.name;
-  r.period_s = o.period_s;
-  r.task = read_task(o, r.type);
-  const std::filesystem::path out = o.out.empty() ? "identify_" + o.type : o.out;
-  experiment::Watch watch;
-  identify::SweepOptions sweep;
-  sweep.period_s = o.period_s;
-  sweep.amplitude_rad = o.amplitude_rad;
-  sweep.cycles = o.cycles;
-  identify::use_bench(r.task, specimen, sweep, &watch);
-  make_directory(out, "--out");
+  const Asked asked(o);
   catch_interrupts();
   Console console;
-  auto work = std::async(std::launch::async, [&] { identify_all(r, o, console); });
-  if (!wait_for(work, watch)) {
-    console.line("stopped: nothing was written");
-    return kSignalled + interrupted();
-  }
-  const bool determined = !r.uncertainty.deficient();
-  const std::string type = determined ? identified_type(r, specimen.library) : "";
-  write_whole(out / "results.json", results_json(r));
-  if (determined) write_whole(out / (r.name + ".toml"), type);
-  report::write_report(identification_report(r), out / "report.html");
-  for (const std::string& w : warnings(r)) console.line("warning: " + w);
-  std::cout << identification_text(r) << "written: " << (out / "report.html").string() << ", results.json";
-  std::cout << (determined ? ", " + r.name + ".toml\n" : "; no preset, as the data don't determine it\n");
-  return std::cout.flush() && determined ? kDone : kFailed;
+  Generations generations = generations_of(asked, console);
+  sweep::Log log(asked.folder(), asked.series({}));
+  return identify_with(asked, generations, console, [&](const std::vector<identify::Job>& jobs, const Todo& runs) {
+    return make_here(asked.series(jobs), runs, static_cast<unsigned>(o.threads.value_or(0)), log, console);
+  });
 }
 
-void setup_identify(CLI::App& app, int& exit_code) {
-  auto o = std::make_shared<IdentifyOptions>();
-  CLI::App* sub = app.add_subcommand("identify", "Find parameters of an actuator type from load-test recordings");
+std::function<void()> add_identify_options(CLI::App& to, const std::shared_ptr<IdentifyOptions>& o) {
+  CLI::App* sub = &to;
   sub->add_option("RECORDING", o->recordings, "CSV files");
   sub->add_option("--type", o->type, "Actuator type: start values, bounds and all that isn't identified");
   sub->add_option("--parameters", o->parameters, "Keys to identify, comma-separated; key=key gives both one value");
@@ -247,15 +86,32 @@ void setup_identify(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"scatter", "equal"}))
       ->capture_default_str();
   sub->add_flag("--no-cross-validation", o->no_cross_validation, "Don't fit again without each preset in turn");
-  auto c = std::make_shared<CompareOptions>();
-  CLI::Option* compare = sub->add_option("--compare", c->file, "Compare the hypotheses of this TOML file instead");
-  sub->add_option("--jobs", c->jobs, "With --compare: fits side by side, 0 as many as the machine runs; default: as the file says")
-      ->check(number_given());
+  sub->add_option("--bootstrap", o->bootstrap, "Fits to recordings with errors drawn anew, for intervals by their scatter; 0: none")
+      ->check(number_given())
+      ->capture_default_str();
+  sub->add_option("--compare", o->compare.file, "Compare the hypotheses of this TOML file instead");
+  sub->add_option("--threads,--jobs", o->threads,
+                  "Fits at once in each process, 0 as many as the machine runs; default: that, or as the file of --compare says")
+      ->check(CLI::Range(0, 1024));
+  sub->add_flag("--resume", o->resume, "Go on where fits of the same command ended");
+  sub->add_flag("--retry-failed", o->retry_failed, "And make again what failed")->needs("--resume");
   sub->footer(kNotes);
-  sub->callback([o, c, sub, compare, &exit_code] {
-    refuse_mixed(*sub, compare->count() > 0);
-    c->out = o->out;
-    exit_code = compare->count() > 0 ? run_compare(*c) : run_identify(*o);
+  return [o, sub] {
+    if (!o->compare.file.empty()) refuse_mixed(*sub);
+    o->compare.out = o->out;
+    o->compare.threads = o->threads;
+    o->compare.part = o->part;
+  };
+}
+
+void setup_identify(CLI::App& app, int& exit_code) {
+  auto o = std::make_shared<IdentifyOptions>();
+  CLI::App* sub = app.add_subcommand("identify", "Find parameters of an actuator type from load-test recordings");
+  const auto check = add_identify_options(*sub, o);
+  sub->add_option("--part", o->part, "Make every Nth fit, from the Ith on, beside the other parts: I/N");
+  sub->callback([o, check, &exit_code] {
+    check();
+    exit_code = o->compare.file.empty() ? run_identify(*o) : run_compare(o->compare);
   });
 }
 

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "identify/compare.hpp"
 
 namespace vsa::app {
 
@@ -19,14 +22,22 @@ struct IdentifyOptions {
   std::optional<double> amplitude_rad;  ///< of the sweep; none: by the rule in experiment/bench.hpp
   double cycles = 1.5;                  ///< simulated; the first half is left out
   int starts = 3;
-  int seed = 1;  ///< of the global search
+  int seed = 1;  ///< of the global search and of the bootstrap
   bool no_global = false;
   int iterations = 20;
   int profile = 0;                  ///< points of each parameter's profile; 0: none
+  int bootstrap = 0;                ///< draws
   std::string weights = "scatter";  ///< or "equal"
   bool no_cross_validation = false;
+  std::optional<int>
+      threads;       ///< fits at once in each process; 0: as many as the machine runs; none: 0, or as a comparison's file says
+  std::string part;  ///< "2/8"
+  bool resume = false, retry_failed = false;
+  CompareOptions compare;  ///< its file is empty: nothing is compared
 };
 
+/// All options. The returned function ends their reading: it refuses what doesn't go together (InputError).
+[[nodiscard]] std::function<void()> add_identify_options(CLI::App& sub, const std::shared_ptr<IdentifyOptions>& options);
 /// `vsa identify RECORDING.csv… --type NAME --parameters …`, and `vsa identify --compare FILE` (compare.hpp). Sets the exit code
 /// when it was the subcommand.
 void setup_identify(CLI::App& app, int& exit_code);

@@ -13,19 +13,19 @@ using page::reals;
 
 Json parameters_json(const Identification& r) {
   Json out = Json::array();
-  const identify::Uncertainty& u = r.uncertainty;
-  for (std::size_t k = 0; k < r.task.parameters.size(); ++k) {
-    const identify::Parameter& p = r.task.parameters[k];
+  const identify::Uncertainty& u = r.found.uncertainty;
+  for (std::size_t k = 0; k < r.found.task.parameters.size(); ++k) {
+    const identify::Parameter& p = r.found.task.parameters[k];
     out.push_back({{"name", p.name},
                    {"keys", p.keys},
                    {"unit", p.unit},
                    {"start", p.start},
                    {"bounds", {p.min, p.max}},
-                   {"value", r.fit.values[k]},
+                   {"value", r.found.fit.values[k]},
                    {"standard_error", real(u.standard_error[k])},
                    {"interval_95", {real(u.low[k]), real(u.high[k])}},
                    {"standard_error_if_white", real(u.white_standard_error[k])},
-                   {"at_bound", static_cast<bool>(r.fit.at_bound[k])}});
+                   {"at_bound", static_cast<bool>(r.found.fit.at_bound[k])}});
   }
   return out;
 }
@@ -36,24 +36,24 @@ Json difference_json(const experiment::Difference& d) {
 
 Json recordings_json(const Identification& r) {
   Json out = Json::array();
-  for (std::size_t o = 0; o < r.task.observations.size(); ++o) {
-    out.push_back({{"file", r.task.observations[o].name},
-                   {"preset", r.task.observations[o].preset},
-                   {"weight_per_rad", r.task.observations[o].weight},
-                   {"points", r.misfits[o].rms.points},
-                   {"before", difference_json(r.misfits_before[o].rms)},
-                   {"after", difference_json(r.misfits[o].rms)},
-                   {"residual_autocorrelation", real(r.uncertainty.autocorrelation[o])},
-                   {"residual_sd_rad", real(r.uncertainty.sd_rad[o])}});
+  for (std::size_t o = 0; o < r.found.task.observations.size(); ++o) {
+    out.push_back({{"file", r.found.task.observations[o].name},
+                   {"preset", r.found.task.observations[o].preset},
+                   {"weight_per_rad", r.found.task.observations[o].weight},
+                   {"points", r.found.misfits[o].rms.points},
+                   {"before", difference_json(r.found.misfits_before[o].rms)},
+                   {"after", difference_json(r.found.misfits[o].rms)},
+                   {"residual_autocorrelation", real(r.found.uncertainty.autocorrelation[o])},
+                   {"residual_sd_rad", real(r.found.uncertainty.sd_rad[o])}});
   }
   return out;
 }
 
 Json groups_json(const Identification& r) {
   Json out = Json::array();
-  for (const auto& group : r.uncertainty.unseparated) {
+  for (const auto& group : r.found.uncertainty.unseparated) {
     Json names = Json::array();
-    for (std::size_t k : group) names.push_back(r.task.parameters[k].name);
+    for (std::size_t k : group) names.push_back(r.found.task.parameters[k].name);
     out.push_back(names);
   }
   return out;
@@ -61,7 +61,7 @@ Json groups_json(const Identification& r) {
 
 Json starts_json(const Identification& r) {
   Json out = Json::array();
-  for (const identify::StartResult& s : r.fit.starts) {
+  for (const identify::StartResult& s : r.found.fit.starts) {
     out.push_back(
         {{"from", s.from}, {"to", s.to}, {"rms_rad", s.rms_rad}, {"iterations", s.iterations}, {"converged", s.converged}});
   }
@@ -70,7 +70,7 @@ Json starts_json(const Identification& r) {
 
 Json left_out_json(const Identification& r) {
   Json out = Json::array();
-  for (const identify::LeftOut& l : r.left_out) {
+  for (const identify::LeftOut& l : r.found.left_out) {
     out.push_back(
         {{"preset", l.preset}, {"values", l.values}, {"rms_rad", l.rms_rad}, {"rms_rad_fitted_to_all", l.rms_rad_of_all}});
   }
@@ -79,25 +79,38 @@ Json left_out_json(const Identification& r) {
 
 Json profiles_json(const Identification& r) {
   Json out = Json::array();
-  for (std::size_t k = 0; k < r.profiles.size(); ++k) {
+  for (std::size_t k = 0; k < r.found.profiles.size(); ++k) {
     Json values = Json::array(), rms = Json::array();
-    for (const identify::ProfilePoint& p : r.profiles[k]) {
+    for (const identify::ProfilePoint& p : r.found.profiles[k]) {
       values.push_back(p.value);
       rms.push_back(p.rms_rad);
     }
-    out.push_back({{"name", r.task.parameters[k].name}, {"value", values}, {"rms_rad", rms}});
+    out.push_back({{"name", r.found.task.parameters[k].name}, {"value", values}, {"rms_rad", rms}});
   }
   return out;
 }
 
+/// Null: none was asked for.
+Json bootstrap_json(const Identification& r) {
+  if (!r.found.bootstrap) return nullptr;
+  const identify::Bootstrap& b = *r.found.bootstrap;
+  Json parameters = Json::array();
+  for (std::size_t k = 0; k < r.found.task.parameters.size(); ++k) {
+    parameters.push_back({{"name", r.found.task.parameters[k].name},
+                          {"standard_error", real(b.standard_error[k])},
+                          {"interval_95", {real(b.low[k]), real(b.high[k])}}});
+  }
+  return {{"draws", b.values.size()}, {"failed", b.failed}, {"parameters", parameters}, {"values", b.values}};
+}
+
 Json residuals_json(const Identification& r) {
   Json out = Json::array();
-  for (std::size_t i = 0; i < r.points.size(); ++i) {
-    const identify::Point& p = r.points[i];
+  for (std::size_t i = 0; i < r.found.points.size(); ++i) {
+    const identify::Point& p = r.found.points[i];
     out.push_back({{"recording", p.observation},
                    {"branch", p.rising ? "rising" : "falling"},
-                   {"load_torque_Nm", r.task.observations[p.observation].data.torque_Nm[p.grid]},
-                   {"residual_rad", r.fit.residuals[i]}});
+                   {"load_torque_Nm", r.found.task.observations[p.observation].data.torque_Nm[p.grid]},
+                   {"residual_rad", r.found.fit.residuals[i]}});
   }
   return out;
 }
@@ -106,8 +119,8 @@ Json residuals_json(const Identification& r) {
 Json values_json(const Identification& r) {
   Json out = Json::object();
   for (const config::Entry& e : r.type.entries) out[e.key] = e.value;
-  for (std::size_t k = 0; k < r.task.parameters.size(); ++k) {
-    for (const std::string& key : r.task.parameters[k].keys) out[key] = config::number_text(r.fit.values[k]);
+  for (std::size_t k = 0; k < r.found.task.parameters.size(); ++k) {
+    for (const std::string& key : r.found.task.parameters[k].keys) out[key] = config::number_text(r.found.fit.values[k]);
   }
   return out;
 }
@@ -115,11 +128,11 @@ Json values_json(const Identification& r) {
 }  // namespace
 
 std::string results_json(const Identification& r) {
-  const identify::Uncertainty& u = r.uncertainty;
+  const identify::Uncertainty& u = r.found.uncertainty;
   Json out = page::results_head(r.command);
   out["type"] = r.type.name;
   out["sweep_period_s"] = r.period_s;
-  out["rms_rad"] = {{"before", identify::rms(r.residuals_before)}, {"after", r.fit.rms_rad}};
+  out["rms_rad"] = {{"before", identify::rms(r.found.residuals_before)}, {"after", r.found.fit.rms_rad}};
   out["determined"] = !u.deficient();
   out["warnings"] = warnings(r);
   out["parameters"] = parameters_json(r);
@@ -134,8 +147,9 @@ std::string results_json(const Identification& r) {
   out["starts"] = starts_json(r);
   out["leave_one_preset_out"] = left_out_json(r);
   out["profiles"] = profiles_json(r);
+  out["bootstrap"] = bootstrap_json(r);
   out["residuals"] = residuals_json(r);
-  out["simulations"] = r.evaluations;
+  out["simulations"] = r.found.evaluations;
   return page::results_text(out);
 }
 

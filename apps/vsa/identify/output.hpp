@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "vsa/identify/checks.hpp"
-#include "vsa/identify/uncertainty.hpp"
+#include "vsa/identify/identification.hpp"
 #include "vsa/report/report.hpp"
 
 namespace vsa::app {
@@ -19,22 +18,15 @@ namespace vsa::app {
 struct Identification {
   std::string command, name;
   config::ActuatorType type;  ///< with --set, before
-  identify::Task task;
-  std::vector<identify::Point> points;
-  std::vector<double> residuals_before;  ///< at the type's values
-  identify::Fit fit;                     ///< at the estimate
-  identify::Uncertainty uncertainty;
-  std::vector<identify::Misfit> misfits_before, misfits;
-  std::vector<identify::LeftOut> left_out;
-  std::vector<std::vector<identify::ProfilePoint>> profiles;  ///< one a parameter, or none
+  identify::Identification found;
   double period_s = 0;
-  std::size_t evaluations = 0;
 };
 
 /// One table each, units in the heads.
 [[nodiscard]] report::Table estimates_table(const Identification& r);
 [[nodiscard]] report::Table misfit_table(const Identification& r);
 [[nodiscard]] report::Table cross_validation_table(const Identification& r);
+[[nodiscard]] report::Table bootstrap_table(const Identification& r);
 
 /// Plain words for everything that the data don't tell, and for estimates at their bounds.
 [[nodiscard]] std::vector<std::string> warnings(const Identification& r);

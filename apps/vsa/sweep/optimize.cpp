@@ -5,12 +5,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <set>
-#include <thread>
 #include <utility>
 
 #include "terminal/exit_codes.hpp"
@@ -35,20 +32,6 @@ Examples:
   mpirun -n 16 vsa-mpi optimize examples/sweep/settle.toml --out out
 
 Exit codes: 0 done, 1 every candidate failed, 2 bad input, 130 interrupted; --resume goes on.)";
-
-struct Interrupted {};
-
-/// All outcomes up to the plan's last run; waits for those that others make.
-std::vector<sweep::Outcome> whole_outcomes(const sweep::Plan& plan, const SweepOptions& options, Console& console) {
-  for (int looks = 0;; ++looks) {
-    sweep::Results all = sweep::read_logs(folder_of(options), plan);
-    std::erase_if(all.outcomes, [&](const sweep::Outcome& o) { return o.run >= plan.runs(); });
-    if (all.outcomes.size() == plan.runs()) return std::move(all.outcomes);
-    if (looks > 0) console.status(fmt::format("waiting for {} runs of other parts", plan.runs() - all.outcomes.size()));
-    if (interrupted() != 0) throw Interrupted{};
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  }
-}
 
 void write_findings(const sweep::Optimum& found, const SweepOptions& options, Console& console) {
   const std::filesystem::path folder = folder_of(options);
@@ -80,45 +63,28 @@ void write_findings(const sweep::Optimum& found, const SweepOptions& options, Co
 
 }  // namespace
 
-void begin_search(const sweep::Plan& plan, const SweepOptions& options) {
+void check_search(const sweep::Plan& plan, const SweepOptions& options) {
   if (!plan.search())
     throw InputError({options.plan, "vary", "", "nothing is searched", "an axis with search = [from, to]; vsa sweep"});
   if (!sweep::has_optimizer())
     throw InputError(
         {"", "vsa optimize", "", "this build has no optimiser", "one that was configured where pagmo is (libpagmo-dev)"});
-  const Part part = part_of(options.part);
-  sweep::claim(folder_of(options), plan);
-  const sweep::Results there = sweep::read_logs(folder_of(options), plan);
-  const bool any =
-      std::any_of(there.outcomes.begin(), there.outcomes.end(), [&](const sweep::Outcome& o) { return part.has(o.run); });
-  if (any && !options.resume)
-    throw InputError(
-        {"", "--out", folder_of(options).string(), "has results already", "--resume, which goes on; or another folder"});
+  plan.check();
 }
 
-int search(const sweep::Plan& plan, const SweepOptions& options, Console& console, const MakeRuns& make) {
-  const Part part = part_of(options.part);
+Generations generations_of(const sweep::Plan& plan, const SweepOptions& options, Console& console) {
+  return {{folder_of(options), part_of(options.part), options.resume, options.retry_failed}, plan, console};
+}
+
+int search(const sweep::Plan& plan, const SweepOptions& options, Generations& generations, Console& console, const MakeRuns& make) {
   std::size_t generation = 0;
-  std::set<std::size_t> again;  // what had failed before
-  if (options.retry_failed) {
-    for (const sweep::Outcome& o : sweep::read_logs(folder_of(options), plan).outcomes)
-      if (!o.error.empty()) again.insert(o.run);
-  }
   const sweep::Evaluate evaluate = [&](const sweep::Plan& with, std::size_t first) {
-    const sweep::Results there = sweep::read_logs(folder_of(options), with);
-    std::vector<bool> known(with.runs(), false);
-    for (const sweep::Outcome& o : there.outcomes)
-      if (o.run < with.runs()) known[o.run] = again.erase(o.run) == 0;
-    Todo todo;
-    for (std::size_t run = first; run < with.runs(); ++run)
-      if (!known[run] && part.has(run)) todo.add(run);
     console.status(fmt::format("generation {} of {}", generation++, plan.search()->generations));
-    if (todo.count > 0 && !make(with, todo)) throw Interrupted{};
-    return whole_outcomes(with, options, console);
+    return generations.complete(with, first, with.runs(), [&](const Todo& runs) { return make(with, runs); });
   };
   try {
     const sweep::Optimum found = sweep::optimize(plan, evaluate);
-    if (part.number == 1) write_findings(found, options, console);
+    if (part_of(options.part).number == 1) write_findings(found, options, console);
     return found.best.empty() ? kFailed : kDone;
   } catch (const Interrupted&) {
     console.wipe();
@@ -129,20 +95,13 @@ int search(const sweep::Plan& plan, const SweepOptions& options, Console& consol
 
 int run_optimize(const SweepOptions& options) {
   const sweep::Plan plan = sweep::Plan::load(options.plan);
-  begin_search(plan, options);
-  plan.check();
+  check_search(plan, options);
   Console console;
   catch_interrupts();
+  Generations generations = generations_of(plan, options, console);
   sweep::Log log(folder_of(options), plan);
-  return search(plan, options, console, [&](const sweep::Plan& with, const Todo& runs) {
-    Dealer dealer(runs);
-    sweep::Work work;
-    work.next = [&] { return dealer.next(); };
-    work.done = [&](const sweep::Outcome& outcome) { log.add(outcome); };
-    work.wanted = [] { return interrupted() == 0; };
-    static_cast<void>(sweep::run_pool(with, options.threads, work));
-    return interrupted() == 0;
-  });
+  return search(plan, options, generations, console,
+                [&](const sweep::Plan& with, const Todo& runs) { return make_here(with, runs, options.threads, log, console); });
 }
 
 void setup_optimize(CLI::App& app, int& exit_code) {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "sweep/steps.hpp"
+#include "sweep/generations.hpp"
 
 namespace vsa::app {
 
@@ -17,10 +17,11 @@ using MakeRuns = std::function<bool(const sweep::Plan& plan, const Todo& runs)>;
 void setup_optimize(CLI::App& app, int& exit_code);
 int run_optimize(const SweepOptions& options);
 
-/// The search itself, whoever makes the runs: reads the logs of a generation, asks for what isn't there, waits for what others make.
-/// The exit code.
-int search(const sweep::Plan& plan, const SweepOptions& options, Console& console, const MakeRuns& make);
+/// Throws InputError where there is nothing to search, or the plan isn't right.
+void check_search(const sweep::Plan& plan, const SweepOptions& options);
 /// Claims the folder. Throws InputError: it has results and nobody said --resume.
-void begin_search(const sweep::Plan& plan, const SweepOptions& options);
+[[nodiscard]] Generations generations_of(const sweep::Plan& plan, const SweepOptions& options, Console& console);
+/// The search itself, whoever makes the runs. The exit code.
+int search(const sweep::Plan& plan, const SweepOptions& options, Generations& generations, Console& console, const MakeRuns& make);
 
 }  // namespace vsa::app

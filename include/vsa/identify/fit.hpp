@@ -37,6 +37,7 @@ struct StartResult {
   double cost = 0;  ///< at `to`, ½ Σ w² r²; by fit(), with what the model held constant on the way there
   int iterations = 0;
   bool converged = false;
+  std::size_t evaluations = 0;  ///< simulations of a recording, of a job; a fit counts its own (Residuals)
 };
 
 struct Fit {
@@ -51,6 +52,10 @@ struct Fit {
 
 /// Throws what the model throws at the type's own values, and std::runtime_error where no start can be evaluated.
 [[nodiscard]] Fit fit(const Residuals& residuals, const FitOptions& options);
+/// Where fit() begins: the type's values, and others as the options say. The first is that.
+[[nodiscard]] std::vector<std::vector<double>> starting_points(const Residuals& residuals, const FitOptions& options);
+/// The fit that these local solutions make, one at least.
+[[nodiscard]] Fit best_of(const Residuals& residuals, std::vector<StartResult> starts, const FitOptions& options);
 /// Residuals, Jacobian and bounds at `fit.values`, with `fit.steps` as the first guess of the steps.
 void evaluate_at(Fit& fit, const Residuals& residuals, double effect_rad);
 /// One local solution. `fixed[k]`: parameter k keeps its value. Where it ends the difference steps are found anew, and what the

@@ -24,7 +24,7 @@ namespace vsa::sweep {
 class Log {
  public:
   /// A new one in the folder. Throws InputError, OutputError.
-  Log(const std::filesystem::path& folder, const Plan& plan);
+  Log(const std::filesystem::path& folder, const Series& series);
   void add(const Outcome& outcome);  ///< throws OutputError; what was there stays whole
   [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
 
@@ -40,9 +40,9 @@ struct Results {
 };
 
 /// Makes the folder where it is missing and says whose it is. Throws InputError: it is another plan's, or holds something else.
-void claim(const std::filesystem::path& folder, const Plan& plan);
+void claim(const std::filesystem::path& folder, const Series& series);
 /// All logs of a folder. Throws InputError: they are another plan's, or disagree about a run.
-[[nodiscard]] Results read_logs(const std::filesystem::path& folder, const Plan& plan);
+[[nodiscard]] Results read_logs(const std::filesystem::path& folder, const Series& series);
 
 /// The table of all runs: sorted, the same bytes whoever ran what. Empty cells: not run, failed, no number.
 [[nodiscard]] std::string csv(const Plan& plan, const Results& results);

@@ -37,9 +37,6 @@ struct Measure {
 [[nodiscard]] std::vector<std::string> signal_names(const std::string& of);
 [[nodiscard]] const std::vector<std::string>& statistic_names();
 
-/// Of sorted numbers, interpolated between two of them; order 0 … 1. NaN of none.
-[[nodiscard]] double quantile(const std::vector<double>& sorted, double order);
-
 /// One number of many. A NaN among them makes a NaN of all but the first and the last.
 class Statistic {
  public:

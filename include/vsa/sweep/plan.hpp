@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "vsa/sweep/measure.hpp"
+#include "vsa/sweep/series.hpp"
 
 namespace vsa::sweep {
 
@@ -92,21 +93,15 @@ class Plan {
   /// The scenario of a run as a file, with a comment on what it hasn't: start and parameters.
   [[nodiscard]] std::string scenario_text(std::size_t run) const;
 
+  /// Its runs, a column a measure.
+  operator Series() const;  // NOLINT(google-explicit-constructor): a plan is one
+
   struct Impl;
 
  private:
   friend class Runner;
   explicit Plan(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
   std::shared_ptr<const Impl> impl_;
-};
-
-/// What came of a run.
-struct Outcome {
-  std::size_t run = 0;
-  std::vector<double> values;    ///< one a measure; none where it failed
-  std::string error;             ///< why it failed; empty: it didn't
-  std::string notice;            ///< what the robots had to tell, a command that was clamped; the first of it
-  double wall_s = 0, cpu_s = 0;  ///< cpu_s: NaN where nobody knows
 };
 
 /// Runs of a plan, one after the other, in one thread. What it keeps between them (a world that was read) changes no bit.

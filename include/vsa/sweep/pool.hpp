@@ -7,7 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include "vsa/sweep/plan.hpp"
+#include "vsa/sweep/series.hpp"
 
 namespace vsa::sweep {
 
@@ -32,7 +32,7 @@ struct Account {
 };
 
 /// `threads`: 0: as many as the machine runs at once.
-Account run_pool(const Plan& plan, unsigned threads, const Work& work);
+Account run_pool(const Series& series, unsigned threads, const Work& work);
 
 /// How many runs the next chunk has: a part of what is left, so that few questions are asked at first and all end together.
 ///   max(1, left/(kShare·takers))

@@ -1,0 +1,74 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// An identification with all that tells whether it may be trusted, in two generations of jobs (jobs.hpp): every start, of all
+// recordings and of those without each preset; then profiles and bootstrap draws about the best. Who does the jobs, and where, changes
+// nothing.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vsa/identify/jobs.hpp"
+#include "vsa/identify/uncertainty.hpp"
+
+namespace vsa::identify {
+
+/// One parameter held at `value`, the others fitted again.
+struct ProfilePoint {
+  double value = 0, rms_rad = 0;  ///< NaN: that fit failed
+};
+
+/// All recordings of one preset left out: fitted to the others, judged on it. Each fit is searched for as the fit to everything is, which
+/// it doesn't know: begun there, it would stay near what the recording left out has fitted.
+struct LeftOut {
+  double preset = 0;
+  std::vector<double> values;
+  std::vector<Misfit> misfits;             ///< of the recordings left out
+  double rms_rad = 0, rms_rad_of_all = 0;  ///< of them, by this fit and by the fit to everything
+};
+
+/// What fits to recordings with drawn errors came to.
+struct Bootstrap {
+  std::vector<std::vector<double>> values;        ///< of each draw
+  std::vector<double> standard_error, low, high;  ///< of each parameter: scatter; 2.5 and 97.5 % of the draws
+  std::size_t failed = 0;                         ///< draws that couldn't be fitted; they aren't among the above
+};
+
+struct IdentificationOptions {
+  FitOptions fit;
+  int digits = 0;                ///< of the estimate, which all else is about; 0: as it is
+  bool cross_validation = true;  ///< where there are two presets
+  int profile = 0;               ///< points of each parameter's, over three standard errors to each side
+  int draws = 0;                 ///< of the bootstrap
+};
+
+struct Identification {
+  Task task;
+  std::vector<Point> points;
+  std::vector<double> residuals_before;  ///< at the type's values
+  Fit fit;                               ///< at the estimate
+  Uncertainty uncertainty;
+  std::vector<Misfit> misfits_before, misfits;
+  std::vector<LeftOut> left_out;                    ///< upwards by preset
+  std::vector<std::vector<ProfilePoint>> profiles;  ///< one a parameter, or none
+  std::optional<Bootstrap> bootstrap;
+  std::size_t evaluations = 0;  ///< simulations of a recording
+};
+
+/// A job's result; none: it failed, and `error` says why.
+struct Done {
+  std::optional<StartResult> result;
+  std::string error;
+};
+/// Does a generation. It may throw, which ends the identification and comes out.
+using DoJobs = std::function<std::vector<Done>(const std::vector<Job>& jobs)>;
+
+/// Throws what the model throws at the type's own values, and std::runtime_error where no start can be evaluated.
+[[nodiscard]] Identification identify(const MakeTask& make, const IdentificationOptions& options, const DoJobs& do_jobs);
+/// The jobs in this thread.
+[[nodiscard]] DoJobs one_by_one(const MakeTask& make, const FitOptions& options);
+
+}  // namespace vsa::identify
