@@ -2,6 +2,7 @@
 //
 // Exit codes: 0 done, 1 failed, 2 bad usage or bad input; 128 + n where signal n cut short a run that had a duration.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
@@ -91,13 +92,15 @@ bool tell_about(const CLI::App& app, const std::vector<std::string>& arguments) 
   return true;
 }
 
-/// --preset is what --type was called: understood for one more release.
+/// What flags were called: understood for one more release.
 std::vector<std::string> with_names_of_now(std::vector<std::string> arguments) {
-  constexpr std::string_view kOld = "--preset", kNow = "--type";
+  constexpr std::array<std::array<std::string_view, 2>, 2> kOldAndNow{{{"--preset", "--type"}, {"--jobs", "--threads"}}};
   for (std::string& a : arguments) {
-    if (a != kOld && !a.starts_with(std::string(kOld) + '=')) continue;
-    a.replace(0, kOld.size(), kNow);
-    std::cerr << "vsa: " << vsa::config::renamed_text(kOld, kNow) << '\n';
+    for (const auto& [old, now] : kOldAndNow) {
+      if (a != old && !a.starts_with(std::string(old) + '=')) continue;
+      a.replace(0, old.size(), now);
+      std::cerr << "vsa: " << vsa::config::renamed_text(old, now) << '\n';
+    }
   }
   return arguments;
 }

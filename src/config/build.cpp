@@ -115,6 +115,8 @@ ActuatorType build_type(const Document& document, const std::vector<Override>& o
   type.title = document.title;
   type.description = document.description;
   type.law = document.law;
+  type.rank = document.rank;
+  type.base = document.base;
   type.file = document.file;
   type.evidence = document.evidence;
   type.notices = document.notices;

@@ -13,7 +13,8 @@ namespace {
 
 const std::vector<std::string> kGroups{"type",  "evidence", "elastic",  "drive",  "tendon",
                                        "shaft", "sensor",   "firmware", "limits", "physics"};
-const std::vector<std::string> kTypeKeys{"name", "title", "description"};
+const std::vector<std::string> kTypeKeys{"name", "title", "description", "rank", "base"};
+const std::vector<std::string> kRanks{"measured", "published", "symbolic"};
 const std::vector<std::string> kItemKeys{"value", "unit", "bounds", "source"};
 const std::vector<std::string> kEvidenceKeys{"calibrated_on"};
 const std::vector<std::string> kEvidenceParts{"value", "source"};
@@ -61,7 +62,7 @@ class Reader {
     }
     if (doc_.name.empty()) missing("type.name");
     if (doc_.title.empty()) missing("type.title");
-    if (doc_.law.empty()) missing("elastic.law");
+    if (doc_.law.empty() && doc_.base.empty()) missing("elastic.law");
   }
 
  private:
@@ -92,6 +93,13 @@ class Reader {
         doc_.title = text_at(node, key);
       } else if (name == "description") {
         doc_.description = text_at(node, key);
+      } else if (name == "base") {
+        doc_.base = text_at(node, key);
+        doc_.base_line = line_of(node);
+      } else if (name == "rank") {
+        doc_.rank = text_at(node, key);
+        if (std::find(kRanks.begin(), kRanks.end(), doc_.rank) == kRanks.end())
+          add(line_of(node), key, node_text(node), "is no rank", join(kRanks));
       } else {
         unknown(line_of(node), key, name.str(), kTypeKeys, "unknown key");
       }
@@ -208,6 +216,29 @@ class Reader {
 }  // namespace
 
 std::string Document::place(int line) const { return line > 0 ? file + ":" + std::to_string(line) : file; }
+
+std::string Document::place(const Item& item) const {
+  return item.file.empty() ? place(item.line) : item.file + ":" + std::to_string(item.line);
+}
+
+void inherit(Document& to, const Document& base) {
+  const bool same_law = to.law.empty() || to.law == base.law;
+  if (to.law.empty()) to.law = base.law;
+  const auto known = [&](const std::string& key) {
+    return std::any_of(to.items.begin(), to.items.end(), [&](const Item& i) { return i.key == key; }) ||
+           std::find(to.broken.begin(), to.broken.end(), key) != to.broken.end();
+  };
+  for (const Item& item : base.items) {
+    const bool of_law = item.key.rfind("elastic.", 0) == 0 || item.key == "limits.preset_max";
+    if (known(item.key) || (of_law && !same_law)) continue;
+    to.items.push_back(item);
+    Item& copy = to.items.back();
+    if (copy.file.empty()) {
+      copy.file = base.file;
+      copy.source = "as " + base.name + ": " + copy.source;
+    }
+  }
+}
 
 std::string scalar_text(const Scalar& value) {
   if (const auto* v = std::get_if<double>(&value)) return number_text(*v);

@@ -22,6 +22,7 @@ using Scalar = std::variant<std::monostate, double, std::int64_t, bool, std::str
 struct Item {
   std::string key;  ///< "drive.friction_Nm"
   int line = 0;
+  std::string file;  ///< the base's, where it stands there; empty: this document's
   Scalar value;
   std::optional<std::string> unit;
   std::optional<std::array<double, 2>> bounds;
@@ -30,8 +31,9 @@ struct Item {
 
 struct Document {
   std::string file;
-  std::string name, title, description, law;
-  int law_line = 0;
+  std::string name, title, description, law, rank;
+  std::string base;  ///< a type that has whatever this one hasn't
+  int law_line = 0, base_line = 0;
   std::optional<Evidence> evidence;
   std::vector<Item> items;
   std::vector<std::string> notices;
@@ -41,11 +43,15 @@ struct Document {
 
   /// "file:line", or "file" for line 0.
   [[nodiscard]] std::string place(int line) const;
+  [[nodiscard]] std::string place(const Item& item) const;
 };
 
 /// As the user would recognise it: 0.5, "text", true.
 [[nodiscard]] std::string scalar_text(const Scalar& value);
 
 [[nodiscard]] Document read_document(std::string_view text, std::string file, Problems& problems);
+
+/// Gives `to` what it lacks of `base`: all keys, but of another law's neither its own nor limits.preset_max.
+void inherit(Document& to, const Document& base);
 
 }  // namespace vsa::config

@@ -1,48 +1,37 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The elastic laws that actuator types may name. A new law in the library: its room's header, a line in law_parameters(), a line here.
+// The elastic laws that actuator types may name: the library's (vsa/elastic/law.hpp) and whatever is added.
+#include <fmt/format.h>
+
 #include "vsa/config/actuator_type.hpp"
-#include "vsa/config/schema.hpp"
-#include "vsa/elastic/series_spring.hpp"
-#include "vsa/elastic/two_sinh.hpp"
+#include "vsa/config/text.hpp"
+#include "vsa/elastic/law.hpp"
+#include "vsa/errors.hpp"
 
 namespace vsa::config {
-namespace {
-
-std::vector<double> read_all(LawReader& reader, std::string_view law) {
-  std::vector<double> values;
-  for (const LawParameter& p : law_parameters()) {
-    if (p.law == law) values.push_back(reader.number(p.key, p.unit, p.min, p.max, p.meaning));
-  }
-  return values;
-}
-
-std::shared_ptr<const elastic::Transmission> two_sinh(LawReader& reader) {
-  const std::vector<double> v = read_all(reader, "two_sinh");
-  return std::make_shared<elastic::TwoSinh>(elastic::TwoSinhParams{.k_Nm = {v[0], v[2]}, .a_per_rad = {v[1], v[3]}});
-}
-
-std::shared_ptr<const elastic::Transmission> two_sinh_linear(LawReader& reader) {
-  const std::vector<double> v = read_all(reader, "two_sinh_linear");
-  return std::make_shared<elastic::TwoSinh>(elastic::TwoSinhParams{
-      .k_Nm = {v[0], v[3]}, .a_per_rad = {v[1], v[4]}, .c_Nm_per_rad = {v[2], v[5]}, .linear_beyond_rad = v[6]});
-}
-
-std::shared_ptr<const elastic::Transmission> series_spring(LawReader& reader) {
-  return std::make_shared<elastic::SeriesSpring>(read_all(reader, "series_spring")[0]);
-}
-
-}  // namespace
 
 LawRegistry LawRegistry::standard() {
   LawRegistry laws;
-  laws.add("two_sinh", two_sinh);
-  laws.add("two_sinh_linear", two_sinh_linear);
-  laws.add("series_spring", series_spring);
+  for (const elastic::Law* law : elastic::laws()) laws.add(*law);
   return laws;
 }
 
 void LawRegistry::add(std::string name, LawFactory factory) { factories_.insert_or_assign(std::move(name), std::move(factory)); }
+
+void LawRegistry::add(const elastic::Law& law) {
+  add(std::string(law.name), [&law](LawReader& reader) {
+    std::vector<double> values;
+    for (const elastic::LawParameter& p : law.parameters) values.push_back(reader.number(p.key, p.unit, p.min, p.max, p.meaning));
+    if (law.fault != nullptr) {
+      for (std::size_t i = 0; const auto fault = law.fault(values); ++i) {
+        if (i == values.size() || law.parameters[i].key == fault->key)
+          throw InputError(Problem{"", std::string(fault->key), i < values.size() ? number_text(values[i]) : "", fault->message,
+                                   fault->allowed});
+      }
+    }
+    return law.make(values);
+  });
+}
 
 const LawFactory* LawRegistry::find(std::string_view name) const {
   const auto it = factories_.find(name);

@@ -43,6 +43,45 @@ std::string searched_text(const std::vector<std::string>& names, const std::vect
   return text;
 }
 
+/// A document with what its bases have.
+class WithBases {
+ public:
+  WithBases(const TypeLibrary& library, Problems& problems) : library_(library), problems_(problems) {}
+
+  Document read(std::string_view text, const fs::path& file) {
+    Document out = read_document(text, file.string(), problems_);
+    if (!out.readable || out.base.empty()) return out;
+    under_way_.push_back(out.name);
+    if (std::find(under_way_.begin(), under_way_.end(), out.base) != under_way_.end()) {
+      problem(out, "goes in a circle: " + join(under_way_, " → ") + " → " + out.base, "a type that isn't made of this one");
+    } else if (const auto base = file_of(out)) {
+      inherit(out, read(read_text(*base), *base));
+    }
+    return out;
+  }
+
+ private:
+  /// Beside the document, or in the library.
+  std::optional<fs::path> file_of(const Document& document) {
+    const fs::path beside = fs::path(document.file).parent_path() / (document.base + std::string(kEnding));
+    std::error_code none;
+    if (document.base.find('/') == std::string::npos && fs::exists(beside, none)) return beside;
+    try {
+      return library_.find(document.base);
+    } catch (const InputError& error) {
+      problem(document, error.problems()[0].message, error.problems()[0].allowed);
+      return std::nullopt;
+    }
+  }
+  void problem(const Document& document, const std::string& message, const std::string& allowed) {
+    problems_.add({document.place(document.base_line), "type.base", '"' + document.base + '"', message, allowed});
+  }
+
+  const TypeLibrary& library_;
+  Problems& problems_;
+  std::vector<std::string> under_way_;
+};
+
 }  // namespace
 
 TypeLibrary::TypeLibrary(std::vector<fs::path> directories, LawRegistry laws)
@@ -90,7 +129,7 @@ ActuatorType TypeLibrary::load(std::string_view name, const std::vector<Override
 TypeFile TypeLibrary::open(std::string_view name) const {
   const fs::path file = find(name);
   Problems problems;
-  auto document = std::make_shared<const Document>(read_document(read_text(file), file.string(), problems));
+  auto document = std::make_shared<const Document>(WithBases(*this, problems).read(read_text(file), file));
   problems.throw_if_any();
   return {std::move(document), laws_};
 }
@@ -108,8 +147,8 @@ ActuatorType TypeLibrary::load_file(const fs::path& file, const std::vector<Over
 
 ActuatorType TypeLibrary::load_text(std::string_view text, const fs::path& file, const std::vector<Override>& overrides) const {
   Problems problems;
-  const Document document = read_document(text, file.string(), problems);
-  if (!document.readable) problems.throw_if_any();
+  const Document document = WithBases(*this, problems).read(text, file);
+  if (!document.readable || (document.law.empty() && !document.base.empty())) problems.throw_if_any();
   ActuatorType type = build_type(document, overrides, laws_, problems);
   if (!document.name.empty() && document.name != file.stem().string()) {
     problems.add({file.string(), "type.name", '"' + document.name + '"', "differs from the file's name", file.stem().string()});

@@ -116,6 +116,10 @@ void Resolver::problem(int line, std::string key, std::string value, std::string
   problems_.add({document_.place(line), std::move(key), std::move(value), std::move(message), std::move(allowed)});
 }
 
+void Resolver::problem(const Item& item, std::string key, std::string value, std::string message, std::string allowed) {
+  problems_.add({document_.place(item), std::move(key), std::move(value), std::move(message), std::move(allowed)});
+}
+
 const Item* Resolver::find(std::string_view key) const {
   const auto same = [&](const Item& item) { return item.key == key; };
   const auto at = std::find_if(document_.items.begin(), document_.items.end(), same);
@@ -124,7 +128,7 @@ const Item* Resolver::find(std::string_view key) const {
 
 int Resolver::line_of(std::string_view key) const {
   const Item* item = find(key);
-  return item ? item->line : 0;
+  return item && item->file.empty() ? item->line : 0;
 }
 
 bool Resolver::has(std::string_view key) const {
@@ -164,25 +168,25 @@ double Resolver::use_default(const Spec& spec, std::string_view text, std::strin
 bool Resolver::check_form(const Spec& spec, const Item& item) {
   const std::size_t before = problems_.list().size();
   if (!is_numeric(spec)) {
-    if (item.unit) problem(item.line, spec.key + ".unit", *item.unit, "has no meaning here: the parameter is not a number");
-    if (item.bounds) problem(item.line, spec.key + ".bounds", "", "has no meaning here: the parameter is not a number");
+    if (item.unit) problem(item, spec.key + ".unit", *item.unit, "has no meaning here: the parameter is not a number");
+    if (item.bounds) problem(item, spec.key + ".bounds", "", "has no meaning here: the parameter is not a number");
     return problems_.list().size() == before;
   }
-  if (!item.unit) problem(item.line, spec.key + ".unit", "", "is missing", spec.unit == "?" ? "" : spec.unit);
+  if (!item.unit) problem(item, spec.key + ".unit", "", "is missing", spec.unit == "?" ? "" : spec.unit);
   // An empty unit was not a text and has been reported.
   if (item.unit && !item.unit->empty() && *item.unit != spec.unit && spec.unit != "?") {
-    problem(item.line, spec.key + ".unit", '"' + *item.unit + '"', "is the wrong unit", spec.unit);
+    problem(item, spec.key + ".unit", '"' + *item.unit + '"', "is the wrong unit", spec.unit);
   }
-  if (!item.bounds) problem(item.line, spec.key + ".bounds", "", "is missing", "within " + allowed_text(spec));
+  if (!item.bounds) problem(item, spec.key + ".bounds", "", "is missing", "within " + allowed_text(spec));
   if (item.bounds && ((*item.bounds)[0] < spec.min || (*item.bounds)[1] > spec.max)) {
-    problem(item.line, spec.key + ".bounds", range_text((*item.bounds)[0], (*item.bounds)[1]),
-            "is wider than what the model accepts", "within " + allowed_text(spec));
+    problem(item, spec.key + ".bounds", range_text((*item.bounds)[0], (*item.bounds)[1]), "is wider than what the model accepts",
+            "within " + allowed_text(spec));
   }
   return problems_.list().size() == before;
 }
 
 std::optional<double> Resolver::from_item(const Spec& spec, const Item& item) {
-  const Problem at{document_.place(item.line), spec.key, scalar_text(item.value), "", allowed_text(spec)};
+  const Problem at{document_.place(item), spec.key, scalar_text(item.value), "", allowed_text(spec)};
   const std::optional<double> value = convert(spec, item.value);
   if (value) return in_range(spec, &item, *value, at);
   problems_.add({at.file, at.key, at.value, kind_text(spec.kind), at.allowed});
@@ -224,7 +228,7 @@ void Resolver::report_unknown(std::string_view lenient_group) {
     return !lenient && asked_.find(key) == asked_.end();
   };
   for (const Item& item : document_.items) {
-    if (judged(item.key)) problem(item.line, item.key, "", "unknown key" + near_key(item.key, asked_));
+    if (judged(item.key)) problem(item, item.key, "", "unknown key" + near_key(item.key, asked_));
   }
   for (const Override& o : overrides_) {
     if (!judged(o.key)) continue;

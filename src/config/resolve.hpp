@@ -43,6 +43,7 @@ class Resolver {
   /// `lenient_group`: its keys are not judged ("elastic." while the law is unknown).
   void report_unknown(std::string_view lenient_group);
   void problem(int line, std::string key, std::string value, std::string message, std::string allowed = {});
+  void problem(const Item& item, std::string key, std::string value, std::string message, std::string allowed = {});
 
   [[nodiscard]] std::vector<Entry>& entries() noexcept { return entries_; }
   [[nodiscard]] int line_of(std::string_view key) const;

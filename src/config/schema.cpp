@@ -156,27 +156,9 @@ constexpr Parameter kTable[] = {
      Need::defaulted, "0.001", "one firmware tick", [](Unit& u, double v) { u.substep_max_s = v; }},
 };
 
-constexpr LawParameter kLaws[] = {
-    {"two_sinh", "k1_Nm", "N·m", 1e-9, 1e3, "torque scale of the spring to motor 1"},
-    {"two_sinh", "a1_per_rad", "1/rad", 1e-3, 100, "hardening rate of the spring to motor 1"},
-    {"two_sinh", "k2_Nm", "N·m", 1e-9, 1e3, "torque scale of the spring to motor 2"},
-    {"two_sinh", "a2_per_rad", "1/rad", 1e-3, 100, "hardening rate of the spring to motor 2"},
-    {"two_sinh_linear", "k1_Nm", "N·m", 1e-9, 1e3, "torque scale of the spring to motor 1"},
-    {"two_sinh_linear", "a1_per_rad", "1/rad", 1e-3, 100, "hardening rate of the spring to motor 1"},
-    {"two_sinh_linear", "c1_Nm_per_rad", "N·m/rad", 0, 1e4, "linear part of the spring to motor 1"},
-    {"two_sinh_linear", "k2_Nm", "N·m", 1e-9, 1e3, "torque scale of the spring to motor 2"},
-    {"two_sinh_linear", "a2_per_rad", "1/rad", 1e-3, 100, "hardening rate of the spring to motor 2"},
-    {"two_sinh_linear", "c2_Nm_per_rad", "N·m/rad", 0, 1e4, "linear part of the spring to motor 2"},
-    {"two_sinh_linear", "linear_beyond_rad", "rad", 1e-3, 100,
-     "deflection of a spring beyond which its torque follows its tangent"},
-    {"series_spring", "stiffness_Nm_per_rad", "N·m/rad", 1e-6, 1e7, "stiffness of the spring"},
-};
-
 }  // namespace
 
 std::span<const Parameter> parameters() noexcept { return kTable; }
-
-std::span<const LawParameter> law_parameters() noexcept { return kLaws; }
 
 std::int32_t fixed_16_16(double gain) noexcept { return static_cast<std::int32_t>(gain * 65536.0); }
 

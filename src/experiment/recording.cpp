@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 
 #include "experiment/csv_table.hpp"
 #include "vsa/config/text.hpp"
@@ -90,6 +92,26 @@ Branches read_branches(const std::filesystem::path& csv) {
   problems.throw_if_any();
   const auto& c = table.columns;
   return {c[0], c[1], c[2], c[3], c[4]};
+}
+
+Branches read_points(const std::filesystem::path& csv, double limit_Nm) {
+  const CsvTable table = read_csv(csv, {{"load_torque_Nm"}, {"deflection_rad"}});
+  require_samples(table.lines.size(), csv);
+  FewProblems problems;
+  require_within(table, 0, "load_torque_Nm", limit_Nm, csv, problems);
+  require_within(table, 1, "deflection_rad", kDeflectionLimit, csv, problems);
+  problems.throw_if_any();
+  const auto& torque = table.columns[0];
+  std::vector<std::size_t> order(torque.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return torque[a] < torque[b]; });
+  Branches out;
+  for (const std::size_t i : order) {
+    out.torque_Nm.push_back(torque[i]);
+    out.rising_rad.push_back(table.columns[1][i]);
+  }
+  out.falling_rad = out.sd_rising_rad = out.sd_falling_rad = std::vector<double>(order.size(), std::nan(""));
+  return out;
 }
 
 TimeSeries read_series(const std::filesystem::path& csv, std::string_view column) {

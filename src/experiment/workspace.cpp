@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "vsa/experiment/bench.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::experiment {
@@ -120,7 +119,10 @@ Reach Workspace::reach(double preset, double speed, Task task, int direction) co
   const elastic::Transmission& law = *unit_.actuator.transmission;
   const auto ahead = law.references({0.5, preset}), behind = law.references({-0.5, preset});
   const std::array<double, 2> rates{direction * (ahead[0] - behind[0]), direction * (ahead[1] - behind[1])};
-  const auto ok = [&](double lag) { return carries(at(preset, lag, direction), rates, speed, task); };
+  const auto ok = [&](double lag) {
+    const elastic::Response r = at(preset, lag, direction);
+    return r.curvature.qq >= 0 && carries(r, rates, speed, task);  // where the law softens to nothing, the joint gives way
+  };
   if (!ok(0)) return {kNaN, kNaN, kNaN, kNaN};
   const double lag = last_good(kLagMost_rad, kLagStep_rad, ok);
   const elastic::Response r = at(preset, lag, direction);
@@ -178,7 +180,10 @@ double Workspace::stiffness_under(double preset, double load_Nm) const {
   const int direction = load_Nm < 0 ? 1 : -1;
   const Reach most = reach(preset, 0, Task::move, direction);
   if (!(direction * at(preset, most.deflection_rad, direction).torque >= std::abs(load_Nm))) return kNaN;
-  return at(preset, law_deflection(*unit_.actuator.transmission, preset, load_Nm), -1).curvature.qq;
+  double low = 0, high = most.deflection_rad;  // within reach the torque grows
+  for (double mid = 0.5 * (low + high); mid > low && mid < high; mid = 0.5 * (low + high))
+    (direction * at(preset, mid, direction).torque < std::abs(load_Nm) ? low : high) = mid;
+  return at(preset, high, direction).curvature.qq;
 }
 
 }  // namespace vsa::experiment

@@ -26,7 +26,8 @@ struct Shared {
   std::vector<Parameter> parameters;
   std::vector<double> presets;  ///< of each observation
   std::vector<experiment::BranchOptions> grids;
-  std::map<double, double> amplitude_rad;  ///< of each preset
+  std::vector<std::vector<double>> points;  ///< of an observation at rest, its torques; else none
+  std::map<double, double> amplitude_rad;   ///< of each preset
 
   [[nodiscard]] experiment::Specimen with(const std::vector<double>& values) const {
     experiment::Specimen out = specimen;
@@ -45,6 +46,18 @@ experiment::LoadRecording run(const experiment::Specimen& specimen, double prese
   options.cycles = sweep.cycles;
   options.sample_s = sweep.sample_s;
   return experiment::as_recording(experiment::run_stiffness(specimen, options, watch), preset);
+}
+
+/// Where the unloaded law's shaft goes under each load, with the pulleys where they were commanded to be.
+experiment::Branches at_rest(const experiment::Specimen& specimen, double preset, const std::vector<double>& loads_Nm) {
+  const device::UnitConfig unit = specimen.library.load(specimen.type, specimen.overrides).unit;
+  experiment::Branches out;
+  for (const double load : loads_Nm) {
+    out.torque_Nm.push_back(load);
+    out.rising_rad.push_back(unit.actuator.shaft_zero_rad + experiment::law_deflection(*unit.actuator.transmission, preset, load));
+  }
+  out.falling_rad = out.sd_rising_rad = out.sd_falling_rad = std::vector<double>(loads_Nm.size(), std::nan(""));
+  return out;
 }
 
 /// A grid like the data's: its spacing and its reach.
@@ -66,11 +79,18 @@ class Surrogate {
       presets_.push_back(o.preset);
       turns_.push_back({sweep.amplitude_rad ? kPi : experiment::sweep_target_rad(o.preset, preset_unit), sweep.amplitude_rad});
       torques_.push_back(every_other(o.data.torque_Nm));
+      points_.push_back(o.points);
+      loads_Nm_.push_back(o.points ? o.data.torque_Nm : std::vector<double>{});
     }
   }
 
   experiment::Branches branches(const std::vector<double>& values, std::size_t observation) {
     if (watch_ != nullptr && watch_->stop) throw experiment::Stopped();
+    if (points_[observation]) {
+      experiment::Specimen unit = specimen_;
+      unit.overrides = overrides(parameters_, values, specimen_.overrides);
+      return at_rest(unit, presets_[observation], loads_Nm_[observation]);
+    }
     const std::shared_ptr<const Known> known = at(values);
     return known->model.branches(presets_[observation], torques_[observation], turns_[observation]);
   }
@@ -114,6 +134,8 @@ class Surrogate {
   std::vector<double> presets_;
   std::vector<Turn> turns_;
   std::vector<std::vector<double>> torques_;  ///< of each observation
+  std::vector<bool> points_;
+  std::vector<std::vector<double>> loads_Nm_;  ///< of those at rest
   std::mutex mutex_;
   std::vector<std::shared_ptr<const Known>> known_;
 };
@@ -139,15 +161,19 @@ void use_bench(Task& task, const experiment::Specimen& specimen, const SweepOpti
   if (!(sweep.cycles >= 1.5)) {
     throw InputError({"", "cycles", fmt::format("{}", sweep.cycles), "out of range", "1.5 or more: the first half is left out"});
   }
-  auto shared = std::make_shared<Shared>(Shared{specimen, sweep, watch, task.parameters, {}, {}, {}});
+  auto shared = std::make_shared<Shared>(Shared{specimen, sweep, watch, task.parameters, {}, {}, {}, {}});
+  const auto swept = [](const Observation& o) { return !o.points; };
   for (const Observation& o : task.observations) {
     shared->presets.push_back(o.preset);
-    shared->grids.push_back(grid_of(o.data));
+    shared->grids.push_back(o.points ? experiment::BranchOptions{} : grid_of(o.data));
+    shared->points.push_back(o.points ? o.data.torque_Nm : std::vector<double>{});
     experiment::check_preset(specimen, o.preset);
   }
   task.prepare = [shared, threads](const std::vector<double>& values) {
     if (shared->sweep.amplitude_rad) return;
-    const std::set<double> distinct(shared->presets.begin(), shared->presets.end());
+    std::set<double> distinct;
+    for (std::size_t o = 0; o < shared->presets.size(); ++o)
+      if (shared->points[o].empty()) distinct.insert(shared->presets[o]);
     const std::vector<double> presets(distinct.begin(), distinct.end());
     std::vector<double> found(presets.size());
     const experiment::Specimen unit = shared->with(values);
@@ -158,12 +184,18 @@ void use_bench(Task& task, const experiment::Specimen& specimen, const SweepOpti
   };
   task.model = [shared](const std::vector<double>& values, std::size_t o) {
     const double preset = shared->presets[o];
+    if (!shared->points[o].empty()) return at_rest(shared->with(values), preset, shared->points[o]);
     const auto found = shared->amplitude_rad.find(preset);
     const std::optional<double> amplitude =
         found == shared->amplitude_rad.end() ? shared->sweep.amplitude_rad : std::optional<double>(found->second);
     return experiment::branches(run(shared->with(values), preset, shared->sweep, amplitude, shared->watch), shared->grids[o]);
   };
-  use_quasi_static(task, specimen, sweep, watch);
+  if (std::any_of(task.observations.begin(), task.observations.end(), swept)) {
+    use_quasi_static(task, specimen, sweep, watch);
+  } else {
+    task.surrogate = task.model;  // it costs no more than a surrogate
+    task.no_surrogate.clear();
+  }
 }
 
 }  // namespace vsa::identify

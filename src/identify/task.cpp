@@ -104,15 +104,20 @@ std::vector<config::Override> overrides(const std::vector<Parameter>& parameters
 }
 
 Observation read_observation(const std::filesystem::path& file, const config::ActuatorType& type) {
-  constexpr std::string_view kBranches = "_branches.csv";
   const std::string path = file.string();
-  const experiment::NamedPreset named = experiment::preset_of_name(file);
+  const auto ends = [&](std::string_view with) {
+    return path.size() >= with.size() && path.compare(path.size() - with.size(), with.size(), with) == 0;
+  };
+  const bool points = ends("_points.csv");
   const std::string unit(type.unit.actuator.transmission->preset_unit());
+  if (points && unit.empty()) return {path, 0, experiment::read_points(file), 1.0, true};
+  const experiment::NamedPreset named = experiment::preset_of_name(file);
   if (named.unit != unit) {
     throw InputError({path, "file name", named.unit, "the preset isn't in the unit of " + type.name,
                       unit.empty() ? "an actuator with a preset" : unit});
   }
-  const bool means = path.size() >= kBranches.size() && path.substr(path.size() - kBranches.size()) == kBranches;
+  if (points) return {path, named.value, experiment::read_points(file), 1.0, true};
+  const bool means = ends("_branches.csv");
   return {path, named.value, means ? experiment::read_branches(file) : experiment::branches(experiment::read_load_recording(file)),
           1.0};
 }

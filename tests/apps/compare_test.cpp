@@ -53,7 +53,7 @@ TEST(Compare, PrintsATableAndGoesOnFromTheFitsThatAreThere) {
 
   const std::filesystem::path fits = scratch / "out" / "fits";
   write_file(fits / "one.json", "{\"asked\": \"half of a file");
-  const Result second = compare(scratch, {"--jobs", "1"});
+  const Result second = compare(scratch, {"--threads", "1"});
   EXPECT_EQ(count(second.err, "kept:"), 5u) << "all but the one that is spoilt:\n" << second.err;
   EXPECT_EQ(count(second.err, "kept: one\n"), 0u);
 
@@ -100,7 +100,7 @@ TEST(Compare, KeepsWhatWasDoneWhenItIsInterrupted) {
   const Scratch scratch;
   write_file(scratch / "two.toml", comparison(hypothesis("one", "") + hypothesis("other", "\"tendon.friction\" = 0.05"), "19"));
   Subprocess running(
-      {"identify", "--compare", (scratch / "two.toml").string(), "--out", (scratch / "out").string(), "--jobs", "1"});
+      {"identify", "--compare", (scratch / "two.toml").string(), "--out", (scratch / "out").string(), "--threads", "1"});
   ASSERT_TRUE(running.read_until([](const Result& r) { return r.err.find("1 of 6: one in") != std::string::npos; }));
   running.send(SIGINT);
   const Result stopped = running.wait();
@@ -125,7 +125,7 @@ TEST(Compare, RefusesWhatDoesntGoTogetherAndWritesNothing) {
   write_file(scratch / "two.toml", comparison(hypothesis("one", "")));
   refused(compare(scratch, {"--type", "qbmove_maker_pro"}), "--type");
   refused(compare(scratch, {"--threads", "-1"}), "--threads");
-  refused(compare(scratch, {"--jobs", ""}), "--jobs");
+  refused(compare(scratch, {"--threads", ""}), "--threads");
   refused(compare(scratch, {"--resume"}), "--resume");
 }
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "subprocess.hpp"
+#include "vsa/config/actuator_type.hpp"
 
 namespace {
 
@@ -97,6 +98,9 @@ TEST(Datasheet, RefusesBadInputAndWritesNothing) {
     expect_holds(result.err, parts);
   };
   refused({"datasheet"}, {"TYPE"});
+  refused({"datasheet", "sea_example", "--all"}, {"--all"});
+  refused({"datasheet", "--all", "--set", "drive.supply_V=24"}, {"--all"});
+  refused({"datasheet", "--all", "--out", "/proc/nothing"}, {"--out"});
   refused({"datasheet", "qbmove_9000"}, {"qbmove_9000", "sea_example"});
   refused({"datasheet", "sea_example", "--set", "drive.supply_V", "--out", scratch / "s.html"}, {"--set", "key=value"});
   refused({"datasheet", "sea_example", "--set", "drive.supply_V=many", "--out", scratch / "s.html"}, {"drive.supply_V", "many"});
@@ -114,6 +118,21 @@ TEST(Datasheet, AFullDiskIsAFailureThatLeavesNoHalfPage) {
   expect_holds(result.err, {"s.html"});
   EXPECT_FALSE(std::filesystem::exists(scratch / "s.html"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "s.html.part"));
+}
+
+TEST(Datasheet, OfAllTypesComesWithAPageThatComparesThem) {
+  const Scratch scratch;
+  const auto result = run_vsa({"datasheet", "--all", "--out", scratch / "sheets"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<std::string> names = vsa::config::TypeLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "actuators"}).names();
+  const std::string page = data_of(scratch / "sheets/index.html");
+  for (const std::string& name : names) {
+    EXPECT_NE(result.out.find("\n" + name + ' '), std::string::npos) << name;
+    EXPECT_NE(page.find('"' + name + '"'), std::string::npos) << name;
+    EXPECT_TRUE(std::filesystem::exists(scratch / ("sheets/" + name + ".html"))) << name;
+  }
+  // 2 a k and 2 a k cosh(a · 0.785 rad) of the paper's; a lever is stiffened for nothing, a cable's winch holds by friction.
+  expect_holds(page, {"0.301 … 32.6", "\"measured\"", "\"symbolic\"", "\"published\""});
 }
 
 }  // namespace

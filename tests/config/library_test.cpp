@@ -229,9 +229,89 @@ TEST(DataDirectory, OfAModuleIsItsOwnAndTheEnvironmentStillComesFirst) {
   EXPECT_GT(config::data_directories().size(), 1u);
 }
 
+/// A type that differs from its base, beside it or in the library.
+std::string derived(const std::string& base, const std::string& rest, const std::string& name = "mine") {
+  return "[type]\nname = \"" + name + "\"\ntitle = \"mine\"\nbase = \"" + base + "\"\n" + rest;
+}
+const std::string kStiffer =
+    "[elastic]\nstiffness_Nm_per_rad = { value = 20.0, unit = \"N·m/rad\", bounds = [1.0, 100.0], source = \"mine\" }\n";
+
+TEST(Base, HasWhateverATypeHasnt) {
+  const config::ActuatorType base = shipped().load("sea_example");
+  const config::ActuatorType mine = shipped().load_text(derived("sea_example", kStiffer), "mine.toml");
+  EXPECT_EQ(mine.name, "mine");
+  EXPECT_EQ(mine.base, "sea_example");
+  EXPECT_EQ(mine.rank, "") << "a base's rank isn't that of what was made of it";
+  EXPECT_FALSE(mine.evidence) << "nor its evidence";
+  EXPECT_EQ(mine.unit.actuator.transmission->evaluate({}).curvature.qq, 20.0);
+  ASSERT_EQ(mine.entries.size(), base.entries.size());
+  for (const config::Entry& e : base.entries) {
+    const auto same =
+        std::find_if(mine.entries.begin(), mine.entries.end(), [&](const config::Entry& m) { return m.key == e.key; });
+    ASSERT_NE(same, mine.entries.end()) << e.key;
+    const bool own = e.key == "elastic.stiffness_Nm_per_rad";
+    EXPECT_EQ(same->value, own ? "20" : e.value);
+    const bool given = e.source.rfind("default:", 0) != 0;  // the base hasn't it either
+    EXPECT_EQ(same->source, own ? "mine" : given ? "as sea_example: " + e.source : e.source);
+  }
+  EXPECT_EQ(shipped()
+                .load_text(derived("sea_example", kStiffer), "mine.toml", {{"shaft.friction_Nm", "0.5"}})
+                .unit.actuator.shaft_friction.coulomb_Nm,
+            0.5);
+}
+
+TEST(Base, OfAnotherLawGivesNothingOfThatLaw) {
+  const std::string law =
+      "[elastic]\nlaw = \"series_spring\"\nstiffness_Nm_per_rad = { value = 20.0, unit = \"N·m/rad\", bounds = "
+      "[1.0, 100.0], source = \"mine\" }\n";
+  const config::ActuatorType mine = shipped().load_text(derived("qbmove_maker_pro_paper", law), "mine.toml");
+  EXPECT_EQ(mine.law, "series_spring");
+  EXPECT_EQ(mine.unit.preset_max, 0.0);
+  EXPECT_EQ(mine.unit.actuator.motor.resistance_Ohm, shipped().load("qbmove_maker_pro_paper").unit.actuator.motor.resistance_Ohm);
+  const auto missing = problems_of(
+      [&] { (void)shipped().load_text(derived("qbmove_maker_pro_paper", "[elastic]\nlaw = \"two_exp\"\n"), "mine.toml"); });
+  EXPECT_EQ(missing.size(), 4u) << "its four numbers; limits.preset_max is in the law's unit, which nobody knows:\n"
+                                << text_of(missing);
+}
+
+TEST(Base, MayHaveABaseItself) {
+  const Directory directory("bases");
+  directory.write("first.toml", derived("sea_example", kStiffer, "first"));
+  const auto file = directory.write("mine.toml", derived("first",
+                                                         "[shaft]\nfriction_Nm = { value = 0.5, unit = \"N·m\", bounds = "
+                                                         "[0.0, 1.0], source = \"mine\" }\n"));
+  const config::ActuatorType mine = shipped().load_file(file);  // its base is beside it, that one's in the library
+  EXPECT_EQ(mine.unit.actuator.transmission->evaluate({}).curvature.qq, 20.0);
+  EXPECT_EQ(mine.unit.actuator.shaft_friction.coulomb_Nm, 0.5);
+}
+
+TEST(Base, ThatIsWrongIsToldWhereItStands) {
+  const Directory directory("wrong_bases");
+  const auto told = [&](const std::string& text) {
+    return text_of(problems_of([&] { (void)shipped().load_text(text, (directory.path() / "mine.toml").string()); }));
+  };
+  expect_pieces(told(derived("sea_exmaple", kStiffer)), {"mine.toml:4: type.base", "did you mean sea_example?"});
+  expect_pieces(told(derived("../sea_example", kStiffer)), {"type.base", "unknown actuator type"});
+  directory.write("mine.toml", derived("mine", kStiffer));
+  expect_pieces(told(derived("mine", kStiffer)), {"goes in a circle: mine → mine"});
+  directory.write("one.toml", derived("two", "", "one"));
+  directory.write("two.toml", derived("one", "", "two"));
+  expect_pieces(told(derived("one", kStiffer)), {"two.toml:4", "goes in a circle: mine → one → two → one"});
+  directory.write("bad.toml", replaced(read(source_dir() / "actuators/sea_example.toml"), "value = 2.3", "value = -2.3"));
+  expect_pieces(told(derived("bad", kStiffer)), {"bad.toml:", "drive.resistance_Ohm"});
+  directory.write("rank.toml", derived("sea_example", kStiffer, "rank"));
+  expect_pieces(text_of(problems_of([&] {
+                  (void)shipped().load_text(replaced(derived("sea_example", kStiffer), "base", "rank = \"best\"\nbase"),
+                                            "mine.toml");
+                })),
+                {"type.rank", "measured, published, symbolic"});
+}
+
 TEST(LawRegistry, HasTheStandardLawsAndTakesMore) {
   config::LawRegistry laws = config::LawRegistry::standard();
-  EXPECT_EQ(laws.names(), (std::vector<std::string>{"series_spring", "two_sinh", "two_sinh_linear"}));
+  std::vector<std::string> known;
+  for (const elastic::Law* law : elastic::laws()) known.emplace_back(law->name);
+  EXPECT_EQ(laws.names(), known) << "by name";
   laws.add("mine", [](config::LawReader&) { return nullptr; });
   EXPECT_NE(laws.find("mine"), nullptr);
   EXPECT_EQ(laws.find("yours"), nullptr);
@@ -248,7 +328,7 @@ TEST(LawRegistry, AFactorysOwnComplaintIsAProblemOfTheType) {
   const auto problems = problems_of([&] { (void)TypeLibrary({directory.path()}, laws).load("sea_example"); });
   ASSERT_EQ(problems.size(), 1u) << text_of(problems);
   EXPECT_EQ(problems[0].key, "elastic.stiffness_Nm_per_rad");
-  EXPECT_EQ(problems[0].file, file.string() + ":11");
+  EXPECT_EQ(problems[0].file, file.string() + ":12");
   laws.add("series_spring", [](config::LawReader& reader) {
     (void)reader.number("stiffness_Nm_per_rad", "N·m/rad", 0, 1e6, "stiffness");
     return nullptr;
@@ -294,8 +374,18 @@ TEST(Documentation, NamesEveryKeyUnitAndBoundOfTheSchema) {
     if (p.need == config::Need::defaulted)
       expect_row(std::string(p.key), "", "`" + std::string(p.default_value) + "`", p.default_source);
   }
-  for (const config::LawParameter& p : config::law_parameters()) {
-    expect_row("elastic." + std::string(p.key), std::string(p.unit), config::range_text(p.min, p.max), p.meaning);
+  for (const elastic::Law* law : elastic::laws()) {
+    const std::size_t heading = text.find("| `" + std::string(law->name) + "` |");
+    ASSERT_NE(heading, std::string::npos) << law->name << " has no row";
+    expect_pieces(text.substr(heading, text.find('\n', heading) - heading),
+                  {std::string(law->title), std::string(law->equation), std::string(law->source)});
+    for (const elastic::LawParameter& p : law->parameters) {
+      const std::string row = "| `" + std::string(law->name) + "` | `elastic." + std::string(p.key) + "` |";
+      const std::size_t at = text.find(row);
+      ASSERT_NE(at, std::string::npos) << row;
+      expect_pieces(text.substr(at, text.find('\n', at) - at),
+                    {std::string(p.unit), config::range_text(p.min, p.max), std::string(p.meaning)});
+    }
   }
 }
 

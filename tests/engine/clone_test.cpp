@@ -102,7 +102,7 @@ TEST(Placed, EveryShippedActuatorStaysWhereItIsPutWithoutGravity) {
   constexpr double kResolution_rad = 2 * kPi / 4096;
   ASSERT_GE(types.names().size(), 6U);
   for (const std::string& name : types.names()) {
-    const double preset = types.load(name).unit.preset_max > 0 ? 0.6 : 0.0;
+    const double preset = std::min(0.6, 0.75 * types.load(name).unit.preset_max);
     World w = World::load_string(arm(name, "0 0 0"));
     w.run(0.02);
     w.place("shoulder", 1.0, preset);

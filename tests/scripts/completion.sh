@@ -40,9 +40,9 @@ expect "vsa run snake_flat --gait side" sidewind sidewind_soft sidewind_stiff
 expect "vsa run snake_flat --gait = side" sidewind sidewind_soft sidewind_stiff # as bash splits it
 expect "vsa run snake_flat --gait=side" sidewind sidewind_soft sidewind_stiff
 expect "vsa run --duration-s -1 snake_f" snake_flat
-expect "vsa emulate sea" sea_example
-expect "vsa actuators sea" sea_example
-expect "vsa validate --type sea" sea_example
+expect "vsa emulate sea_e" sea_example
+expect "vsa actuators sea_e" sea_example
+expect "vsa validate --type sea_e" sea_example
 expect "vsa emulate sea_example --dialect " 6 7
 expect "vsa characterize sea_example --experiment s" speed stiffness
 expect "vsa run snake_flat --record "  # the shell's file names

@@ -40,11 +40,11 @@ std::string preset_text(const device::UnitConfig& unit) {
 
 int list(const config::TypeLibrary& library) {
   Problems problems;
-  std::vector<std::vector<std::string>> rows{{"type", "law", "stiffness preset", "stiffness at rest", "title"}};
+  std::vector<std::vector<std::string>> rows{{"type", "rank", "law", "stiffness preset", "stiffness at rest", "title"}};
   for (const std::string& name : library.names()) {
     try {
       const config::ActuatorType p = library.load(name);
-      rows.push_back({p.name, p.law, preset_text(p.unit), stiffness_text(p.unit), p.title});
+      rows.push_back({p.name, p.rank.empty() ? "–" : p.rank, p.law, preset_text(p.unit), stiffness_text(p.unit), p.title});
     } catch (const InputError& error) {
       problems.add_all(error);
     }
@@ -58,6 +58,15 @@ int list(const config::TypeLibrary& library) {
   const bool written = static_cast<bool>(std::cout.flush());
   problems.throw_if_any();
   return written ? kDone : kFailed;
+}
+
+std::string rank_text(const config::ActuatorType& type) {
+  const std::string_view what = type.rank == "measured"    ? "recordings of the hardware, and how well it predicts them"
+                                : type.rank == "published" ? "constants from public sources"
+                                : type.rank == "symbolic"  ? "a law with numbers that something real could have"
+                                                           : "its file doesn't say on what its numbers stand";
+  return fmt::format("rank: {}, {}{}", type.rank.empty() ? "none" : type.rank, what,
+                     type.base.empty() ? "" : "; what isn't its own is of " + type.base);
 }
 
 std::string evidence_text(const std::optional<config::Evidence>& evidence) {
@@ -75,6 +84,7 @@ int show(const config::ActuatorType& type, bool all) {
   const std::size_t text_width = width == 0 ? 0 : std::min(width, kReadableWidth);
   std::cout << type.title << '\n';
   for (const std::string& line : wrap(type.description, text_width)) std::cout << line << '\n';
+  std::cout << rank_text(type) << '\n';
   std::cout << fmt::format(
       "file: {}\nelastic law: {}, {} at rest, {}\n", type.file.string(), type.law, stiffness_text(type.unit),
       type.unit.actuator.transmission->preset_unit().empty() ? "no stiffness preset" : "preset " + preset_text(type.unit));

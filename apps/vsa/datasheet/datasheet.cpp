@@ -8,12 +8,15 @@
 #include <iostream>
 #include <memory>
 
+#include "datasheet/gallery.hpp"
 #include "datasheet/page.hpp"
 #include "terminal/console.hpp"
 #include "terminal/exit_codes.hpp"
 #include "terminal/follow.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/numbers.hpp"
+#include "terminal/output_files.hpp"
+#include "terminal/table.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::app {
@@ -25,7 +28,8 @@ change of stiffness are, from the benches as vsa characterize runs them. Each nu
 
 Examples:
   vsa datasheet qbmove_maker_pro
-  vsa datasheet qbmove_maker_pro --set drive.supply_V=24 --out at_24V.html)";
+  vsa datasheet qbmove_maker_pro --set drive.supply_V=24 --out at_24V.html
+  vsa datasheet --all --out sheets)";
 
 /// Known before a minute's work, not after.
 void check_writable(const std::filesystem::path& file) {
@@ -52,7 +56,50 @@ void tell_notices(const Results& results, Console& console) {
 
 }  // namespace
 
+namespace {
+
+int run_gallery(const DatasheetOptions& options) {
+  const std::filesystem::path folder = options.out.empty() ? "datasheets" : options.out;
+  (void)report::page_template();
+  std::vector<study::DataSheet> plans;
+  Problems problems;
+  for (const std::string& name : config::TypeLibrary().names()) {
+    try {
+      experiment::Specimen specimen;
+      specimen.type = name;
+      specimen.step_s = options.step_s;
+      plans.push_back(study::plan_data_sheet(specimen));
+    } catch (const InputError& error) {
+      problems.add_all(error);
+    }
+  }
+  problems.throw_if_any();
+  if (plans.empty()) throw InputError({"", "--all", "", "no actuator types found", "set VSA_ACTUATOR_PATH or VSA_DATA_DIR"});
+  make_directory(folder, "--out");
+  catch_interrupts();
+  Console console;
+  std::vector<study::DataSheet> sheets;
+  for (study::DataSheet& plan : plans) {
+    const std::string name = plan.computed.type.name;
+    console.line(fmt::format("{} of {}: {}", sheets.size() + 1, plans.size(), name));
+    auto done = study::run(std::move(plan), follow(console));
+    console.wipe();
+    if (!done) return kSignalled + interrupted();
+    report::write_report(data_sheet_report(*done, "vsa datasheet " + name), folder / (name + ".html"));
+    sheets.push_back(std::move(*done));
+  }
+  report::write_report(comparison_page(sheets, "vsa datasheet --all"), folder / "index.html");
+  const report::Table table = comparison_table(sheets);
+  std::vector<std::vector<std::string>> rows{table.head};
+  rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+  std::cout << table_text(rows, terminal_width()) << "written: " << (folder / "index.html").string() << " and a sheet of each\n";
+  return std::cout.flush() ? kDone : kFailed;
+}
+
+}  // namespace
+
 int run_datasheet(const DatasheetOptions& options) {
+  if (options.all) return run_gallery(options);
   Console console;
   const std::filesystem::path file = options.out.empty() ? "datasheet_" + options.type + ".html" : options.out;
   experiment::Specimen specimen;
@@ -77,13 +124,19 @@ int run_datasheet(const DatasheetOptions& options) {
 void setup_datasheet(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DatasheetOptions>();
   CLI::App* sub = app.add_subcommand("datasheet", "Write a one-page data sheet of an actuator type");
-  sub->add_option("TYPE", options->type, "Actuator type, see vsa actuators")->required();
+  CLI::Option* type = sub->add_option("TYPE", options->type, "Actuator type, see vsa actuators");
+  CLI::Option* all = sub->add_flag("--all", options->all, "Of every type, and a page that compares them");
   sub->add_option("--step-s", options->step_s, "Simulated seconds per step; default 0.001, the benches' own")
       ->check(number_given());
-  sub->add_option("--set", options->set, "Override a parameter: key=value")->allow_extra_args(false);
-  sub->add_option("--out", options->out, "File to write; default: datasheet_TYPE.html");
+  CLI::Option* set = sub->add_option("--set", options->set, "Override a parameter: key=value")->allow_extra_args(false);
+  sub->add_option("--out", options->out, "File to write, with --all a directory; default: datasheet_TYPE.html, datasheets");
+  all->excludes(type)->excludes(set);
   sub->footer(kNotes);
-  sub->callback([options, &exit_code] { exit_code = run_datasheet(*options); });
+  sub->callback([options, &exit_code] {
+    if (options->type.empty() && !options->all)
+      throw InputError({"", "TYPE", "", "is missing", "an actuator type, see vsa actuators; or --all"});
+    exit_code = run_datasheet(*options);
+  });
 }
 
 }  // namespace vsa::app

@@ -20,7 +20,8 @@ std::string overridden(const study::DataSheet& d) {
 
 /// "linear_beyond_rad" → "linear beyond": the unit stands beside the value.
 std::string symbol(std::string key) {
-  for (const std::string_view suffix : {"_Nm_per_rad", "_per_rad", "_Nm", "_rad"}) {
+  for (const std::string_view suffix :
+       {"_Nm_per_rad3", "_Nm_per_rad2", "_Nm_per_rad", "_m_per_rad2", "_m_per_rad", "_N_per_m", "_per_rad", "_Nm", "_rad", "_m"}) {
     if (key.size() <= suffix.size() || key.compare(key.size() - suffix.size(), suffix.size(), suffix) != 0) continue;
     key.resize(key.size() - suffix.size());
     break;
@@ -32,9 +33,8 @@ std::string symbol(std::string key) {
 /// The law's equation where we know it; its parameters always.
 std::string law_text(const config::ActuatorType& type) {
   std::string out = "Elastic law " + type.law;
-  if (type.law == "two_sinh") out += ": τ = −Σ kᵢ sinh(aᵢ δᵢ), δᵢ = q − qᵢ, q₁,₂ = θ ± p";
-  if (type.law == "two_sinh_linear") out += ": τ = −Σ (kᵢ sinh(aᵢ δᵢ) + cᵢ δᵢ), δᵢ = q − qᵢ, q₁,₂ = θ ± p";
-  if (type.law == "series_spring") out += ": τ = −k (q − q₁)";
+  for (const elastic::Law* law : elastic::laws())
+    if (law->name == type.law) out += fmt::format(" ({}): {}", law->title, law->equation);
   std::string with;
   for (const config::Entry& e : type.entries) {
     if (e.key.rfind("elastic.", 0) != 0 || e.unit.empty()) continue;
@@ -60,7 +60,7 @@ report::Report data_sheet_report(const study::DataSheet& d, const std::string& c
   const config::ActuatorType& p = d.computed.type;
   report::Report out;
   out.title = p.title;
-  out.subtitle = "Data sheet of the simulated actuator " + p.name + overridden(d);
+  out.subtitle = "Data sheet of the simulated actuator " + p.name + (p.rank.empty() ? "" : ", " + p.rank) + overridden(d);
   out.one_page = true;
   std::string about = p.description.empty() ? "" : p.description + " ";
   report::Section head{"", {report::Text{about + law_text(p)}, report::Figures{key_figures(d)}}};

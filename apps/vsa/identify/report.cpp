@@ -56,9 +56,11 @@ Chart loop_chart(const Identification& r, std::size_t observation) {
   out.title = fmt::format("Preset {:.4g} rad", r.found.task.observations[observation].preset);
   out.x_label = "deflection [rad]";
   out.y_label = "load torque [N·m]";
+  const bool points = r.found.task.observations[observation].points;
   for (const bool rising : {true, false}) {
     const Branch b = branch(r, observation, rising);
-    const std::string way = rising ? "rising" : "falling";
+    if (b.torque.empty()) continue;
+    const std::string way = points ? "at rest" : rising ? "rising" : "falling";
     out.curves.push_back(report::curve("recorded, " + way, b.data, b.torque, Curve::Style::markers, rising ? 0 : 1));
     out.curves.push_back(report::curve("simulated, " + way, b.model, b.torque, Curve::Style::line, rising ? 0 : 1));
   }
@@ -74,9 +76,10 @@ Chart residual_chart(const Identification& r) {
   for (std::size_t o = 0; o < r.found.task.observations.size(); ++o) {
     for (const bool rising : {true, false}) {
       const Branch b = branch(r, o, rising);
-      out.curves.push_back(
-          report::curve(fmt::format("{:.4g} rad, {}", r.found.task.observations[o].preset, rising ? "rising" : "falling"), b.torque,
-                        b.residual, rising ? Curve::Style::line : Curve::Style::dashed, static_cast<int>(o)));
+      if (b.torque.empty()) continue;
+      const char* way = r.found.task.observations[o].points ? "at rest" : rising ? "rising" : "falling";
+      out.curves.push_back(report::curve(fmt::format("{:.4g} rad, {}", r.found.task.observations[o].preset, way), b.torque,
+                                         b.residual, rising ? Curve::Style::line : Curve::Style::dashed, static_cast<int>(o)));
     }
   }
   out.caption = "Smooth residuals are the model's own error: the intervals allow for their correlation.";

@@ -5,6 +5,8 @@
 //   [type]
 //   name = "qbmove_maker_pro"
 //   title = "qbmove maker pro (paper, Table I)"
+//   rank = "published"                  optional: measured, published or symbolic
+//   base = "sea_example"                optional: a type that has all that this file hasn't
 //   [elastic]
 //   law = "two_sinh"
 //   k1_Nm = { value = 0.022, unit = "N·m", bounds = [1e-6, 10.0], source = "Table I" }
@@ -31,6 +33,7 @@
 #include "vsa/config/evidence.hpp"
 #include "vsa/config/schema.hpp"
 #include "vsa/device/unit.hpp"
+#include "vsa/elastic/law.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::config {
@@ -54,6 +57,8 @@ struct ActuatorType {
   std::string description;  ///< may be empty
   std::filesystem::path file;
   std::string law;
+  std::string rank;  ///< on what its numbers stand: "measured", "published", "symbolic"; empty: its file doesn't say
+  std::string base;  ///< the type that it differs from; empty: it is whole
   std::optional<Evidence> evidence;  ///< none: the type doesn't say
   std::vector<Entry> entries;
   std::vector<std::string> notices;  ///< old spellings in its file
@@ -71,11 +76,12 @@ class LawReader {
 
 using LawFactory = std::function<std::shared_ptr<const elastic::Transmission>(LawReader&)>;
 
-/// The laws a type may name. standard() has two_sinh and series_spring; users add their own.
+/// The laws a type may name. standard() has the library's (elastic::laws()); users add their own.
 class LawRegistry {
  public:
   [[nodiscard]] static LawRegistry standard();
   void add(std::string name, LawFactory factory);
+  void add(const elastic::Law& law);  ///< which outlives this
   [[nodiscard]] const LawFactory* find(std::string_view name) const;
   [[nodiscard]] std::vector<std::string> names() const;
 
@@ -112,6 +118,8 @@ class TypeLibrary {
   explicit TypeLibrary(std::vector<std::filesystem::path> directories = {}, LawRegistry laws = LawRegistry::standard());
 
   [[nodiscard]] std::vector<std::string> names() const;
+  /// A type's file. Throws InputError: unknown name.
+  [[nodiscard]] std::filesystem::path find(std::string_view name) const;
   /// Throws InputError: unknown name (with the names there are), or all problems of the file and the overrides at once.
   [[nodiscard]] ActuatorType load(std::string_view name, const std::vector<Override>& overrides = {}) const;
   /// The same in two halves.
@@ -124,7 +132,6 @@ class TypeLibrary {
   [[nodiscard]] const std::vector<std::string>& notices() const noexcept { return notices_; }  ///< old spellings met
 
  private:
-  [[nodiscard]] std::filesystem::path find(std::string_view name) const;
   void search_standard_directories();
 
   std::vector<std::filesystem::path> directories_;

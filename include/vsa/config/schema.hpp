@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // Every parameter of an actuator type but the elastic law's own: one table, from which files are checked, listings are printed and
-// docs/reference/config.md is tested. A law's keys are asked for by its factory (LawReader).
+// docs/reference/config.md is tested. A law's keys are its own (vsa/elastic/law.hpp).
 #pragma once
 
 #include <span>
@@ -40,14 +40,6 @@ struct Parameter {
 inline constexpr std::string_view kPresetUnit = "preset unit";
 
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
-
-/// The keys that the laws of LawRegistry::standard() read, for documentation: "elastic.k1_Nm" and so on with unit and bounds.
-struct LawParameter {
-  std::string_view law, key, unit;
-  double min, max;
-  std::string_view meaning;
-};
-[[nodiscard]] std::span<const LawParameter> law_parameters() noexcept;
 
 /// The firmware's 16.16 fixed point of a gain, truncated toward zero as its C cast does: 0.1 → 6553, −0.8 → −52428.
 [[nodiscard]] std::int32_t fixed_16_16(double gain) noexcept;

@@ -102,8 +102,8 @@ class Transmission {
   /// H alone; override where it is cheaper than evaluate().
   [[nodiscard]] virtual double energy(const Positions& at) const noexcept { return evaluate(at).energy; }
 
-  /// Default: three-point Gauss–Legendre quadrature of evaluate() along the segment; what it misses is booked by the caller
-  /// as integrator error. Laws with a closed form override it.
+  /// Default: three-point Gauss–Legendre quadrature of evaluate() along the segment, whose means are set right to do the work of the
+  /// energies' difference. Laws with a closed form override it.
   [[nodiscard]] virtual SegmentMean mean_over(const Positions& from, const Positions& to) const noexcept;
 
   /// The three together: where many segments follow each other, as in a simulation. They give what the functions of Positions do,

@@ -58,6 +58,10 @@ void write_load_recording(const LoadRecording& recording, const std::filesystem:
 /// An empty cell is a branch without samples there.
 [[nodiscard]] Branches read_branches(const std::filesystem::path& csv);
 
+/// Places at rest, each reached for itself: load_torque_Nm,deflection_rad, in any order. As branches they are all "rising", upwards by
+/// torque, and there is no other. Throws InputError as read_load_recording, but for the file's name.
+[[nodiscard]] Branches read_points(const std::filesystem::path& csv, double limit_Nm = 1e4);
+
 /// a − b on the torques that both have; NaN where one has no value. Without scatter.
 [[nodiscard]] Branches subtract(const Branches& a, const Branches& b);
 

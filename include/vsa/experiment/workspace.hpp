@@ -16,6 +16,7 @@
 // to d for which
 //
 //   M⁻(|r_i ω|) ≤ sign(r_i ω) M_i ≤ M⁺(|r_i ω|)  for all motors;    an input that stands (r_i = 0):  (1 − λ_b)|M_i| ≤ K_τ V/R + τ_c
+//   σ ≥ 0                                         beyond the law's largest torque the joint gives way
 //
 // Torque at the shaft: τ(q₀ − d) − τ_shaft; stiffness: σ there. At the largest p the motors hold each other: pretension costs
 // torque. Holding (ω = 0, friction helps): (1 − λ_b)|M_i| ≤ K_τ V/R + τ_c, without voltage ≤ τ_c, and the shaft's friction adds.

@@ -37,7 +37,8 @@ struct Observation {
   std::string name;  ///< the recording's file
   double preset = 0;
   experiment::Branches data;
-  double weight = 1;  ///< w, 1/rad; see scatter_weight()
+  double weight = 1;    ///< w, 1/rad; see scatter_weight()
+  bool points = false;  ///< places at rest (experiment::read_points), which the law alone predicts, not the bench
 };
 
 /// The branches that observation number i would show. Called from several threads at once; may throw where the values make no
@@ -65,8 +66,9 @@ struct Task {
 [[nodiscard]] std::vector<config::Override> overrides(const std::vector<Parameter>& parameters, const std::vector<double>& values,
                                                       const std::vector<config::Override>& also = {});
 
-/// A recording for a preset: branch means (…_branches.csv) or samples, the commanded preset in its name; weight 1. Throws
-/// InputError where it can't be read, or where that preset isn't in the unit of this actuator's.
+/// A recording for a preset: branch means (…_branches.csv), places at rest (…_points.csv) or samples, the commanded preset in its name;
+/// weight 1. Places of an actuator without a preset need none. Throws InputError where it can't be read, or where that preset isn't in
+/// the unit of this actuator's.
 [[nodiscard]] Observation read_observation(const std::filesystem::path& file, const config::ActuatorType& type);
 
 /// 1 / root mean square of the recording's own scatter about its branches, so that a curve counts as much as it is known.

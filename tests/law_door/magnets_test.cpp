@@ -1,16 +1,12 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The door is open: a law that the library has never heard of, in this one file and maccepa.toml beside it.
+// The door is open: a law that the library has never heard of, in this one file and magnets.toml beside it.
 //
-// MACCEPA: a motor turns a lever of length B to the equilibrium x₀; a spring pulls the output's pivot, at distance C, towards it
-// over a cable that a second motor shortens by r x₁.
+// Two rings of magnets with n pole pairs: motor 1 turns one to the equilibrium x₀, motor 2 pushes them together by x₁.
 //
-//   δ = q − x₀,   ℓ(δ) = √(B² + C² − 2BC cos δ),   e = ℓ − (C − B) + r x₁         spring's elongation, m
-//   H = ½ κ max(e, 0)²                                                          a cable can't push
-//   τ = −κ e ℓ',   load₀ = κ e ℓ',   load₁ = −κ e r,   σ = κ (e ℓ'' + ℓ'²)
-//   ℓ' = BC sin δ/ℓ,   ℓ'' = (BC cos δ − ℓ'²)/ℓ
+//   δ = q − x₀,   H = (m + s x₁) (1 − cos n δ)/n,   τ = −(m + s x₁) sin n δ,   σ = n (m + s x₁) cos n δ
 //
-// The preset is the winch's angle x₁ in rad, not a half difference: at rest σ = κ r x₁ BC/(C − B). Valid for 0 < B < C, any δ.
+// The preset is motor 2's angle x₁ in rad. For x₁ > −m/s; the joint slips beyond |δ| = π/(2n).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,26 +21,23 @@ namespace {
 
 using namespace vsa;
 
-struct MaccepaParams {
-  double spring_N_per_m, arm_m, pivot_m, winch_m;
+struct MagnetsParams {
+  double torque_Nm, torque_Nm_per_rad, pole_pairs;
 };
 
-class Maccepa final : public elastic::Transmission {
+class Magnets final : public elastic::Transmission {
  public:
-  explicit Maccepa(const MaccepaParams& p) noexcept : p_(p) {}
+  explicit Magnets(const MagnetsParams& p) noexcept : p_(p) {}
 
   [[nodiscard]] elastic::Response evaluate(const elastic::Positions& at) const noexcept override {
-    const double delta = at.q - at.x[0], bc = p_.arm_m * p_.pivot_m, k = p_.spring_N_per_m, r = p_.winch_m;
-    const double l = std::sqrt(p_.arm_m * p_.arm_m + p_.pivot_m * p_.pivot_m - 2 * bc * std::cos(delta));
-    const double l1 = bc * std::sin(delta) / l, l2 = (bc * std::cos(delta) - l1 * l1) / l;
-    const double e = l - (p_.pivot_m - p_.arm_m) + r * at.x[1];
+    const double n = p_.pole_pairs, angle = n * (at.q - at.x[0]), m = p_.torque_Nm + p_.torque_Nm_per_rad * at.x[1];
+    const double height = (1 - std::cos(angle)) / n, slope = std::sin(angle), bend = n * std::cos(angle);
     elastic::Response out{};
-    if (e <= 0) return out;
-    out.energy = 0.5 * k * e * e;
-    out.torque = -k * e * l1;
-    out.load = {k * e * l1, -k * e * r};
-    const double sigma = k * (e * l2 + l1 * l1);
-    out.curvature = {.qq = sigma, .qx = {-sigma, k * r * l1}, .x0x0 = sigma, .x0x1 = -k * r * l1, .x1x1 = k * r * r};
+    out.energy = m * height;
+    out.torque = -m * slope;
+    out.load = {m * slope, -p_.torque_Nm_per_rad * height};
+    const double tie = p_.torque_Nm_per_rad * slope;
+    out.curvature = {.qq = m * bend, .qx = {-m * bend, tie}, .x0x0 = m * bend, .x0x1 = -tie};
     return out;
   }
   [[nodiscard]] std::array<double, 2> references(const elastic::EquilibriumPreset& c) const noexcept override {
@@ -52,56 +45,55 @@ class Maccepa final : public elastic::Transmission {
   }
   [[nodiscard]] elastic::EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override { return {x[0], x[1]}; }
 
-  [[nodiscard]] const MaccepaParams& params() const noexcept { return p_; }
+  [[nodiscard]] const MagnetsParams& params() const noexcept { return p_; }
 
  private:
-  MaccepaParams p_;
+  MagnetsParams p_;
 };
 
-std::shared_ptr<const elastic::Transmission> make_maccepa(config::LawReader& read) {
-  const MaccepaParams p{read.number("spring_N_per_m", "N/m", 1e-3, 1e6, "spring rate, kappa"),
-                        read.number("arm_m", "m", 1e-4, 10, "lever from the motor to the cable's guide, B"),
-                        read.number("pivot_m", "m", 1e-4, 10, "distance of the cable's fixation on the output, C"),
-                        read.number("winch_m", "m", 1e-4, 1, "radius of the pretension winch, r")};
-  if (!(p.arm_m < p.pivot_m)) throw InputError(Problem{"", "arm_m", "", "must be shorter than elastic.pivot_m", ""});
-  return std::make_shared<Maccepa>(p);
+std::shared_ptr<const elastic::Transmission> make_magnets(config::LawReader& read) {
+  const MagnetsParams p{read.number("torque_Nm", "N·m", 1e-3, 1e3, "largest torque with the rings at rest, m"),
+                        read.number("torque_Nm_per_rad", "N·m/rad", 0, 1e3, "what motor 2 adds a radian, s"),
+                        read.number("pole_pairs", "1", 1, 100, "of each ring, n")};
+  if (p.pole_pairs != std::floor(p.pole_pairs)) throw InputError(Problem{"", "pole_pairs", "", "must be whole", "1, 2, …"});
+  return std::make_shared<Magnets>(p);
 }
 
 config::TypeLibrary library() {
   config::LawRegistry laws = config::LawRegistry::standard();
-  laws.add("maccepa", make_maccepa);
+  laws.add("magnets", make_magnets);
   return config::TypeLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "tests/law_door"}, laws);
 }
 
 TEST(LawDoor, APresetOfAnUnknownLawLoadsOnceTheLawIsRegistered) {
-  const config::ActuatorType type = library().load("maccepa");
-  EXPECT_EQ(type.law, "maccepa");
-  const auto* law = dynamic_cast<const Maccepa*>(type.unit.actuator.transmission.get());
+  const config::ActuatorType type = library().load("magnets");
+  EXPECT_EQ(type.law, "magnets");
+  const auto* law = dynamic_cast<const Magnets*>(type.unit.actuator.transmission.get());
   ASSERT_NE(law, nullptr);
-  EXPECT_EQ(law->params().spring_N_per_m, 323.0);
-  EXPECT_EQ(law->params().winch_m, 0.010);
+  EXPECT_EQ(law->params().torque_Nm, 0.2);
+  EXPECT_EQ(law->params().pole_pairs, 2.0);
   EXPECT_EQ(type.unit.preset_max, 2.5);
   const config::TypeLibrary closed({std::filesystem::path(VSA_SOURCE_DIR) / "tests/law_door"});
-  EXPECT_THROW((void)closed.load("maccepa"), InputError);
+  EXPECT_THROW((void)closed.load("magnets"), InputError);
 }
 
 TEST(LawDoor, TheLawsParametersAreOverriddenAndCheckedLikeAnyOther) {
-  const config::ActuatorType softer = library().load("maccepa", {{"elastic.spring_N_per_m", "100"}});
-  EXPECT_EQ(dynamic_cast<const Maccepa&>(*softer.unit.actuator.transmission).params().spring_N_per_m, 100.0);
-  EXPECT_THROW((void)library().load("maccepa", {{"elastic.arm_m", "0.2"}}), InputError);    // longer than C: the law's own check
-  EXPECT_THROW((void)library().load("maccepa", {{"elastic.winch_m", "0.5"}}), InputError);  // beyond the type's bounds
+  const config::ActuatorType softer = library().load("magnets", {{"elastic.torque_Nm", "0.1"}});
+  EXPECT_EQ(dynamic_cast<const Magnets&>(*softer.unit.actuator.transmission).params().torque_Nm, 0.1);
+  EXPECT_THROW((void)library().load("magnets", {{"elastic.pole_pairs", "2.5"}}), InputError);  // the law's own check
+  EXPECT_THROW((void)library().load("magnets", {{"elastic.torque_Nm", "50"}}), InputError);    // beyond the type's bounds
 }
 
 TEST(LawDoor, ThePluginElementTakesItAsItTakesTheShippedOnes) {
   const char* xml =
-      "<plugin name='vsa::Robot'><actuator><joint>hip</joint><type>maccepa</type>"
+      "<plugin name='vsa::Robot'><actuator><joint>hip</joint><type>magnets</type>"
       "<initial preset_rad='2'/></actuator></plugin>";
   const host::RobotConfig robot = config::parse_plugin(xml, "test", library());
   EXPECT_EQ(robot.actuators.at(0).initial_preset, 2.0);
 }
 
 TEST(LawDoor, TorqueLoadsAndCurvatureAreTheDerivativesOfTheEnergy) {
-  const auto law = library().load("maccepa").unit.actuator.transmission;
+  const auto law = library().load("magnets").unit.actuator.transmission;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> angle(-1.5, 1.5), winch(0.1, 2.5);
   constexpr double h = 1e-5;
@@ -128,16 +120,14 @@ TEST(LawDoor, TorqueLoadsAndCurvatureAreTheDerivativesOfTheEnergy) {
   }
 }
 
-TEST(LawDoor, StiffnessAtRestIsProportionalToThePretension) {
-  const auto law = library().load("maccepa").unit.actuator.transmission;
-  for (double x1 : {0.5, 1.0, 2.0}) {
-    EXPECT_NEAR(law->evaluate({0.3, {0.3, x1}}).curvature.qq, 323.0 * 0.010 * x1 * 0.03 * 0.18 / 0.15, 1e-12);
-  }
+TEST(LawDoor, StiffnessAtRestRisesWithThePreset) {
+  const auto law = library().load("magnets").unit.actuator.transmission;
+  for (double x1 : {0.5, 1.0, 2.0}) EXPECT_NEAR(law->evaluate({0.3, {0.3, x1}}).curvature.qq, 2 * (0.2 + 0.4 * x1), 1e-12);
 }
 
 /// The unit on a joint with a little damping in the bearing, commanded from (0, 1) to (0.6, 2) rad and left alone.
 test::OneJoint settled(double inertia_kgm2, double duration_s) {
-  test::OneJoint joint(library().load("maccepa").unit, 0.0, 1.0, inertia_kgm2, 1'000'000);
+  test::OneJoint joint(library().load("magnets").unit, 0.0, 1.0, inertia_kgm2, 1'000'000);
   joint.load = [&joint](double) { return -0.05 * joint.v; };
   joint.unit.set_inputs(joint.state, joint.unit.inputs_for(0.6, 2.0));
   while (static_cast<double>(joint.t_ns) * 1e-9 < duration_s) joint.step();

@@ -1,0 +1,53 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A law that actuator types may name: src/elastic/laws/NAME.cpp has its equation, its parameters and what makes it, and nothing else
+// has to know it but the list in laws.cpp. Documentation, files' checks and the property tests go over that list.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsa/elastic/transmission.hpp"
+
+namespace vsa::elastic {
+
+/// A number of the law's; a type's file has it as elastic.KEY.
+struct LawParameter {
+  std::string_view key, unit;
+  double min, max;  ///< ends included
+  std::string_view meaning;
+};
+
+/// What is wrong between parameters that are fine one by one.
+struct LawFault {
+  std::string_view key;  ///< which one to change
+  std::string message, allowed;
+};
+
+/// Where a law is to be tried, for tests and tables: shaft and inputs within these, all together.
+struct LawReach {
+  double deflection_rad;  ///< |q − x₀|, or of laws with two springs |q − (x₀ + x₁)/2|
+  double preset;          ///< 0 … this
+};
+
+struct Law {
+  std::string_view name;      ///< as files write it
+  std::string_view title;     ///< for tables: "lever with a movable pivot"
+  std::string_view equation;  ///< in one line; H in J
+  std::string_view source;    ///< of the equation
+  std::span<const LawParameter> parameters;
+  /// Values in the order of the parameters, each within its bounds.
+  std::shared_ptr<const Transmission> (*make)(std::span<const double> values);
+  LawReach (*reach)(std::span<const double> values);
+  std::optional<LawFault> (*fault)(std::span<const double> values) =
+      nullptr;  ///< null: whatever is within the bounds goes together
+};
+
+/// All of the library, by name.
+[[nodiscard]] std::span<const Law* const> laws() noexcept;
+
+}  // namespace vsa::elastic

@@ -1,0 +1,108 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A lever between springs and output, whose arms motor 2 changes: at rest the springs are at ease, so stiffening costs no work there
+// (∂H/∂x₁ = 0 at δ = 0).
+//
+//   H = A(p) sin² δ,   δ = q − x₀,   p = p₀ + h x₁,   σ at rest = 2 A,   largest torque A, at |δ| = π/4
+//   lever_pivot   the pivot moves (AwAS-II, CompAct):       A = K ((L/r) p/(L − p))²   p = 0: no stiffness; p → L: rigid
+//   lever_spring  the springs' place moves (AwAS):          A = k p²                   two springs of rate k, each stretched by p sin δ
+//
+// Beyond the pivot's stop (p > s) A goes on by its second-order expansion there. Softening beyond |δ| = π/4; use below.
+//
+// Sources: the public NMMI/ROS-Gazebo-compliant-actuators-plugin (2021) for the pivot: τ = −2K ((L/r) p/(L − p))² sin δ cos δ, which
+// leaves out the pivot's own load and divides by zero at p = L; A. Jafari, N. G. Tsagarakis, D. G. Caldwell, IROS 2010 and ICRA 2011,
+// for the mechanisms. The potentials, and with them the loads of motor 2: ours.
+#include <algorithm>
+#include <cmath>
+
+#include "elastic/laws/laws.hpp"
+#include "elastic/laws/shapes.hpp"
+
+namespace vsa::elastic {
+namespace {
+
+constexpr LawParameter kPivot[] = {
+    {"spring_Nm", "N·m", 1e-6, 1e6, "the springs' torque scale at the lever, K"},
+    {"length_m", "m", 1e-4, 10, "way from no stiffness to a rigid joint, L"},
+    {"radius_m", "m", 1e-4, 10, "the springs' place, r"},
+    {"start_m", "m", 0, 10, "where the pivot is at preset 0, p₀; 0: a joint without stiffness"},
+    {"screw_m_per_rad", "m/rad", 1e-6, 1, "the pivot's travel a radian of motor 2, h"},
+    {"stop_m", "m", 1e-5, 10, "end of the pivot's travel, s, short of L"},
+};
+constexpr LawParameter kSpring[] = {
+    {"spring_N_per_m", "N/m", 1e-3, 1e8, "rate of each of the two springs, k"},
+    {"start_m", "m", 0, 10, "where the springs are at preset 0, p₀; 0: a joint without stiffness"},
+    {"screw_m_per_rad", "m/rad", 1e-6, 1, "the springs' travel a radian of motor 2, h"},
+};
+
+/// A and its derivatives by x₁.
+struct Arm {
+  double value, slope, bend;
+};
+[[nodiscard]] Potential turned(const Arm& a, double d) noexcept {
+  const double s = std::sin(d), twice = std::sin(2 * d);
+  return {a.value * s * s, a.value * twice, a.slope * s * s, 2 * a.value * std::cos(2 * d), a.slope * twice, a.bend * s * s};
+}
+
+struct Pivot {
+  double rate, length, radius, start, screw, stop;
+  bool operator==(const Pivot&) const = default;
+  [[nodiscard]] Potential at(double d, double mover) const noexcept {
+    // u = p/(L − p), u' = L/(L − p)², u'' = 2L/(L − p)³
+    const double p = start + screw * mover, inside = std::min(p, stop), left = length - inside, u = inside / left;
+    const double u1 = length / (left * left), u2 = 2 * u1 / left, a = rate * length * length / (radius * radius);
+    Arm arm{a * u * u, 2 * a * u * u1, 2 * a * (u1 * u1 + u * u2)};
+    if (const double beyond = p - inside; beyond > 0) {
+      arm.value += beyond * (arm.slope + 0.5 * beyond * arm.bend);
+      arm.slope += beyond * arm.bend;
+    }
+    return turned({arm.value, screw * arm.slope, screw * screw * arm.bend}, d);
+  }
+};
+struct Place {
+  double rate, start, screw;
+  bool operator==(const Place&) const = default;
+  [[nodiscard]] Potential at(double d, double mover) const noexcept {
+    const double p = start + screw * mover;
+    return turned({rate * p * p, 2 * rate * p * screw, 2 * rate * screw * screw}, d);
+  }
+};
+
+}  // namespace
+
+const Law kLeverPivot{
+    .name = "lever_pivot",
+    .title = "lever whose pivot moves",
+    .equation = "H = K ((L/r) p/(L − p))² sin² δ,  p = p₀ + h x₁",
+    .source = "NMMI/ROS-Gazebo-compliant-actuators-plugin, 2021 (AwAS-II); the pivot's load: derived here",
+    .parameters = kPivot,
+    .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
+      return std::make_shared<SpringAndMover<Pivot>>(Pivot{v[0], v[1], v[2], v[3], v[4], v[5]});
+    },
+    .reach =
+        [](std::span<const double> v) {
+          return LawReach{0.4, (v[5] - v[3]) / v[4]};
+        },
+    .fault = [](std::span<const double> v) -> std::optional<LawFault> {
+      if (v[5] >= v[1]) return LawFault{"stop_m", "the joint is rigid there", "below elastic.length_m"};
+      if (v[3] >= v[5]) return LawFault{"start_m", "is beyond the end of the travel", "below elastic.stop_m"};
+      return std::nullopt;
+    },
+};
+
+const Law kLeverSpring{
+    .name = "lever_spring",
+    .title = "lever along which the springs move",
+    .equation = "H = k p² sin² δ,  p = p₀ + h x₁",
+    .source = "A. Jafari and others, IROS 2010 (AwAS): the mechanism; the law: derived here",
+    .parameters = kSpring,
+    .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
+      return std::make_shared<SpringAndMover<Place>>(Place{v[0], v[1], v[2]});
+    },
+    .reach =
+        [](std::span<const double>) {
+          return LawReach{0.4, 2.5};
+        },
+};
+
+}  // namespace vsa::elastic

@@ -1,0 +1,87 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Series elastic actuators: one motor, one spring, no preset.
+//
+//   δ = q − x₀,   H = ½ k δ² + ¼ c δ⁴,   τ = −(k δ + c δ³),   load₀ = −τ,   σ = k + 3 c δ²
+//
+// c = 0 is series_spring (vsa/elastic/series_spring.hpp), a class of its own as it is used most.
+#include <cmath>
+
+#include "elastic/laws/laws.hpp"
+#include "vsa/elastic/series_spring.hpp"
+
+namespace vsa::elastic {
+namespace {
+
+constexpr LawParameter kLinear[] = {{"stiffness_Nm_per_rad", "N·m/rad", 1e-6, 1e7, "stiffness of the spring"}};
+constexpr LawParameter kCubic[] = {
+    {"stiffness_Nm_per_rad", "N·m/rad", 1e-6, 1e7, "stiffness at rest, k"},
+    {"hardening_Nm_per_rad3", "N·m/rad³", 0, 1e9, "what the torque gains with the deflection's cube, c"},
+};
+
+class SeriesHardening final : public Transmission {
+ public:
+  SeriesHardening(double k, double c) noexcept : k_(k), c_(c) {}
+
+  [[nodiscard]] Response evaluate(const Positions& at) const noexcept override {
+    const double d = at.q - at.x[0], torque = (k_ + c_ * d * d) * d, stiffness = k_ + 3 * c_ * d * d;
+    Response r{};
+    r.energy = (0.5 * k_ + 0.25 * c_ * d * d) * d * d;
+    r.torque = -torque;
+    r.load[0] = torque;
+    r.curvature.qq = r.curvature.x0x0 = stiffness;
+    r.curvature.qx[0] = -stiffness;
+    return r;
+  }
+  // Means: the quadrature of Transmission is exact for a cubic.
+  [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& c) const noexcept override {
+    return {c.equilibrium, 0.0};
+  }
+  [[nodiscard]] EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override { return {x[0], 0.0}; }
+  [[nodiscard]] int motor_count() const noexcept override { return 1; }
+  [[nodiscard]] int spring_count() const noexcept override { return 1; }
+  [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override {
+    const double d = at.q - at.x[0];
+    return {std::copysign((0.5 * k_ + 0.25 * c_ * d * d) * d * d, d), 0.0};
+  }
+  [[nodiscard]] bool equals(const Transmission& other) const noexcept override {
+    const auto* same = dynamic_cast<const SeriesHardening*>(&other);
+    return same != nullptr && same->k_ == k_ && same->c_ == c_;
+  }
+  [[nodiscard]] std::string_view preset_unit() const noexcept override { return ""; }
+
+ private:
+  double k_, c_;
+};
+
+}  // namespace
+
+const Law kSeriesSpring{
+    .name = "series_spring",
+    .title = "series elastic, linear",
+    .equation = "H = k δ²/2,  δ = q − x₀",
+    .source = "G. A. Pratt, M. M. Williamson, Series elastic actuators, IROS 1995",
+    .parameters = kLinear,
+    .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> { return std::make_shared<SeriesSpring>(v[0]); },
+    .reach =
+        [](std::span<const double>) {
+          return LawReach{0.5, 0};
+        },
+};
+
+const Law kSeriesHardening{
+    .name = "series_hardening",
+    .title = "series elastic, hardening",
+    .equation = "H = k δ²/2 + c δ⁴/4,  δ = q − x₀",
+    .source = "this project: the first two terms of any even law",
+    .parameters = kCubic,
+    .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
+      return std::make_shared<SeriesHardening>(v[0], v[1]);
+    },
+    .reach =
+        [](std::span<const double>) {
+          return LawReach{0.5, 0};
+        },
+};
+
+}  // namespace vsa::elastic
