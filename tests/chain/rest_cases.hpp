@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -17,6 +18,7 @@
 
 #include "chain/rest_meter.hpp"
 #include "chain/serial_worlds.hpp"
+#include "vsa/config/actuator_type.hpp"
 
 namespace vsa::test {
 
@@ -35,12 +37,16 @@ inline std::string named(const RestCase& c) {
   return s.str();
 }
 
-/// Parallel and alternating axes; no gravity, hanging, held aside; supply on and off; all of these presets (a series elastic type
-/// has none) and steps.
+/// Parallel and alternating axes; no gravity, hanging, held aside; supply on and off; all of these presets that the type takes (a series
+/// elastic one has none) and steps.
 inline void for_every_rest_case(const SerialWorld& chain, const std::vector<double>& presets, const std::vector<double>& steps_s,
                                 const std::function<void(const RestCase&)>& each) {
-  const bool sea = chain.type.rfind("sea_", 0) == 0;
-  for (const double preset : sea ? std::vector<double>{0} : presets) {
+  // Of the presets those that the type takes, and where that is none, none at all.
+  const double most = config::TypeLibrary().load(chain.type).unit.preset_max;
+  std::vector<double> taken;
+  std::copy_if(presets.begin(), presets.end(), std::back_inserter(taken), [&](double p) { return p <= most; });
+  if (taken.empty()) taken.push_back(0.8 * most);
+  for (const double preset : taken) {
     for (const bool alternating : chain.joints == 1 ? std::vector<bool>{false} : std::vector<bool>{false, true}) {
       // What the root carries of a chain held aside is within every type's reach, 0.5 to 2.4 N·m.
       const double aside_rad = chain.joints > 4 ? 0.02 : chain.joints > 2 ? 0.1 : 0.3;

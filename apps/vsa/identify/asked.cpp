@@ -196,7 +196,7 @@ int identify_with(const Asked& asked, Generations& generations, Console& console
     std::vector<identify::Done> out;
     for (std::size_t i = first; i < all.size(); ++i) out.push_back(sweep::done_of(outcomes[i], all[i]));
     console.wipe();
-    console.line(fmt::format("{} fits are done", all.size()));
+    console.line(all.size() == 1 ? "1 fit is done" : fmt::format("{} fits are done", all.size()));
     return out;
   };
   try {
@@ -204,7 +204,8 @@ int identify_with(const Asked& asked, Generations& generations, Console& console
     r.found = identify::identify([&](unsigned threads) { return asked.task(threads, &watch); }, settings, do_jobs);
     const Part part = part_of(asked.options().part);
     const int code = part.number == 1 ? write_results(asked, std::move(r), console) : kDone;
-    if (part.of == 1) fs::remove_all(asked.folder());
+    std::error_code none;  // what is left is asked for --resume, nothing worse
+    if (part.of == 1) fs::remove_all(asked.folder(), none);
     return code;
   } catch (const experiment::Stopped&) {
   } catch (const Interrupted&) {
