@@ -39,7 +39,8 @@ inline std::string serial_model(const SerialWorld& w) {
   for (int i = 1; i <= w.joints; ++i) {
     s << "<actuator><joint>j" << i << "</joint><type>" << w.type << "</type><bus id='" << i
       << "'>b</bus><initial equilibrium_rad='0'";
-    if (w.type.rfind("sea_", 0) != 0) s << " preset_rad='" << w.preset << "'";  // a series elastic type has none
+    const bool has_preset = w.type.rfind("sea_", 0) != 0 && w.type.rfind("anydrive_", 0) != 0;  // series elastic types have none
+    if (has_preset) s << " preset_rad='" << w.preset << "'";
     s << "/>" << w.overrides << "</actuator>";
   }
   s << "<bus name='b'/></plugin></model>";
