@@ -63,12 +63,12 @@ void OutputFile::close() {
   if (::close(std::exchange(fd_, -1)) != 0) fail("can't finish writing", errno);
 }
 
-DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
+DirectoryLock::DirectoryLock(const std::filesystem::path& directory, const char* taken, Use use) {
   fd_ = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // File systems without locks, and directories that can't be read, record unguarded.
-  if (fd_ < 0 || ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  // File systems without locks, and directories that can't be read, are unguarded.
+  if (fd_ < 0 || ::flock(fd_, (use == Use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(std::exchange(fd_, -1));
-  throw InputError(Problem{directory.string(), "", "", "another run is recording there", "a directory of its own"});
+  throw InputError(Problem{directory.string(), "", "", taken, "a directory of its own"});
 }
 
 DirectoryLock::~DirectoryLock() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 """The table of docs/explanation/what-stiffness-is-good-for.md, section 4: by gait, ground and preset the way's median with its interval,
-the energy a metre, and how often each preset beats the best one's neighbours from the same start.
+the energy a metre, and from how many of the starts each preset goes farther than each other one.
 
 usage: python3 bench/measurements/snake_terrain.py RESULTS.csv      of vsa sweep examples/sweep/snake_terrain.toml
 """
@@ -27,9 +27,18 @@ def main() -> int:
     if len(sys.argv) != 2:
         print(__doc__.strip(), file=sys.stderr)
         return 2
+    try:
+        rows = list(csv.DictReader(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8").splitlines()))
+        missing = {"gait", "ground", "preset_deg", "repetition", "net_m", "supply_J", "error"} - set(rows[0] if rows else ())
+    except (OSError, UnicodeDecodeError) as error:
+        print(f"snake_terrain.py: {sys.argv[1]}: {error}", file=sys.stderr)
+        return 2
+    if missing:
+        print(f"snake_terrain.py: {sys.argv[1]}: no column {', '.join(sorted(missing))}: not that plan's table", file=sys.stderr)
+        return 2
     way = collections.defaultdict(dict)  # (gait, ground) → (preset) → repetition → m
     cost = collections.defaultdict(list)
-    for row in csv.DictReader(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8").splitlines()):
+    for row in rows:
         if row["error"] or not row["net_m"]:
             continue
         place, preset = (row["gait"], row["ground"].removeprefix("snake_")), float(row["preset_deg"])

@@ -7,6 +7,7 @@ usage: python3 bench/measurements/sweep_ranks.py BIN [RANKS …]      BIN: the b
 
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -41,6 +42,12 @@ def main() -> int:
         print(__doc__.strip(), file=sys.stderr)
         return 2
     program = pathlib.Path(sys.argv[1], "vsa-mpi")
+    if not program.exists() or shutil.which("mpirun") is None:
+        print(f"sweep_ranks.py: {program if not program.exists() else 'mpirun'}: not there; sh scripts/setup.sh mpi, then build", file=sys.stderr)
+        return 2
+    if not all(word.isdigit() and int(word) > 0 for word in sys.argv[2:]):
+        print(__doc__.strip(), file=sys.stderr)
+        return 2
     ranks = [int(word) for word in sys.argv[2:]] or [1, 2, 4]
     environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     with tempfile.TemporaryDirectory() as scratch:

@@ -37,13 +37,14 @@ class OutputFile {
   off_t good_ = 0;  // bytes in whole pieces
 };
 
-/// Holds a directory for one recording at a time, by a lock on the directory itself: it leaves nothing behind, whatever ends the
-/// program.
+/// Holds a directory for one program at a time, or for several that share it, by a lock on the directory itself: it leaves nothing
+/// behind, whatever ends the program.
 class DirectoryLock {
  public:
   DirectoryLock() = default;
-  /// Throws InputError where another recording holds it.
-  explicit DirectoryLock(const std::filesystem::path& directory);
+  enum class Use { alone, shared };
+  /// Throws InputError with `taken`, what the other one does, where another program holds it otherwise.
+  DirectoryLock(const std::filesystem::path& directory, const char* taken, Use use = Use::alone);
   ~DirectoryLock();
   DirectoryLock(DirectoryLock&& other) noexcept;
   DirectoryLock& operator=(DirectoryLock&& other) noexcept;

@@ -1,8 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // The elastic laws that actuator types may name: the library's (vsa/elastic/law.hpp) and whatever is added.
-#include <fmt/format.h>
-
 #include "vsa/config/actuator_type.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/elastic/law.hpp"
@@ -22,12 +20,11 @@ void LawRegistry::add(const elastic::Law& law) {
   add(std::string(law.name), [&law](LawReader& reader) {
     std::vector<double> values;
     for (const elastic::LawParameter& p : law.parameters) values.push_back(reader.number(p.key, p.unit, p.min, p.max, p.meaning));
-    if (law.fault != nullptr) {
-      for (std::size_t i = 0; const auto fault = law.fault(values); ++i) {
-        if (i == values.size() || law.parameters[i].key == fault->key)
-          throw InputError(Problem{"", std::string(fault->key), i < values.size() ? number_text(values[i]) : "", fault->message,
-                                   fault->allowed});
-      }
+    if (const auto fault = law.fault != nullptr ? law.fault(values) : std::nullopt) {
+      std::string value;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (law.parameters[i].key == fault->key) value = number_text(values[i]);
+      throw InputError(Problem{"", std::string(fault->key), value, fault->message, fault->allowed});
     }
     return law.make(values);
   });

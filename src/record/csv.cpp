@@ -154,7 +154,7 @@ CsvFiles::CsvFiles(const RunInfo& info, const fs::path& directory) : impl_(std::
   }
   if (error) throw InputError(Problem{directory.string(), "", "", "can't make the directory: " + error.message(), ""});
 
-  impl_->lock = DirectoryLock(directory);
+  impl_->lock = DirectoryLock(directory, "another run is recording there");
 
   std::vector<std::string> names;
   for (const RobotInfo& robot : info.robots) {

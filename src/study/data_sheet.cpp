@@ -42,11 +42,12 @@ DataSheet plan_data_sheet(const experiment::Specimen& specimen) {
   const bool has_preset = !plan.preset_unit().empty() && plan.actuator.unit.preset_max > 0;
   experiment::DataSheet computed = experiment::data_sheet(plan.actuator);
   const double full = full_preset(computed);
+  const bool steps = has_preset && full > 0;
   for (const double share : {0.0, 0.15, 0.4, 1.0}) {
-    if (share == 0 || has_preset) plan.speed.emplace_back().options.preset = share * full;
+    if (share == 0 || steps) plan.speed.emplace_back().options.preset = share * full;
   }
   for (const bool loaded : {false, true}) {
-    if (!has_preset || (loaded && !carries_the_bench(specimen, *plan.actuator.unit.actuator.transmission))) break;
+    if (!steps || (loaded && !carries_the_bench(specimen, *plan.actuator.unit.actuator.transmission))) break;
     experiment::PresetStepOptions& o = plan.preset_step.emplace_back().options;
     o.preset = full;
     o.loaded = loaded;

@@ -58,10 +58,10 @@ TEST(LawInAnActuator, KeepsTheBalanceWithEveryLossPositive) {
   for (const SomeLaw& l : vsa::test::all_laws(3)) {
     for (const double friction : {0.0, 0.3}) {
       Actuator a(between_motors(l.law, friction));
-      auto s = a.initial(l.law->references({0.1, 0.5 * l.reach.preset}), 0.1);
+      auto s = a.initial(l.law->references({0.1, 0.5 * l.preset}), 0.1);
       double shaft = 0;
       for (int n = 0; n < 400; ++n) {
-        const double next = 0.3 * l.reach.deflection_rad * std::sin(0.05 * n);
+        const double next = 0.3 * l.deflection_rad * std::sin(0.05 * n);
         const auto r =
             a.segment(s, 1e-3, {next - shaft, {2 * unit(random), 2 * unit(random)}, {Terminal::driven, Terminal::driven}});
         s.ledger.delivered += r.torque * (next - shaft);  // whoever moves the shaft books that
@@ -80,7 +80,7 @@ TEST(LawInAnActuator, TellsTheTorquesSlopeWithTheMotorsYielding) {
   for (const SomeLaw& l : vsa::test::all_laws(3)) {
     for (const double h : {1e-4, 1e-3}) {
       Actuator a(between_motors(l.law, 0.0));
-      auto s = a.initial(l.law->references({0.1, 0.6 * l.reach.preset}), 0.1 + 0.4 * l.reach.deflection_rad);
+      auto s = a.initial(l.law->references({0.1, 0.6 * l.preset}), 0.1 + 0.4 * l.deflection_rad);
       const auto torque = [&](double dq) {
         auto trial = s;
         return a.segment(trial, h, {dq, {1, -1}, {Terminal::driven, Terminal::driven}});
@@ -98,12 +98,12 @@ double rounds(const SomeLaw& l) {
   ActuatorParams p = between_motors(counting, 0.0);
   p.motor.inertia_kgm2 = 1e-5;  // light: they follow the springs within the step
   Actuator a(p);
-  auto s = a.initial(l.law->references({0, 0.6 * l.reach.preset}), 0);
+  auto s = a.initial(l.law->references({0, 0.6 * l.preset}), 0);
   constexpr int kSegments = 500;
   counting->count = 0;
   double shaft = 0;
   for (int n = 0; n < kSegments; ++n) {
-    const double next = 0.5 * l.reach.deflection_rad * std::sin(0.1 * n);
+    const double next = 0.5 * l.deflection_rad * std::sin(0.1 * n);
     a.segment(s, 1e-3, {next - shaft, {std::sin(0.03 * n), std::cos(0.05 * n)}, {Terminal::driven, Terminal::driven}});
     shaft = next;
   }
@@ -115,8 +115,8 @@ TEST(LawInAnActuator, ThatTiesTheMotorsTogetherIsSolvedInAsFewRounds) {
   for (const SomeLaw& l : vsa::test::all_laws(0))
     if (l.name.rfind("two_", 0) == 0 && l.name != "two_cams") apart = std::max(apart, rounds(l));
   for (const SomeLaw& l : vsa::test::all_laws(2)) {
-    const auto x = l.law->references({0.1, 0.5 * l.reach.preset});
-    if (l.law->evaluate({0.1 + 0.5 * l.reach.deflection_rad, x}).curvature.x0x1 == 0) continue;
+    const auto x = l.law->references({0.1, 0.5 * l.preset});
+    if (l.law->evaluate({0.1 + 0.5 * l.deflection_rad, x}).curvature.x0x1 == 0) continue;
     EXPECT_LE(rounds(l), 1.35 * apart) << l.name;
   }
 }

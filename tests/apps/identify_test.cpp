@@ -150,6 +150,40 @@ TEST_F(IdentifyPool, KilledItGoesOnWhereItWas) {
   }
 }
 
+TEST_F(IdentifyPool, ASecondOneInItsFolderIsRefusedAndTheFirstGoesOn) {
+  Subprocess first(asked("twice", {"--threads", "1"}));
+  ASSERT_TRUE(wait_for_runs(scratch_ / "twice/jobs", 1));
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{}, {"--resume"}, {"--part", "2/2"}})
+    expect_refused(run_vsa(asked("twice", more)), "at work there");
+  EXPECT_EQ(first.wait().exit_code, 0);
+  EXPECT_TRUE(found("twice") == expected_);
+}
+
+TEST_F(IdentifyPool, RefusesAFolderThatHoldsSomethingElseAndTakesNoDamagedLineForAResult) {
+  const std::string log = (scratch_ / "odd/jobs/log").string();
+  std::filesystem::create_directories(scratch_ / "odd");
+  write_file(scratch_ / "odd/jobs", "a file");
+  expect_refused(run_vsa(asked("odd", {})), "jobs");
+  std::filesystem::remove(scratch_ / "odd/jobs");
+  std::filesystem::create_directories(scratch_ / "odd/jobs");
+  write_file(scratch_ / "odd/jobs/mine.txt", "not a log");
+  expect_refused(run_vsa(asked("odd", {})), "something else: mine.txt");
+  std::filesystem::remove_all(scratch_ / "odd");
+  {
+    Subprocess running(asked("odd", {"--threads", "1"}));
+    ASSERT_TRUE(wait_for_runs(scratch_ / "odd/jobs", 2));
+    running.send(SIGKILL);
+    EXPECT_EQ(running.wait().exit_code, 128 + SIGKILL);
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(log)) {
+    std::string text = read_file(entry.path());
+    text[text.size() - 5] ^= 1;
+    write_file(entry.path(), text + "0123abcd\tgarbage\nnan\n");
+  }
+  EXPECT_EQ(run_vsa(asked("odd", {"--resume"})).exit_code, 0);
+  EXPECT_TRUE(found("odd") == expected_);
+}
+
 TEST_F(IdentifyPool, RanksFindTheSame) {
   if (const std::string why = no_ranks(); !why.empty()) GTEST_SKIP() << why;
   for (const int ranks : {1, 3}) {

@@ -16,20 +16,24 @@
 
 namespace vsa::test {
 
-/// Values in the order of the law's parameters.
-inline const std::map<std::string_view, std::vector<double>>& typical_values() {
-  static const std::map<std::string_view, std::vector<double>> all{
-      {"cam_roller", {20000, 0.02, 0.002, 0.001}},
-      {"lever_pivot", {10, 0.05, 0.015, 0.005, 0.01, 0.025}},
-      {"lever_spring", {8000, 0.005, 0.02}},
-      {"maccepa", {323, 0.03, 0.18, 0.010}},
-      {"series_hardening", {10, 50}},
-      {"series_spring", {10}},
-      {"two_cams", {20000, 0.03}},
-      {"two_exp", {0.38, 0.38, 8.71, 0.508}},
-      {"two_quadratic", {10, 10, 0.05}},
-      {"two_sinh", {0.022, 6.85, 0.022, 6.85}},
-      {"two_sinh_linear", {8e-4, 12.3, 0.27, 9e-4, 12.1, 0.25, 0.6}},
+struct Typical {
+  std::vector<double> values;  ///< in the order of the law's parameters
+  double deflection_rad;       ///< tried up to here: |q − x₀|, or of two springs |q − (x₀ + x₁)/2|
+  double preset;               ///< and here
+};
+inline const std::map<std::string_view, Typical>& typical() {
+  static const std::map<std::string_view, Typical> all{
+      {"cam_roller", {{20000, 0.02, 0.002, 0.001}, 0.4, 2}},
+      {"lever_pivot", {{10, 0.05, 0.015, 0.005, 0.01, 0.025}, 0.4, 2}},
+      {"lever_spring", {{8000, 0.005, 0.02}, 0.4, 2.5}},
+      {"maccepa", {{323, 0.03, 0.18, 0.010}, 1.5, 2.5}},
+      {"series_hardening", {{10, 50}, 0.5, 0}},
+      {"series_spring", {{10}, 0.5, 0}},
+      {"two_cams", {{20000, 0.03}, 0.4, 0.5}},
+      {"two_exp", {{0.38, 0.38, 8.71, 0.508}, 0.25, 0.25}},
+      {"two_quadratic", {{10, 10, 0.05}, 0.5, 0.8}},
+      {"two_sinh", {{0.022, 6.85, 0.022, 6.85}, 0.5, 0.5}},
+      {"two_sinh_linear", {{8e-4, 12.3, 0.27, 9e-4, 12.1, 0.25, 0.6}, 0.5, 0.5}},
   };
   return all;
 }
@@ -37,7 +41,7 @@ inline const std::map<std::string_view, std::vector<double>>& typical_values() {
 struct SomeLaw {
   std::string name;
   std::shared_ptr<const elastic::Transmission> law;
-  elastic::LawReach reach;
+  double deflection_rad, preset;
 };
 
 /// Each law as it is typically, and `more` times with every value off by up to a factor of two.
@@ -46,24 +50,25 @@ inline std::vector<SomeLaw> all_laws(int more, unsigned seed = 1) {
   std::uniform_real_distribution<double> exponent(-1, 1);
   std::vector<SomeLaw> out;
   for (const elastic::Law* law : elastic::laws()) {
-    const auto typical = typical_values().find(law->name);
-    if (typical == typical_values().end()) throw std::runtime_error(std::string(law->name) + ": no row in all_laws.hpp");
+    const auto row = typical().find(law->name);
+    if (row == typical().end()) throw std::runtime_error(std::string(law->name) + ": no row in all_laws.hpp");
     for (int n = 0; n <= more; ++n) {
-      std::vector<double> values = typical->second;
+      std::vector<double> values = row->second.values;
       for (std::size_t i = 0; n > 0 && i < values.size(); ++i)
         values[i] = std::clamp(values[i] * std::exp2(exponent(random)), law->parameters[i].min, law->parameters[i].max);
       if (law->fault != nullptr && law->fault(values)) continue;
-      out.push_back({std::string(law->name) + (n > 0 ? " " + std::to_string(n) : ""), law->make(values), law->reach(values)});
+      out.push_back({std::string(law->name) + (n > 0 ? " " + std::to_string(n) : ""), law->make(values), row->second.deflection_rad,
+                     row->second.preset});
     }
   }
   return out;
 }
 
-/// A place within the law's reach.
+/// A place within that.
 inline elastic::Positions random_place(const SomeLaw& of, std::mt19937& random) {
   std::uniform_real_distribution<double> part(-1, 1);
-  const double equilibrium = part(random), preset = of.reach.preset * 0.5 * (1 + part(random));
-  return {equilibrium + of.reach.deflection_rad * part(random), of.law->references({equilibrium, preset})};
+  const double equilibrium = part(random), preset = of.preset * 0.5 * (1 + part(random));
+  return {equilibrium + of.deflection_rad * part(random), of.law->references({equilibrium, preset})};
 }
 
 }  // namespace vsa::test

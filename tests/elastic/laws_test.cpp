@@ -176,7 +176,7 @@ TEST(ElasticLaws, CommandsAndWhatTheInputsAmountToAreInverse) {
   std::uniform_real_distribution<double> part(-1, 1);
   for (const SomeLaw& l : laws()) {
     for (int n = 0; n < 20; ++n) {
-      const double equilibrium = part(rng), preset = l.reach.preset * std::abs(part(rng));
+      const double equilibrium = part(rng), preset = l.preset * std::abs(part(rng));
       const auto there = l.law->attained(l.law->references({equilibrium, preset}));
       EXPECT_NEAR(there.equilibrium, equilibrium, 1e-15) << l.name;
       EXPECT_NEAR(there.preset, preset, 1e-15) << l.name;
@@ -187,12 +187,12 @@ TEST(ElasticLaws, CommandsAndWhatTheInputsAmountToAreInverse) {
 TEST(ElasticLaws, TheShaftRestsWhereTheCommandSaysAndTheTorqueIsOddAboutThat) {
   for (const SomeLaw& l : vsa::test::all_laws(0)) {
     if (l.name == "two_sinh_linear") continue;  // its springs differ
-    for (const double preset : {0.3 * l.reach.preset, l.reach.preset}) {
+    for (const double preset : {0.3 * l.preset, l.preset}) {
       const auto x = l.law->references({0.2, preset});
       EXPECT_NEAR(l.law->evaluate({0.2, x}).torque, 0, 1e-12) << l.name;
       for (double d = 0.1; d < 1; d += 0.2) {
-        const double there = l.law->evaluate({0.2 + d * l.reach.deflection_rad, x}).torque;
-        const double back = l.law->evaluate({0.2 - d * l.reach.deflection_rad, x}).torque;
+        const double there = l.law->evaluate({0.2 + d * l.deflection_rad, x}).torque;
+        const double back = l.law->evaluate({0.2 - d * l.deflection_rad, x}).torque;
         EXPECT_NEAR(there, -back, 1e-12 * (1 + std::abs(there))) << l.name;
         EXPECT_LT(there, 0) << l.name;
       }
@@ -203,8 +203,8 @@ TEST(ElasticLaws, TheShaftRestsWhereTheCommandSaysAndTheTorqueIsOddAboutThat) {
 TEST(ElasticLaws, StiffnessAtRestRisesWithThePreset) {
   for (const SomeLaw& l : laws()) {
     double before = 0;
-    for (double part = 0.1; part <= 1 && l.reach.preset > 0; part += 0.1) {
-      const auto x = l.law->references({0.2, part * l.reach.preset});
+    for (double part = 0.1; part <= 1 && l.preset > 0; part += 0.1) {
+      const auto x = l.law->references({0.2, part * l.preset});
       const double stiffness = l.law->evaluate({l.law->attained(x).equilibrium, x}).curvature.qq;
       EXPECT_GE(stiffness, before) << l.name << " at " << part;
       const bool straight = l.name.rfind("two_sinh_linear", 0) == 0 && part > 0.5;  // beyond its edge
@@ -260,10 +260,10 @@ TEST(ElasticLaws, OfLeversAskNothingOfTheMoverAtRest) {
   for (const SomeLaw& l : laws()) {
     if (l.name.rfind("lever", 0) != 0) continue;
     for (double part = 0; part <= 1.2; part += 0.1) {
-      const auto r = l.law->evaluate({0.4, l.law->references({0.4, part * l.reach.preset})});
+      const auto r = l.law->evaluate({0.4, l.law->references({0.4, part * l.preset})});
       EXPECT_EQ(r.load[1], 0) << l.name;
       EXPECT_EQ(r.energy, 0) << l.name;
-      EXPECT_NE(l.law->evaluate({0.5, l.law->references({0.4, (part + 0.1) * l.reach.preset})}).load[1], 0) << l.name;
+      EXPECT_NE(l.law->evaluate({0.5, l.law->references({0.4, (part + 0.1) * l.preset})}).load[1], 0) << l.name;
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "closed_form.hpp"
 #include "vsa/errors.hpp"
@@ -233,12 +234,23 @@ std::vector<double> scatter_ratio(double rho) {
   return out;
 }
 
+/// docs/howto/identify.md has these.
+void print(double rho, const std::vector<double>& ratios) {
+  std::printf("rho %.1f: scatter of the draws over the intervals'", rho);
+  for (const double ratio : ratios) std::printf(" %.3f", ratio);
+  std::printf("\n");
+}
+
 TEST(Bootstrap, ScattersAsTheIntervalsSayWhereErrorsAreIndependent) {
-  for (const double ratio : scatter_ratio(0.0)) EXPECT_NEAR(ratio, 0.92, 0.12);
+  const std::vector<double> ratios = scatter_ratio(0.0);
+  print(0.0, ratios);
+  for (const double ratio : ratios) EXPECT_NEAR(ratio, 0.92, 0.12);
 }
 
 TEST(Bootstrap, ScattersAsTheIntervalsSayWhereErrorsAreCorrelated) {
-  for (const double ratio : scatter_ratio(0.8)) EXPECT_NEAR(ratio, 0.86, 0.12);
+  const std::vector<double> ratios = scatter_ratio(0.8);
+  print(0.8, ratios);
+  for (const double ratio : ratios) EXPECT_NEAR(ratio, 0.86, 0.12);
 }
 
 TEST(Bootstrap, SeesErrorsThatAreLargerAtOnePreset) {

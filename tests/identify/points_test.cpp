@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 
 #include "closed_form.hpp"
@@ -95,6 +96,8 @@ TEST(Points, OfOneHalfPredictTheOther) {
     double squares = 0;
     for (std::size_t i = 0; i < rest.torque_Nm.size(); ++i)
       squares += std::pow(v[0] * (rest.rising_rad[i] - v[1]) - rest.torque_Nm[i], 2);
+    std::printf("half %zu predicts the other within %.3f N·m\n", kept,
+                std::sqrt(squares / static_cast<double>(rest.torque_Nm.size())));
     EXPECT_LT(std::sqrt(squares / static_cast<double>(rest.torque_Nm.size())), 0.095) << "N·m, half " << kept;
   }
 }

@@ -78,6 +78,7 @@ int run_gallery(const DatasheetOptions& options) {
   make_directory(folder, "--out");
   catch_interrupts();
   Console console;
+  const std::string step = options.step_s ? fmt::format(" --step-s {}", *options.step_s) : "";
   std::vector<study::DataSheet> sheets;
   for (study::DataSheet& plan : plans) {
     const std::string name = plan.computed.type.name;
@@ -85,10 +86,10 @@ int run_gallery(const DatasheetOptions& options) {
     auto done = study::run(std::move(plan), follow(console));
     console.wipe();
     if (!done) return kSignalled + interrupted();
-    report::write_report(data_sheet_report(*done, "vsa datasheet " + name), folder / (name + ".html"));
+    report::write_report(data_sheet_report(*done, "vsa datasheet " + name + step), folder / (name + ".html"));
     sheets.push_back(std::move(*done));
   }
-  report::write_report(comparison_page(sheets, "vsa datasheet --all"), folder / "index.html");
+  report::write_report(comparison_page(sheets, "vsa datasheet --all" + step), folder / "index.html");
   const report::Table table = comparison_table(sheets);
   std::vector<std::vector<std::string>> rows{table.head};
   rows.insert(rows.end(), table.rows.begin(), table.rows.end());

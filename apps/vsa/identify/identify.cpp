@@ -53,7 +53,8 @@ int run_identify(const IdentifyOptions& o) {
   Generations generations = generations_of(asked, console);
   sweep::Log log(asked.folder(), asked.series({}));
   return identify_with(asked, generations, console, [&](const std::vector<identify::Job>& jobs, const Todo& runs) {
-    return make_here(asked.series(jobs), runs, static_cast<unsigned>(o.threads.value_or(0)), log, console);
+    static_cast<void>(make_here(asked.series(jobs), runs, static_cast<unsigned>(o.threads.value_or(0)), log, console));
+    return interrupted() == 0;
   });
 }
 

@@ -19,6 +19,8 @@ namespace vsa::app {
 Generations::Generations(GenerationOptions options, const sweep::Series& series, Console& console)
     : options_(std::move(options)), console_(console) {
   sweep::claim(options_.folder, series);
+  lock_ = DirectoryLock(options_.folder, "another one is at work there",
+                        options_.part.of > 1 ? DirectoryLock::Use::shared : DirectoryLock::Use::alone);
   const sweep::Results there = sweep::read_logs(options_.folder, series);
   const bool any =
       std::any_of(there.outcomes.begin(), there.outcomes.end(), [&](const sweep::Outcome& o) { return options_.part.has(o.run); });
@@ -55,7 +57,7 @@ std::vector<sweep::Outcome> Generations::complete(const sweep::Series& series, s
   }
 }
 
-bool make_here(const sweep::Series& series, const Todo& runs, unsigned threads, sweep::Log& log, Console& console) {
+sweep::Account make_here(const sweep::Series& series, const Todo& runs, unsigned threads, sweep::Log& log, Console& console) {
   Dealer dealer(runs);
   const RunProgress progress(runs.count);
   std::mutex lock;
@@ -69,8 +71,7 @@ bool make_here(const sweep::Series& series, const Todo& runs, unsigned threads, 
     console.status(progress.text(++done, failed));
   };
   work.wanted = [] { return interrupted() == 0; };
-  static_cast<void>(sweep::run_pool(series, threads, work));
-  return interrupted() == 0;
+  return sweep::run_pool(series, threads, work);
 }
 
 }  // namespace vsa::app

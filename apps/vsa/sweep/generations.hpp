@@ -12,7 +12,9 @@
 
 #include "sweep/steps.hpp"
 #include "terminal/console.hpp"
+#include "vsa/output_file.hpp"
 #include "vsa/sweep/folder.hpp"
+#include "vsa/sweep/pool.hpp"
 
 namespace vsa::app {
 
@@ -27,7 +29,7 @@ struct GenerationOptions {
 
 class Generations {
  public:
-  /// Claims the folder. Throws InputError: it has results of this part already and nobody said to resume.
+  /// Claims the folder. Throws InputError: it has results of this part already and nobody said to resume, or another one is at work there.
   Generations(GenerationOptions options, const sweep::Series& series, Console& console);
   /// Makes those of the runs first … end − 1 that are this part's and that no log has, and gives the outcomes of 0 … end − 1, by run.
   /// `make`: they are in the log then; false: a signal came. Throws Interrupted.
@@ -36,11 +38,12 @@ class Generations {
 
  private:
   GenerationOptions options_;
+  DirectoryLock lock_;  // parts share the folder; whoever works alone would take away what another one needs
   Console& console_;
   std::set<std::size_t> again_;  // what had failed before
 };
 
-/// Makes them on this process's threads. False: a signal came.
-bool make_here(const sweep::Series& series, const Todo& runs, unsigned threads, sweep::Log& log, Console& console);
+/// Makes them on this process's threads, as many of them as a signal lets.
+sweep::Account make_here(const sweep::Series& series, const Todo& runs, unsigned threads, sweep::Log& log, Console& console);
 
 }  // namespace vsa::app

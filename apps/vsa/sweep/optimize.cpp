@@ -100,8 +100,10 @@ int run_optimize(const SweepOptions& options) {
   catch_interrupts();
   Generations generations = generations_of(plan, options, console);
   sweep::Log log(folder_of(options), plan);
-  return search(plan, options, generations, console,
-                [&](const sweep::Plan& with, const Todo& runs) { return make_here(with, runs, options.threads, log, console); });
+  return search(plan, options, generations, console, [&](const sweep::Plan& with, const Todo& runs) {
+    static_cast<void>(make_here(with, runs, options.threads, log, console));
+    return interrupted() == 0;
+  });
 }
 
 void setup_optimize(CLI::App& app, int& exit_code) {

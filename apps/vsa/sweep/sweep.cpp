@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <mutex>
 #include <thread>
 
+#include "sweep/generations.hpp"
 #include "sweep/steps.hpp"
 #include "terminal/exit_codes.hpp"
 #include "terminal/interrupt.hpp"
@@ -66,35 +66,21 @@ int show_run(const sweep::Plan& plan, const SweepOptions& options) {
 }
 
 int run_here(const sweep::Plan& plan, const SweepOptions& options, Console& console) {
-  Dealer dealer(what_is_left(plan, options));
-  const std::size_t total = dealer.left();
-  if (total > 0) {
+  const Todo todo = what_is_left(plan, options);
+  std::size_t failed = 0;
+  if (todo.count > 0) {
     sweep::Log log(folder_of(options), plan);
-    const RunProgress progress(total);
-    std::mutex lock;
-    std::size_t done = 0, failed = 0;
-    sweep::Work work;
-    work.next = [&] { return dealer.next(); };
-    work.done = [&](const sweep::Outcome& outcome) {
-      log.add(outcome);
-      const std::scoped_lock guard(lock);
-      ++done;
-      failed += outcome.error.empty() ? 0 : 1;
-      console.status(progress.text(done, failed));
-    };
-    work.wanted = [] { return interrupted() == 0; };
-    const sweep::Account account = sweep::run_pool(plan, threads_of(options), work);
+    const sweep::Account account = make_here(plan, todo, threads_of(options), log, console);
     console.wipe();
     console.line(account_text(account, 1));
     if (interrupted() != 0) {
-      console.line(fmt::format("interrupted: {} runs are left; --resume goes on", total - done));
+      console.line(fmt::format("interrupted: {} runs are left; --resume goes on", todo.count - account.runs));
       return kSignalled + interrupted();
     }
-    if (!options.part.empty()) return failed > 0 ? kFailed : kDone;
-  } else if (!options.part.empty()) {
-    return kDone;
+    failed = account.failed;
   }
-  return merge(plan, options, console);
+  if (options.part.empty()) return merge(plan, options, console);
+  return failed > 0 ? kFailed : kDone;
 }
 
 }  // namespace

@@ -28,12 +28,6 @@ struct LawFault {
   std::string message, allowed;
 };
 
-/// Where a law is to be tried, for tests and tables: shaft and inputs within these, all together.
-struct LawReach {
-  double deflection_rad;  ///< |q − x₀|, or of laws with two springs |q − (x₀ + x₁)/2|
-  double preset;          ///< 0 … this
-};
-
 struct Law {
   std::string_view name;      ///< as files write it
   std::string_view title;     ///< for tables: "lever with a movable pivot"
@@ -42,9 +36,8 @@ struct Law {
   std::span<const LawParameter> parameters;
   /// Values in the order of the parameters, each within its bounds.
   std::shared_ptr<const Transmission> (*make)(std::span<const double> values);
-  LawReach (*reach)(std::span<const double> values);
-  std::optional<LawFault> (*fault)(std::span<const double> values) =
-      nullptr;  ///< null: whatever is within the bounds goes together
+  /// Null: whatever is within the bounds goes together.
+  std::optional<LawFault> (*fault)(std::span<const double> values) = nullptr;
 };
 
 /// All of the library, by name.

@@ -53,10 +53,6 @@ const Law kCamRoller{
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
       return std::make_shared<SpringAndMover<OneCam>>(OneCam{v[0], v[1], v[2], v[3]});
     },
-    .reach =
-        [](std::span<const double>) {
-          return LawReach{0.4, 2};
-        },
 };
 
 const Law kTwoCams{
@@ -68,10 +64,6 @@ const Law kTwoCams{
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
       return std::make_shared<SpringAndMover<TwoCams>>(TwoCams{v[0], v[1]});
     },
-    .reach =
-        [](std::span<const double>) {
-          return LawReach{0.4, 0.5};
-        },
 };
 
 }  // namespace vsa::elastic

@@ -79,10 +79,6 @@ const Law kLeverPivot{
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
       return std::make_shared<SpringAndMover<Pivot>>(Pivot{v[0], v[1], v[2], v[3], v[4], v[5]});
     },
-    .reach =
-        [](std::span<const double> v) {
-          return LawReach{0.4, (v[5] - v[3]) / v[4]};
-        },
     .fault = [](std::span<const double> v) -> std::optional<LawFault> {
       if (v[5] >= v[1]) return LawFault{"stop_m", "the joint is rigid there", "below elastic.length_m"};
       if (v[3] >= v[5]) return LawFault{"start_m", "is beyond the end of the travel", "below elastic.stop_m"};
@@ -99,10 +95,6 @@ const Law kLeverSpring{
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
       return std::make_shared<SpringAndMover<Place>>(Place{v[0], v[1], v[2]});
     },
-    .reach =
-        [](std::span<const double>) {
-          return LawReach{0.4, 2.5};
-        },
 };
 
 }  // namespace vsa::elastic

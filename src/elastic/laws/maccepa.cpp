@@ -48,10 +48,6 @@ const Law kMaccepa{
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
       return std::make_shared<SpringAndMover<Cable>>(Cable{v[0], v[1], v[2], v[3]});
     },
-    .reach =
-        [](std::span<const double>) {
-          return LawReach{1.5, 2.5};
-        },
     .fault = [](std::span<const double> v) -> std::optional<LawFault> {
       if (v[1] < v[2]) return std::nullopt;
       return LawFault{"arm_m", "must be shorter than elastic.pivot_m", "below elastic.pivot_m"};

@@ -63,10 +63,6 @@ const Law kSeriesSpring{
     .source = "G. A. Pratt, M. M. Williamson, Series elastic actuators, IROS 1995",
     .parameters = kLinear,
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> { return std::make_shared<SeriesSpring>(v[0]); },
-    .reach =
-        [](std::span<const double>) {
-          return LawReach{0.5, 0};
-        },
 };
 
 const Law kSeriesHardening{
@@ -78,10 +74,6 @@ const Law kSeriesHardening{
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
       return std::make_shared<SeriesHardening>(v[0], v[1]);
     },
-    .reach =
-        [](std::span<const double>) {
-          return LawReach{0.5, 0};
-        },
 };
 
 }  // namespace vsa::elastic

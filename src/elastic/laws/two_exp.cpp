@@ -70,10 +70,6 @@ const Law kTwoExp{
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
       return std::make_shared<TwoSprings<Exponential>>(std::array{Exponential{v[0], v[2], v[3]}, Exponential{v[1], v[2], v[3]}});
     },
-    .reach =
-        [](std::span<const double> v) {
-          return LawReach{std::min(0.5, 4 / v[2]), std::min(0.5, 4 / v[2])};
-        },
 };
 
 }  // namespace vsa::elastic

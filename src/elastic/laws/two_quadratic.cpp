@@ -59,10 +59,6 @@ const Law kTwoQuadratic{
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
       return std::make_shared<TwoSprings<Quadratic>>(std::array{Quadratic{v[0], v[2]}, Quadratic{v[1], v[2]}});
     },
-    .reach =
-        [](std::span<const double>) {
-          return LawReach{0.5, 0.8};
-        },
 };
 
 }  // namespace vsa::elastic

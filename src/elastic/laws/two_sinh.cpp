@@ -24,8 +24,6 @@ constexpr LawParameter kWithLinear[] = {
     {"linear_beyond_rad", "rad", 1e-3, 100, "deflection of a spring beyond which its torque follows its tangent"},
 };
 
-constexpr LawReach kReach{0.5, 0.5};
-
 }  // namespace
 
 const Law kTwoSinh{
@@ -37,7 +35,6 @@ const Law kTwoSinh{
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
       return std::make_shared<TwoSinh>(TwoSinhParams{.k_Nm = {v[0], v[2]}, .a_per_rad = {v[1], v[3]}});
     },
-    .reach = [](std::span<const double>) { return kReach; },
 };
 
 const Law kTwoSinhLinear{
@@ -50,7 +47,6 @@ const Law kTwoSinhLinear{
       return std::make_shared<TwoSinh>(
           TwoSinhParams{.k_Nm = {v[0], v[3]}, .a_per_rad = {v[1], v[4]}, .c_Nm_per_rad = {v[2], v[5]}, .linear_beyond_rad = v[6]});
     },
-    .reach = [](std::span<const double>) { return kReach; },
 };
 
 }  // namespace vsa::elastic
