@@ -79,7 +79,8 @@ void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManage
 }
 
 void SimRobot::step(std::int64_t time_ns, sim::EntityComponentManager& ecm) {
-  if (steps_ <= kPhysicsSteps && steps_++ == kPhysicsSteps) look_for_physics(ecm);
+  if (steps_ <= kPhysicsSteps && steps_++ == kPhysicsSteps && !any_filled<components::JointPosition>(joints_, ecm))
+    VSA_ERROR << "vsa::Robot: " << name_ << kNoPhysics << std::endl;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     seat_->in()[i].angle_rad = first_number<components::JointPosition>(joints_[i], ecm);
     seat_->in()[i].speed_rad_per_s = first_number<components::JointVelocity>(joints_[i], ecm);
@@ -93,19 +94,6 @@ void SimRobot::step(std::int64_t time_ns, sim::EntityComponentManager& ecm) {
     VSA_ERROR << "vsa::Robot: " << text << std::endl;
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) set_force(joints_[i], seat_->torques()[i], ecm);
-}
-
-void SimRobot::look_for_physics(const sim::EntityComponentManager& ecm) {
-  for (const sim::Entity joint : joints_) {
-    const auto* position = ecm.Component<components::JointPosition>(joint);
-    if (position != nullptr && !position->Data().empty()) return;
-  }
-  const std::string text =
-      name_ +
-      ": no physics moves it: its world has no physics system. Up to Harmonic a world with <plugin>s of its own must name the "
-      "physics among them; later ones add that of server.config, unless <gz:policies> forbids it. Into a world without any gz-sim "
-      "loads it, but Fortress before 6.8 only where no model has a plug-in either.";
-  VSA_ERROR << "vsa::Robot: " << text << std::endl;
 }
 
 #ifdef VSA_HAS_PARAMETERS

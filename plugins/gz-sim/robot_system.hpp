@@ -76,7 +76,6 @@ class SimRobot : public sim::System,
  private:
   void attach(const sdf::Element& element, sim::EntityComponentManager& ecm);
   void step(std::int64_t time_ns, sim::EntityComponentManager& ecm);
-  void look_for_physics(const sim::EntityComponentManager& ecm);
 
   sim::Entity model_ = sim::kNullEntity;
   std::string name_;                 ///< scoped, without the world's
@@ -88,7 +87,7 @@ class SimRobot : public sim::System,
   FaultParameter faults_;
 #endif
   static constexpr int kPhysicsSteps = 10;  ///< by then any physics has filled the joints' components
-  int steps_ = 0;                           ///< since the start or a reset, as far as anyone asks: see look_for_physics
+  int steps_ = 0;                           ///< since the start or a reset, as far as anyone asks: see any_filled
   std::int64_t last_dt_ns_ = 0;
 };
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <optional>
 
 #include "vsa/config/text.hpp"
+#include "vsa/files.hpp"
 
 namespace vsa::experiment {
 namespace {
@@ -48,9 +48,8 @@ std::string read_text(const std::filesystem::path& file) {
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) fail("can't be read: " + error.message());
   if (size > kLargestFile) fail(fmt::format("too large, {} bytes", size));
-  std::ifstream in(file, std::ios::binary);
-  std::string text(static_cast<std::size_t>(size), '\0');
-  if (!in || !in.read(text.data(), static_cast<std::streamsize>(size))) fail("can't be read");
+  std::string text = read_file(file).value_or("");
+  if (text.size() != size) fail("can't be read");
   if (text.find('\0') != std::string::npos) fail("this isn't text");
   if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
   return text;

@@ -74,7 +74,7 @@ std::vector<Notice> Robot::take_notices() {
       case NoticeKind::unresolved: {
         const double x = std::sqrt(n.value);
         const Resolution r = resolution(x);
-        text += ": its spring on the inertia behind the joint swings with ω·dt = " + rounded(x) +
+        text += ": its spring on the inertia behind the joint swings with ω·dt = " + rounded(std::ceil(100 * x) / 100) +
                 ": at this step length such a swing has " + rounded(r.frequency) + " times its frequency and " + rounded(r.radius) +
                 " times its amplitude after each step" + "; steps shorter by a factor of " + rounded(x / 0.3) +
                 " resolve it (<substeps> in the plug-in element, or a smaller <max_step_size>)";

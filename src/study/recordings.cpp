@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
+#include <sstream>
 
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 
 namespace vsa::study {
 namespace {
@@ -62,7 +63,7 @@ void search(const fs::path& directory, const std::string& flag, FoundFiles& foun
 
 /// The words of origin.txt as one line.
 std::string origin_of(const fs::path& recording) {
-  std::ifstream in(recording.parent_path() / "origin.txt");
+  std::istringstream in(read_file(recording.parent_path() / "origin.txt").value_or(""));
   std::string out;
   for (std::string word; in >> word;) out += (out.empty() ? "" : " ") + word;
   return out;

@@ -74,6 +74,7 @@ TEST(Pwm, EveryLossIsPositiveAndTheBalanceClosesWhateverHappens) {
       ASSERT_NEAR(l.imbalance(), 0.0, 1e-10 * (1 + l.moved())) << trial << ' ' << n;
       last = l;
     }
+    EXPECT_LT(std::abs(last.integrator), 1e-6) << "J, trial " << trial;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "support/ledger.hpp"
 #include "support/one_joint.hpp"
 #include "vsa/elastic/series_spring.hpp"
 #include "vsa/errors.hpp"
@@ -223,6 +224,7 @@ TEST(Unit, ASeriesElasticActuatorRunsThroughTheSameDoor) {
   EXPECT_NEAR(joint.q, 0.8, 0.1);
   EXPECT_EQ(joint.state.actuator.motor[1].angle, 0.0);
   EXPECT_LT(std::abs(joint.state.actuator.ledger.imbalance()), 1e-11 * joint.state.actuator.ledger.moved());
+  vsa::test::expect_small_closures(joint.state.actuator.ledger, 0.01);
 }
 
 TEST(Unit, StaysBoundedWhateverItIsTold) {

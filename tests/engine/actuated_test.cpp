@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "support/ledger.hpp"
 #include "worlds.hpp"
 
 namespace vsa::engine::testing {
@@ -105,6 +106,7 @@ TEST(Actuated, SomebodysHandThatPutsAShaftElsewhereIsNoWorkOfTheStep) {
   EXPECT_GT(after.stored() - before.stored(), 0.1) << "the springs are wound";
   EXPECT_LT(std::abs(after.coupling - before.coupling), 1e-3);
   EXPECT_LT(std::abs(after.imbalance()), 1e-9);
+  vsa::test::expect_small_closures(after, 0.01);
 }
 
 TEST(Actuated, AFaultLeavesTheRobotsWhereTheyWere) {

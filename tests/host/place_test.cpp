@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/free_flanges.hpp"
+#include "support/ledger.hpp"
 #include "vsa/elastic/series_spring.hpp"
 #include "vsa/errors.hpp"
 
@@ -59,6 +60,7 @@ TEST(Place, AJointThatIsPlacedStaysThere) {
     EXPECT_NEAR(now.preset, 0.6, 0.03) << "the position loop gives way to the springs that pull on both pulleys, as it does anyway";
     EXPECT_NEAR(now.measured[2].value * vsa::kPi / 16384, q, 2e-3);
     EXPECT_LT(std::abs(bench.robot.ledger(0).imbalance()), 1e-9);
+    vsa::test::expect_small_closures(bench.robot.ledger(0), 0.01);
   }
 }
 
@@ -139,6 +141,7 @@ TEST(Parameters, ActFromTheNextStepAndSurviveAReset) {
   EXPECT_NEAR(bench.robot.read(1).stiffness_Nm_per_rad, other, 0.02 * other) << "the other one shared its parameters";
   bench.run(100);
   EXPECT_LT(std::abs(bench.robot.ledger(0).imbalance()), 1e-9);
+  vsa::test::expect_small_closures(bench.robot.ledger(0), 0.01);
   bench.robot.reset();
   bench.t_ns = 0;
   for (auto& joint : bench.in) joint = {0, 0, 1e3};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/free_flanges.hpp"
+#include "support/ledger.hpp"
 #include "vsa/errors.hpp"
 
 long allocation_count();  // allocations.cpp
@@ -231,6 +232,7 @@ TEST(Robot, LedgerOfAWholeRobotBalances) {
   const auto l = bench.robot.ledger();
   EXPECT_GT(l.moved(), 1.0);
   EXPECT_LT(std::abs(l.imbalance()), 1e-11 * l.moved());
+  vsa::test::expect_small_closures(l, 0.01);
 }
 
 TEST(Robot, SaysWhatTheWholeGetsWrong) {

@@ -91,7 +91,7 @@ class Master final : public LineMaster {
   [[nodiscard]] const MasterState& state() const noexcept { return state_; }
   void restore(const MasterState& state) { state_ = state; }
   /// The owner's time jumped.
-  void shift_time(std::int64_t by_ns) noexcept { state_.cycle_start_ps += by_ns * 1000; }
+  void shift_time(std::int64_t by_ns) noexcept { state_.cycle_start_ps += by_ns * kPsPerNs; }
 
   [[nodiscard]] std::int64_t next_ps() const noexcept override;
   FrameBytes speak() noexcept override;
