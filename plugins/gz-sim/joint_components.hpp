@@ -38,10 +38,8 @@ bool any_filled(const std::vector<sim::Entity>& joints, const sim::EntityCompone
 /// What to say where none is.
 inline constexpr const char* kNoPhysics =
     ": no physics moves it: its world has no physics system. Up to Harmonic a world with <plugin>s of its own must name the "
-    "physics "
-    "among them; later ones add that of server.config, unless <gz:policies> forbids it. Into a world without any gz-sim loads it, "
-    "but "
-    "Fortress before 6.8 only where no model has a plug-in either.";
+    "physics among them; later ones add that of server.config, unless <gz:policies> forbids it. Into a world without any gz-sim "
+    "loads it, but Fortress before 6.8 only where no model has a plug-in either.";
 
 inline void set_force(sim::Entity joint, double torque, sim::EntityComponentManager& ecm) {
   auto* command = ecm.Component<sim::components::JointForceCmd>(joint);
