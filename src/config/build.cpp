@@ -5,7 +5,7 @@
 
 #include "config/resolve.hpp"
 #include "vsa/config/text.hpp"
-#include "vsa/elastic/transmission.hpp"
+#include "vsa/elastic/travel.hpp"
 
 namespace vsa::config {
 namespace {
@@ -63,47 +63,41 @@ Spec spec_of(const Parameter& p, const Law& law) {
   return {std::string(p.key), unit, p.kind, p.min, p.max, p.words, p.meaning};
 }
 
+/// Why this law has no such parameter; empty: it has.
+std::string not_wanted(const Parameter& p, const elastic::Transmission& law) {
+  if (p.unit == kPresetUnit && law.preset_unit().empty()) return "the law has no preset: leave this out";
+  if (p.second && law.motor_count() < 2) return "the law has one motor: leave this out";
+  if (p.key.substr(p.key.find('.') + 1) != "lead_m_per_rad") return {};
+  bool travels = false;
+  for (std::size_t i = p.second ? 1 : 0; i < static_cast<std::size_t>(law.motor_count()); ++i)
+    travels = travels || elastic::own_input_unit(law, i) == "m";
+  return travels ? "" : "what this motor moves in the law is an angle: leave this out";
+}
+
 void read_parameter(const Parameter& p, const Law& law, Resolver& resolver, device::UnitConfig& unit) {
   const Spec spec = spec_of(p, law);
-  if (spec.unit.empty() && p.unit == kPresetUnit) {
-    if (resolver.has(p.key)) resolver.problem(resolver.line_of(p.key), spec.key, "", "the law has no preset: leave this out");
+  if (const std::string why = law ? not_wanted(p, *law) : ""; !why.empty()) {
+    if (resolver.has(p.key)) resolver.problem(resolver.line_of(p.key), spec.key, "", why);
     resolver.know(p.key);
-    unit.preset_max = 0;
+    if (p.unit == kPresetUnit) unit.preset_max = 0;
     return;
   }
   if (const auto value = resolver.resolve(spec)) {
-    p.set(unit, *value);
+    p.apply(unit, *value);
   } else if (p.need == Need::required && spec.unit != "?") {  // without its law nobody knows whether it has a preset
     resolver.report_missing(spec);
   } else if (p.need == Need::defaulted && !resolver.has(p.key)) {
-    p.set(unit, resolver.use_default(spec, p.default_value, p.default_source));
+    p.apply(unit, resolver.use_default(spec, p.default_value, p.default_source));
   }
 }
 
-/// What single values can't show.
+/// What the models need beyond single values; of keys that have none, and of a law that couldn't be made, enough is said.
 void check_together(const device::UnitConfig& unit, Resolver& resolver) {
-  if (const auto& law = unit.actuator.transmission; law && law->spring_count() == 0 && unit.actuator.tendon.friction > 0) {
-    resolver.problem(resolver.line_of("tendon.friction"), "tendon.friction", number_text(unit.actuator.tendon.friction),
-                     "the law names no spring that a tension could load", "0");
-  }
-  if (unit.actuator.tendon.friction > 0 && unit.actuator.tendon.presliding_J <= 0) {
-    resolver.problem(resolver.line_of("tendon.presliding_J"), "tendon.presliding_J", number_text(unit.actuator.tendon.presliding_J),
-                     "tendon.friction needs a presliding", "above 0");
-  }
-  const drive::BridgeParams& bridge = unit.actuator.bridge;
-  if (bridge.pin == drive::PwmPin::enable && bridge.period_s > 0 && !unit.actuator.motor.inductance_H) {
-    resolver.problem(resolver.line_of("drive.inductance_H"), "drive.inductance_H", "",
-                     "a modulated enable pin with a period needs the winding's inductance", "above 0, or drive.pwm_period_s = 0");
-  }
-  if (unit.program.generation != firmware::Generation::v6 && unit.program.model != firmware::Model::maker_pro) {
-    resolver.problem(resolver.line_of("firmware.generation"), "firmware.generation", "",
-                     "older loops are those of the maker pro: the advanced unit has one", "6.1, or firmware.model = maker_pro");
-  }
-  const std::int32_t low = unit.memory.limit_low[0], high = unit.memory.limit_high[0];
-  if (low >= high) {
-    resolver.problem(resolver.line_of("firmware.limit_low_raw"), "firmware.limit_low_raw", std::to_string(low),
-                     "must be below firmware.limit_high_raw", "below " + std::to_string(high));
-  }
+  Problems found;
+  device::validate(unit, "", found);
+  for (const Problem& p : found.list())
+    if (p.key != "elastic.law" && !resolver.failed(p.key))
+      resolver.problem(resolver.line_of(p.key), p.key, p.value, p.message, p.allowed);
 }
 
 }  // namespace

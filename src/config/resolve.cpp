@@ -156,6 +156,7 @@ std::optional<double> Resolver::resolve(const Spec& spec) {
     value = from_override(spec, item, o.value);
   }
   if (value) entries_.push_back(make_entry(spec, item, *value, source));
+  if (!value && (item != nullptr || given > 0)) failed_.insert(spec.key);
   return value;
 }
 
@@ -216,9 +217,14 @@ std::optional<double> Resolver::in_range(const Spec& spec, const Item* item, dou
   return std::nullopt;
 }
 
-void Resolver::report_missing(const Spec& spec) {
+bool Resolver::failed(std::string_view key) const {
   const auto& broken = document_.broken;
-  if (has(spec.key) || std::find(broken.begin(), broken.end(), spec.key) != broken.end()) return;  // wrong, and reported
+  return failed_.find(key) != failed_.end() || std::find(broken.begin(), broken.end(), key) != broken.end();
+}
+
+void Resolver::report_missing(const Spec& spec) {
+  if (has(spec.key) || failed(spec.key)) return;  // wrong, and reported
+  failed_.insert(spec.key);
   problem(0, spec.key, "", "is missing (" + std::string(spec.meaning) + ")", allowed_text(spec) + unit_text(spec));
 }
 

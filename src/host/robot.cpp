@@ -17,7 +17,7 @@ void check_whole(const RobotConfig& config) {
   Problems problems;
   for (std::size_t i = 0; i < config.actuators.size(); ++i) {
     const ActuatorConfig& a = config.actuators[i];
-    device::check(a.unit, a.name + ": ", problems);
+    device::validate(a.unit, a.name + ": ", problems);
     if (a.id < 1 || a.id > 254) problems.add({"", a.name, std::to_string(a.id), "id is out of range", "1 … 254"});
     if (!std::isfinite(a.initial_equilibrium_rad) || !std::isfinite(a.initial_preset))
       problems.add({"", a.name, "", "initial command isn't finite", "finite numbers"});
@@ -167,7 +167,7 @@ void Robot::set_supply(bool on) {
 void Robot::set_faults(std::size_t actuator, const device::Faults& faults) {
   static_cast<void>(known(actuator));
   Problems problems;
-  device::check(faults, "", problems);
+  device::validate(faults, "", problems);
   problems.throw_if_any();
   impl_->faults.push({actuator, faults});
 }

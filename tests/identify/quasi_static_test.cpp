@@ -31,8 +31,9 @@ const std::vector<config::Override> kWithoutFriction{
 TEST(StaticDrive, IsTheProgramsGainTimesTheBridgesStallTorque) {
   // 0.1 % a raw tick; 61 % of the duty at 12 V, in counts of 101: between the ends a straight line, at the ends the stall torque.
   const device::UnitConfig u = unit("qbmove_maker_pro_6_1");
-  const StaticDrive drive(u);
-  const double stall = 0.61 * 100 / 101 * 12.0 / u.actuator.motor.resistance_Ohm * u.actuator.motor.torque_constant_Nm_per_A;
+  const StaticDrive drive(u, 0);
+  const double stall =
+      0.61 * 100 / 101 * 12.0 / u.actuator.side[0].motor.resistance_Ohm * u.actuator.side[0].motor.torque_constant_Nm_per_A;
   EXPECT_NEAR(drive.torque_Nm(3.0), stall, 1e-9);
   EXPECT_NEAR(drive.torque_Nm(-3.0), -stall, 1e-9);
   const double half_rad = 500 * 2 * kPi / 65536;  // 500 raw ticks: half of the output
@@ -42,12 +43,12 @@ TEST(StaticDrive, IsTheProgramsGainTimesTheBridgesStallTorque) {
 
 TEST(StaticDrive, GivesNothingWithinADeadBandAndLittleBelowHalfADutyOfAModulatedEnablePin) {
   const double fifth_rad = 200 * 2 * kPi / 65536, most_rad = 900 * 2 * kPi / 65536;  // 20 % and 90 % of the output
-  EXPECT_EQ(StaticDrive(unit("qbmove_maker_pro_6_1", {{"drive.dead_band", "0.3"}})).torque_Nm(fifth_rad), 0.0);
-  EXPECT_GT(StaticDrive(unit("qbmove_maker_pro_6_1")).torque_Nm(fifth_rad), 0.1);
+  EXPECT_EQ(StaticDrive(unit("qbmove_maker_pro_6_1", {{"drive.dead_band", "0.3"}}), 0).torque_Nm(fifth_rad), 0.0);
+  EXPECT_GT(StaticDrive(unit("qbmove_maker_pro_6_1"), 0).torque_Nm(fifth_rad), 0.1);
   const std::vector<config::Override> enable{
       {"drive.pwm_pin", "enable"}, {"drive.pwm_period_s", "0"}, {"firmware.generation", "2"}};
-  EXPECT_EQ(StaticDrive(unit("qbmove_maker_pro_6_1", enable)).torque_Nm(fifth_rad), 0.0);
-  const StaticDrive modulated(unit("qbmove_maker_pro_6_1", enable));
+  EXPECT_EQ(StaticDrive(unit("qbmove_maker_pro_6_1", enable), 0).torque_Nm(fifth_rad), 0.0);
+  const StaticDrive modulated(unit("qbmove_maker_pro_6_1", enable), 0);
   EXPECT_GT(modulated.torque_Nm(most_rad), 0.7 * modulated.torque_Nm(3.0));
   EXPECT_LT(modulated.torque_Nm(most_rad), 0.85 * modulated.torque_Nm(3.0)) << "2d − 1, and not d";
 }

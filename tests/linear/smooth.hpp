@@ -90,7 +90,7 @@ class Stepped {
     shaft_ = model_.rest.at.q;
     state_ = actuator_.initial(model_.rest.at.x, shaft_);
     for (int i = 0; i < actuator_.motors(); ++i) state_.motor[i].current = model_.rest.motor_A[i];
-    supply_ = c.unit.actuator.bridge.supply_V;
+    supply_ = c.unit.actuator.supply_V;
     acceleration_ = 0;
   }
 

@@ -45,7 +45,7 @@ TEST(Scenario, EachPartReachesTheWorld) {
   EXPECT_EQ(vsa::scenario::seeded_faults(s),
             (std::vector<std::string>{"joint_2 lost_byte=0.1 seed=3", "joint_4 lost_byte=0.1 seed=9"}));
   vsa::engine::World world = vsa::scenario::load_world(s);
-  EXPECT_EQ(world.robot(0).config().actuators[0].unit.actuator.gearbox.friction.coulomb_Nm, 0.5);
+  EXPECT_EQ(world.robot(0).config().actuators[0].unit.actuator.side[0].gearbox.friction.coulomb_Nm, 0.5);
   EXPECT_EQ(vsa::scenario::travelling_model(world), "qbmove_snake");
   Player player(s, world);
   ASSERT_NE(player.gait(), nullptr);
