@@ -113,10 +113,10 @@ constexpr Parameter kTable[] = {
      Need::defaulted, "0", "slides at once", [](Unit& u, double v) { u.actuator.tendon.presliding_J = v; }},
     {"tendon.damping_s", "s", Kind::number, 0, 0.1, "", "damper of the bristle that presliding bends, over its stiffness",
      Need::defaulted, "0", "no damper", [](Unit& u, double v) { u.actuator.tendon.damping_s = v; }},
-    {"sensor.encoder_bits", "bit", Kind::integer, 1, 16, "", "resolution of all three encoders, 2^bits per turn", Need::defaulted,
-     "12", kSensor, set_bits, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].encoder.bits = static_cast<int>(v); }},
-    {"sensor.encoder_zero_rad", "rad", Kind::number, -3.2, 3.2, "", "reading = angle + zero, all three encoders", Need::defaulted,
-     "0", "ideal calibration", set_zero, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].encoder.zero_rad = v; }},
+    {"sensor.encoder_bits", "bit", Kind::integer, 1, 16, "", "resolution of the encoders, 2^bits per turn", Need::defaulted, "12",
+     kSensor, set_bits, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].encoder.bits = static_cast<int>(v); }},
+    {"sensor.encoder_zero_rad", "rad", Kind::number, -3.2, 3.2, "", "reading of an encoder = angle + zero", Need::defaulted, "0",
+     "ideal calibration", set_zero, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].encoder.zero_rad = v; }},
     {"sensor.shaft_zero_rad", "rad", Kind::number, -3.2, 3.2, "", "added to the shaft's reading alone", Need::defaulted, "0",
      "ideal calibration", [](Unit& u, double v) { u.actuator.shaft_zero_rad = v; }},
     {"firmware.model", "", Kind::word, 0, 0, "maker_pro|advanced", "which program the unit runs", Need::defaulted, "maker_pro",
@@ -234,13 +234,13 @@ constexpr auto kAll = [] {
 
 }  // namespace
 
-void Parameter::apply(device::UnitConfig& unit, double value) const {
+void Parameter::apply(device::UnitConfig& to, double value) const {
   if (second) {
-    set_side(unit, 1, value);
+    set_side(to, 1, value);
   } else if (set != nullptr) {
-    set(unit, value);
+    set(to, value);
   } else {
-    for (std::size_t i = 0; i < unit.actuator.side.size(); ++i) set_side(unit, i, value);
+    for (std::size_t i = 0; i < to.actuator.side.size(); ++i) set_side(to, i, value);
   }
 }
 

@@ -121,6 +121,22 @@ TEST(UnitBatch, SoDoUnitsWithOtherFrictionsAndLaws) {
   }
 }
 
+TEST(UnitBatch, SoDoUnitsWithTwoUnlikeSides) {
+  UnitConfig config = maker_pro();
+  config.actuator.tendon = {0.06, 2e-3, 3e-3};
+  actuator::SideParams& second = config.actuator.side[1];
+  second.motor = {0.003, 0.02, 0.6, 0.9, 3.1, std::nullopt};
+  second.gearbox = {1.5, {0.2, 0.01}, 0.1, 0.3};
+  second.bridge.dead_band = 0.1;
+  second.bridge.switch_Ohm = 0.4;
+  second.encoder = {14, 0.2};
+  config.actuator.shaft_encoder = {10, -0.1};
+  EXPECT_GT(UnitBatch(config, 1).width(), 1U);
+  for (const std::string_view set : UnitBatch::instruction_sets()) compare(config, {9, 1'000'000, 8}, set);
+  second.motor.inductance_H = 1e-3;
+  EXPECT_EQ(UnitBatch(config, 1).width(), 1U) << "one side without lanes is enough";
+}
+
 TEST(UnitBatch, RefusesWhatIsNoStepAndThenNothingHasMoved) {
   UnitBatch batch(maker_pro(), 3);
   const auto before = numbers(batch.state(2));

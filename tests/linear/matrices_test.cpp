@@ -56,12 +56,12 @@ struct Point {
 
 Point point_of(const Model& m, int motors) {
   Point p{Eigen::VectorXd::Zero(m.a.rows()), Eigen::VectorXd::Zero(m.b.cols())};
-  const auto each = (m.a.rows() - 2) / motors;
   p.x[0] = m.rest.at.q;
   p.u[0] = m.rest.load_Nm;
   for (int i = 0; i < motors; ++i) {
-    p.x[2 + i * each] = m.rest.at.x[i];
-    if (each == 3) p.x[4 + i * each] = m.rest.motor_A[i];
+    const Eigen::Index at = test::angle_of(m, i);
+    p.x[at] = m.rest.at.x[i];
+    if (test::has_current(m, i)) p.x[at + 2] = m.rest.motor_A[i];
     p.u[1 + i] = m.rest.motor_V[i];
   }
   return p;
@@ -105,15 +105,14 @@ TEST(Matrices, OutputsAreTheLawsTorqueAndTheAngles) {
   for (const Case& c : test::cases()) {
     const Model m = linear::linearize(c.unit, c.point, Firmware::frozen);
     const int motors = c.unit.actuator.transmission->motor_count();
-    const auto each = (m.a.rows() - 2) / motors;
-    const auto torque = [&](double by, Eigen::Index j) {
+    const auto torque = [&](double by, int i) {
       elastic::Positions at = m.rest.at;
-      (j == 0 ? at.q : at.x[(j - 2) / each]) += by;
+      (i < 0 ? at.q : at.x[i]) += by;
       return Eigen::VectorXd::Constant(1, c.unit.actuator.transmission->evaluate(at).torque);
     };
     for (int i = -1; i < motors; ++i) {
-      const Eigen::Index j = i < 0 ? 0 : 2 + i * each;
-      const double expected = difference([&](double by) { return torque(by, j); })[0];
+      const Eigen::Index j = i < 0 ? 0 : test::angle_of(m, i);
+      const double expected = difference([&](double by) { return torque(by, i); })[0];
       EXPECT_NEAR(m.c(2, j), expected, 1e-6 * std::abs(expected)) << c.name;
       EXPECT_EQ(m.c(i < 0 ? 0 : 3 + i, j), 1);
     }

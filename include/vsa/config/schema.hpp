@@ -39,7 +39,7 @@ struct Parameter {
   SideSetter set_side = nullptr;    ///< not null: the second side may have a value of its own, "drive_2.friction_Nm"
   bool second = false;              ///< this is that value: optional, in the place of what the first key gave both
 
-  void apply(device::UnitConfig& unit, double value) const;
+  void apply(device::UnitConfig& to, double value) const;
 };
 
 /// Stands for the unit of the law's preset; a law without a preset has no such parameter.
