@@ -63,21 +63,10 @@ Spec spec_of(const Parameter& p, const Law& law) {
   return {std::string(p.key), unit, p.kind, p.min, p.max, p.words, p.meaning};
 }
 
-/// Why this law has no such parameter; empty: it has.
-std::string not_wanted(const Parameter& p, const elastic::Transmission& law) {
-  if (p.unit == kPresetUnit && law.preset_unit().empty()) return "the law has no preset: leave this out";
-  if (p.second && law.motor_count() < 2) return "the law has one motor: leave this out";
-  if (p.key.substr(p.key.find('.') + 1) != "lead_m_per_rad") return {};
-  bool travels = false;
-  for (std::size_t i = p.second ? 1 : 0; i < static_cast<std::size_t>(law.motor_count()); ++i)
-    travels = travels || elastic::own_input_unit(law, i) == "m";
-  return travels ? "" : "what this motor moves in the law is an angle: leave this out";
-}
-
 void read_parameter(const Parameter& p, const Law& law, Resolver& resolver, device::UnitConfig& unit) {
   const Spec spec = spec_of(p, law);
-  if (const std::string why = law ? not_wanted(p, *law) : ""; !why.empty()) {
-    if (resolver.has(p.key)) resolver.problem(resolver.line_of(p.key), spec.key, "", why);
+  if (const std::string why = law ? why_absent(p, *law) : ""; !why.empty()) {
+    if (resolver.has_own(p.key)) resolver.problem(resolver.line_of(p.key), spec.key, "", why);  // a base's isn't this file's fault
     resolver.know(p.key);
     if (p.unit == kPresetUnit) unit.preset_max = 0;
     return;

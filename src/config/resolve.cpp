@@ -131,10 +131,13 @@ int Resolver::line_of(std::string_view key) const {
   return item && item->file.empty() ? item->line : 0;
 }
 
-bool Resolver::has(std::string_view key) const {
+bool Resolver::has_own(std::string_view key) const {
   const auto same = [&](const Override& o) { return o.key == key; };
-  return find(key) != nullptr || std::any_of(overrides_.begin(), overrides_.end(), same);
+  const Item* item = find(key);
+  return (item != nullptr && item->file.empty()) || std::any_of(overrides_.begin(), overrides_.end(), same);
 }
+
+bool Resolver::has(std::string_view key) const { return find(key) != nullptr || has_own(key); }
 
 std::optional<double> Resolver::resolve(const Spec& spec) {
   asked_.insert(spec.key);

@@ -244,6 +244,16 @@ void Parameter::apply(device::UnitConfig& to, double value) const {
   }
 }
 
+std::string why_absent(const Parameter& p, const elastic::Transmission& law) {
+  if (p.unit == kPresetUnit && law.preset_unit().empty()) return "the law has no preset: leave this out";
+  if (p.second && law.motor_count() < 2) return "the law has one motor: leave this out";
+  if (p.key.substr(p.key.find('.') + 1) != "lead_m_per_rad") return {};
+  bool travels = false;
+  for (std::size_t i = p.second ? 1 : 0; i < static_cast<std::size_t>(law.motor_count()); ++i)
+    travels = travels || elastic::own_input_unit(law, i) == "m";
+  return travels ? "" : "what this motor moves in the law is an angle: leave this out";
+}
+
 std::span<const Parameter> parameters() noexcept { return kAll; }
 
 std::int32_t fixed_16_16(double gain) noexcept { return static_cast<std::int32_t>(gain * 65536.0); }

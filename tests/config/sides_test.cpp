@@ -92,6 +92,21 @@ TEST(SecondSide, IsRefusedWhereTheLawHasOneMotorAndWhereThereIsOneForBoth) {
   expect_pieces(refused("qbmove_maker_pro", "drive_2.lead_m_per_rad", "0.01"), {"is an angle: leave this out"});
 }
 
+TEST(SecondSide, OfABaseIsInheritedWhereTheLawHasOne) {
+  const Directory directory("second");
+  directory.write("two.toml",
+                  "[type]\nname = \"two\"\ntitle = \"x\"\nbase = \"qbmove_maker_pro_paper\"\n[drive_2]\n"
+                  "friction_Nm = { value = 0.3, unit = \"N·m\", bounds = [0.0, 1.0], source = \"x\" }\n");
+  directory.write("again.toml", "[type]\nname = \"again\"\ntitle = \"x\"\nbase = \"two\"\n");
+  directory.write("one.toml",
+                  "[type]\nname = \"one\"\ntitle = \"x\"\nbase = \"two\"\n[elastic]\nlaw = \"series_spring\"\n"
+                  "stiffness_Nm_per_rad = { value = 10.0, unit = \"N·m/rad\", bounds = [1.0, 100.0], source = \"x\" }\n");
+  const config::TypeLibrary library({directory.path(), source_dir() / "actuators"});
+  EXPECT_EQ(library.load("again").unit.actuator.side[1].gearbox.friction.coulomb_Nm, 0.3);
+  const auto problems = problems_of([&] { (void)library.load("one"); });
+  EXPECT_TRUE(problems.empty()) << text_of(problems);
+}
+
 TEST(SecondSide, OfAModulatedEnablePinNeedsAnInductanceAndSaysWhoseKey) {
   const auto problems = problems_of([] {
     (void)shipped().load("qbmove_maker_pro_6_1", {{"drive_2.pwm_pin", "enable"}, {"drive_2.pwm_period_s", "5e-5"}});

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "vsa/device/unit.hpp"
@@ -47,6 +48,9 @@ inline constexpr std::string_view kPresetUnit = "preset unit";
 
 /// Those of the second side follow the group that they are of, made from its rows.
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
+
+/// Why an actuator with this law has no such parameter; empty: it may have it.
+[[nodiscard]] std::string why_absent(const Parameter& parameter, const elastic::Transmission& law);
 
 /// The firmware's 16.16 fixed point of a gain, truncated toward zero as its C cast does: 0.1 → 6553, −0.8 → −52428.
 [[nodiscard]] std::int32_t fixed_16_16(double gain) noexcept;
