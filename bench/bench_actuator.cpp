@@ -25,9 +25,20 @@ void sinh_cosh_pair(benchmark::State& state) {
 }
 BENCHMARK(sinh_cosh_pair);
 
+/// The same with a second side of other numbers, as fast as the first: no more friction, no slower motor.
+vsa::device::UnitConfig unlike() {
+  vsa::device::UnitConfig c = maker_pro();
+  vsa::actuator::SideParams& second = c.actuator.side[1];
+  second.motor.inertia_kgm2 *= 1.1;
+  second.motor.resistance_Ohm *= 0.95;
+  second.gearbox.friction.coulomb_Nm *= 0.9;
+  second.encoder.bits = 14;
+  return c;
+}
+
 /// A unit on a hanging lever whose equilibrium moves as in the snake's gait: 60° at 4.71 rad/s, Table II's preset.
-void actuator_step_1ms(benchmark::State& state) {
-  vsa::device::Unit unit(maker_pro());
+void step_of(benchmark::State& state, const vsa::device::UnitConfig& config) {
+  vsa::device::Unit unit(config);
   auto s = unit.initial(0, 0.6109, 0);
   double q = 0, v = 0, t = 0;
   std::int64_t n = 0;
@@ -41,12 +52,15 @@ void actuator_step_1ms(benchmark::State& state) {
   }
   benchmark::DoNotOptimize(q);
 }
+void actuator_step_1ms(benchmark::State& state) { step_of(state, maker_pro()); }
 BENCHMARK(actuator_step_1ms);
+void unlike_sides_step_1ms(benchmark::State& state) { step_of(state, unlike()); }
+BENCHMARK(unlike_sides_step_1ms);
 
 /// N units as above, each with its own place in the gait, side by side in lanes; the time is that of all.
-void lanes_of(benchmark::State& state, std::string_view instructions) {
+void lanes_of(benchmark::State& state, std::string_view instructions, const vsa::device::UnitConfig& config) {
   const auto count = static_cast<std::size_t>(state.range(0));
-  vsa::device::UnitBatch units(maker_pro(), count, instructions);
+  vsa::device::UnitBatch units(config, count, instructions);
   std::vector<double> q(count, 0.0), v(count, 0.0), inverse_inertia(count, 200.0), torque(count);
   double t = 0;
   std::int64_t n = 0;
@@ -64,8 +78,10 @@ void lanes_of(benchmark::State& state, std::string_view instructions) {
   benchmark::DoNotOptimize(q.data());
   state.SetLabel(std::string(units.instructions()));
 }
-void units_in_lanes(benchmark::State& state) { lanes_of(state, {}); }
+void units_in_lanes(benchmark::State& state) { lanes_of(state, {}, maker_pro()); }
 BENCHMARK(units_in_lanes)->Arg(64)->Arg(4096);
+void unlike_sides_in_lanes(benchmark::State& state) { lanes_of(state, {}, unlike()); }
+BENCHMARK(unlike_sides_in_lanes)->Arg(64)->Arg(4096);
 
 /// A whole robot of N units with its bus; items are actuator steps.
 void robot_step(benchmark::State& state) {
@@ -109,7 +125,7 @@ BENCHMARK(robot_step)->Arg(1)->Arg(12)->Arg(1000);
 int main(int argc, char** argv) {
   for (const std::string_view set : vsa::device::UnitBatch::instruction_sets())
     benchmark::RegisterBenchmark(("units_in_lanes_" + std::string(set)).c_str(), [set](benchmark::State& state) {
-      lanes_of(state, set);
+      lanes_of(state, set, maker_pro());
     })->Arg(64);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

@@ -12,8 +12,7 @@ int main() {
   constexpr double inertia = 0.005, dt = 1e-3;  // kg·m², s
   vsa::device::UnitConfig config;
   config.actuator.transmission = std::make_shared<vsa::elastic::TwoSinh>(vsa::elastic::TwoSinhParams{{0.022, 0.022}, {6.85, 6.85}});
-  config.actuator.motor = {0.001, 0.01, 0.8, 1.3, 2.3, std::nullopt};
-  config.actuator.gearbox = {1.0, {0.8, 0.03}};
+  config.actuator.set_both({.motor = {0.001, 0.01, 0.8, 1.3, 2.3, std::nullopt}, .gearbox = {1.0, {0.8, 0.03}}});
   config.actuator.shaft_friction = {0.01, 0.03};
   config.actuator.shaft_inertia_kgm2 = inertia;
   vsa::device::Unit unit(config);

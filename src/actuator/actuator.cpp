@@ -1,53 +1,57 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/actuator/actuator.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "vsa/actuator/actuator_lanes.hpp"
 
 namespace vsa::actuator {
 
-drive::FrictionParams shaft_friction(const ActuatorParams& params) noexcept {
-  drive::FrictionParams p = params.shaft_friction;
-  if (p.coulomb_Nm > 0) p.presliding_rad = std::max(p.presliding_rad, kLeastPresliding_rad);
-  return p;
+Actuator::Side::Side(const SideParams& p) noexcept
+    : motor(drive::at_pulley(p.motor, p.gearbox.ratio)),
+      friction(drive::at_pulley(p.gearbox.friction, p.gearbox.ratio)),
+      load_loss(p.gearbox.load_loss),
+      back_loss(p.gearbox.back_loss.value_or(p.gearbox.load_loss)),
+      bridge(p.bridge),
+      winding_Ohm(motor.resistance_Ohm),
+      winding_H(motor.inductance_H.value_or(0.0)),
+      chopped(p.bridge.pin == drive::PwmPin::enable) {
+  if (chopped) {
+    motor.inductance_H.reset();  // it shapes the current within a period, whose mean follows the speed at once
+  } else {
+    motor.resistance_Ohm += bridge.switch_Ohm;
+  }
 }
 
 Actuator::Actuator(ActuatorParams params)
     : params_(std::move(params)),
       two_sinh_(dynamic_cast<const elastic::TwoSinh*>(params_.transmission.get())),
-      motor_(drive::at_pulley(params_.motor, params_.gearbox.ratio)),
-      friction_(drive::at_pulley(params_.gearbox.friction, params_.gearbox.ratio)),
+      sides_{Side(params_.side[0]), Side(params_.side[params_.sides() - 1])},
       shaft_friction_(actuator::shaft_friction(params_)),
       tendon_(drive::FrictionParams{params_.tendon.friction, params_.tendon.presliding_J}),
       motors_(params_.transmission->motor_count()),
       springs_(params_.transmission->spring_count()),
-      chopped_(params_.bridge.pin == drive::PwmPin::enable),
-      back_loss_(params_.gearbox.back_loss.value_or(params_.gearbox.load_loss)),
-      winding_Ohm_(motor_.resistance_Ohm),
-      winding_H_(motor_.inductance_H.value_or(0.0)) {
-  if (chopped_) {
-    motor_.inductance_H.reset();  // it shapes the current within a period, whose mean follows the speed at once
-  } else {
-    motor_.resistance_Ohm += params_.bridge.switch_Ohm;
-  }
-}
+      steppers_of_{0, sides_[0].motor == sides_[1].motor ? std::size_t{0} : std::size_t{1}} {}
 
-const drive::MotorStepper& Actuator::stepper(double h_s, drive::Terminal terminal) noexcept {
-  if (prepared_[0].h_s != h_s) {
-    std::swap(prepared_[0], prepared_[1]);
-    if (prepared_[0].h_s != h_s) {
-      prepared_[0] = {h_s, {motor_, drive::Terminal::driven, h_s}, {motor_, drive::Terminal::open, h_s}};
+const drive::MotorStepper& Actuator::stepper(std::size_t i, double h_s, drive::Terminal terminal) noexcept {
+  const std::size_t of = steppers_of_[i];
+  auto& [first, second] = prepared_[of];
+  if (first.h_s != h_s) {
+    std::swap(first, second);
+    if (first.h_s != h_s) {
+      const drive::MotorParams& motor = sides_[of].motor;
+      first = {h_s, {motor, drive::Terminal::driven, h_s}, {motor, drive::Terminal::open, h_s}};
     }
   }
-  return terminal == drive::Terminal::driven ? prepared_[0].driven : prepared_[0].open;
+  return terminal == drive::Terminal::driven ? first.driven : first.open;
 }
 
 bool Actuator::has_lanes() const noexcept {
-  const bool gears = friction_.stiffness > 0 || (friction_.coulomb_Nm <= 0 && params_.gearbox.load_loss == 0 && back_loss_ == 0);
-  return two_sinh_ != nullptr && gears && !chopped_ && !motor_.inductance_H;
+  const auto side = [](const Side& s) {
+    const bool gears = s.friction.stiffness > 0 || (s.friction.coulomb_Nm <= 0 && s.load_loss == 0 && s.back_loss == 0);
+    return gears && !s.chopped && !s.motor.inductance_H;
+  };
+  return two_sinh_ != nullptr && side(sides_[0]) && side(sides_[1]);
 }
 
 SegmentResult Actuator::segment(ActuatorState& s, double h_s, const SegmentInput& in) noexcept {

@@ -18,8 +18,8 @@ constexpr double kSameSpeed_rad_per_s = 1e-4;  // a line about a speed as near a
 
 }  // namespace
 
-drive::PwmCycle Actuator::new_cycle(const drive::PwmHold& hold) const noexcept {
-  return {params_.bridge, hold.supply_V, winding_Ohm_, winding_H_, hold.duty};
+drive::PwmCycle Actuator::new_cycle(int i, const drive::PwmHold& hold) const noexcept {
+  return {sides_[i].bridge, hold.supply_V, sides_[i].winding_Ohm, sides_[i].winding_H, hold.duty};
 }
 
 const drive::PwmCycle& Actuator::cycle(int i, const drive::PwmHold& hold) noexcept {
@@ -27,7 +27,7 @@ const drive::PwmCycle& Actuator::cycle(int i, const drive::PwmHold& hold) noexce
   const auto same = [&](const drive::PwmCycle& c) { return c.duty() == hold.duty && c.supply_V() == hold.supply_V; };
   if (!same(first)) {
     std::swap(first, second);
-    if (!same(first)) first = new_cycle(hold);
+    if (!same(first)) first = new_cycle(i, hold);
   }
   return first;
 }
@@ -42,11 +42,12 @@ void Actuator::begin_pwm(Segment& seg, int i, double speed, double h_s) noexcept
 
 void Actuator::aim(Segment& seg, int i, double speed) const noexcept {
   PwmInSegment& pwm = seg.pwm[i];
-  const drive::PwmMean mean = pwm.cycle->mean(motor_.back_emf_Vs_per_rad * speed);
-  const double droop = mean.conductance * motor_.back_emf_Vs_per_rad;
+  const drive::MotorParams& motor = sides_[i].motor;
+  const drive::PwmMean mean = pwm.cycle->mean(motor.back_emf_Vs_per_rad * speed);
+  const double droop = mean.conductance * motor.back_emf_Vs_per_rad;
   pwm.aim = speed;
   pwm.current_at_rest = mean.current + droop * speed;
-  if (droop != pwm.stepper.droop_As_per_rad() || pwm.stepper.h_s() != pwm.h) pwm.stepper = {motor_, droop, pwm.h};
+  if (droop != pwm.stepper.droop_As_per_rad() || pwm.stepper.h_s() != pwm.h) pwm.stepper = {motor, droop, pwm.h};
   seg.free[i] = pwm.stepper.free_displacement(pwm.start, pwm.current_at_rest);
   seg.give[i] = pwm.stepper.compliance();
 }
@@ -56,8 +57,8 @@ void Actuator::follow(Segment& seg, int i) const noexcept {
   if (std::abs(speed - seg.pwm[i].aim) > kSameSpeed_rad_per_s) aim(seg, i, speed);
 }
 
-drive::MotorStep Actuator::pwm_step(Ledger& l, const PwmInSegment& pwm, double torque) const noexcept {
-  const double emf_per_speed = motor_.back_emf_Vs_per_rad;
+drive::MotorStep Actuator::pwm_step(Ledger& l, const Side& side, const PwmInSegment& pwm, double torque) const noexcept {
+  const double emf_per_speed = side.motor.back_emf_Vs_per_rad;
   const drive::MotorStep step = pwm.stepper.step(pwm.start, pwm.current_at_rest, torque);
   const drive::PwmPower power = pwm.cycle->power(emf_per_speed * step.displacement / pwm.h);
   const double apart = pwm.stepper.spread(pwm.start, pwm.current_at_rest, torque);
@@ -73,10 +74,10 @@ drive::MotorStep Actuator::pwm_step(Ledger& l, const PwmInSegment& pwm, double t
 double Actuator::pwm_current(const drive::MotorState& motor, int i, drive::Terminal terminal,
                              const drive::PwmHold& hold) const noexcept {
   if (terminal == drive::Terminal::open || !(hold.supply_V > 0)) return 0.0;
-  const double emf = motor_.back_emf_Vs_per_rad * motor.speed;
+  const double emf = sides_[i].motor.back_emf_Vs_per_rad * motor.speed;
   for (const drive::PwmCycle& known : cycles_[i])
     if (known.duty() == hold.duty && known.supply_V() == hold.supply_V) return known.mean(emf).current;
-  return new_cycle(hold).mean(emf).current;
+  return new_cycle(i, hold).mean(emf).current;
 }
 
 }  // namespace vsa::actuator

@@ -62,8 +62,8 @@ elastic::Response Actuator::response(const ActuatorState& s, double shaft) const
 
 double Actuator::motor_current(const ActuatorState& s, int i, double voltage, drive::Terminal terminal,
                                double supply_V) const noexcept {
-  return chopped_ ? pwm_current(s.motor[i], i, terminal, {voltage / supply_V, supply_V})
-                  : drive::current(motor_, terminal, s.motor[i], voltage);
+  return sides_[i].chopped ? pwm_current(s.motor[i], i, terminal, {voltage / supply_V, supply_V})
+                           : drive::current(sides_[i].motor, terminal, s.motor[i], voltage);
 }
 
 }  // namespace vsa::actuator

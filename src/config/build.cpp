@@ -5,7 +5,7 @@
 
 #include "config/resolve.hpp"
 #include "vsa/config/text.hpp"
-#include "vsa/elastic/transmission.hpp"
+#include "vsa/elastic/travel.hpp"
 
 namespace vsa::config {
 namespace {
@@ -65,45 +65,28 @@ Spec spec_of(const Parameter& p, const Law& law) {
 
 void read_parameter(const Parameter& p, const Law& law, Resolver& resolver, device::UnitConfig& unit) {
   const Spec spec = spec_of(p, law);
-  if (spec.unit.empty() && p.unit == kPresetUnit) {
-    if (resolver.has(p.key)) resolver.problem(resolver.line_of(p.key), spec.key, "", "the law has no preset: leave this out");
+  if (const std::string why = law ? why_absent(p, *law) : ""; !why.empty()) {
+    if (resolver.has_own(p.key)) resolver.problem(resolver.line_of(p.key), spec.key, "", why);  // a base's isn't this file's fault
     resolver.know(p.key);
-    unit.preset_max = 0;
+    if (p.unit == kPresetUnit) unit.preset_max = 0;
     return;
   }
   if (const auto value = resolver.resolve(spec)) {
-    p.set(unit, *value);
+    p.apply(unit, *value);
   } else if (p.need == Need::required && spec.unit != "?") {  // without its law nobody knows whether it has a preset
     resolver.report_missing(spec);
   } else if (p.need == Need::defaulted && !resolver.has(p.key)) {
-    p.set(unit, resolver.use_default(spec, p.default_value, p.default_source));
+    p.apply(unit, resolver.use_default(spec, p.default_value, p.default_source));
   }
 }
 
-/// What single values can't show.
+/// What the models need beyond single values; of keys that have none, and of a law that couldn't be made, enough is said.
 void check_together(const device::UnitConfig& unit, Resolver& resolver) {
-  if (const auto& law = unit.actuator.transmission; law && law->spring_count() == 0 && unit.actuator.tendon.friction > 0) {
-    resolver.problem(resolver.line_of("tendon.friction"), "tendon.friction", number_text(unit.actuator.tendon.friction),
-                     "the law names no spring that a tension could load", "0");
-  }
-  if (unit.actuator.tendon.friction > 0 && unit.actuator.tendon.presliding_J <= 0) {
-    resolver.problem(resolver.line_of("tendon.presliding_J"), "tendon.presliding_J", number_text(unit.actuator.tendon.presliding_J),
-                     "tendon.friction needs a presliding", "above 0");
-  }
-  const drive::BridgeParams& bridge = unit.actuator.bridge;
-  if (bridge.pin == drive::PwmPin::enable && bridge.period_s > 0 && !unit.actuator.motor.inductance_H) {
-    resolver.problem(resolver.line_of("drive.inductance_H"), "drive.inductance_H", "",
-                     "a modulated enable pin with a period needs the winding's inductance", "above 0, or drive.pwm_period_s = 0");
-  }
-  if (unit.program.generation != firmware::Generation::v6 && unit.program.model != firmware::Model::maker_pro) {
-    resolver.problem(resolver.line_of("firmware.generation"), "firmware.generation", "",
-                     "older loops are those of the maker pro: the advanced unit has one", "6.1, or firmware.model = maker_pro");
-  }
-  const std::int32_t low = unit.memory.limit_low[0], high = unit.memory.limit_high[0];
-  if (low >= high) {
-    resolver.problem(resolver.line_of("firmware.limit_low_raw"), "firmware.limit_low_raw", std::to_string(low),
-                     "must be below firmware.limit_high_raw", "below " + std::to_string(high));
-  }
+  Problems found;
+  device::validate(unit, "", found);
+  for (const Problem& p : found.list())
+    if (p.key != "elastic.law" && !resolver.failed(p.key))
+      resolver.problem(resolver.line_of(p.key), p.key, p.value, p.message, p.allowed);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace vsa::config {
 namespace {
 
-const std::vector<std::string> kGroups{"type",  "evidence", "elastic",  "drive",  "tendon",
-                                       "shaft", "sensor",   "firmware", "limits", "physics"};
+const std::vector<std::string> kGroups{"type",  "evidence", "elastic",  "drive",    "drive_2", "tendon",
+                                       "shaft", "sensor",   "sensor_2", "firmware", "limits",  "physics"};
 const std::vector<std::string> kTypeKeys{"name", "title", "description", "rank", "base"};
 const std::vector<std::string> kRanks{"measured", "published", "symbolic"};
 const std::vector<std::string> kItemKeys{"value", "unit", "bounds", "source"};

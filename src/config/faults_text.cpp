@@ -47,7 +47,7 @@ class Reader {
   }
 
   device::Faults finish() {
-    device::check(faults_, std::string(source_) + ": ", problems_);
+    device::validate(faults_, std::string(source_) + ": ", problems_);
     problems_.throw_if_any();
     return faults_;
   }

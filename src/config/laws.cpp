@@ -2,7 +2,6 @@
 //
 // The elastic laws that actuator types may name: the library's (vsa/elastic/law.hpp) and whatever is added.
 #include "vsa/config/actuator_type.hpp"
-#include "vsa/config/text.hpp"
 #include "vsa/elastic/law.hpp"
 #include "vsa/errors.hpp"
 
@@ -20,12 +19,9 @@ void LawRegistry::add(const elastic::Law& law) {
   add(std::string(law.name), [&law](LawReader& reader) {
     std::vector<double> values;
     for (const elastic::LawParameter& p : law.parameters) values.push_back(reader.number(p.key, p.unit, p.min, p.max, p.meaning));
-    if (const auto fault = law.fault != nullptr ? law.fault(values) : std::nullopt) {
-      std::string value;
-      for (std::size_t i = 0; i < values.size(); ++i)
-        if (law.parameters[i].key == fault->key) value = number_text(values[i]);
-      throw InputError(Problem{"", std::string(fault->key), value, fault->message, fault->allowed});
-    }
+    Problems problems;
+    elastic::validate(law, values, "", problems);
+    problems.throw_if_any();
     return law.make(values);
   });
 }

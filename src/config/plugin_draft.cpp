@@ -73,7 +73,7 @@ class Finisher {
       out.unit = type->unit;
       if (!a.overrides.empty()) out.changed = settings(a.overrides);
       check_initial(a, out);
-      if (a.motor_at_pulley && type->unit.actuator.gearbox.ratio != 1)
+      if (a.motor_at_pulley && type->unit.actuator.side[0].gearbox.ratio != 1)
         add(a.path + "/type", '"' + a.type + '"', "has a gearbox, and the toolbox's motor values are at the pulley",
             "a type with drive.gear_ratio 1, or <override>s at the motor's shaft");
     }

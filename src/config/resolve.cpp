@@ -131,10 +131,13 @@ int Resolver::line_of(std::string_view key) const {
   return item && item->file.empty() ? item->line : 0;
 }
 
-bool Resolver::has(std::string_view key) const {
+bool Resolver::has_own(std::string_view key) const {
   const auto same = [&](const Override& o) { return o.key == key; };
-  return find(key) != nullptr || std::any_of(overrides_.begin(), overrides_.end(), same);
+  const Item* item = find(key);
+  return (item != nullptr && item->file.empty()) || std::any_of(overrides_.begin(), overrides_.end(), same);
 }
+
+bool Resolver::has(std::string_view key) const { return find(key) != nullptr || has_own(key); }
 
 std::optional<double> Resolver::resolve(const Spec& spec) {
   asked_.insert(spec.key);
@@ -156,6 +159,7 @@ std::optional<double> Resolver::resolve(const Spec& spec) {
     value = from_override(spec, item, o.value);
   }
   if (value) entries_.push_back(make_entry(spec, item, *value, source));
+  if (!value && (item != nullptr || given > 0)) failed_.insert(spec.key);
   return value;
 }
 
@@ -216,9 +220,14 @@ std::optional<double> Resolver::in_range(const Spec& spec, const Item* item, dou
   return std::nullopt;
 }
 
-void Resolver::report_missing(const Spec& spec) {
+bool Resolver::failed(std::string_view key) const {
   const auto& broken = document_.broken;
-  if (has(spec.key) || std::find(broken.begin(), broken.end(), spec.key) != broken.end()) return;  // wrong, and reported
+  return failed_.find(key) != failed_.end() || std::find(broken.begin(), broken.end(), key) != broken.end();
+}
+
+void Resolver::report_missing(const Spec& spec) {
+  if (has(spec.key) || failed(spec.key)) return;  // wrong, and reported
+  failed_.insert(spec.key);
   problem(0, spec.key, "", "is missing (" + std::string(spec.meaning) + ")", allowed_text(spec) + unit_text(spec));
 }
 

@@ -33,6 +33,10 @@ class Resolver {
   Resolver(const Document& document, const std::vector<Override>& overrides, Problems& problems);
 
   [[nodiscard]] bool has(std::string_view key) const;
+  /// In the file itself or by an override, not only in its base.
+  [[nodiscard]] bool has_own(std::string_view key) const;
+  /// It has no value that could be judged: missing or wrong, and reported.
+  [[nodiscard]] bool failed(std::string_view key) const;
   /// The value (a word's index, 0 or 1 for a switch), with its entry added to entries(); none: absent, or wrong and reported.
   [[nodiscard]] std::optional<double> resolve(const Spec& spec);
   /// The same for a value that the schema gives.
@@ -59,7 +63,7 @@ class Resolver {
   const std::vector<Override>& overrides_;
   Problems& problems_;
   std::vector<Entry> entries_;
-  std::set<std::string, std::less<>> asked_;
+  std::set<std::string, std::less<>> asked_, failed_;
 };
 
 }  // namespace vsa::config

@@ -1,7 +1,11 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/config/schema.hpp"
 
+#include <array>
 #include <cstdint>
+#include <iterator>
+
+#include "vsa/elastic/travel.hpp"
 
 namespace vsa::config {
 namespace {
@@ -12,6 +16,20 @@ constexpr std::string_view kFirmware = "the published firmware, NMMI/qbmove-make
 constexpr std::string_view kDefect = "the published programs have this defect";
 constexpr std::string_view kSensor = "AS5045 magnetic encoder, as the qbmove has";
 constexpr std::string_view kPulleySide = "numbers given at the driving pulley need no ratio";
+
+void set_bits(Unit& u, double v) {
+  for (auto* encoder : {&u.actuator.side[0].encoder, &u.actuator.side[1].encoder, &u.actuator.shaft_encoder})
+    encoder->bits = static_cast<int>(v);
+}
+void set_zero(Unit& u, double v) {
+  for (auto* encoder : {&u.actuator.side[0].encoder, &u.actuator.side[1].encoder, &u.actuator.shaft_encoder}) encoder->zero_rad = v;
+}
+
+/// Of an input that is an angle there is none; reading a type refuses it.
+void set_lead(Unit& u, std::size_t i, double v) {
+  auto& law = u.actuator.transmission;
+  if (law && elastic::own_input_unit(*law, i) == "m") law = elastic::with_lead(law, i, v);
+}
 
 void set_resolution(Unit& u, double v) { u.memory.resolution.fill(static_cast<std::uint8_t>(v)); }
 
@@ -27,50 +45,61 @@ void set_model(Unit& u, double v) {
 // Bounds are what the models accept and a real actuator could have; a type narrows them to what its device could have.
 constexpr Parameter kTable[] = {
     {"drive.supply_V", "V", Kind::number, 0, 100, "", "supply voltage of the bridge", Need::required, "", "",
-     [](Unit& u, double v) { u.actuator.bridge.supply_V = v; }},
+     [](Unit& u, double v) { u.actuator.supply_V = v; }},
     {"drive.dead_band", "1", Kind::number, 0, 0.99, "", "controller output below which the bridge gives nothing, 1 = full output",
-     Need::required, "", "", [](Unit& u, double v) { u.actuator.bridge.dead_band = v; }},
+     Need::required, "", "", nullptr, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].bridge.dead_band = v; }},
     {"drive.off_mode", "", Kind::word, 0, 0, "brake|coast",
      "motors off: terminals shorted (brake) or open (coast); a modulated enable pin leaves them open", Need::defaulted, "brake",
-     "assumption: unknown for the qbmove; shorted terminals are usual for such bridges",
-     [](Unit& u, double v) { u.actuator.bridge.brake_when_off = v == 0; }},
+     "assumption: unknown for the qbmove; shorted terminals are usual for such bridges", nullptr,
+     [](Unit& u, std::size_t i, double v) { u.actuator.side[i].bridge.brake_when_off = v == 0; }},
     {"drive.pwm_pin", "", Kind::word, 0, 0, "input|enable",
      "pin of the bridge that the PWM modulates: shorted (input) or open (enable) for the rest of its period", Need::defaulted,
-     "input", "NMMI/qbmove-maker-pro from v4.0.2 on (docs/lab/firmware-history.md)",
-     [](Unit& u, double v) { u.actuator.bridge.pin = v == 0 ? drive::PwmPin::input : drive::PwmPin::enable; }},
+     "input", "NMMI/qbmove-maker-pro from v4.0.2 on (docs/lab/firmware-history.md)", nullptr,
+     [](Unit& u, std::size_t i, double v) {
+       u.actuator.side[i].bridge.pin = v == 0 ? drive::PwmPin::input : drive::PwmPin::enable;
+     }},
     {"drive.pwm_period_s", "s", Kind::number, 0, 1e-3, "",
      "period of the PWM, of effect with pwm_pin enable; 0: far below the winding's L/R", Need::defaulted, "0",
-     "fast switching: no ripple", [](Unit& u, double v) { u.actuator.bridge.period_s = v; }},
+     "fast switching: no ripple", nullptr, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].bridge.period_s = v; }},
     {"drive.switch_Ohm", "Ω", Kind::number, 0, 100, "", "the bridge's two switches in the current's path", Need::defaulted, "0",
-     "in drive.resistance_Ohm, if at all", [](Unit& u, double v) { u.actuator.bridge.switch_Ohm = v; }},
+     "in drive.resistance_Ohm, if at all", nullptr,
+     [](Unit& u, std::size_t i, double v) { u.actuator.side[i].bridge.switch_Ohm = v; }},
     {"drive.diode_V", "V", Kind::number, 0, 5, "", "drop of one of the bridge's diodes, passed with pwm_pin enable only",
-     Need::defaulted, "0", "ideal diodes", [](Unit& u, double v) { u.actuator.bridge.diode_V = v; }},
+     Need::defaulted, "0", "ideal diodes", nullptr,
+     [](Unit& u, std::size_t i, double v) { u.actuator.side[i].bridge.diode_V = v; }},
     {"drive.inertia_kgm2", "kg·m²", Kind::number, 1e-9, 100, "", "rotor and gears, at the motor's shaft", Need::required, "", "",
-     [](Unit& u, double v) { u.actuator.motor.inertia_kgm2 = v; }},
+     nullptr, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].motor.inertia_kgm2 = v; }},
     {"drive.viscous_Nms_per_rad", "N·m·s/rad", Kind::number, 0, 100, "", "viscous friction b, at the motor's shaft", Need::required,
-     "", "", [](Unit& u, double v) { u.actuator.motor.viscous_Nms_per_rad = v; }},
+     "", "", nullptr, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].motor.viscous_Nms_per_rad = v; }},
     {"drive.torque_constant_Nm_per_A", "N·m/A", Kind::number, 1e-6, 100, "", "torque per current, at the motor's shaft",
-     Need::required, "", "", [](Unit& u, double v) { u.actuator.motor.torque_constant_Nm_per_A = v; }},
+     Need::required, "", "", nullptr,
+     [](Unit& u, std::size_t i, double v) { u.actuator.side[i].motor.torque_constant_Nm_per_A = v; }},
     {"drive.back_emf_Vs_per_rad", "V·s/rad", Kind::number, 0, 100, "", "voltage per speed, at the motor's shaft", Need::required,
-     "", "", [](Unit& u, double v) { u.actuator.motor.back_emf_Vs_per_rad = v; }},
-    {"drive.resistance_Ohm", "Ω", Kind::number, 1e-3, 1e4, "", "winding and wiring", Need::required, "", "",
-     [](Unit& u, double v) { u.actuator.motor.resistance_Ohm = v; }},
+     "", "", nullptr, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].motor.back_emf_Vs_per_rad = v; }},
+    {"drive.resistance_Ohm", "Ω", Kind::number, 1e-3, 1e4, "", "winding and wiring", Need::required, "", "", nullptr,
+     [](Unit& u, std::size_t i, double v) { u.actuator.side[i].motor.resistance_Ohm = v; }},
     {"drive.inductance_H", "H", Kind::number, 1e-7, 100, "",
      "winding; left out: the current follows voltage and speed at once; with pwm_pin enable it shapes the current within a period",
-     Need::optional, "", "", [](Unit& u, double v) { u.actuator.motor.inductance_H = v; }},
+     Need::optional, "", "", nullptr, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].motor.inductance_H = v; }},
     {"drive.gear_ratio", "1", Kind::number, 1e-3, 1e5, "", "motor turns per pulley turn, n", Need::defaulted, "1", kPulleySide,
-     [](Unit& u, double v) { u.actuator.gearbox.ratio = v; }},
+     nullptr, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].gearbox.ratio = v; }},
     {"drive.friction_Nm", "N·m", Kind::number, 0, 1000, "", "Coulomb friction of motor and gearbox, at the motor's shaft",
-     Need::required, "", "", [](Unit& u, double v) { u.actuator.gearbox.friction.coulomb_Nm = v; }},
+     Need::required, "", "", nullptr, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].gearbox.friction.coulomb_Nm = v; }},
     {"drive.presliding_rad", "rad", Kind::number, 0, 1, "", "displacement before that friction slides, at the pulley",
-     Need::required, "", "", [](Unit& u, double v) { u.actuator.gearbox.friction.presliding_rad = v; }},
+     Need::required, "", "", nullptr,
+     [](Unit& u, std::size_t i, double v) { u.actuator.side[i].gearbox.friction.presliding_rad = v; }},
     {"drive.load_loss", "1", Kind::number, 0, 10, "", "friction that the gearbox adds per load torque, 1/η − 1", Need::defaulted,
-     "0", "loss given as a constant only", [](Unit& u, double v) { u.actuator.gearbox.load_loss = v; }},
+     "0", "loss given as a constant only", nullptr,
+     [](Unit& u, std::size_t i, double v) { u.actuator.side[i].gearbox.load_loss = v; }},
     {"drive.back_loss", "1", Kind::number, 0, 10, "",
-     "the same where the load drives the motor back, 1 − η; left out: as drive.load_loss", Need::optional, "", "",
-     [](Unit& u, double v) { u.actuator.gearbox.back_loss = v; }},
+     "the same where the load drives the motor back, 1 − η; left out: as drive.load_loss", Need::optional, "", "", nullptr,
+     [](Unit& u, std::size_t i, double v) { u.actuator.side[i].gearbox.back_loss = v; }},
+    {"drive.lead_m_per_rad", "m/rad", Kind::number, 1e-7, 10, "",
+     "travel of the law's input a pulley's radian, where that input is a travel: a screw, a rack, a winch", Need::optional, "", "",
+     nullptr, set_lead},
     {"drive.polarity", "", Kind::word, 0, 0, "-1|1", "-1: motor wired against its encoder", Need::defaulted, "1",
-     "motor and encoder turn the same way", [](Unit& u, double v) { u.polarity = v == 0 ? -1 : 1; }},
+     "motor and encoder turn the same way", nullptr,
+     [](Unit& u, std::size_t i, double v) { u.actuator.side[i].polarity = v == 0 ? -1 : 1; }},
     {"shaft.friction_Nm", "N·m", Kind::number, 0, 1000, "", "Coulomb friction of the output shaft", Need::required, "", "",
      [](Unit& u, double v) { u.actuator.shaft_friction.coulomb_Nm = v; }},
     {"shaft.presliding_rad", "rad", Kind::number, 0, 1, "", "displacement before that friction slides", Need::required, "", "",
@@ -84,10 +113,10 @@ constexpr Parameter kTable[] = {
      Need::defaulted, "0", "slides at once", [](Unit& u, double v) { u.actuator.tendon.presliding_J = v; }},
     {"tendon.damping_s", "s", Kind::number, 0, 0.1, "", "damper of the bristle that presliding bends, over its stiffness",
      Need::defaulted, "0", "no damper", [](Unit& u, double v) { u.actuator.tendon.damping_s = v; }},
-    {"sensor.encoder_bits", "bit", Kind::integer, 1, 16, "", "resolution of all three encoders, 2^bits per turn", Need::defaulted,
-     "12", kSensor, [](Unit& u, double v) { u.actuator.encoder.bits = static_cast<int>(v); }},
-    {"sensor.encoder_zero_rad", "rad", Kind::number, -3.2, 3.2, "", "reading = angle + zero, all three encoders", Need::defaulted,
-     "0", "ideal calibration", [](Unit& u, double v) { u.actuator.encoder.zero_rad = v; }},
+    {"sensor.encoder_bits", "bit", Kind::integer, 1, 16, "", "resolution of the encoders, 2^bits per turn", Need::defaulted, "12",
+     kSensor, set_bits, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].encoder.bits = static_cast<int>(v); }},
+    {"sensor.encoder_zero_rad", "rad", Kind::number, -3.2, 3.2, "", "reading of an encoder = angle + zero", Need::defaulted, "0",
+     "ideal calibration", set_zero, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].encoder.zero_rad = v; }},
     {"sensor.shaft_zero_rad", "rad", Kind::number, -3.2, 3.2, "", "added to the shaft's reading alone", Need::defaulted, "0",
      "ideal calibration", [](Unit& u, double v) { u.actuator.shaft_zero_rad = v; }},
     {"firmware.model", "", Kind::word, 0, 0, "maker_pro|advanced", "which program the unit runs", Need::defaulted, "maker_pro",
@@ -156,9 +185,76 @@ constexpr Parameter kTable[] = {
      Need::defaulted, "0.001", "one firmware tick", [](Unit& u, double v) { u.substep_max_s = v; }},
 };
 
+constexpr std::string_view group_of(std::string_view key) noexcept { return key.substr(0, key.find('.')); }
+
+constexpr std::size_t kRows = std::size(kTable);
+constexpr std::size_t kSided = [] {
+  std::size_t n = 0;
+  for (const Parameter& p : kTable) n += p.set_side != nullptr ? 1 : 0;
+  return n;
+}();
+
+/// "drive.friction_Nm" → "drive_2.friction_Nm"
+struct SecondKey {
+  std::array<char, 48> text{};
+  std::size_t size = 0;
+  constexpr void add(std::string_view part) noexcept {
+    for (const char c : part) text[size++] = c;
+  }
+  [[nodiscard]] constexpr std::string_view view() const noexcept { return {text.data(), size}; }
+};
+constexpr auto kSecondKeys = [] {
+  std::array<SecondKey, kSided> keys{};
+  std::size_t n = 0;
+  for (const Parameter& p : kTable) {
+    if (p.set_side == nullptr) continue;
+    keys[n].add(group_of(p.key));
+    keys[n].add("_2");
+    keys[n++].add(p.key.substr(group_of(p.key).size()));
+  }
+  return keys;
+}();
+
+constexpr auto kAll = [] {
+  std::array<Parameter, kRows + kSided> all{};
+  std::size_t to = 0, key = 0;
+  for (std::size_t begin = 0, end = 0; begin < kRows; begin = end) {
+    while (end < kRows && group_of(kTable[end].key) == group_of(kTable[begin].key)) all[to++] = kTable[end++];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (kTable[i].set_side == nullptr) continue;
+      Parameter& p = all[to++] = kTable[i];
+      p.key = kSecondKeys[key++].view();
+      p.need = Need::optional;
+      p.default_value = p.default_source = {};
+      p.second = true;
+    }
+  }
+  return all;
+}();
+
 }  // namespace
 
-std::span<const Parameter> parameters() noexcept { return kTable; }
+void Parameter::apply(device::UnitConfig& to, double value) const {
+  if (second) {
+    set_side(to, 1, value);
+  } else if (set != nullptr) {
+    set(to, value);
+  } else {
+    for (std::size_t i = 0; i < to.actuator.side.size(); ++i) set_side(to, i, value);
+  }
+}
+
+std::string why_absent(const Parameter& p, const elastic::Transmission& law) {
+  if (p.unit == kPresetUnit && law.preset_unit().empty()) return "the law has no preset: leave this out";
+  if (p.second && law.motor_count() < 2) return "the law has one motor: leave this out";
+  if (p.key.substr(p.key.find('.') + 1) != "lead_m_per_rad") return {};
+  bool travels = false;
+  for (std::size_t i = p.second ? 1 : 0; i < static_cast<std::size_t>(law.motor_count()); ++i)
+    travels = travels || elastic::own_input_unit(law, i) == "m";
+  return travels ? "" : "what this motor moves in the law is an angle: leave this out";
+}
+
+std::span<const Parameter> parameters() noexcept { return kAll; }
 
 std::int32_t fixed_16_16(double gain) noexcept { return static_cast<std::int32_t>(gain * 65536.0); }
 

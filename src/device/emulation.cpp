@@ -88,7 +88,7 @@ void Emulation::step() {
 void Emulation::set_faults(std::size_t unit, const Faults& faults) {
   Problems problems;
   if (unit >= size()) problems.add({"", "unit", std::to_string(unit), "no such unit", "below " + std::to_string(size())});
-  check(faults, "", problems);
+  validate(faults, "", problems);
   problems.throw_if_any();
   const std::lock_guard lock(faults_mutex_);
   faults_.emplace_back(unit, faults);

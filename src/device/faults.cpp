@@ -2,20 +2,12 @@
 #include "vsa/device/faults.hpp"
 
 #include <cmath>
-#include <sstream>
+#include <string>
 
+#include "vsa/checks.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::device {
-namespace {
-
-std::string text_of(double v) {
-  std::ostringstream out;
-  out << v;
-  return out.str();
-}
-
-}  // namespace
 
 Wiring Faults::wiring() const noexcept {
   return {powered, lost_byte, flipped_byte, static_cast<std::int64_t>(std::llround(late_s * 1e9))};
@@ -28,10 +20,10 @@ const char* Faults::impossible() const noexcept {
   return possible && within(supply_V.value_or(0), kMostSupply_V) ? nullptr : "faults within their bounds";
 }
 
-void check(const Faults& f, std::string_view where, Problems& problems) {
+void validate(const Faults& f, std::string_view where, Problems& problems) {
+  Checks check(where, problems);
   const auto within = [&](const std::string& key, double v, double max, const char* unit) {
-    if (v >= 0 && v <= max) return;
-    problems.add({"", std::string(where) + key, text_of(v), "is out of range", "0 … " + text_of(max) + unit});
+    if (!(v >= 0 && v <= max)) check.refuse(key, Checks::text(v), "is out of range", "0 … " + Checks::text(max) + unit);
   };
   within("lost_byte", f.lost_byte, 1, "");
   within("flipped_byte", f.flipped_byte, 1, "");

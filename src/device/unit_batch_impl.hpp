@@ -82,7 +82,7 @@ struct UnitBatch::Impl {
   std::size_t loop_bytes = 0;
   std::unique_ptr<std::byte[], FreeBlocks> loops;
   TickStep common;  // what all ticks have in common
-  std::array<double, 2 * kFull + 1> volts_of_duty{};
+  std::array<std::array<double, 2 * kFull + 1>, 2> volts_of_duty{};
   MilliVolt supply{};
   std::int64_t last_tick_ns = 0;
   std::vector<double> angle, speed, inverse_inertia, torque, voltage[2], motor_angle[2], motor_speed[2];

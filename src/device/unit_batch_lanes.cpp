@@ -12,19 +12,22 @@ namespace vsa::device {
 /// What the ticks of this type's plain units have in common.
 void UnitBatch::Impl::prepare_ticks() noexcept {
   const UnitConfig& c = unit.config();
-  const drive::MotorParams motor = drive::at_pulley(c.actuator.motor, c.actuator.gearbox.ratio);
-  const int adc = sensor::supply_adc(c.actuator.bridge.supply_V);
-  supply = firmware::supply_reading(adc);
-  common.encoder = c.actuator.encoder;
+  supply = firmware::supply_reading(sensor::supply_adc(c.actuator.supply_V));
+  common.encoder[2] = c.actuator.shaft_encoder;
   common.shaft_zero_rad = c.actuator.shaft_zero_rad;
-  common.back_emf_Vs_per_rad = motor.back_emf_Vs_per_rad;
-  common.resistance_Ohm = motor.resistance_Ohm + c.actuator.bridge.switch_Ohm;
   common.limit_pct = c.supply_limited() ? firmware::supply_limit_pct(supply) : kFull;
-  common.volts_of_duty = volts_of_duty.data();
-  for (std::size_t i = 0; i < volts_of_duty.size() && common.limit_pct > 0; ++i) {
-    const double duty = static_cast<double>(i) - kFull;
-    volts_of_duty[i] =
-        c.polarity * drive::bridge_voltage(c.actuator.bridge, duty / common.limit_pct, common.limit_pct / kDutyScale);
+  for (std::size_t m = 0; m < 2; ++m) {
+    const actuator::SideParams& side = c.actuator.side[m];
+    const drive::MotorParams motor = drive::at_pulley(side.motor, side.gearbox.ratio);
+    common.encoder[m] = side.encoder;
+    common.back_emf_Vs_per_rad[m] = motor.back_emf_Vs_per_rad;
+    common.resistance_Ohm[m] = motor.resistance_Ohm + side.bridge.switch_Ohm;
+    common.volts_of_duty[m] = volts_of_duty[m].data();
+    for (std::size_t i = 0; i < volts_of_duty[m].size() && common.limit_pct > 0; ++i) {
+      const double output = (static_cast<double>(i) - kFull) / common.limit_pct;
+      volts_of_duty[m][i] =
+          side.polarity * drive::bridge_voltage(side.bridge, c.actuator.supply_V, output, common.limit_pct / kDutyScale);
+    }
   }
 }
 
@@ -52,7 +55,7 @@ bool UnitBatch::Impl::plain(const UnitState& s) const noexcept {
                     alike(c.orders_old, c.orders_new) && c.current[0].value == c.current_old[0].value &&
                     c.current[1].value == c.current_old[1].value;
   return program && mode && idle && loop && p.enable == 3 && s.supply_on && s.faults == sound &&
-         s.held.supply_V == unit.config().actuator.bridge.supply_V;
+         s.held.supply_V == unit.config().actuator.supply_V;
 }
 
 void UnitBatch::Impl::ticks_to_lanes(std::size_t b) noexcept {

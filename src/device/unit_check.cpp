@@ -1,86 +1,21 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // What the models need of a unit's parameters.
-#include <cmath>
-#include <limits>
 #include <string>
 
-#include "device/text.hpp"
+#include "vsa/checks.hpp"
 #include "vsa/device/unit.hpp"
 
 namespace vsa::device {
-namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTiny = std::numeric_limits<double>::min();
-
-class Bounds {
- public:
-  Bounds(std::string_view where, Problems& problems) : where_(where), problems_(problems) {}
-
-  void within(const char* key, double v, double min, double max) {
-    if (std::isfinite(v) && v >= min && v <= max) return;
-    std::string allowed = min <= 0 ? "≥ " + text_of(min) : min == kTiny ? "above 0" : "≥ " + text_of(min);
-    if (max != kInfinity) allowed = text_of(min == kTiny ? 0 : min) + " … " + text_of(max);
-    problems_.add({"", where_ + key, text_of(v), "is out of range", "finite, " + allowed});
-  }
-  void positive(const char* key, double v) { within(key, v, kTiny, kInfinity); }
-  void not_negative(const char* key, double v) { within(key, v, 0, kInfinity); }
-
- private:
-  std::string where_;
-  Problems& problems_;
-};
-
-void check_drive(const actuator::ActuatorParams& p, Bounds& b) {
-  b.positive("drive.inertia_kgm2", p.motor.inertia_kgm2);
-  b.not_negative("drive.viscous_Nms_per_rad", p.motor.viscous_Nms_per_rad);
-  b.not_negative("drive.torque_constant_Nm_per_A", p.motor.torque_constant_Nm_per_A);
-  b.not_negative("drive.back_emf_Vs_per_rad", p.motor.back_emf_Vs_per_rad);
-  b.positive("drive.resistance_Ohm", p.motor.resistance_Ohm);
-  if (p.motor.inductance_H) b.positive("drive.inductance_H", *p.motor.inductance_H);
-  b.positive("drive.gear_ratio", p.gearbox.ratio);
-  b.not_negative("drive.friction_Nm", p.gearbox.friction.coulomb_Nm);
-  b.not_negative("drive.presliding_rad", p.gearbox.friction.presliding_rad);
-  b.not_negative("drive.load_loss", p.gearbox.load_loss);
-  if (p.gearbox.back_loss) b.not_negative("drive.back_loss", *p.gearbox.back_loss);
-  b.within("drive.supply_V", p.bridge.supply_V, 0, 1000);
-  b.within("drive.dead_band", p.bridge.dead_band, 0, 0.99);
-  b.within("drive.pwm_period_s", p.bridge.period_s, 0, 1);
-  b.not_negative("drive.switch_Ohm", p.bridge.switch_Ohm);
-  b.not_negative("drive.diode_V", p.bridge.diode_V);
-  if (p.bridge.pin == drive::PwmPin::enable && p.bridge.period_s > 0)
-    b.positive("drive.inductance_H", p.motor.inductance_H.value_or(0));
-}
-
-}  // namespace
-
-void check(const UnitConfig& c, std::string_view where, Problems& problems) {
-  const actuator::ActuatorParams& p = c.actuator;
-  if (!p.transmission) problems.add({"", std::string(where) + "elastic.law", "", "there is no transmission", "a law"});
-  Bounds b(where, problems);
-  check_drive(p, b);
-  b.not_negative("shaft.friction_Nm", p.shaft_friction.coulomb_Nm);
-  b.not_negative("shaft.presliding_rad", p.shaft_friction.presliding_rad);
-  b.positive("shaft.inertia_kgm2", p.shaft_inertia_kgm2);
-  b.within("tendon.friction", p.tendon.friction, 0, 0.99);
-  b.not_negative("tendon.presliding_J", p.tendon.presliding_J);
-  b.within("sensor.encoder_bits", p.encoder.bits, 1, 16);
-  b.within("sensor.encoder_zero_rad", p.encoder.zero_rad, -1e3, 1e3);
-  b.within("sensor.shaft_zero_rad", p.shaft_zero_rad, -1e3, 1e3);
-  for (const std::uint8_t r : c.memory.resolution) b.within("firmware.resolution", r, 0, 8);
-  b.within("limits.preset_max", c.preset_max, 0, 100);
-  b.within("physics.substep_max_s", c.substep_max_s, 1e-6, 1e-3);
-  if (c.polarity != 1 && c.polarity != -1) {
-    problems.add({"", std::string(where) + "drive.polarity", std::to_string(c.polarity), "is neither", "-1|1"});
-  }
-  if (p.tendon.friction > 0 && p.transmission && p.transmission->spring_count() == 0) {
-    problems.add({"", std::string(where) + "tendon.friction", text_of(p.tendon.friction), "the law names no spring to load", "0"});
-  }
-  if (p.tendon.friction > 0 && p.tendon.presliding_J <= 0) {
-    problems.add(
-        {"", std::string(where) + "tendon.presliding_J", text_of(p.tendon.presliding_J), "tendon.friction needs one", "above 0"});
-  }
+void validate(const UnitConfig& c, std::string_view where, Problems& problems) {
+  actuator::validate(c.actuator, where, problems);
+  const std::string firmware = std::string(where) + "firmware.";
+  firmware::validate(c.program, firmware, problems);
+  firmware::validate(c.memory, firmware, problems);
+  Checks check(where, problems);
+  check.within("limits.preset_max", c.preset_max, 0, 100);
+  check.within("physics.substep_max_s", c.substep_max_s, 1e-6, 1e-3);
 }
 
 bool alike(const UnitConfig& a, const UnitConfig& b) noexcept {

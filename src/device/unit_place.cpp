@@ -87,7 +87,7 @@ void Unit::place(UnitState& s, const UnitPlace& at) const noexcept {
   firmware::settle(program_, placed.program, sensors);
   const double shaft_sign = config_.program.model == firmware::Model::advanced ? -1.0 : 1.0;
   const double shaft_raw =
-      raw_of(shaft_sign * (at.shaft_rad + config_.actuator.shaft_zero_rad) + config_.actuator.encoder.zero_rad);
+      raw_of(shaft_sign * (at.shaft_rad + config_.actuator.shaft_zero_rad) + config_.actuator.shaft_encoder.zero_rad);
   loop.turns[2] = turns_at(shaft_raw, sensors.encoder[2], loop.last_sample[2]);
   loop.meas[2] = firmware::wrap_add(loop.meas[2], loop.turns[2] * static_cast<std::int32_t>(kTurn));
   loop.meas_old = loop.meas;

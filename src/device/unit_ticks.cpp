@@ -23,7 +23,7 @@ std::int16_t to_ticks(double rad, int resolution) noexcept {
 
 UnitConfig checked(UnitConfig config) {
   Problems problems;
-  check(config, "", problems);
+  validate(config, "", problems);
   problems.throw_if_any();
   return config;
 }
@@ -88,7 +88,7 @@ void Unit::set_faults(UnitState& s, const Faults& faults) noexcept {
 }
 
 double Unit::supply_V(const UnitState& s) const noexcept {
-  return s.supply_on ? s.faults.supply_V.value_or(config_.actuator.bridge.supply_V) : 0.0;
+  return s.supply_on ? s.faults.supply_V.value_or(config_.actuator.supply_V) : 0.0;
 }
 
 firmware::TickInputs Unit::read_sensors(UnitState& s, double shaft) const noexcept {
@@ -98,10 +98,11 @@ firmware::TickInputs Unit::read_sensors(UnitState& s, double shaft) const noexce
   // motors follow the shaft only if its encoder counts the other way. So its magnet must be mounted like that.
   const double shaft_sign = inverted(config_) ? -1.0 : 1.0;
   const std::array<double, 3> angle{s.actuator.motor[0].angle, s.actuator.motor[1].angle, shaft_sign * (shaft + p.shaft_zero_rad)};
+  const std::array<const sensor::EncoderParams*, 3> encoder{&p.side[0].encoder, &p.side[1].encoder, &p.shaft_encoder};
   for (std::size_t i = 0; i < 3; ++i) {
     const EncoderFault& fault = s.faults.encoder[i];
     const double noise = fault.noise_rad > 0 ? fault.noise_rad * (2.0 * s.dice.uniform() - 1.0) : 0.0;
-    if (!fault.stuck) s.last_encoder[i] = sensor::encoder_sample(p.encoder, angle[i] + noise);
+    if (!fault.stuck) s.last_encoder[i] = sensor::encoder_sample(*encoder[i], angle[i] + noise);
     in.encoder[i] = s.last_encoder[i];
   }
   for (int i = 0; i < 2; ++i)
@@ -117,21 +118,21 @@ void Unit::hold(UnitState& s, StepPlan& plan) const noexcept {
 }
 
 void Unit::drive_bridges(UnitState& s) const noexcept {
-  drive::BridgeParams bridge = config_.actuator.bridge;
-  bridge.supply_V = supply_V(s);
+  const double supply = supply_V(s);
   const firmware::Drive drive = program_.drive(s.program);
   const bool direct = s.program.memory.current.control_mode == static_cast<std::uint8_t>(firmware::ControlMode::pwm);
   // The duty went out before this tick's supply reading changed the limit.
   const std::int32_t limit = direct ? kFull : s.limit_pct;
   s.limit_pct = s.program.loop.limit_pct;
-  s.held.supply_V = bridge.supply_V;
+  s.held.supply_V = supply;
   for (int i = 0; i < 2; ++i) {
+    const actuator::SideParams& side = config_.actuator.side[i];
     const bool on = s.faults.powered && drive.enabled[i];
-    const bool enable = bridge.pin == drive::PwmPin::enable;  // then off is a duty of 0: open, but for the diodes
-    const bool open = s.faults.motor_unplugged[i] || (!on && !bridge.brake_when_off && !enable);
+    const bool enable = side.bridge.pin == drive::PwmPin::enable;  // then off is a duty of 0: open, but for the diodes
+    const bool open = s.faults.motor_unplugged[i] || (!on && !side.bridge.brake_when_off && !enable);
     const double output = limit > 0 ? drive.duty_pct[i] / static_cast<double>(limit) : 0.0;
     s.held.terminal[i] = open ? drive::Terminal::open : drive::Terminal::driven;
-    s.held.voltage[i] = on && !open ? config_.polarity * drive::bridge_voltage(bridge, output, limit / kDutyScale) : 0.0;
+    s.held.voltage[i] = on && !open ? side.polarity * drive::bridge_voltage(side.bridge, supply, output, limit / kDutyScale) : 0.0;
   }
 }
 

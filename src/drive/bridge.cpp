@@ -19,9 +19,9 @@ double bridge_duty(const BridgeParams& p, double output, double full_duty) noexc
   return std::copysign(shaped(p, output) * full_duty, output);
 }
 
-double bridge_voltage(const BridgeParams& p, double output, double full_duty) noexcept {
+double bridge_voltage(const BridgeParams& p, double supply_V, double output, double full_duty) noexcept {
   const double shape = shaped(p, output);
-  return shape > 0 ? std::copysign(shape * full_duty * p.supply_V, output) : 0.0;
+  return shape > 0 ? std::copysign(shape * full_duty * supply_V, output) : 0.0;
 }
 
 }  // namespace vsa::drive

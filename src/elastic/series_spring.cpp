@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "vsa/checks.hpp"
+
 namespace vsa::elastic {
 
 Response SeriesSpring::evaluate(const Positions& at) const noexcept {
@@ -36,6 +38,10 @@ std::array<double, 2> SeriesSpring::signed_energies(const Positions& at) const n
 bool SeriesSpring::equals(const Transmission& other) const noexcept {
   const auto* same = dynamic_cast<const SeriesSpring*>(&other);
   return same != nullptr && same->stiffness_ == stiffness_;
+}
+
+void SeriesSpring::validate(std::string_view where, Problems& problems) const {
+  Checks(where, problems).positive("stiffness_Nm_per_rad", stiffness_);
 }
 
 std::array<double, 2> SeriesSpring::references(const EquilibriumPreset& command) const noexcept {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vsa/checks.hpp"
 #include "vsa/elastic/exp_less_1.hpp"
 #include "vsa/elastic/two_sinh_lanes.hpp"
 
@@ -150,6 +151,21 @@ std::optional<EquilibriumPreset> TwoSinh::command_exactly(double q, double torqu
 std::array<double, 2> TwoSinh::references(const EquilibriumPreset& command) const noexcept {
   return {command.equilibrium + command.preset, command.equilibrium - command.preset};
 }
+
+void validate(const TwoSinhParams& p, std::string_view where, Problems& problems) {
+  Checks check(where, problems);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string n = std::to_string(i + 1);
+    check.positive('k' + n + "_Nm", p.k_Nm[i]);
+    check.positive('a' + n + "_per_rad", p.a_per_rad[i]);
+    check.not_negative('c' + n + "_Nm_per_rad", p.c_Nm_per_rad[i]);
+  }
+  // Infinite: no edge.
+  if (!(p.linear_beyond_rad > 0))
+    check.refuse("linear_beyond_rad", Checks::text(p.linear_beyond_rad), "is out of range", "above 0");
+}
+
+void TwoSinh::validate(std::string_view where, Problems& problems) const { elastic::validate(params_, where, problems); }
 
 EquilibriumPreset TwoSinh::attained(const std::array<double, 2>& x) const noexcept {
   return {0.5 * (x[0] + x[1]), 0.5 * (x[0] - x[1])};

@@ -30,7 +30,7 @@ PresetColumn column(const Workspace& workspace, double preset) {
   return c;
 }
 
-LoopErrors loop_errors(const device::UnitConfig& unit, const MotorLine& line) {
+LoopErrors loop_errors(const device::UnitConfig& unit, std::size_t motor, const MotorLine& line) {
   const double gain = std::abs(unit.memory.position.p) / 65536.0 / 100.0;  // of full output a raw tick
   LoopErrors e;
   e.full_rad = gain > 0 ? radians(Raw{1}) / gain : std::numeric_limits<double>::quiet_NaN();
@@ -39,7 +39,7 @@ LoopErrors loop_errors(const device::UnitConfig& unit, const MotorLine& line) {
   double low = 0, high = 1;
   for (int i = 0; i < 60; ++i) {
     const double mid = 0.5 * (low + high);
-    (standing_voltage(unit, mid, line.full_duty) > share * line.voltage_V ? high : low) = mid;
+    (standing_voltage(unit, motor, mid, line.full_duty) > share * line.voltage_V ? high : low) = mid;
   }
   e.moves_rad = share < 1 ? high * e.full_rad : std::numeric_limits<double>::quiet_NaN();
   return e;
@@ -51,8 +51,9 @@ DataSheet data_sheet(const config::ActuatorType& type) {
   const Workspace workspace(type.unit);
   DataSheet sheet;
   sheet.type = type;
-  sheet.line = workspace.line();
-  sheet.errors = loop_errors(type.unit, sheet.line);
+  sheet.line = workspace.lines();
+  const std::size_t last = type.unit.actuator.sides() - 1;
+  sheet.errors = {loop_errors(type.unit, 0, sheet.line[0]), loop_errors(type.unit, last, sheet.line[1])};
   sheet.attainable_preset = workspace.attainable_preset();
   sheet.stiffest_Nm_per_rad = workspace.stiffness_at_rest(sheet.attainable_preset);
   const bool one = sheet.attainable_preset == 0;

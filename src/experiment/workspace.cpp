@@ -28,7 +28,7 @@ double last_good(double most, double step, const Ok& ok) {
 
 /// The firmware's limit, chosen by the supply as its converter reads it.
 double full_duty(const device::UnitConfig& unit) {
-  const auto supply = sensor::supply_from_adc(sensor::supply_adc(unit.actuator.bridge.supply_V));
+  const auto supply = sensor::supply_from_adc(sensor::supply_adc(unit.actuator.supply_V));
   return (unit.supply_limited() ? firmware::supply_limit_pct(supply, unit.program.generation) : 100) / kDutyScale;
 }
 
@@ -50,32 +50,34 @@ double MotorLine::no_load_speed_rad_per_s() const noexcept {
   return low;
 }
 
-double standing_voltage(const device::UnitConfig& unit, double output, double full_duty) noexcept {
-  const drive::BridgeParams& bridge = unit.actuator.bridge;
-  if (bridge.pin == drive::PwmPin::input) return drive::bridge_voltage(bridge, output, full_duty);
-  const drive::MotorParams& m = unit.actuator.motor;
-  const drive::PwmCycle cycle(bridge, bridge.supply_V, m.resistance_Ohm, m.inductance_H.value_or(0),
+double standing_voltage(const device::UnitConfig& unit, std::size_t motor, double output, double full_duty) noexcept {
+  const drive::BridgeParams& bridge = unit.actuator.side[motor].bridge;
+  const double supply_V = unit.actuator.supply_V;
+  if (bridge.pin == drive::PwmPin::input) return drive::bridge_voltage(bridge, supply_V, output, full_duty);
+  const drive::MotorParams& m = unit.actuator.side[motor].motor;
+  const drive::PwmCycle cycle(bridge, supply_V, m.resistance_Ohm, m.inductance_H.value_or(0),
                               drive::bridge_duty(bridge, output, full_duty));
   return cycle.mean(0).current * m.resistance_Ohm;
 }
 
-MotorLine motor_line(const device::UnitConfig& unit) {
-  const drive::BridgeParams& bridge = unit.actuator.bridge;
-  const drive::MotorParams m = drive::at_pulley(unit.actuator.motor, unit.actuator.gearbox.ratio);
+MotorLine motor_line(const device::UnitConfig& unit, std::size_t motor) {
+  const actuator::SideParams& side = unit.actuator.side[motor];
+  const drive::BridgeParams& bridge = side.bridge;
+  const drive::MotorParams m = drive::at_pulley(side.motor, side.gearbox.ratio);
   const bool chopped = bridge.pin == drive::PwmPin::enable;
   const double resistance = m.resistance_Ohm + (chopped ? 0.0 : bridge.switch_Ohm);
   MotorLine line;
   line.full_duty = full_duty(unit);
-  line.voltage_V = standing_voltage(unit, 1.0, line.full_duty);
+  line.voltage_V = standing_voltage(unit, motor, 1.0, line.full_duty);
   line.stall_current_A = line.voltage_V / resistance;
   line.stall_Nm = m.torque_constant_Nm_per_A * line.stall_current_A;
   line.back_Nms_per_rad = m.torque_constant_Nm_per_A * m.back_emf_Vs_per_rad / resistance + m.viscous_Nms_per_rad;
-  line.friction_Nm = drive::at_pulley(unit.actuator.gearbox.friction, unit.actuator.gearbox.ratio).coulomb_Nm;
-  line.load_loss = unit.actuator.gearbox.load_loss;
-  line.back_loss = unit.actuator.gearbox.back_loss.value_or(line.load_loss);
+  line.friction_Nm = drive::at_pulley(side.gearbox.friction, side.gearbox.ratio).coulomb_Nm;
+  line.load_loss = side.gearbox.load_loss;
+  line.back_loss = side.gearbox.back_loss.value_or(line.load_loss);
   if (chopped) {
     const auto at = [&](double duty) {
-      return drive::PwmCycle(bridge, bridge.supply_V, m.resistance_Ohm, m.inductance_H.value_or(0), duty);
+      return drive::PwmCycle(bridge, unit.actuator.supply_V, m.resistance_Ohm, m.inductance_H.value_or(0), duty);
     };
     line.chopped = {at(line.full_duty), at(-line.full_duty), m.torque_constant_Nm_per_A, m.back_emf_Vs_per_rad,
                     m.viscous_Nms_per_rad};
@@ -92,7 +94,8 @@ BestPower best_power(const std::vector<WorkspacePoint>& boundary) {
   return best;
 }
 
-Workspace::Workspace(const device::UnitConfig& unit) : unit_(unit), line_(motor_line(unit)) {}
+Workspace::Workspace(const device::UnitConfig& unit)
+    : unit_(unit), lines_{motor_line(unit, 0), motor_line(unit, unit.actuator.sides() - 1)} {}
 
 elastic::Response Workspace::at(double preset, double lag_rad, int direction) const {
   const elastic::Transmission& law = *unit_.actuator.transmission;
@@ -102,14 +105,15 @@ elastic::Response Workspace::at(double preset, double lag_rad, int direction) co
 
 bool Workspace::carries(const elastic::Response& r, const std::array<double, 2>& rates, double speed, Task task) const {
   for (int i = 0; i < unit_.actuator.transmission->motor_count(); ++i) {
-    const double torque = -r.load[i], helped = (1 - line_.back_loss) * std::abs(torque);
+    const MotorLine& line = lines_[static_cast<std::size_t>(i)];
+    const double torque = -r.load[i], helped = (1 - line.back_loss) * std::abs(torque);
     if (task == Task::unpowered) {
-      if (helped > line_.friction_Nm) return false;
+      if (helped > line.friction_Nm) return false;
     } else if (task == Task::hold || rates[i] == 0) {
-      if (helped > line_.stall_Nm + line_.friction_Nm) return false;
+      if (helped > line.stall_Nm + line.friction_Nm) return false;
     } else {
       const double pulley = std::abs(rates[i]) * speed, along = std::copysign(1.0, rates[i]) * torque;
-      if (along > line_.most_Nm(pulley) || along < line_.least_Nm(pulley)) return false;
+      if (along > line.most_Nm(pulley) || along < line.least_Nm(pulley)) return false;
     }
   }
   return true;
@@ -134,7 +138,7 @@ Reach Workspace::reach(double preset, double speed, Task task, int direction) co
 bool Workspace::winds(double preset) const {
   const elastic::Response r = at(preset, 0, 1);
   for (int i = 0; i < unit_.actuator.transmission->motor_count(); ++i) {
-    if (std::abs(r.load[i]) > line_.most_Nm(0)) return false;
+    if (std::abs(r.load[i]) > lines_[static_cast<std::size_t>(i)].most_Nm(0)) return false;
   }
   return true;
 }
@@ -147,7 +151,7 @@ double Workspace::attainable_preset() const {
 double Workspace::no_load_speed(double preset) const {
   const auto turns = [&](double speed) { return reach(preset, speed).torque_Nm >= 0; };  // NaN: no
   if (!turns(0)) return 0;
-  const double most = 2 * line_.no_load_speed_rad_per_s() + 1e-9;
+  const double most = 2 * std::max(lines_[0].no_load_speed_rad_per_s(), lines_[1].no_load_speed_rad_per_s()) + 1e-9;
   return last_good(most, most / 20, turns);
 }
 

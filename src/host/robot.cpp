@@ -13,37 +13,6 @@
 namespace vsa::host {
 namespace {
 
-void check_whole(const RobotConfig& config) {
-  Problems problems;
-  for (std::size_t i = 0; i < config.actuators.size(); ++i) {
-    const ActuatorConfig& a = config.actuators[i];
-    device::check(a.unit, a.name + ": ", problems);
-    if (a.id < 1 || a.id > 254) problems.add({"", a.name, std::to_string(a.id), "id is out of range", "1 … 254"});
-    if (!std::isfinite(a.initial_equilibrium_rad) || !std::isfinite(a.initial_preset))
-      problems.add({"", a.name, "", "initial command isn't finite", "finite numbers"});
-    if (a.bus >= config.buses.size()) problems.add({"", a.name, std::to_string(a.bus), "no such bus", "an index into buses"});
-    for (std::size_t j = 0; j < i; ++j) {
-      const ActuatorConfig& b = config.actuators[j];
-      if (a.name == b.name) problems.add({"", a.name, "", "two actuators have this name", "unique names"});
-      if (a.joint == b.joint)
-        problems.add({"", a.name, a.joint, "joint is driven by " + b.name + " already", "one actuator a joint"});
-      if (a.bus == b.bus && a.id == b.id)
-        problems.add({"", a.name, std::to_string(a.id), "id is used by " + b.name + " on the same bus", "unique ids on a bus"});
-    }
-  }
-  for (const BusConfig& b : config.buses) {
-    if (!(b.baud_Hz >= 1 && b.baud_Hz <= 1e9))
-      problems.add({"", b.name, std::to_string(b.baud_Hz), "no such baud rate", "1 … 1e9"});
-    const bool cycles = !b.cycle_s || (*b.cycle_s >= 1e-6 && *b.cycle_s <= 1e6);
-    if (!cycles) problems.add({"", b.name, std::to_string(*b.cycle_s), "cycle is out of range", "1e-6 … 1e6 s"});
-  }
-  if (!(config.state_rate_Hz > 0 && config.state_rate_Hz <= 1e9))
-    problems.add({"", "state_rate_Hz", std::to_string(config.state_rate_Hz), "is out of range", "above 0, up to 1e9"});
-  if (const int n = config.substeps.value_or(1); n < 1 || n > kMostSubsteps)
-    problems.add({"", "substeps", std::to_string(n), "is out of range", "1 … " + std::to_string(kMostSubsteps)});
-  problems.throw_if_any();
-}
-
 /// Whether a joint can be worked with.
 bool told(const JointIn& joint) noexcept {
   const double a = joint.inverse_inertia.value_or(0.0);
@@ -53,7 +22,9 @@ bool told(const JointIn& joint) noexcept {
 }  // namespace
 
 Robot::Robot(RobotConfig config) : impl_("vsa::host::Robot") {
-  check_whole(config);
+  Problems problems;
+  validate(config, "", problems);
+  problems.throw_if_any();
   impl_.take(std::make_unique<Impl>(std::move(config)));
 }
 Robot::~Robot() = default;
@@ -167,7 +138,7 @@ void Robot::set_supply(bool on) {
 void Robot::set_faults(std::size_t actuator, const device::Faults& faults) {
   static_cast<void>(known(actuator));
   Problems problems;
-  device::check(faults, "", problems);
+  device::validate(faults, "", problems);
   problems.throw_if_any();
   impl_->faults.push({actuator, faults});
 }

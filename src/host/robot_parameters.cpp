@@ -63,7 +63,7 @@ void check_kind(const std::string& name, const UnitConfig& from, const UnitConfi
 void Robot::set_parameters(std::size_t actuator, const UnitConfig& unit) {
   const ActuatorConfig& now = impl_->config.actuators[known(actuator)];
   Problems problems;
-  device::check(unit, now.name + ": ", problems);
+  device::validate(unit, now.name + ": ", problems);
   problems.throw_if_any();
   check_kind(now.name, unit, now.unit, problems);
   problems.throw_if_any();
@@ -88,7 +88,7 @@ std::shared_ptr<const RobotConfig> Robot::parameters_with(const RobotConfig& bas
   for (const auto& [actuator, to] : changes) {
     const std::string& name = impl_->config.actuators[known(actuator)].name;
     const std::size_t before = problems.list().size();
-    device::check(to.unit, name + ": ", problems);
+    device::validate(to.unit, name + ": ", problems);
     if (problems.list().size() == before) check_kind(name, to.unit, base.actuators[actuator].unit, problems);
   }
   problems.throw_if_any();

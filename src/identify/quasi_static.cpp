@@ -53,16 +53,23 @@ double friction_at(const Friction& p, double u, double sense) {
   return p.stiffness > 0 ? p.stiffness * bent(p, u) : sense * p.coulomb_Nm;
 }
 
+drive::Friction gear_of(const actuator::SideParams& side) { return {drive::at_pulley(side.gearbox.friction, side.gearbox.ratio)}; }
+
+std::array<StaticDrive, 2> drives_of(const device::UnitConfig& unit) {
+  const StaticDrive first(unit, 0);
+  const bool alike = unit.actuator.sides() == 1 || unit.actuator.side[0] == unit.actuator.side[1];
+  return {first, alike ? first : StaticDrive(unit, 1)};
+}
+
 }  // namespace
 
 QuasiStatic::QuasiStatic(const device::UnitConfig& unit, double load_peak_Nm)
     : unit_(unit),
-      drive_(unit),
+      drive_(drives_of(unit)),
       load_peak_Nm_(load_peak_Nm),
-      gear_(drive::at_pulley(unit.actuator.gearbox.friction, unit.actuator.gearbox.ratio)),
+      gear_{gear_of(unit.actuator.side[0]), gear_of(unit.actuator.side[1])},
       shaft_(actuator::shaft_friction(unit.actuator)),
       tendon_(drive::FrictionParams{unit.actuator.tendon.friction, unit.actuator.tendon.presliding_J}),
-      back_loss_(unit.actuator.gearbox.back_loss.value_or(unit.actuator.gearbox.load_loss)),
       shaft_zero_rad_(unit.actuator.shaft_zero_rad),
       motors_(unit.actuator.transmission->motor_count()),
       springs_(unit.actuator.transmission->spring_count()) {}
@@ -79,8 +86,9 @@ double QuasiStatic::rub(const Step& s, int spring, double w) const {
   return friction_at(tendon_, s.from.tendon_u[n] + w - s.from.w[n], -s.sense);
 }
 
-drive::FrictionOf<double> QuasiStatic::gear(double load, double sense) const {
-  return drive::at_load(gear_, load * sense > 0 ? back_loss_ : unit_.actuator.gearbox.load_loss, load);
+drive::FrictionOf<double> QuasiStatic::gear(std::size_t motor, double load, double sense) const {
+  const drive::GearboxParams& box = unit_.actuator.side[motor].gearbox;
+  return drive::at_load(gear_[motor], load * sense > 0 ? box.back_loss.value_or(box.load_loss) : box.load_loss, load);
 }
 
 /// −(M + l − F) of motor i with its pulley at xi: grows with xi.
@@ -91,7 +99,7 @@ double QuasiStatic::pulley_residual(const Step& s, std::array<double, 2> x, int 
   double load = law.evaluate({0.0, x}).load[n];
   if (i < springs_ && tendon_.coulomb_Nm > 0) load += rub(s, i, law.signed_energies({0.0, x})[n]) * std::abs(load);
   const double moved = xi - s.from.x[n] + s.q - s.from.q;
-  return friction_at(gear(load, s.sense), s.from.gear_u[n] + moved, s.sense) - load - drive_.torque_Nm(s.ref[n] - xi);
+  return friction_at(gear(n, load, s.sense), s.from.gear_u[n] + moved, s.sense) - load - drive_[n].torque_Nm(s.ref[n] - xi);
 }
 
 bool QuasiStatic::solve_pulleys(Step& s, double equilibrium, std::array<double, 2>& x) const {
@@ -147,7 +155,7 @@ bool QuasiStatic::go(Place& place, double preset, double q) const {
     to.tendon_u[n] = bent(tendon_, place.tendon_u[n] + to.w[n] - place.w[n]);
     const double load =
         r.load[n] + (static_cast<int>(n) < springs_ ? rub(s, static_cast<int>(n), to.w[n]) * std::abs(r.load[n]) : 0);
-    to.gear_u[n] = bent(gear(load, s.sense), place.gear_u[n] + x[n] - place.x[n] + q - place.q);
+    to.gear_u[n] = bent(gear(n, load, s.sense), place.gear_u[n] + x[n] - place.x[n] + q - place.q);
   }
   place = to;
   return true;

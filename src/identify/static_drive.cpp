@@ -15,14 +15,15 @@ namespace {
 
 constexpr std::int32_t kFarthest_raw = 65535;  // beyond it no two positions of a unit are apart
 
-/// A unit's program at rest with a position error that doesn't change: the duty in percent, with the sign of its torque.
+/// A motor's program at rest with a position error that doesn't change: the duty in percent, with the sign of its torque.
 class Loop {
  public:
-  explicit Loop(const device::UnitConfig& unit)
+  Loop(const device::UnitConfig& unit, std::size_t motor)
       : unit_(unit),
+        motor_(motor),
         controller_(firmware::Program(unit.program).controller()),
         limit_pct_(unit.supply_limited()
-                       ? firmware::supply_limit_pct(sensor::supply_from_adc(sensor::supply_adc(unit.actuator.bridge.supply_V)),
+                       ? firmware::supply_limit_pct(sensor::supply_from_adc(sensor::supply_adc(unit.actuator.supply_V)),
                                                     unit.program.generation)
                        : 100) {}
 
@@ -31,9 +32,9 @@ class Loop {
     firmware::ControllerState s;
     s.supply_seen = true;
     s.limit_pct = limit_pct_;
-    s.ref[0] = unit_.program.model == firmware::Model::advanced ? -error_raw : error_raw;  // it counts the other way
-    controller_.drive_motor({unit_.memory, unit_.memory}, s, 0);
-    return unit_.polarity * s.duty[0];
+    s.ref[motor_] = unit_.program.model == firmware::Model::advanced ? -error_raw : error_raw;  // it counts the other way
+    controller_.drive_motor({unit_.memory, unit_.memory}, s, static_cast<int>(motor_));
+    return unit_.actuator.side[motor_].polarity * s.duty[motor_];
   }
   [[nodiscard]] int limit_pct() const noexcept { return limit_pct_; }
 
@@ -55,17 +56,17 @@ class Loop {
 
  private:
   const device::UnitConfig& unit_;
+  std::size_t motor_;
   firmware::Controller controller_;
   std::int32_t limit_pct_;
 };
 
 /// Torque at the pulley of a standing motor, N·m.
-double torque_of(const device::UnitConfig& unit, int duty_pct, int limit_pct) {
-  const drive::BridgeParams& bridge = unit.actuator.bridge;
-  const drive::MotorParams motor = drive::at_pulley(unit.actuator.motor, unit.actuator.gearbox.ratio);
+double torque_of(const actuator::SideParams& side, double supply_V, int duty_pct, int limit_pct) {
+  const drive::MotorParams motor = drive::at_pulley(side.motor, side.gearbox.ratio);
   const double output = limit_pct > 0 ? duty_pct / static_cast<double>(limit_pct) : 0.0;
-  const double duty = drive::bridge_duty(bridge, output, limit_pct / device::kDutyScale);
-  const drive::PwmCycle cycle(bridge, bridge.supply_V, motor.resistance_Ohm, motor.inductance_H.value_or(0.0), duty);
+  const double duty = drive::bridge_duty(side.bridge, output, limit_pct / device::kDutyScale);
+  const drive::PwmCycle cycle(side.bridge, supply_V, motor.resistance_Ohm, motor.inductance_H.value_or(0.0), duty);
   return motor.torque_constant_Nm_per_A * cycle.mean(0.0).current;
 }
 
@@ -76,21 +77,25 @@ std::optional<std::string> unsupported(const device::UnitConfig& unit) {
   if (m.control_mode != static_cast<std::uint8_t>(firmware::ControlMode::position)) return "its control mode isn't position";
   if (m.input_mode != 0) return "its references come from an encoder";
   if (m.position.i != 0) return "its position loop has an integral gain";
-  const Loop loop(unit);
-  const std::int32_t far = loop.saturating();
-  if (loop.duty_pct(far) <= loop.duty_pct(-far)) return "its position loop doesn't drive towards the reference";
+  for (std::size_t motor = 0; motor < unit.actuator.sides(); ++motor) {
+    const Loop loop(unit, motor);
+    const std::int32_t far = loop.saturating();
+    if (loop.duty_pct(far) <= loop.duty_pct(-far)) return "its position loop doesn't drive towards the reference";
+  }
   return std::nullopt;
 }
 
-StaticDrive::StaticDrive(const device::UnitConfig& unit) {
-  const Loop loop(unit);
+StaticDrive::StaticDrive(const device::UnitConfig& unit, std::size_t motor) {
+  const Loop loop(unit, motor);
+  const actuator::SideParams& side = unit.actuator.side[motor];
+  const double supply_V = unit.actuator.supply_V;
   const std::int32_t far = loop.saturating();
   const int least = loop.duty_pct(-far), most = loop.duty_pct(far);
-  double below = torque_of(unit, least, loop.limit_pct());
+  double below = torque_of(side, supply_V, least, loop.limit_pct());
   error_rad_.push_back(radians(Raw{-far - 1}));
   torque_Nm_.push_back(below);
   for (int pct = least + 1; pct <= most; ++pct) {
-    const double torque = torque_of(unit, pct, loop.limit_pct());
+    const double torque = torque_of(side, supply_V, pct, loop.limit_pct());
     const double error = radians(Raw{loop.riser(pct, far)});
     if (error > error_rad_.back()) {
       error_rad_.push_back(error);

@@ -32,12 +32,11 @@ Loops find_loops(const device::UnitConfig& unit, const Plant& plant, std::vector
   check_loop(unit, problems);
   problems.throw_if_any();
   // 16.16 fixed point, % per raw; an advanced program counts its motors' angles and references the other way.
-  const double sign = unit.program.model == firmware::Model::advanced ? -unit.polarity : unit.polarity;
-  const double per_rad = sign / (2.0 * kPi);
+  const double sign = unit.program.model == firmware::Model::advanced ? -1.0 : 1.0;
   Loops out;
   out.period_s = firmware::loop_facts(unit.program.generation).ticks * 1e-9 * static_cast<double>(firmware::kTickNs);
   for (int i = 0; i < plant.motors; ++i) {
-    const double gain = plant.slopes[i].volts_per_percent;
+    const double gain = plant.slopes[i].volts_per_percent, per_rad = sign * unit.actuator.side[i].polarity / (2.0 * kPi);
     out.motors.push_back({plant.angle(i), 1 + i, unit.memory.position.p * per_rad * gain, unit.memory.position.d * per_rad * gain});
     if (gain == 0)
       notices.push_back(motor_signal(i, "rests inside its bridge's dead band: small outputs of the firmware don't reach it"));
@@ -93,7 +92,7 @@ double static_stiffness(const Plant& plant, const Loops& loops) {
     shaft += s.tendon_stiffness;
     across[i] = h.qx[i] - s.tendon_stiffness;
     own(i, i) = (i == 0 ? h.x0x0 : h.x1x1) + s.tendon_stiffness + s.stuck_stiffness +
-                plant.motor.torque_constant_Nm_per_A * s.amps_per_volt * p_V_per_rad;
+                plant.motor[i].torque_constant_Nm_per_A * s.amps_per_volt * p_V_per_rad;
     if (i == 1) own(0, 1) = own(1, 0) = h.x0x1;
   }
   const double left = shaft - across.dot(own.completeOrthogonalDecomposition().solve(across));

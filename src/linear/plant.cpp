@@ -21,51 +21,56 @@ std::string text_of(double v) {
 
 /// The share of the supply at full output.
 double full_duty(const device::UnitConfig& unit) noexcept {
-  const auto supply = sensor::supply_from_adc(sensor::supply_adc(unit.actuator.bridge.supply_V));
+  const auto supply = sensor::supply_from_adc(sensor::supply_adc(unit.actuator.supply_V));
   return (unit.supply_limited() ? firmware::supply_limit_pct(supply, unit.program.generation) : 100) / device::kDutyScale;
 }
 
-bool chopped(const device::UnitConfig& unit) noexcept { return unit.actuator.bridge.pin == drive::PwmPin::enable; }
+bool chopped(const actuator::SideParams& side) noexcept { return side.bridge.pin == drive::PwmPin::enable; }
 
 /// The motor at the pulley with the resistance that its current meets; a chopped one has no current between two periods.
-drive::MotorParams motor_of(const device::UnitConfig& unit) noexcept {
-  drive::MotorParams m = drive::at_pulley(unit.actuator.motor, unit.actuator.gearbox.ratio);
-  if (!chopped(unit)) m.resistance_Ohm += unit.actuator.bridge.switch_Ohm;
+drive::MotorParams motor_of(const actuator::SideParams& side) noexcept {
+  drive::MotorParams m = drive::at_pulley(side.motor, side.gearbox.ratio);
+  if (!chopped(side)) m.resistance_Ohm += side.bridge.switch_Ohm;
   return m;
 }
 
-drive::PwmMean chopped_mean(const device::UnitConfig& unit, const drive::MotorParams& m, double duty) noexcept {
-  const drive::BridgeParams& b = unit.actuator.bridge;
-  return drive::PwmCycle(b, b.supply_V, m.resistance_Ohm, m.inductance_H.value_or(0), duty).mean(0.0);
-}
+/// A motor at its pulley on its bridge at the unit's supply.
+struct Driven {
+  const drive::BridgeParams& bridge;
+  const drive::MotorParams& motor;
+  double supply_V, full_duty;
 
-/// The smallest duty, up to `most`, that gives a standing motor this current; the current only grows with it. Beyond: infinite.
-double duty_for(const device::UnitConfig& unit, const drive::MotorParams& m, double amps, double most) noexcept {
-  if (amps == 0) return 0;
-  double low = 0, high = most;
-  if (!(unit.actuator.bridge.supply_V > 0) || chopped_mean(unit, m, high).current < std::abs(amps)) return HUGE_VAL;
-  for (int i = 0; i < 200 && high - low > 1e-15 * most; ++i) {
-    const double middle = 0.5 * (low + high);
-    (chopped_mean(unit, m, middle).current < std::abs(amps) ? low : high) = middle;
+  [[nodiscard]] drive::PwmMean chopped_mean(double duty) const noexcept {
+    return drive::PwmCycle(bridge, supply_V, motor.resistance_Ohm, motor.inductance_H.value_or(0), duty).mean(0.0);
   }
-  return std::copysign(high, amps);
-}
+  /// The smallest duty that gives it this current at standstill; the current only grows with it. Beyond the full one: infinite.
+  [[nodiscard]] double duty_for(double amps) const noexcept {
+    if (amps == 0) return 0;
+    double low = 0, high = full_duty;
+    if (!(supply_V > 0) || chopped_mean(high).current < std::abs(amps)) return HUGE_VAL;
+    for (int i = 0; i < 200 && high - low > 1e-15 * full_duty; ++i) {
+      const double middle = 0.5 * (low + high);
+      (chopped_mean(middle).current < std::abs(amps) ? low : high) = middle;
+    }
+    return std::copysign(high, amps);
+  }
+};
 
-/// Current and voltage of motor i under its spring's load, and their slopes there. ∂ī/∂d is the closed form's central difference.
-MotorSlopes slopes_of(const device::UnitConfig& unit, const drive::MotorParams& m, double load_Nm) noexcept {
-  const drive::BridgeParams& bridge = unit.actuator.bridge;
-  const double full_V = full_duty(unit) * bridge.supply_V;
+/// Current and voltage of a motor under its spring's load, and their slopes there. ∂ī/∂d is the closed form's central difference.
+MotorSlopes slopes_of(const Driven& on, double load_Nm) noexcept {
+  const drive::MotorParams& m = on.motor;
+  const double full_V = on.full_duty * on.supply_V;
   MotorSlopes s;
   s.amps = load_Nm == 0 ? 0.0 : -load_Nm / m.torque_constant_Nm_per_A;
-  if (chopped(unit)) {
-    const double duty = duty_for(unit, m, s.amps, full_duty(unit));
-    s.volts = duty == 0 ? 0.0 : duty * bridge.supply_V;
+  if (on.bridge.pin == drive::PwmPin::enable) {
+    const double duty = on.duty_for(s.amps);
+    s.volts = duty == 0 ? 0.0 : duty * on.supply_V;
     if (std::isinf(duty)) s.volts = std::copysign(HUGE_VAL, s.amps);
-    if (bridge.supply_V > 0 && std::isfinite(duty)) {
+    if (on.supply_V > 0 && std::isfinite(duty)) {
       constexpr double kStep = 1e-6;
-      const double rise = chopped_mean(unit, m, duty + kStep).current - chopped_mean(unit, m, duty - kStep).current;
-      s.amps_per_volt = duty == 0 ? 0.0 : rise / (2 * kStep * bridge.supply_V);
-      s.amps_per_speed = chopped_mean(unit, m, duty).conductance * m.back_emf_Vs_per_rad;
+      const double rise = on.chopped_mean(duty + kStep).current - on.chopped_mean(duty - kStep).current;
+      s.amps_per_volt = duty == 0 ? 0.0 : rise / (2 * kStep * on.supply_V);
+      s.amps_per_speed = on.chopped_mean(duty).conductance * m.back_emf_Vs_per_rad;
     }
   } else {
     s.volts = s.amps * m.resistance_Ohm;
@@ -73,8 +78,8 @@ MotorSlopes slopes_of(const device::UnitConfig& unit, const drive::MotorParams& 
     s.amps_per_speed = m.back_emf_Vs_per_rad / m.resistance_Ohm;
     if (m.inductance_H) s.lag_s = *m.inductance_H / m.resistance_Ohm;
   }
-  const bool silent = bridge.dead_band > 0 && std::abs(s.volts) <= 1e-9 * full_V;
-  s.volts_per_percent = silent ? 0.0 : full_V / (1.0 - bridge.dead_band) / 100.0;
+  const bool silent = on.bridge.dead_band > 0 && std::abs(s.volts) <= 1e-9 * full_V;
+  s.volts_per_percent = silent ? 0.0 : full_V / (1.0 - on.bridge.dead_band) / 100.0;
   return s;
 }
 
@@ -112,23 +117,27 @@ void check_point(const device::Unit& unit, const OperatingPoint& p, Problems& pr
 
 void stick(Plant& out, const device::UnitConfig& unit, const std::array<double, 2>& load, Problems& problems) {
   const actuator::ActuatorParams& p = unit.actuator;
-  const drive::Friction gear(drive::at_pulley(p.gearbox.friction, p.gearbox.ratio));
-  if (gear.coulomb_Nm > 0 && gear.presliding_rad <= 0) {
-    problems.add({"", "drive.presliding_rad", "0", "a gear that sticks without presliding has no stiffness", "above 0"});
-  }
   out.shaft_stiffness = drive::Friction(actuator::shaft_friction(p)).stiffness;
   out.tendon_damping_s = p.tendon.damping_s;
   const drive::Friction tendon(drive::FrictionParams{p.tendon.friction, p.tendon.presliding_J});
   for (int i = 0; i < out.motors; ++i) {
+    const actuator::SideParams& side = p.side[i];
+    const drive::Friction gear(drive::at_pulley(side.gearbox.friction, side.gearbox.ratio));
+    if (gear.coulomb_Nm > 0 && gear.presliding_rad <= 0 && (i == 0 || !(side.gearbox == p.side[0].gearbox))) {
+      problems.add({"", i == 0 ? "drive.presliding_rad" : "drive_2.presliding_rad", "0",
+                    "a gear that sticks without presliding has no stiffness", "above 0"});
+    }
     out.slopes[i].stuck_stiffness = gear.stiffness;
     if (i < p.transmission->spring_count()) out.slopes[i].tendon_stiffness = tendon.stiffness * load[i] * load[i];
   }
 }
 
 void drive_motors(Plant& out, const device::UnitConfig& unit, const std::array<double, 2>& load, Problems& problems) {
-  const double full_V = full_duty(unit) * unit.actuator.bridge.supply_V;
+  const double supply_V = unit.actuator.supply_V, full = full_duty(unit), full_V = full * supply_V;
   for (int i = 0; i < out.motors; ++i) {
-    MotorSlopes& s = out.slopes[i] = slopes_of(unit, out.motor, load[i]);
+    const actuator::SideParams& side = unit.actuator.side[i];
+    out.motor[i] = motor_of(side);
+    MotorSlopes& s = out.slopes[i] = slopes_of({side.bridge, out.motor[i], supply_V, full}, load[i]);
     out.rest.motor_V[i] = s.volts;
     out.rest.motor_A[i] = s.amps;
     const std::string motor = "motor " + std::to_string(i + 1);
@@ -153,7 +162,6 @@ Plant find_plant(const device::UnitConfig& config, const OperatingPoint& p, DryF
   const elastic::Transmission& law = *config.actuator.transmission;
   Plant out;
   out.motors = law.motor_count();
-  out.motor = motor_of(config);
   out.inertia = p.inertia_kgm2.value_or(config.actuator.shaft_inertia_kgm2);
   out.damping = p.damping_Nms_per_rad;
   elastic::Positions at{p.equilibrium_rad, law.references({p.equilibrium_rad, p.preset})};
@@ -171,16 +179,17 @@ Plant find_plant(const device::UnitConfig& config, const OperatingPoint& p, DryF
 }
 
 Eigen::MatrixXd state_matrix(const Plant& p) {
-  const int n = 2 + p.motors * p.states_a_motor();
+  const int n = p.states();
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
   const elastic::Hessian& h = p.curvature;
   const std::array<double, 2> own{h.x0x0, h.x1x1};
-  const double j = p.motor.inertia_kgm2;
   a(0, 1) = 1;
   a(1, 0) = -(h.qq + p.shaft_stiffness) / p.inertia;
   a(1, 1) = -p.damping / p.inertia;
   for (int i = 0; i < p.motors; ++i) {
     const MotorSlopes& s = p.slopes[i];
+    const drive::MotorParams& m = p.motor[i];
+    const double j = m.inertia_kgm2;
     const int x = p.angle(i), w = x + 1;
     const double kappa = s.tendon_stiffness, rub = kappa * p.tendon_damping_s;
     a(x, w) = 1;
@@ -191,28 +200,28 @@ Eigen::MatrixXd state_matrix(const Plant& p) {
     a(w, 0) = (kappa - h.qx[i]) / j;
     a(w, 1) = rub / j;
     a(w, x) = -(own[i] + kappa + s.stuck_stiffness) / j;
-    a(w, w) = -(p.motor.viscous_Nms_per_rad + rub) / j;
+    a(w, w) = -(m.viscous_Nms_per_rad + rub) / j;
     if (p.motors == 2) a(w, p.angle(1 - i)) = -h.x0x1 / j;
     if (s.lag_s) {
-      a(w, w + 1) = p.motor.torque_constant_Nm_per_A / j;
+      a(w, w + 1) = m.torque_constant_Nm_per_A / j;
       a(w + 1, w) = -s.amps_per_speed / *s.lag_s;
       a(w + 1, w + 1) = -1.0 / *s.lag_s;
     } else {
-      a(w, w) -= p.motor.torque_constant_Nm_per_A * s.amps_per_speed / j;
+      a(w, w) -= m.torque_constant_Nm_per_A * s.amps_per_speed / j;
     }
   }
   return a;
 }
 
 Eigen::MatrixXd input_matrix(const Plant& p) {
-  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(2 + p.motors * p.states_a_motor(), 1 + p.motors);
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(p.states(), 1 + p.motors);
   b(1, 0) = 1.0 / p.inertia;
   for (int i = 0; i < p.motors; ++i) {
     const MotorSlopes& s = p.slopes[i];
     if (s.lag_s) {
       b(p.angle(i) + 2, 1 + i) = s.amps_per_volt / *s.lag_s;
     } else {
-      b(p.angle(i) + 1, 1 + i) = p.motor.torque_constant_Nm_per_A * s.amps_per_volt / p.motor.inertia_kgm2;
+      b(p.angle(i) + 1, 1 + i) = p.motor[i].torque_constant_Nm_per_A * s.amps_per_volt / p.motor[i].inertia_kgm2;
     }
   }
   return b;

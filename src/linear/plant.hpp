@@ -22,15 +22,20 @@ struct Plant {
   int motors = 0;
   Rest rest;
   elastic::Hessian curvature;
-  drive::MotorParams motor;  ///< at the pulley
+  std::array<drive::MotorParams, 2> motor;  ///< at their pulleys
   std::array<MotorSlopes, 2> slopes;
   double inertia = 0, damping = 0;
   double shaft_stiffness = 0;  ///< of the shaft friction's bristle
   double tendon_damping_s = 0;
   std::vector<std::string> notices;
 
-  [[nodiscard]] int states_a_motor() const noexcept { return slopes[0].lag_s ? 3 : 2; }
-  [[nodiscard]] int angle(int i) const noexcept { return 2 + i * states_a_motor(); }
+  /// Where motor i's states begin; of as many as there are motors, where they end.
+  [[nodiscard]] int angle(int i) const noexcept {
+    int at = 2;
+    for (int k = 0; k < i; ++k) at += slopes[k].lag_s ? 3 : 2;
+    return at;
+  }
+  [[nodiscard]] int states() const noexcept { return angle(motors); }
 };
 
 /// Throws InputError, as linearize().

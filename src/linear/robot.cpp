@@ -19,7 +19,7 @@ struct Mounted {
   Loops loops;
   Index joint = 0, first_state = 0, first_input = 0, first_output = 0;  ///< its motors', voltages, torque
 
-  [[nodiscard]] Index motor_states() const { return plant.motors * plant.states_a_motor(); }
+  [[nodiscard]] Index motor_states() const { return plant.states() - 2; }
 };
 
 Mounted mounted(const MountedUnit& u, Firmware firmware, DryFriction friction, std::vector<std::string>& notices) {

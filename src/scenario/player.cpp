@@ -31,6 +31,7 @@ bool in_keyframes(const engine::World& world, const motion::Gait* gait, const en
 Player::Player(const Scenario& scenario, const engine::World& world) : gait_(load_motion(scenario)) {
   if (gait_) gait_->bind(world);
   Problems problems;
+  validate(scenario, "", problems);
   for (const Command& c : scenario.commands) {
     try {
       const engine::ActuatorRef& actuator = world.actuator(c.actuator);

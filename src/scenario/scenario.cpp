@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "vsa/checks.hpp"
 #include "vsa/config/find_file.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/motion/gait_text.hpp"
@@ -28,7 +29,29 @@ engine::Concave concave_of(const std::string& text) {
 
 }  // namespace
 
+void validate(const Scenario& s, std::string_view where, Problems& problems) {
+  Checks check(where, problems);
+  if (s.duration_s) check.within("duration_s", *s.duration_s, kShortest_s, kLongest_s);
+  if (s.step_s) check.within("step_s", *s.step_s, kShortest_s, 1);
+  if (s.seed) check.within("seed", static_cast<double>(*s.seed), 0, kLargestSeed);
+  if (concave_of(s.concave) == engine::Concave::refuse && s.concave != "refuse")
+    check.refuse("concave", s.concave, "is not one of the words", "refuse, hull, decompose");
+  double before = 0;
+  for (const Command& c : s.commands) {
+    check.within("command.time_s", c.time_s, 0, kLongest_s);
+    if (c.time_s < before) check.refuse("command.time_s", Checks::text(c.time_s), "is before the last one", "in order of time");
+    before = c.time_s;
+    if (c.equilibrium_rad) check.finite("command.equilibrium_rad", *c.equilibrium_rad);
+    if (c.preset_rad) check.finite("command.preset_rad", *c.preset_rad);
+    if (!c.equilibrium_rad && !c.preset_rad)
+      check.refuse("command.equilibrium_rad", "", "commands nothing", "equilibrium_rad, preset_rad or both");
+  }
+}
+
 engine::World load_world(const Scenario& scenario) {
+  Problems problems;
+  validate(scenario, "", problems);
+  problems.throw_if_any();
   engine::WorldOptions with;
   with.step_s = scenario.step_s;
   with.concave = concave_of(scenario.concave);

@@ -46,8 +46,7 @@ class Counting final : public vsa::elastic::Transmission {
 ActuatorParams between_motors(std::shared_ptr<const vsa::elastic::Transmission> law, double friction_Nm) {
   ActuatorParams p;
   p.transmission = std::move(law);
-  p.motor = {0.001, 0.01, 0.8, 0.8, 2.3, std::nullopt};
-  p.gearbox = {1.0, {friction_Nm, 0.03}};
+  p.set_both({.motor = {0.001, 0.01, 0.8, 0.8, 2.3, std::nullopt}, .gearbox = {1.0, {friction_Nm, 0.03}}});
   p.shaft_friction = {0.01, 0.03};
   return p;
 }
@@ -96,7 +95,7 @@ TEST(LawInAnActuator, TellsTheTorquesSlopeWithTheMotorsYielding) {
 double rounds(const SomeLaw& l) {
   const auto counting = std::make_shared<Counting>(l.law);
   ActuatorParams p = between_motors(counting, 0.0);
-  p.motor.inertia_kgm2 = 1e-5;  // light: they follow the springs within the step
+  for (auto& side : p.side) side.motor.inertia_kgm2 = 1e-5;  // light: they follow the springs within the step
   Actuator a(p);
   auto s = a.initial(l.law->references({0, 0.6 * l.preset}), 0);
   constexpr int kSegments = 500;

@@ -22,14 +22,11 @@ constexpr double kV = 12;
 ActuatorParams chopped() {
   ActuatorParams p;
   p.transmission = std::make_shared<elastic::TwoSinh>(elastic::TwoSinhParams{{8e-4, 8e-4}, {12.3, 12.3}, {0.27, 0.27}});
-  p.motor = {0.001, 0.01, 0.8, 0.8, 2.3, 2e-4};
-  p.gearbox = {1.0, {0.3, 0.03}, 0.2};
+  p.set_both({.motor = {0.001, 0.01, 0.8, 0.8, 2.3, 2e-4},
+              .gearbox = {1.0, {0.3, 0.03}, 0.2},
+              .bridge = {.pin = drive::PwmPin::enable, .period_s = 50.5e-6, .switch_Ohm = 0.2, .diode_V = 0.7}});
   p.shaft_friction = {0.01, 0.03};
   p.tendon = {0.144, 2.6e-4};
-  p.bridge.pin = drive::PwmPin::enable;
-  p.bridge.period_s = 50.5e-6;
-  p.bridge.switch_Ohm = 0.2;
-  p.bridge.diode_V = 0.7;
   return p;
 }
 
@@ -45,7 +42,7 @@ actuator::SegmentInput input(double dq, double duty_1, double duty_2, double sup
 ActuatorParams loose() {
   ActuatorParams p = chopped();
   p.transmission = std::make_shared<elastic::TwoSinh>(elastic::TwoSinhParams{{1e-9, 1e-9}, {1e-3, 1e-3}});
-  p.gearbox = {1.0, {0, 0}};
+  for (auto& side : p.side) side.gearbox = {1.0, {0, 0}};
   p.tendon = {};
   return p;
 }
@@ -55,9 +52,12 @@ TEST(Pwm, EveryLossIsPositiveAndTheBalanceClosesWhateverHappens) {
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int trial = 0; trial < 200; ++trial) {
     ActuatorParams p = chopped();
-    if (trial % 3 == 1) p.gearbox.friction = {};
-    if (trial % 4 == 1) p.bridge.period_s = 0;
-    if (trial % 5 == 1) p.gearbox.ratio = 3.0;
+    if (trial % 3 == 1)
+      for (auto& side : p.side) side.gearbox.friction = {};
+    if (trial % 4 == 1)
+      for (auto& side : p.side) side.bridge.period_s = 0;
+    if (trial % 5 == 1)
+      for (auto& side : p.side) side.gearbox.ratio = 3.0;
     Actuator a(p);
     auto s = a.initial({0.7 * unit(rng), 0.7 * unit(rng)}, 0.3 * unit(rng));
     auto last = s.ledger;
@@ -86,7 +86,7 @@ TEST(Pwm, TheSupplyGivesWhatTheCircuitTakesAtTheSpeedsThatWere) {
   for (int n = 0; n < 300; ++n) {
     const double duty = n < 150 ? 0.7 : 0.2, before = s.motor[0].angle;
     a.segment(s, h, input(0, duty, 0));
-    const drive::PwmCycle cycle(loose().bridge, kV, 2.3, 2e-4, duty);
+    const drive::PwmCycle cycle(loose().side[0].bridge, kV, 2.3, 2e-4, duty);
     circuit += h * cycle.power(0.8 * (s.motor[0].angle - before) / h).supply;
   }
   EXPECT_GT(circuit, 0.2);
@@ -100,7 +100,7 @@ TEST(Pwm, AMotorOnAConstantDutyRunsUpToWhereTheCircuitFeedsItsFriction) {
     auto s = a.initial({0, 0}, 0);
     for (int n = 0; n < 20000; ++n) a.segment(s, 1e-3, input(0, duty, 0));
     const double speed = s.motor[0].speed;
-    const drive::PwmCycle cycle(p.bridge, kV, 2.3, 2e-4, duty);
+    const drive::PwmCycle cycle(p.side[0].bridge, kV, 2.3, 2e-4, duty);
     EXPECT_NEAR(0.8 * cycle.mean(0.8 * speed).current, 0.01 * speed, 1e-6) << duty;
     EXPECT_GT(speed * duty, 0.0);
     EXPECT_NEAR(a.motor_current(s, 0, duty * kV, Terminal::driven, kV), cycle.mean(0.8 * speed).current, 1e-12);
@@ -123,8 +123,8 @@ TEST(Pwm, AStepOfAnyLengthLandsNearTheConvergedMotion) {
 
 TEST(Pwm, AMotorThatSlowsDownIntoTheDrivenBranchIsDrivenWithinTheSameStep) {
   ActuatorParams p = loose();
-  p.bridge.period_s = 0;
-  p.motor.viscous_Nms_per_rad = 0.1;
+  for (auto& side : p.side) side.bridge.period_s = 0;
+  for (auto& side : p.side) side.motor.viscous_Nms_per_rad = 0.1;
   const auto run = [&](double h) {
     Actuator a(p);
     auto s = a.initial({0, 0}, 0);
@@ -140,8 +140,8 @@ TEST(Pwm, AMotorThatSlowsDownIntoTheDrivenBranchIsDrivenWithinTheSameStep) {
 TEST(Pwm, AtFullDutyItIsTheMotorOnTheSupplysVoltage) {
   ActuatorParams p = loose();
   Actuator chopped(p);
-  p.bridge.pin = drive::PwmPin::input;
-  p.motor.inductance_H.reset();
+  for (auto& side : p.side) side.bridge.pin = drive::PwmPin::input;
+  for (auto& side : p.side) side.motor.inductance_H.reset();
   Actuator plain(p);
   auto a = chopped.initial({0, 0}, 0), b = plain.initial({0, 0}, 0);
   for (int n = 0; n < 50; ++n) {
@@ -157,7 +157,7 @@ TEST(Pwm, AtFullDutyItIsTheMotorOnTheSupplysVoltage) {
 TEST(Pwm, AtDutyZeroTheMotorCoastsAndWithTheSupplyGoneToo) {
   for (const double supply : {kV, 0.0}) {
     ActuatorParams p = loose();
-    p.motor.viscous_Nms_per_rad = 0;
+    for (auto& side : p.side) side.motor.viscous_Nms_per_rad = 0;
     Actuator a(p);
     auto s = a.initial({0, 0}, 0);
     s.motor[0].speed = 5;  // 4 V
@@ -169,7 +169,7 @@ TEST(Pwm, AtDutyZeroTheMotorCoastsAndWithTheSupplyGoneToo) {
 
 TEST(Pwm, AMotorFasterThanTheSupplyFeedsItBack) {
   ActuatorParams p = loose();
-  p.motor.viscous_Nms_per_rad = 0;
+  for (auto& side : p.side) side.motor.viscous_Nms_per_rad = 0;
   Actuator a(p);
   auto s = a.initial({0, 0}, 0);
   s.motor[0].speed = 30;  // 24 V
@@ -192,11 +192,11 @@ TEST(Pwm, AnUnloadedUnitComesToRestAtAnyDutyBelowItsFriction) {
 
 TEST(Pwm, SwitchesInTheWayOfModulatedInputsAreInTheBridgesEntry) {
   ActuatorParams p = chopped();
-  p.bridge.pin = drive::PwmPin::input;
-  p.motor.inductance_H.reset();
+  for (auto& side : p.side) side.bridge.pin = drive::PwmPin::input;
+  for (auto& side : p.side) side.motor.inductance_H.reset();
   Actuator with(p);
-  p.bridge.switch_Ohm = 0;
-  p.motor.resistance_Ohm = 2.5;
+  for (auto& side : p.side) side.bridge.switch_Ohm = 0;
+  for (auto& side : p.side) side.motor.resistance_Ohm = 2.5;
   Actuator without(p);
   auto a = with.initial({0, 0}, 0), b = without.initial({0, 0}, 0);
   for (int n = 0; n < 100; ++n) {

@@ -18,8 +18,7 @@ using vsa::drive::Terminal;
 ActuatorParams maker_pro() {
   ActuatorParams p;
   p.transmission = std::make_shared<vsa::elastic::TwoSinh>(vsa::elastic::TwoSinhParams{{0.022, 0.022}, {6.85, 6.85}});
-  p.motor = {0.001, 0.01, 0.8, 1.3, 2.3, std::nullopt};
-  p.gearbox = {1.0, {0.8, 0.03}};
+  p.set_both({.motor = {0.001, 0.01, 0.8, 1.3, 2.3, std::nullopt}, .gearbox = {1.0, {0.8, 0.03}}});
   p.shaft_friction = {0.01, 0.03};
   return p;
 }
@@ -28,7 +27,7 @@ ActuatorParams maker_pro() {
 ActuatorParams lossy() {
   ActuatorParams p = maker_pro();
   p.transmission = std::make_shared<vsa::elastic::TwoSinh>(vsa::elastic::TwoSinhParams{{8e-4, 8e-4}, {12.3, 12.3}, {0.27, 0.27}});
-  p.gearbox.load_loss = 0.2;
+  for (auto& side : p.side) side.gearbox.load_loss = 0.2;
   p.tendon = {0.144, 2.6e-4};
   return p;
 }
@@ -67,12 +66,17 @@ TEST(Segment, EveryLossIsPositiveAndTheBalanceClosesWhateverHappens) {
   for (int trial = 0; trial < 200; ++trial) {
     ActuatorParams p = trial % 2 == 0 ? maker_pro() : lossy();
     if (trial % 7 == 1) p.tendon.presliding_J = 1e-6;
-    if (trial % 11 == 1) p.gearbox.friction.coulomb_Nm = 0;
-    if (trial % 3 == 1) p.motor.inductance_H = 1e-3;
-    if (trial % 4 == 1) p.gearbox.friction.presliding_rad = 0;
-    if (trial % 5 == 1) p.gearbox.ratio = 3.0;
-    if (trial % 6 == 1) p.gearbox.back_loss = 0.5 * (trial % 12 == 1);
-    p.motor.back_emf_Vs_per_rad = 0.8;  // K_b = K_τ: no conversion entry
+    if (trial % 11 == 1)
+      for (auto& side : p.side) side.gearbox.friction.coulomb_Nm = 0;
+    if (trial % 3 == 1)
+      for (auto& side : p.side) side.motor.inductance_H = 1e-3;
+    if (trial % 4 == 1)
+      for (auto& side : p.side) side.gearbox.friction.presliding_rad = 0;
+    if (trial % 5 == 1)
+      for (auto& side : p.side) side.gearbox.ratio = 3.0;
+    if (trial % 6 == 1)
+      for (auto& side : p.side) side.gearbox.back_loss = 0.5 * (trial % 12 == 1);
+    for (auto& side : p.side) side.motor.back_emf_Vs_per_rad = 0.8;  // K_b = K_τ: no conversion entry
     Actuator a(p);
     auto s = a.initial({0.7 * unit(rng), 0.7 * unit(rng)}, 0.3 * unit(rng));
     auto last = s.ledger;
@@ -106,7 +110,7 @@ double push(Actuator& a, vsa::actuator::ActuatorState& s, double to, int steps) 
 
 TEST(Segment, TendonFrictionTakesItsShareOfTheTensionBothWays) {
   ActuatorParams p = lossy();
-  p.gearbox = {1.0, {100.0, 0.0}};  // nothing moves the motors
+  for (auto& side : p.side) side.gearbox = {1.0, {100.0, 0.0}};  // nothing moves the motors
   Actuator a(p);
   auto s = a.initial({0, 0}, 0.0);
   push(a, s, 0.5, 5000);
@@ -122,7 +126,7 @@ TEST(Segment, TendonFrictionTakesItsShareOfTheTensionBothWays) {
 TEST(Segment, AClosedLoopOfTheShaftCostsTheTendonsTwiceTheirShareOfTheEnergy) {
   // Both springs from 0 to H and back: heat 2μΣH, less the presliding at the turn, which w_max → 0 removes.
   ActuatorParams p = lossy();
-  p.gearbox = {1.0, {100.0, 0.0}};
+  for (auto& side : p.side) side.gearbox = {1.0, {100.0, 0.0}};
   p.tendon.presliding_J = 1e-6;
   Actuator a(p);
   auto s = a.initial({0, 0}, 0.0);
@@ -135,7 +139,7 @@ TEST(Segment, AClosedLoopOfTheShaftCostsTheTendonsTwiceTheirShareOfTheEnergy) {
 
 TEST(Segment, SmallSwingsInsideThePreslidingOfTheTendonsLoseNothing) {
   ActuatorParams p = lossy();
-  p.gearbox = {1.0, {100.0, 0.0}};
+  for (auto& side : p.side) side.gearbox = {1.0, {100.0, 0.0}};
   Actuator a(p);
   auto s = a.initial({0.5, -0.5}, 0.0);
   for (int n = 0; n < 20; ++n) {
@@ -149,7 +153,7 @@ TEST(Segment, SmallSwingsInsideThePreslidingOfTheTendonsLoseNothing) {
 TEST(Segment, AGearLossHoldsMoreTheMoreItCarries) {
   // Back-driven, a pulley slides until load = τ_c + λ·load: 0.4/(1 − 0.2) = 0.5 N·m, less the bristle's bend.
   ActuatorParams p = maker_pro();
-  p.gearbox = {1.0, {0.4, 1e-3}, 0.2};
+  for (auto& side : p.side) side.gearbox = {1.0, {0.4, 1e-3}, 0.2};
   Actuator a(p);
   for (const double load : {0.48, 0.9}) {
     const double deflection = std::asinh(load / 0.022) / 6.85;
@@ -166,7 +170,7 @@ TEST(Segment, AGearThatLosesLessBackwardsHoldsLessThanItsMotorNeedsToDrive) {
   const auto moved = [](double back, double torque) {
     ActuatorParams p = maker_pro();
     p.transmission = std::make_shared<vsa::elastic::TwoSinh>(vsa::elastic::TwoSinhParams{{1e-4, 1e-4}, {1, 1}, {1.0, 1.0}});
-    p.gearbox = {1.0, {0, 0.0}, 0.3, back};
+    for (auto& side : p.side) side.gearbox = {1.0, {0, 0.0}, 0.3, back};
     Actuator a(p);
     auto s = a.initial({1.0, 1.0}, 0.0);  // the shaft at 0 pulls either pulley back with 1 N·m
     const double volts = torque * 2.3 / 0.8;
@@ -183,7 +187,7 @@ TEST(Segment, AGearThatLosesLessBackwardsHoldsLessThanItsMotorNeedsToDrive) {
 
 TEST(Segment, LockedPulleysDeflectAsTheClosedFormSays) {
   ActuatorParams p = maker_pro();
-  p.gearbox.friction = {100.0, 0.0};  // nothing moves the motors
+  for (auto& side : p.side) side.gearbox.friction = {100.0, 0.0};  // nothing moves the motors
   Actuator a(p);
   auto s = a.initial({0.4, -0.4}, 0.0);
   for (int n = 0; n < 300; ++n) a.segment(s, 1e-3, {1e-3, {0, 0}, {Terminal::driven, Terminal::driven}});
@@ -206,7 +210,7 @@ TEST(Segment, TorqueSlopeIsTheDerivativeOfTheMeanTorque) {
   for (const double coulomb : {0.0, 0.8}) {
     for (const bool losses : {false, true}) {
       ActuatorParams p = losses ? lossy() : maker_pro();
-      p.gearbox.friction.coulomb_Nm = coulomb;
+      for (auto& side : p.side) side.gearbox.friction.coulomb_Nm = coulomb;
       Actuator a(p);
       const auto start = a.initial({0.5, -0.5}, 0.1);
       auto torque = [&](double dq) {

@@ -243,14 +243,15 @@ TEST(BatchParameters, WhatCantBeIsToldWithCopyNameAndKeyAndNothingChanges) {
 TEST(BatchParameters, OfAnActuatorThatWasGivenNumbersArentKnownByKey) {
   World from = World::load("bench_load.sdf");
   device::UnitConfig unit = from.robot(0).config().actuators[0].unit;
-  unit.actuator.motor.resistance_Ohm *= 2;
+  for (auto& side : unit.actuator.side) side.motor.resistance_Ohm *= 2;
   from.robot(0).set_parameters(0, unit);
   Batch batch(from, 2, 1);
   EXPECT_NE(error_of([&] { batch.set(0, "shaft", "drive.friction_Nm", 0.7); }).find("set as numbers"), std::string::npos);
   batch.set(0, "", "link.friction", 0.5);
   batch.step(5);
   from.set_parameters(*batch.parameters(0));
-  EXPECT_EQ(from.robot(0).config().actuators[0].unit.actuator.motor.resistance_Ohm, unit.actuator.motor.resistance_Ohm);
+  EXPECT_EQ(from.robot(0).config().actuators[0].unit.actuator.side[0].motor.resistance_Ohm,
+            unit.actuator.side[0].motor.resistance_Ohm);
 }
 
 TEST(BatchParameters, ACopyThatBlowsUpWithItsOwnIsMarkedAndKeepsThem) {

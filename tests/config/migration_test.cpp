@@ -79,7 +79,7 @@ double torque(const device::UnitConfig& unit) {
 }
 
 bool same(const device::UnitConfig& a, const device::UnitConfig& b) {
-  return a.actuator.gearbox == b.actuator.gearbox && a.actuator.motor == b.actuator.motor && torque(a) == torque(b);
+  return a.actuator.side == b.actuator.side && torque(a) == torque(b);
 }
 
 TEST(Migration, EveryTakenRowOfTheTableGivesTheUnitOfTheNewSpelling) {
@@ -148,8 +148,8 @@ TEST(Migration, AnElementOfTheToolboxIsAnsweredWithAWholeElementThatWorks) {
   const host::RobotConfig robot = parse(fresh);
   EXPECT_EQ(robot.actuators.at(0).joint, "elbow");
   EXPECT_EQ(robot.actuators[0].type, "qbmove_advanced");
-  EXPECT_EQ(robot.actuators[0].unit.actuator.gearbox.friction.coulomb_Nm, 0.6);
-  EXPECT_EQ(robot.actuators[0].unit.actuator.gearbox.friction.presliding_rad, 0.0006);
+  EXPECT_EQ(robot.actuators[0].unit.actuator.side[0].gearbox.friction.coulomb_Nm, 0.6);
+  EXPECT_EQ(robot.actuators[0].unit.actuator.side[0].gearbox.friction.presliding_rad, 0.0006);
 }
 
 TEST(Migration, TheToolboxsOwnTemplatesGetEveryAnswerAtOnce) {

@@ -37,10 +37,10 @@ TEST(Plugin, TheFullExampleOfTheDocumentationIsRead) {
   EXPECT_EQ(shoulder.type, "qbmove_maker_pro_6_1");
   EXPECT_EQ(shoulder.id, 1);
   EXPECT_EQ(shoulder.initial_preset, 0.2);
-  EXPECT_EQ(shoulder.unit.actuator.gearbox.friction.coulomb_Nm, 0.7);
+  EXPECT_EQ(shoulder.unit.actuator.side[0].gearbox.friction.coulomb_Nm, 0.7);
   EXPECT_EQ(robot.actuators[1].name, "module_2::shaft");
   EXPECT_EQ(robot.actuators[1].id, 2);
-  EXPECT_EQ(robot.actuators[1].unit.actuator.gearbox, shipped().load("qbmove_maker_pro_6_1").unit.actuator.gearbox);
+  EXPECT_EQ(robot.actuators[1].unit.actuator.side[0].gearbox, shipped().load("qbmove_maker_pro_6_1").unit.actuator.side[0].gearbox);
   EXPECT_EQ(robot.buses[0].name, "arm");
   EXPECT_EQ(robot.buses[0].baud_Hz, 2e6);
   EXPECT_FALSE(robot.buses[0].cycle_s.has_value());
@@ -72,7 +72,8 @@ TEST(Plugin, AReplacementPutsAnotherActuatorOnEveryJoint) {
   const device::UnitConfig expected = shipped().load("qbmove_advanced", other.overrides).unit;
   for (const host::ActuatorConfig& a : robot.actuators) {
     EXPECT_EQ(a.type, "qbmove_advanced");
-    EXPECT_EQ(a.unit.actuator.gearbox, expected.actuator.gearbox) << "the element's override belongs to its own type";
+    EXPECT_EQ(a.unit.actuator.side[0].gearbox, expected.actuator.side[0].gearbox)
+        << "the element's override belongs to its own type";
     EXPECT_EQ(a.unit.actuator.shaft_friction.coulomb_Nm, 0.02);
   }
   EXPECT_EQ(robot.actuators[0].initial_preset, 0.2);
@@ -85,7 +86,7 @@ TEST(Plugin, ReplacingValuesKeepThePresetAndWinOverTheElements) {
                                            "<override key='shaft.friction_Nm' value='0.02'/>"));
   const auto robot = config::parse_plugin(xml, "arm.sdf", shipped(), {std::nullopt, {{"drive.friction_Nm", "0.4"}}});
   EXPECT_EQ(robot.actuators[0].type, "qbmove_maker_pro_6_1");
-  EXPECT_EQ(robot.actuators[0].unit.actuator.gearbox.friction.coulomb_Nm, 0.4);
+  EXPECT_EQ(robot.actuators[0].unit.actuator.side[0].gearbox.friction.coulomb_Nm, 0.4);
   EXPECT_EQ(robot.actuators[0].unit.actuator.shaft_friction.coulomb_Nm, 0.02);
 }
 

@@ -70,28 +70,29 @@ TEST(ShippedTypes, ThePapersMakerProHasTheValuesOfTableIWithTheErratumOnBackEmf)
   ASSERT_NE(springs, nullptr);
   EXPECT_EQ(springs->params().k_Nm, (std::array<double, 2>{0.022, 0.022}));
   EXPECT_EQ(springs->params().a_per_rad, (std::array<double, 2>{6.85, 6.85}));
-  EXPECT_EQ(u.actuator.motor.inertia_kgm2, 0.001);
-  EXPECT_EQ(u.actuator.motor.viscous_Nms_per_rad, 0.01);
-  EXPECT_EQ(u.actuator.motor.torque_constant_Nm_per_A, 1.02);  // of the program's matrix; the table's two contradict each other
-  EXPECT_EQ(u.actuator.motor.resistance_Ohm, 2.3);
-  EXPECT_FALSE(u.actuator.motor.inductance_H.has_value());
-  EXPECT_EQ(u.actuator.gearbox.ratio, 1.0);
-  EXPECT_EQ(u.actuator.gearbox.friction.coulomb_Nm, 0.8);
-  EXPECT_EQ(u.actuator.gearbox.friction.presliding_rad, 0.03);
-  EXPECT_EQ(u.actuator.bridge.supply_V, 12.0);
-  EXPECT_EQ(u.actuator.bridge.dead_band, 0.3);
-  EXPECT_TRUE(u.actuator.bridge.brake_when_off);
+  EXPECT_EQ(u.actuator.side[0].motor.inertia_kgm2, 0.001);
+  EXPECT_EQ(u.actuator.side[0].motor.viscous_Nms_per_rad, 0.01);
+  EXPECT_EQ(u.actuator.side[0].motor.torque_constant_Nm_per_A,
+            1.02);  // of the program's matrix; the table's two contradict each other
+  EXPECT_EQ(u.actuator.side[0].motor.resistance_Ohm, 2.3);
+  EXPECT_FALSE(u.actuator.side[0].motor.inductance_H.has_value());
+  EXPECT_EQ(u.actuator.side[0].gearbox.ratio, 1.0);
+  EXPECT_EQ(u.actuator.side[0].gearbox.friction.coulomb_Nm, 0.8);
+  EXPECT_EQ(u.actuator.side[0].gearbox.friction.presliding_rad, 0.03);
+  EXPECT_EQ(u.actuator.supply_V, 12.0);
+  EXPECT_EQ(u.actuator.side[0].bridge.dead_band, 0.3);
+  EXPECT_TRUE(u.actuator.side[0].bridge.brake_when_off);
   EXPECT_EQ(u.actuator.shaft_friction.coulomb_Nm, 0.01);
   EXPECT_EQ(u.actuator.shaft_inertia_kgm2, 1e-4);
-  EXPECT_EQ(u.actuator.encoder.bits, 12);
-  EXPECT_EQ(u.polarity, 1);
+  EXPECT_EQ(u.actuator.side[0].encoder.bits, 12);
+  EXPECT_EQ(u.actuator.side[0].polarity, 1);
   EXPECT_EQ(u.preset_max, 0.785);
   EXPECT_EQ(u.substep_max_s, 1e-3);
 }
 
 TEST(ShippedTypes, EveryMotorHasOneConstantSoThatNoEnergyIsLostBetweenItsTwoSides) {
   for (const std::string& name : shipped().names()) {
-    const drive::MotorParams motor = shipped().load(name).unit.actuator.motor;
+    const drive::MotorParams motor = shipped().load(name).unit.actuator.side[0].motor;
     EXPECT_EQ(motor.torque_constant_Nm_per_A, motor.back_emf_Vs_per_rad) << name;
   }
 }
@@ -128,7 +129,7 @@ TEST(ShippedTypes, TheRecordedMakerProAndTheUsersDifferInBridgeSupplyAndLoopAndI
 TEST(ShippedTypes, TheMakerProHasNoDeadBandOfItsOwnAndTheFirmwaresBoundOnTheStiffness) {
   const device::UnitConfig unit = shipped().load("qbmove_maker_pro").unit;
   EXPECT_EQ(unit.memory.max_stiffness, 3000 << 1);
-  EXPECT_EQ(unit.actuator.bridge.dead_band, 0.0);
+  EXPECT_EQ(unit.actuator.side[0].bridge.dead_band, 0.0);
   EXPECT_GT(unit.actuator.tendon.friction, 0.0);
 }
 
@@ -145,7 +146,7 @@ TEST(ShippedTypes, TheAdvancedUnitRunsItsOwnProgramWithItsGainsAndWithoutASupply
   EXPECT_EQ(u.program.model, firmware::Model::advanced);
   EXPECT_EQ(u.memory, firmware::initial_memory(firmware::Model::advanced));
   EXPECT_FALSE(u.supply_limited());
-  EXPECT_EQ(u.actuator.motor.inertia_kgm2, 0.0233);
+  EXPECT_EQ(u.actuator.side[0].motor.inertia_kgm2, 0.0233);
 }
 
 TEST(ShippedTypes, TheSeriesElasticExampleHasOneMotorAndNoPreset) {

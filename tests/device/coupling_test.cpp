@@ -81,7 +81,7 @@ TEST(Coupling, ASpringWhoseLawLeavesTheNumbersBehindIsFoundNoFurtherThanItReache
   vsa::device::UnitConfig hard = maker_pro();
   hard.actuator.transmission =
       std::make_shared<vsa::elastic::TwoSinh>(vsa::elastic::TwoSinhParams{{0.0019, 0.0019}, {8.9992, 8.9992}});
-  hard.actuator.motor.inertia_kgm2 = 0.0233;
+  for (auto& side : hard.actuator.side) side.motor.inertia_kgm2 = 0.0233;
   for (std::int64_t step_ns : {500'000, 1'000'000, 2'000'000, 4'000'000}) {
     OneJoint joint(hard, 0.0, 0.785, 1e-4, step_ns);
     joint.q = 0.8;

@@ -36,7 +36,7 @@ UnitConfig with_tendons() {
 }
 UnitConfig without_lanes() {
   UnitConfig config = maker_pro();
-  config.actuator.motor.inductance_H = 1e-3;
+  for (auto& side : config.actuator.side) side.motor.inductance_H = 1e-3;
   return config;
 }
 

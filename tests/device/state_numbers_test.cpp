@@ -33,10 +33,11 @@ vsa::device::UnitConfig some_unit(std::mt19937& random) {
   c.memory = vsa::firmware::initial_memory(c.program.model);
   if (flip()) c.program.dialect = vsa::bus::Dialect::seven;
   c.memory.control_mode = static_cast<std::uint8_t>(random() % 6);
-  if (flip()) c.actuator.motor.inductance_H = 1e-3;
-  if (c.actuator.motor.inductance_H && flip()) {
-    c.actuator.bridge.pin = vsa::drive::PwmPin::enable;
-    c.actuator.bridge.period_s = 5e-5;
+  if (flip())
+    for (auto& side : c.actuator.side) side.motor.inductance_H = 1e-3;
+  if (c.actuator.side[0].motor.inductance_H && flip()) {
+    for (auto& side : c.actuator.side) side.bridge.pin = vsa::drive::PwmPin::enable;
+    for (auto& side : c.actuator.side) side.bridge.period_s = 5e-5;
   }
   if (flip()) c.actuator.tendon = {0.1, 1e-3, 0.0};
   if (flip()) c.substep_max_s = 0.25e-3;

@@ -109,16 +109,32 @@ TEST(UnitBatch, SoDoUnitsWithOtherFrictionsAndLaws) {
   std::vector<UnitConfig> configs(5, maker_pro());
   configs[0].actuator.tendon = {0.06, 2e-3, 3e-3};
   configs[1].actuator.tendon = {0.06, 2e-3, 0};
-  configs[1].actuator.gearbox.load_loss = 0.2;
-  configs[1].actuator.gearbox.back_loss = 0.1;
-  configs[2].actuator.gearbox.friction = {0, 0};
+  for (auto& side : configs[1].actuator.side) side.gearbox.load_loss = 0.2;
+  for (auto& side : configs[1].actuator.side) side.gearbox.back_loss = 0.1;
+  for (auto& side : configs[2].actuator.side) side.gearbox.friction = {0, 0};
   configs[2].actuator.shaft_friction = {0, 0};
-  configs[3].actuator.gearbox.friction.presliding_rad = 0;  // no lanes
-  configs[4].actuator.motor.inductance_H = 1e-3;            // no lanes
+  for (auto& side : configs[3].actuator.side) side.gearbox.friction.presliding_rad = 0;  // no lanes
+  for (auto& side : configs[4].actuator.side) side.motor.inductance_H = 1e-3;            // no lanes
   for (std::size_t i = 0; i < configs.size(); ++i) {
     EXPECT_EQ(UnitBatch(configs[i], 1).width() > 1, i < 3) << i;
     for (const std::string_view set : UnitBatch::instruction_sets()) compare(configs[i], {9, 1'000'000, 7}, set);
   }
+}
+
+TEST(UnitBatch, SoDoUnitsWithTwoUnlikeSides) {
+  UnitConfig config = maker_pro();
+  config.actuator.tendon = {0.06, 2e-3, 3e-3};
+  actuator::SideParams& second = config.actuator.side[1];
+  second.motor = {0.003, 0.02, 0.6, 0.9, 3.1, std::nullopt};
+  second.gearbox = {1.5, {0.2, 0.01}, 0.1, 0.3};
+  second.bridge.dead_band = 0.1;
+  second.bridge.switch_Ohm = 0.4;
+  second.encoder = {14, 0.2};
+  config.actuator.shaft_encoder = {10, -0.1};
+  EXPECT_GT(UnitBatch(config, 1).width(), 1U);
+  for (const std::string_view set : UnitBatch::instruction_sets()) compare(config, {9, 1'000'000, 8}, set);
+  second.motor.inductance_H = 1e-3;
+  EXPECT_EQ(UnitBatch(config, 1).width(), 1U) << "one side without lanes is enough";
 }
 
 TEST(UnitBatch, RefusesWhatIsNoStepAndThenNothingHasMoved) {

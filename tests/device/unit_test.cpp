@@ -36,8 +36,8 @@ TEST(Unit, FollowsACommandedEquilibriumWithinItsDeadBand) {
 
 TEST(Unit, ForgottenNumbersAreRefusedByName) {
   vsa::device::UnitConfig config = maker_pro();
-  config.actuator.motor = {};
-  config.actuator.motor.inertia_kgm2 = 0.001;
+  for (auto& side : config.actuator.side) side.motor = {};
+  for (auto& side : config.actuator.side) side.motor.inertia_kgm2 = 0.001;
   try {
     const vsa::device::Unit unit(config);
     ADD_FAILURE() << "a motor without resistance";
@@ -68,7 +68,7 @@ TEST(Unit, NoLoadSpeedIsWhatVoltageFrictionAndBackEmfAllow) {
 TEST(Unit, EnergyLedgerBalancesToRounding) {
   for (std::int64_t step_ns : {250'000, 1'000'000, 4'000'000}) {
     vsa::device::UnitConfig config = maker_pro();
-    config.actuator.motor.inductance_H = 1e-3;
+    for (auto& side : config.actuator.side) side.motor.inductance_H = 1e-3;
     OneJoint joint(config, 0.0, 0.3, 1e-3, step_ns);
     joint.load = [](double q) { return -0.8 * std::sin(q); };
     for (int n = 0; n < 10; ++n) {
@@ -140,8 +140,8 @@ TEST(Unit, ClampsThePresetAndSixteenBitReferences) {
 TEST(Unit, CoastsOrBrakesWhenOff) {
   for (const bool brake : {true, false}) {
     auto config = maker_pro();
-    config.actuator.bridge.brake_when_off = brake;
-    config.actuator.gearbox.friction = {0, 0};
+    for (auto& side : config.actuator.side) side.bridge.brake_when_off = brake;
+    for (auto& side : config.actuator.side) side.gearbox.friction = {0, 0};
     OneJoint joint(config, 0.0, 0.0, 1e-3, 1'000'000);
     joint.state.program.enable = 0;
     joint.q = 1.0;
@@ -158,8 +158,8 @@ TEST(Unit, CoastsOrBrakesWhenOff) {
 /// Fast switching: below half the duty a bridge with a modulated enable pin gives a standing motor nothing.
 vsa::device::UnitConfig chopped() {
   auto config = maker_pro();
-  config.actuator.bridge.pin = vsa::drive::PwmPin::enable;
-  config.actuator.bridge.dead_band = 0;
+  for (auto& side : config.actuator.side) side.bridge.pin = vsa::drive::PwmPin::enable;
+  for (auto& side : config.actuator.side) side.bridge.dead_band = 0;
   config.program.supply_table = false;
   return config;
 }
@@ -185,9 +185,9 @@ TEST(Unit, AModulatedEnablePinGivesNothingBelowHalfTheDuty) {
 
 TEST(Unit, AModulatedEnablePinFollowsACommandAndKeepsTheBooks) {
   auto config = chopped();
-  config.actuator.bridge.period_s = 50.5e-6;
-  config.actuator.motor.inductance_H = 2e-4;
-  config.actuator.gearbox.friction.coulomb_Nm = 0.2;
+  for (auto& side : config.actuator.side) side.bridge.period_s = 50.5e-6;
+  for (auto& side : config.actuator.side) side.motor.inductance_H = 2e-4;
+  for (auto& side : config.actuator.side) side.gearbox.friction.coulomb_Nm = 0.2;
   for (const std::int64_t dt_ns : {1'000'000, 700'000, 4'000'000}) {
     OneJoint joint(config, 0.0, 0.3, 1e-3, dt_ns);
     run(joint, 0.1);
@@ -203,7 +203,7 @@ TEST(Unit, AModulatedEnablePinFollowsACommandAndKeepsTheBooks) {
 TEST(Unit, OffOrWithoutSupplyAModulatedEnablePinLetsTheMotorsCoast) {
   for (const bool supply : {true, false}) {
     auto config = chopped();
-    config.actuator.gearbox.friction = {0, 0};
+    for (auto& side : config.actuator.side) side.gearbox.friction = {0, 0};
     OneJoint joint(config, 0.0, 0.0, 1e-3, 1'000'000);
     joint.state.program.enable = 0;
     joint.state.supply_on = supply;

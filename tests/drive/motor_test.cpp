@@ -135,13 +135,13 @@ TEST(Gearbox, AnyRatioIsThePulleySideMotor) {
 TEST(Bridge, HasNoDeadBandUnlessAsked) { EXPECT_EQ(bridge_duty(BridgeParams{}, 0.1, 1.0), 0.1); }
 
 TEST(Bridge, HasADeadBandASaturationAndTheRightSign) {
-  const BridgeParams p{12.0, 0.3, true};
-  EXPECT_EQ(bridge_voltage(p, 0.3, 0.6), 0.0);
-  EXPECT_EQ(bridge_voltage(p, -0.2, 0.6), 0.0);
-  EXPECT_DOUBLE_EQ(bridge_voltage(p, 1.0, 0.6), 7.2);
-  EXPECT_DOUBLE_EQ(bridge_voltage(p, 5.0, 0.6), 7.2);
-  EXPECT_NEAR(bridge_voltage(p, 0.65, 0.6), 3.6, 1e-12);
-  EXPECT_NEAR(bridge_voltage(p, -0.65, 0.6), -3.6, 1e-12) << "the authors' program reverses this sign";
+  const BridgeParams p{.dead_band = 0.3};
+  EXPECT_EQ(bridge_voltage(p, 12.0, 0.3, 0.6), 0.0);
+  EXPECT_EQ(bridge_voltage(p, 12.0, -0.2, 0.6), 0.0);
+  EXPECT_DOUBLE_EQ(bridge_voltage(p, 12.0, 1.0, 0.6), 7.2);
+  EXPECT_DOUBLE_EQ(bridge_voltage(p, 12.0, 5.0, 0.6), 7.2);
+  EXPECT_NEAR(bridge_voltage(p, 12.0, 0.65, 0.6), 3.6, 1e-12);
+  EXPECT_NEAR(bridge_voltage(p, 12.0, -0.65, 0.6), -3.6, 1e-12) << "the authors' program reverses this sign";
 }
 
 }  // namespace

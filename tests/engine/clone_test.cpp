@@ -56,7 +56,7 @@ TEST(Clone, KnowsTheJointsDampers) {
 TEST(Clone, HasTheParametersThatWereChanged) {
   World w = World::load_string(arm());
   auto unit = w.robot(0).config().actuators[0].unit;
-  unit.actuator.motor.resistance_Ohm *= 3;
+  for (auto& side : unit.actuator.side) side.motor.resistance_Ohm *= 3;
   w.robot(0).set_parameters(0, unit);
   World c = w.clone();
   World plain = World::load_string(arm());

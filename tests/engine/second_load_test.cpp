@@ -194,7 +194,9 @@ TEST(SecondLoad, AnEditedPresetIsReadAnewThoughTheWorldIsKept) {
   WorldOptions options;
   options.types = config::TypeLibrary({dir.path()});
   const std::string text = fresh(arm());
-  const auto resistance = [](const World& w) { return w.robot(0).config().actuators[0].unit.actuator.motor.resistance_Ohm; };
+  const auto resistance = [](const World& w) {
+    return w.robot(0).config().actuators[0].unit.actuator.side[0].motor.resistance_Ohm;
+  };
   const World before = World::load_string(text, options);
   type.replace(type.find(line), line.size(), "resistance_Ohm = { value = 4.0,");
   dir.write("qbmove_maker_pro_6_1.toml", type);

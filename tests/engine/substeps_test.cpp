@@ -114,7 +114,7 @@ TEST(Substeps, HoldForPlacesParametersSnapshotsAndClones) {
   go(20);
   p.both([](World& w) {
     auto unit = w.robot(0).config().actuators[0].unit;
-    unit.actuator.motor.resistance_Ohm *= 2;
+    for (auto& side : unit.actuator.side) side.motor.resistance_Ohm *= 2;
     w.robot(0).set_parameters(0, unit);
     w.command("shoulder", -0.5, 0.6);
   });

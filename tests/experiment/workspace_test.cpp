@@ -19,10 +19,10 @@ constexpr double kSupply = 12, kDuty = 61.0 / 101.0;
 
 device::UnitConfig drive_only() {
   device::UnitConfig u;
-  u.actuator.motor = {0.001, 0.01, 0.8, 1.3, 2.3, {}};
-  u.actuator.gearbox.friction = {0.8, 0.03};
-  u.actuator.bridge.supply_V = kSupply;
-  u.actuator.bridge.dead_band = 0.3;
+  for (auto& side : u.actuator.side) side.motor = {0.001, 0.01, 0.8, 1.3, 2.3, {}};
+  for (auto& side : u.actuator.side) side.gearbox.friction = {0.8, 0.03};
+  u.actuator.supply_V = kSupply;
+  for (auto& side : u.actuator.side) side.bridge.dead_band = 0.3;
   u.actuator.shaft_friction = {0.01, 0.03};
   u.actuator.shaft_inertia_kgm2 = 1e-4;
   u.preset_max = 0.785;
@@ -47,7 +47,7 @@ constexpr double kBack = 0.8 * 1.3 / 2.3 + 0.01;
 constexpr double kMost = kStall - 0.8;  // M⁺(0)
 
 TEST(MotorLine, IsTheStraightLineOfADcMotorBehindItsFriction) {
-  const MotorLine line = motor_line(qbmove());
+  const MotorLine line = motor_line(qbmove(), 0);
   EXPECT_NEAR(line.voltage_V, kVoltage, 1e-12);
   EXPECT_NEAR(line.stall_current_A, kVoltage / 2.3, 1e-12);
   EXPECT_NEAR(line.most_Nm(0), 0.8 * kVoltage / 2.3 - 0.8, 1e-12);
@@ -59,18 +59,18 @@ TEST(MotorLine, IsTheStraightLineOfADcMotorBehindItsFriction) {
 
 TEST(MotorLine, OfAModulatedEnablePinIsTheCircuitsCurrentBehindTheFriction) {
   device::UnitConfig u = qbmove();
-  u.actuator.bridge.pin = drive::PwmPin::enable;
-  u.actuator.gearbox.friction.coulomb_Nm = 0.2;
-  const MotorLine line = motor_line(u);
+  for (auto& side : u.actuator.side) side.bridge.pin = drive::PwmPin::enable;
+  for (auto& side : u.actuator.side) side.gearbox.friction.coulomb_Nm = 0.2;
+  const MotorLine line = motor_line(u, 0);
   EXPECT_NEAR(line.voltage_V, (2 * kDuty - 1) * kSupply, 1e-12) << "fast switching: (2d - 1)V";
   EXPECT_NEAR(line.most_Nm(0), 0.8 * line.voltage_V / 2.3 - 0.2, 1e-12);
   EXPECT_NEAR(line.most_Nm(line.no_load_speed_rad_per_s()), 0, 1e-9);
   EXPECT_NEAR(line.least_Nm(1), -(0.8 * (line.voltage_V + 1.3) / 2.3 + 0.2 + 0.01), 1e-12);
-  EXPECT_NEAR(standing_voltage(u, 0.8, line.full_duty), 0, 1e-12) << "below half the duty there is none";
+  EXPECT_NEAR(standing_voltage(u, 0, 0.8, line.full_duty), 0, 1e-12) << "below half the duty there is none";
   // A slow PWM leaves the current time to rise: the line bends, and a fast motor still has some torque.
-  u.actuator.bridge.period_s = 50.5e-6;
-  u.actuator.motor.inductance_H = 1e-4;
-  const MotorLine bent = motor_line(u);
+  for (auto& side : u.actuator.side) side.bridge.period_s = 50.5e-6;
+  for (auto& side : u.actuator.side) side.motor.inductance_H = 1e-4;
+  const MotorLine bent = motor_line(u, 0);
   EXPECT_GT(bent.voltage_V, line.voltage_V);
   EXPECT_GT(bent.no_load_speed_rad_per_s(), 1.2 * line.no_load_speed_rad_per_s());
 }
@@ -78,13 +78,14 @@ TEST(MotorLine, OfAModulatedEnablePinIsTheCircuitsCurrentBehindTheFriction) {
 TEST(MotorLine, GivesTheSameAtThePulleyThroughAGearbox) {
   device::UnitConfig geared = qbmove();
   const double n = 50;
-  drive::MotorParams& m = geared.actuator.motor;
+  actuator::SideParams& second = geared.actuator.side[1];
+  drive::MotorParams& m = second.motor;
   m.viscous_Nms_per_rad /= n * n;
   m.torque_constant_Nm_per_A /= n;
   m.back_emf_Vs_per_rad /= n;
-  geared.actuator.gearbox.friction.coulomb_Nm /= n;
-  geared.actuator.gearbox.ratio = n;
-  const MotorLine a = motor_line(qbmove()), b = motor_line(geared);
+  second.gearbox.friction.coulomb_Nm /= n;
+  second.gearbox.ratio = n;
+  const MotorLine a = motor_line(geared, 0), b = motor_line(geared, 1);
   EXPECT_NEAR(a.stall_Nm, b.stall_Nm, 1e-12);
   EXPECT_NEAR(a.friction_Nm, b.friction_Nm, 1e-12);
   EXPECT_NEAR(a.back_Nms_per_rad, b.back_Nms_per_rad, 1e-12);
@@ -92,27 +93,27 @@ TEST(MotorLine, GivesTheSameAtThePulleyThroughAGearbox) {
 
 TEST(MotorLine, LosesMoreUnderLoadBehindALossyGear) {
   device::UnitConfig u = qbmove();
-  u.actuator.gearbox.load_loss = 0.25;  // an efficiency of 0.8
-  EXPECT_NEAR(motor_line(u).most_Nm(1), 0.8 * (kMost - kBack), 1e-12);
+  for (auto& side : u.actuator.side) side.gearbox.load_loss = 0.25;  // an efficiency of 0.8
+  EXPECT_NEAR(motor_line(u, 0).most_Nm(1), 0.8 * (kMost - kBack), 1e-12);
 }
 
 TEST(MotorLine, StandsStillWhereFrictionIsMoreThanTheMotorGives) {
   device::UnitConfig u = qbmove();
-  u.actuator.bridge.supply_V = 1;
-  EXPECT_EQ(motor_line(u).no_load_speed_rad_per_s(), 0);
+  u.actuator.supply_V = 1;
+  EXPECT_EQ(motor_line(u, 0).no_load_speed_rad_per_s(), 0);
 }
 
 TEST(MotorLine, TakesTheVoltageThatTheUnitGivesAtFullOutput) {
   for (const double supply : {7.0, 12.0, 24.0}) {
     for (const bool limited : {true, false}) {
       device::UnitConfig u = qbmove();
-      u.actuator.bridge.supply_V = supply;
+      u.actuator.supply_V = supply;
       u.program.supply_table = limited;
       device::Unit unit(u);
       device::UnitState s = unit.initial(0, 0, 0);
       unit.set_inputs(s, unit.inputs_for(2, 0));
       for (int k = 0; k < 4; ++k) unit.step(s, k * 1'000'000, 1'000'000, {0, 0, 0});
-      EXPECT_NEAR(s.held.voltage[0], motor_line(u).voltage_V, 1e-9) << supply << " V, limit " << limited;
+      EXPECT_NEAR(s.held.voltage[0], motor_line(u, 0).voltage_V, 1e-9) << supply << " V, limit " << limited;
     }
   }
 }
@@ -152,7 +153,7 @@ TEST(Workspace, WindsItsSpringsUpToTheMotorsTorque) {
   device::UnitConfig limited = qbmove();
   limited.preset_max = 0.5;
   EXPECT_EQ(Workspace(limited).attainable_preset(), 0.5);
-  limited.actuator.bridge.supply_V = 1;
+  limited.actuator.supply_V = 1;
   EXPECT_EQ(Workspace(limited).attainable_preset(), 0) << "friction holds the motors";
 }
 
@@ -237,7 +238,7 @@ TEST(DataSheet, ErrorsOfThePositionLoopFollowFromItsGainDeadBandAndFriction) {
   const double full = 100 / (6553 / 65536.0) * 2 * 3.14159265358979 / 65536;
   EXPECT_NEAR(e.full_rad, full, 1e-9);
   EXPECT_NEAR(e.moves_rad, full * (0.3 + 0.7 * 0.8 / kStall), 1e-9);
-  type.unit.actuator.bridge.supply_V = 1;
+  type.unit.actuator.supply_V = 1;
   EXPECT_TRUE(std::isnan(data_sheet(type).errors.moves_rad));
 }
 

@@ -147,6 +147,7 @@ TEST(HostileRobot, AConfigThatNoRobotCouldHaveIsRefused) {
   refused([](auto& c) { c.buses[0].cycle_s = kNan; });
   refused([](auto& c) { c.state_rate_Hz = kNan; });
   refused([](auto& c) { c.state_rate_Hz = 0; });
+  refused([](auto& c) { c.record = {"out", kNan}; });
   refused([](auto& c) { c.buses.clear(); });
   Robot none{{}};
   none.advance(0, 1'000'000, {}, {});

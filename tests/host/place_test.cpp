@@ -153,8 +153,8 @@ TEST(Parameters, ARobotThatGotThemIsTheOneBuiltWithThemAfterAReset) {
   RobotConfig config = chain(1);
   Bench changed(config);
   changed.run(50);
-  config.actuators[0].unit.actuator.motor.resistance_Ohm = 4.0;
-  config.actuators[0].unit.actuator.bridge.supply_V = 18;
+  for (auto& side : config.actuators[0].unit.actuator.side) side.motor.resistance_Ohm = 4.0;
+  config.actuators[0].unit.actuator.supply_V = 18;
   config.actuators[0].unit.memory.position.p /= 2;
   changed.robot.set_parameters(0, config.actuators[0].unit);
   changed.robot.reset();
@@ -195,13 +195,21 @@ TEST(Parameters, ThatNoUnitCouldHaveAreRefused) {
   };
   const auto never = [&](auto&& spoil) { EXPECT_THROW(Robot{refused(spoil)}, InputError); };
   never([](auto& u) { u.actuator.transmission = nullptr; });
-  never([](auto& u) { u.actuator.motor.inertia_kgm2 = 0; });
-  never([](auto& u) { u.actuator.motor.resistance_Ohm = std::nan(""); });
-  never([](auto& u) { u.actuator.gearbox.ratio = -1; });
-  never([](auto& u) { u.actuator.encoder.bits = 40; });
+  never([](auto& u) {
+    for (auto& side : u.actuator.side) side.motor.inertia_kgm2 = 0;
+  });
+  never([](auto& u) {
+    for (auto& side : u.actuator.side) side.motor.resistance_Ohm = std::nan("");
+  });
+  never([](auto& u) {
+    for (auto& side : u.actuator.side) side.gearbox.ratio = -1;
+  });
+  never([](auto& u) {
+    for (auto& side : u.actuator.side) side.encoder.bits = 40;
+  });
   never([](auto& u) { u.memory.resolution[1] = 40; });
   never([](auto& u) { u.substep_max_s = 0; });
-  never([](auto& u) { u.polarity = 0; });
+  never([](auto& u) { u.actuator.side[0].polarity = 0; });
   never([](auto& u) { u.preset_max = std::nan(""); });
   // Fine for another robot, but not for one that is under way.
   (void)refused([](auto& u) { u.program.model = vsa::firmware::Model::advanced; });

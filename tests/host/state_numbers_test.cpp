@@ -37,7 +37,8 @@ RobotConfig some_robot(std::mt19937& random) {
     if (random() % 3 == 0) a.unit.program.model = vsa::firmware::Model::advanced;
     a.unit.memory = vsa::firmware::initial_memory(a.unit.program.model);
     if (random() % 4 == 0) a.unit.actuator.transmission = std::make_shared<vsa::elastic::SeriesSpring>(2.0);
-    if (random() % 4 == 0) a.unit.actuator.motor.inductance_H = 1e-3;
+    if (random() % 4 == 0)
+      for (auto& side : a.unit.actuator.side) side.motor.inductance_H = 1e-3;
     if (random() % 4 == 0 && a.unit.actuator.transmission->spring_count() > 0) a.unit.actuator.tendon = {0.1, 1e-3, 0.0};
   }
   return config;

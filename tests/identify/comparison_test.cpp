@@ -80,7 +80,7 @@ TEST_F(ComparisonFile, GivesItsSettingsAndItsHypotheses) {
   EXPECT_GT(c.recordings[1].weight, 100) << "by its scatter";
   ASSERT_EQ(c.hypotheses.size(), 2u);
   EXPECT_EQ(c.hypotheses[0].type.unit.memory.max_stiffness, 32000);
-  EXPECT_FALSE(c.hypotheses[0].type.unit.actuator.bridge.brake_when_off);
+  EXPECT_FALSE(c.hypotheses[0].type.unit.actuator.side[0].bridge.brake_when_off);
   EXPECT_EQ(c.hypotheses[0].free.size(), 1u);
   EXPECT_EQ(c.hypotheses[1].title, "nothing free");
   EXPECT_TRUE(c.hypotheses[1].free.empty());

@@ -31,8 +31,9 @@ const std::vector<config::Override> kWithoutFriction{
 TEST(StaticDrive, IsTheProgramsGainTimesTheBridgesStallTorque) {
   // 0.1 % a raw tick; 61 % of the duty at 12 V, in counts of 101: between the ends a straight line, at the ends the stall torque.
   const device::UnitConfig u = unit("qbmove_maker_pro_6_1");
-  const StaticDrive drive(u);
-  const double stall = 0.61 * 100 / 101 * 12.0 / u.actuator.motor.resistance_Ohm * u.actuator.motor.torque_constant_Nm_per_A;
+  const StaticDrive drive(u, 0);
+  const double stall =
+      0.61 * 100 / 101 * 12.0 / u.actuator.side[0].motor.resistance_Ohm * u.actuator.side[0].motor.torque_constant_Nm_per_A;
   EXPECT_NEAR(drive.torque_Nm(3.0), stall, 1e-9);
   EXPECT_NEAR(drive.torque_Nm(-3.0), -stall, 1e-9);
   const double half_rad = 500 * 2 * kPi / 65536;  // 500 raw ticks: half of the output
@@ -40,14 +41,25 @@ TEST(StaticDrive, IsTheProgramsGainTimesTheBridgesStallTorque) {
   EXPECT_NEAR(drive.torque_Nm(-half_rad), -0.5 * stall, 0.02 * stall);
 }
 
+TEST(StaticDrive, OfASecondMotorIsItsOwn) {
+  const auto u =
+      unit("qbmove_maker_pro_6_1",
+           {{"drive_2.resistance_Ohm", "4.6"}, {"drive_2.torque_constant_Nm_per_A", "2.04"}, {"drive_2.dead_band", "0.2"}});
+  const double ratio = 2.04 / 4.6 / (u.actuator.side[0].motor.torque_constant_Nm_per_A / u.actuator.side[0].motor.resistance_Ohm);
+  EXPECT_NEAR(StaticDrive(u, 1).torque_Nm(1.0), ratio * StaticDrive(u, 0).torque_Nm(1.0), 1e-12);
+  EXPECT_EQ(StaticDrive(u, 1).torque_Nm(2e-3), 0.0) << "within its dead band";
+  EXPECT_GT(StaticDrive(u, 0).torque_Nm(2e-3), 0.0);
+  EXPECT_TRUE(unsupported(unit("qbmove_maker_pro_6_1", {{"drive_2.polarity", "-1"}})));
+}
+
 TEST(StaticDrive, GivesNothingWithinADeadBandAndLittleBelowHalfADutyOfAModulatedEnablePin) {
   const double fifth_rad = 200 * 2 * kPi / 65536, most_rad = 900 * 2 * kPi / 65536;  // 20 % and 90 % of the output
-  EXPECT_EQ(StaticDrive(unit("qbmove_maker_pro_6_1", {{"drive.dead_band", "0.3"}})).torque_Nm(fifth_rad), 0.0);
-  EXPECT_GT(StaticDrive(unit("qbmove_maker_pro_6_1")).torque_Nm(fifth_rad), 0.1);
+  EXPECT_EQ(StaticDrive(unit("qbmove_maker_pro_6_1", {{"drive.dead_band", "0.3"}}), 0).torque_Nm(fifth_rad), 0.0);
+  EXPECT_GT(StaticDrive(unit("qbmove_maker_pro_6_1"), 0).torque_Nm(fifth_rad), 0.1);
   const std::vector<config::Override> enable{
       {"drive.pwm_pin", "enable"}, {"drive.pwm_period_s", "0"}, {"firmware.generation", "2"}};
-  EXPECT_EQ(StaticDrive(unit("qbmove_maker_pro_6_1", enable)).torque_Nm(fifth_rad), 0.0);
-  const StaticDrive modulated(unit("qbmove_maker_pro_6_1", enable));
+  EXPECT_EQ(StaticDrive(unit("qbmove_maker_pro_6_1", enable), 0).torque_Nm(fifth_rad), 0.0);
+  const StaticDrive modulated(unit("qbmove_maker_pro_6_1", enable), 0);
   EXPECT_GT(modulated.torque_Nm(most_rad), 0.7 * modulated.torque_Nm(3.0));
   EXPECT_LT(modulated.torque_Nm(most_rad), 0.85 * modulated.torque_Nm(3.0)) << "2d − 1, and not d";
 }
@@ -128,7 +140,10 @@ TEST(QuasiStatic, IsWithinSomeMilliradiansOfTheSimulatedBench) {
   // With 12 V the users' motors stall under the whole load. A motor within the dead zone of an open bridge creeps: less exact.
   const Case cases[] = {{"qbmove_maker_pro_6_1", {{"drive.supply_V", "24"}}, 0.006},
                         {"qbmove_maker_pro", {}, 0.005},
-                        {"qbmove_maker_pro_6_1", {{"drive.supply_V", "24"}, {"drive.back_loss", "0.8"}}, 0.006}};
+                        {"qbmove_maker_pro_6_1", {{"drive.supply_V", "24"}, {"drive.back_loss", "0.8"}}, 0.006},
+                        {"qbmove_maker_pro_6_1",
+                         {{"drive.supply_V", "24"}, {"drive_2.torque_constant_Nm_per_A", "0.6"}, {"drive_2.friction_Nm", "0.1"}},
+                         0.006}};
   for (const Case& c : cases) {
     experiment::Specimen specimen;
     specimen.type = c.type;

@@ -18,24 +18,29 @@ using test::Case;
 /// ẋ of the smooth unit, from what the rooms below say: spring torques, currents, motor constants.
 Eigen::VectorXd rates(const Case& c, const Model& m, const Eigen::VectorXd& x, const Eigen::VectorXd& u) {
   const actuator::ActuatorParams& p = c.unit.actuator;
-  drive::MotorParams motor = drive::at_pulley(p.motor, p.gearbox.ratio);
-  const bool chopped = p.bridge.pin == drive::PwmPin::enable;
-  if (!chopped) motor.resistance_Ohm += p.bridge.switch_Ohm;
-  const bool current_is_state = motor.inductance_H && !chopped;
-  const int motors = p.transmission->motor_count(), each = current_is_state ? 3 : 2;
-  elastic::Positions at{x[0], {x[2], motors == 2 ? x[2 + each] : 0}};
+  const auto current_is_state = [](const actuator::SideParams& s) {
+    return s.motor.inductance_H && s.bridge.pin != drive::PwmPin::enable;
+  };
+  const int motors = p.transmission->motor_count();
+  const std::array<int, 2> first{2, current_is_state(p.side[0]) ? 5 : 4};
+  elastic::Positions at{x[0], {x[2], motors == 2 ? x[first[1]] : 0}};
   const elastic::Response r = p.transmission->evaluate(at);
   Eigen::VectorXd out(x.size());
   out[0] = x[1];
   out[1] = (r.torque + u[0] - m.damping_Nms_per_rad * x[1]) / m.inertia_kgm2;
   for (int i = 0; i < motors; ++i) {
-    const int k = 2 + i * each;
+    const auto n = static_cast<std::size_t>(i);
+    const actuator::SideParams& side = p.side[n];
+    drive::MotorParams motor = drive::at_pulley(side.motor, side.gearbox.ratio);
+    const bool chopped = side.bridge.pin == drive::PwmPin::enable;
+    if (!chopped) motor.resistance_Ohm += side.bridge.switch_Ohm;
+    const int k = first[n];
     double amps = (u[1 + i] - motor.back_emf_Vs_per_rad * x[k + 1]) / motor.resistance_Ohm;
     if (chopped)
-      amps = drive::PwmCycle(p.bridge, p.bridge.supply_V, motor.resistance_Ohm, *motor.inductance_H, u[1 + i] / p.bridge.supply_V)
+      amps = drive::PwmCycle(side.bridge, p.supply_V, motor.resistance_Ohm, *motor.inductance_H, u[1 + i] / p.supply_V)
                  .mean(motor.back_emf_Vs_per_rad * x[k + 1])
                  .current;
-    if (current_is_state) {
+    if (current_is_state(side)) {
       amps = x[k + 2];
       out[k + 2] = (u[1 + i] - motor.resistance_Ohm * amps - motor.back_emf_Vs_per_rad * x[k + 1]) / *motor.inductance_H;
     }
@@ -51,12 +56,12 @@ struct Point {
 
 Point point_of(const Model& m, int motors) {
   Point p{Eigen::VectorXd::Zero(m.a.rows()), Eigen::VectorXd::Zero(m.b.cols())};
-  const auto each = (m.a.rows() - 2) / motors;
   p.x[0] = m.rest.at.q;
   p.u[0] = m.rest.load_Nm;
   for (int i = 0; i < motors; ++i) {
-    p.x[2 + i * each] = m.rest.at.x[i];
-    if (each == 3) p.x[4 + i * each] = m.rest.motor_A[i];
+    const Eigen::Index at = test::angle_of(m, i);
+    p.x[at] = m.rest.at.x[i];
+    if (test::has_current(m, i)) p.x[at + 2] = m.rest.motor_A[i];
     p.u[1 + i] = m.rest.motor_V[i];
   }
   return p;
@@ -100,15 +105,14 @@ TEST(Matrices, OutputsAreTheLawsTorqueAndTheAngles) {
   for (const Case& c : test::cases()) {
     const Model m = linear::linearize(c.unit, c.point, Firmware::frozen);
     const int motors = c.unit.actuator.transmission->motor_count();
-    const auto each = (m.a.rows() - 2) / motors;
-    const auto torque = [&](double by, Eigen::Index j) {
+    const auto torque = [&](double by, int i) {
       elastic::Positions at = m.rest.at;
-      (j == 0 ? at.q : at.x[(j - 2) / each]) += by;
+      (i < 0 ? at.q : at.x[i]) += by;
       return Eigen::VectorXd::Constant(1, c.unit.actuator.transmission->evaluate(at).torque);
     };
     for (int i = -1; i < motors; ++i) {
-      const Eigen::Index j = i < 0 ? 0 : 2 + i * each;
-      const double expected = difference([&](double by) { return torque(by, j); })[0];
+      const Eigen::Index j = i < 0 ? 0 : test::angle_of(m, i);
+      const double expected = difference([&](double by) { return torque(by, i); })[0];
       EXPECT_NEAR(m.c(2, j), expected, 1e-6 * std::abs(expected)) << c.name;
       EXPECT_EQ(m.c(i < 0 ? 0 : 3 + i, j), 1);
     }
@@ -207,7 +211,7 @@ TEST(OperatingPoint, RefusesWhatCantBe) {
   expect_refused([&] { (void)linear::linearize(integral, {}, Firmware::sampled); }, {"firmware.ki_pct_per_tick"});
   EXPECT_NO_THROW((void)linear::linearize(integral, {}, Firmware::frozen));
   device::UnitConfig hard = test::loaded("qbmove_maker_pro_6_1");
-  hard.actuator.gearbox.friction.presliding_rad = 0;
+  for (auto& side : hard.actuator.side) side.gearbox.friction.presliding_rad = 0;
   expect_refused([&] { (void)linear::linearize(hard, {}, Firmware::frozen, DryFriction::stuck); }, {"drive.presliding_rad"});
   const Model sampled = linear::linearize(unit, {}, Firmware::sampled);
   expect_refused([&] { (void)linear::response(sampled, 500); }, {"frequency_Hz", "loop's rate"});

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -54,6 +55,17 @@ inline device::UnitConfig with_differential(device::UnitConfig unit) {
   return unit;
 }
 
+/// Where a motor's angle is among a model's states; its speed follows, and its current where that is one.
+inline Eigen::Index angle_of(const linear::Model& m, int motor) {
+  const std::string name = "motor " + std::to_string(motor + 1) + " angle";
+  const auto at = std::find_if(m.states.begin(), m.states.end(), [&](const linear::Signal& s) { return s.name == name; });
+  return at - m.states.begin();
+}
+inline bool has_current(const linear::Model& m, int motor) {
+  const auto n = static_cast<std::size_t>(angle_of(m, motor)) + 2;
+  return n < m.states.size() && m.states[n].unit == "A";
+}
+
 /// A type at a point, as the tests go through them: equal and unequal springs, one spring, tangents beyond an edge, an inductance, a
 /// modulated enable pin; centred and off it; light and heavy.
 struct Case {
@@ -70,6 +82,8 @@ inline std::vector<Case> cases() {
   const auto high_supply = std::vector<config::Override>{{"drive.supply_V", "24"}, {"firmware.supply_limit", "false"}};
   auto slow_winding = high_supply;
   slow_winding.push_back({"drive.inductance_H", "0.02"});
+  auto mixed = slow_winding;
+  mixed.insert(mixed.end(), {{"drive_2.pwm_pin", "enable"}, {"drive_2.pwm_period_s", "5e-5"}, {"drive_2.inductance_H", "2e-4"}});
   return {{"mixed terms", with_differential(smooth("qbmove_maker_pro_6_1")), point(0.1, 0.2, 0.15, 2e-3)},
           {"two sinh, centred", smooth("qbmove_maker_pro_paper"), point(0, 0.3, 0, 1e-3)},
           {"two sinh, aside", smooth("qbmove_maker_pro_paper"), point(0.4, 0.3, 0.6, 5e-3, 0.01)},
@@ -79,6 +93,17 @@ inline std::vector<Case> cases() {
           {"tangents beyond the edge", smooth("qbmove_maker_pro_6_1", high_supply), point(0, 0.6, 0.2, 1e-2)},
           {"enable pin modulated", smooth("qbmove_maker_pro"), point(0, 0.3, 0.05, 2e-3)},
           {"winding with a current of its own", smooth("qbmove_maker_pro_6_1", slow_winding), point(0, 0.3, 0.05, 1e-3)},
+          {"two unlike sides",
+           smooth("qbmove_maker_pro_6_1", {{"drive_2.inertia_kgm2", "0.002"},
+                                           {"drive_2.viscous_Nms_per_rad", "0.05"},
+                                           {"drive_2.torque_constant_Nm_per_A", "1.4"},
+                                           {"drive_2.back_emf_Vs_per_rad", "1.1"},
+                                           {"drive_2.resistance_Ohm", "4"},
+                                           {"drive_2.switch_Ohm", "0.3"},
+                                           {"drive_2.gear_ratio", "0.9"}}),
+           point(0, 0.3, 0.05, 1e-3)},
+          {"a winding on one side, a modulated enable pin on the other", smooth("qbmove_maker_pro_6_1", mixed),
+           point(0, 0.3, 0.05, 1e-3)},
           {"one spring", smooth("sea_example"), point(0.3, 0, 0.35, 2e-3, 0.002)}};
 }
 
@@ -89,8 +114,9 @@ class Stepped {
       : actuator_(c.unit.actuator), model_(linear::linearize(c.unit, c.point, linear::Firmware::frozen)), h_(h_s) {
     shaft_ = model_.rest.at.q;
     state_ = actuator_.initial(model_.rest.at.x, shaft_);
-    for (int i = 0; i < actuator_.motors(); ++i) state_.motor[i].current = model_.rest.motor_A[i];
-    supply_ = c.unit.actuator.bridge.supply_V;
+    for (int i = 0; i < actuator_.motors(); ++i)
+      if (has_current(model_, i)) state_.motor[i].current = model_.rest.motor_A[i];
+    supply_ = c.unit.actuator.supply_V;
     acceleration_ = 0;
   }
 
@@ -100,14 +126,13 @@ class Stepped {
 
   /// Moves shaft, pulleys and currents by this much, in the order of the model's states.
   void displace(const Eigen::VectorXd& by) {
-    const bool currents = by.size() > 2 + 2 * actuator_.motors();
     auto x = model_.rest.at.x;
     shaft_ = model_.rest.at.q + by[0];
     speed_ = by[1];
     for (int i = 0, k = 2; i < actuator_.motors(); ++i) {
       x[i] += by[k++];
       state_.motor[i].speed = by[k++];
-      if (currents) state_.motor[i].current = model_.rest.motor_A[i] + by[k++];
+      if (has_current(model_, i)) state_.motor[i].current = model_.rest.motor_A[i] + by[k++];
       state_.motor[i].angle = state_.motor_anchor[i] = x[i];
     }
     actuator_.place(state_, shaft_);

@@ -126,7 +126,7 @@ TEST(Point, IsWhereTheWorldIsUnlessTold) {
   EXPECT_EQ(softer.model.units[0].held_stiffness_Nm_per_rad, now.model.units[0].held_stiffness_Nm_per_rad);
   // Parameters are those that its robots have now.
   device::UnitConfig other = w.robot(0).config().actuators[0].unit;
-  other.actuator.motor.inertia_kgm2 *= 2;
+  for (auto& side : other.actuator.side) side.motor.inertia_kgm2 *= 2;
   w.robot(0).set_parameters(0, other);
   EXPECT_NE(linear_world::linearize(w, {}, Firmware::frozen).model.a, now.model.a);
 }

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
+
 #include "vsa/scenario/toml.hpp"
 
 namespace {
@@ -45,13 +48,44 @@ TEST(Scenario, EachPartReachesTheWorld) {
   EXPECT_EQ(vsa::scenario::seeded_faults(s),
             (std::vector<std::string>{"joint_2 lost_byte=0.1 seed=3", "joint_4 lost_byte=0.1 seed=9"}));
   vsa::engine::World world = vsa::scenario::load_world(s);
-  EXPECT_EQ(world.robot(0).config().actuators[0].unit.actuator.gearbox.friction.coulomb_Nm, 0.5);
+  EXPECT_EQ(world.robot(0).config().actuators[0].unit.actuator.side[0].gearbox.friction.coulomb_Nm, 0.5);
   EXPECT_EQ(vsa::scenario::travelling_model(world), "qbmove_snake");
   Player player(s, world);
   ASSERT_NE(player.gait(), nullptr);
   EXPECT_EQ(player.gait()->params().frequency_rad_per_s, 4.0);
   EXPECT_DOUBLE_EQ(vsa::scenario::travel_window_s(player.gait()), 2 * 3.14159265358979323846 / 4);
   EXPECT_EQ(vsa::scenario::travel_window_s(nullptr), 1.3);
+}
+
+TEST(Scenario, MadeInCppIsCheckedAsAFileIs) {
+  const auto problems = [](const Scenario& s) {
+    vsa::Problems found;
+    vsa::scenario::validate(s, "", found);
+    return found.list();
+  };
+  const Scenario whole = read(kText);
+  EXPECT_TRUE(problems(whole).empty());
+  const auto refused = [&](const char* key, auto&& change) {
+    Scenario s = whole;
+    change(s);
+    const auto found = problems(s);
+    ASSERT_EQ(found.size(), 1U) << key;
+    EXPECT_EQ(found[0].key, key);
+    EXPECT_THROW((void)vsa::scenario::load_world(s), vsa::InputError) << key;
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  refused("duration_s", [](Scenario& s) { s.duration_s = kNan; });
+  refused("step_s", [](Scenario& s) { s.step_s = 2; });
+  refused("seed", [](Scenario& s) { s.seed = std::uint64_t{1} << 60; });
+  refused("concave", [](Scenario& s) { s.concave = "fill"; });
+  refused("command.time_s", [](Scenario& s) { s.commands[0].time_s = kNan; });
+  refused("command.equilibrium_rad", [](Scenario& s) { s.commands[0].equilibrium_rad = kNan; });
+  refused("command.preset_rad", [](Scenario& s) { s.commands[0].preset_rad = kNan; });
+  refused("command.equilibrium_rad", [](Scenario& s) { s.commands[0].equilibrium_rad.reset(); });
+  refused("command.time_s", [](Scenario& s) {
+    s.commands.push_back(s.commands[0]);
+    s.commands[1].time_s = 0.01;
+  });
 }
 
 TEST(Scenario, WhatIsWrittenIsReadAgain) {

@@ -15,9 +15,8 @@ namespace vsa::test {
 inline device::UnitConfig maker_pro() {
   device::UnitConfig c;
   c.actuator.transmission = std::make_shared<elastic::TwoSinh>(elastic::TwoSinhParams{{0.022, 0.022}, {6.85, 6.85}});
-  c.actuator.bridge.dead_band = 0.3;
-  c.actuator.motor = {0.001, 0.01, 0.8, 1.3, 2.3, std::nullopt};
-  c.actuator.gearbox = {1.0, {0.8, 0.03}};
+  c.actuator.set_both(
+      {.motor = {0.001, 0.01, 0.8, 1.3, 2.3, std::nullopt}, .gearbox = {1.0, {0.8, 0.03}}, .bridge = {.dead_band = 0.3}});
   c.actuator.shaft_friction = {0.01, 0.03};
   c.actuator.shaft_inertia_kgm2 = 1e-4;
   return c;
@@ -26,8 +25,8 @@ inline device::UnitConfig maker_pro() {
 /// The unit with locked motors: an enormous inertia behind no friction at all.
 inline device::UnitConfig without_losses() {
   device::UnitConfig c = maker_pro();
-  c.actuator.motor = {1e6, 0.0, 0.0, 0.0, 1.0, std::nullopt};
-  c.actuator.gearbox.friction = {0.0, 0.0};
+  for (auto& side : c.actuator.side) side.motor = {1e6, 0.0, 0.0, 0.0, 1.0, std::nullopt};
+  for (auto& side : c.actuator.side) side.gearbox.friction = {0.0, 0.0};
   c.actuator.shaft_friction = {0.0, 0.0};
   return c;
 }

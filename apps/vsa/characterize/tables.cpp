@@ -51,7 +51,9 @@ std::string range_text(double least, double most) {
 
 /// Deflection is the difference of two readings, each short of the truth by up to a count: a branch errs by a count, a width by two.
 std::string resolution_text(const study::Characterization& c) {
-  const double count_rad = 2 * kPi / std::pow(2.0, c.actuator.unit.actuator.encoder.bits);
+  const actuator::ActuatorParams& a = c.actuator.unit.actuator;
+  const int coarsest = std::min({a.side[0].encoder.bits, a.side[a.sides() - 1].encoder.bits, a.shaft_encoder.bits});
+  const double count_rad = 2 * kPi / std::pow(2.0, coarsest);
   return fmt::format("The encoders resolve the loop to ±{:.4f} N·m·rad; a smaller area may be none.\n",
                      2 * count_rad * 2 * experiment::BranchOptions{}.max_Nm);
 }

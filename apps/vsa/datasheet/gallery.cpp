@@ -34,11 +34,12 @@ double holding_power_W(const device::UnitConfig& unit, double preset) {
   const elastic::Transmission& law = *unit.actuator.transmission;
   const auto x = law.references({0, preset});
   const elastic::Response r = law.evaluate({law.attained(x).equilibrium, x});
-  const drive::MotorParams motor = drive::at_pulley(unit.actuator.motor, unit.actuator.gearbox.ratio);
-  const double friction = drive::at_pulley(unit.actuator.gearbox.friction, unit.actuator.gearbox.ratio).coulomb_Nm;
   double power = 0;
-  for (int i = 0; i < law.motor_count(); ++i) {
-    const double beyond = std::max(0.0, std::abs(r.load[static_cast<std::size_t>(i)]) - friction);
+  for (std::size_t i = 0; i < unit.actuator.sides(); ++i) {
+    const actuator::SideParams& side = unit.actuator.side[i];
+    const drive::MotorParams motor = drive::at_pulley(side.motor, side.gearbox.ratio);
+    const double friction = drive::at_pulley(side.gearbox.friction, side.gearbox.ratio).coulomb_Nm;
+    const double beyond = std::max(0.0, std::abs(r.load[i]) - friction);
     power += std::pow(beyond / motor.torque_constant_Nm_per_A, 2) * motor.resistance_Ohm;
   }
   return power;

@@ -49,7 +49,7 @@ std::string how_text(const study::DataSheet& d) {
       "law: from the spring's equation; drive: from the motors' parameters at {} V; simulation: from runs on the benches, as vsa "
       "characterize does them. Steady values at full voltage: no parameter tells what the motors may give for long, nor mass and "
       "size.",
-      number(d.computed.type.unit.actuator.bridge.supply_V));
+      number(d.computed.type.unit.actuator.supply_V));
 }
 
 }  // namespace

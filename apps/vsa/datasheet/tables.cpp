@@ -1,6 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "datasheet/page.hpp"
@@ -111,25 +113,42 @@ report::Table mechanical_table(const study::DataSheet& d) {
   return out;
 }
 
+/// A value of each motor or encoder: once where all are alike, else one after the other, as "0.8, 0.5".
+template <class Values, class Text>
+std::string of_each(const Values& values, const Text& text) {
+  std::string all;
+  bool alike = true;
+  for (const auto& v : values) {
+    alike = alike && text(v) == text(values[0]);
+    all += (all.empty() ? "" : ", ") + text(v);
+  }
+  return alike ? text(values[0]) : all;
+}
+
 report::Table electrical_table(const study::DataSheet& d) {
   const experiment::DataSheet& s = d.computed;
   const device::UnitConfig& u = s.type.unit;
   const int motors = u.actuator.transmission->motor_count();
-  const double degree = 180 / kPi;
+  const std::array<int, 3> bits{u.actuator.side[0].encoder.bits, u.actuator.side[u.actuator.sides() - 1].encoder.bits,
+                                u.actuator.shaft_encoder.bits};
   report::Table out{"Electronics, control, limits", {"quantity", "value", "unit", "from"}, {}, ""};
   auto& rows = out.rows;
-  rows.push_back({"supply", number(u.actuator.bridge.supply_V), "V", kType});
-  rows.push_back({"full voltage at a motor", number(s.line.voltage_V), "V", u.supply_limited() ? "firmware" : kDrive});
+  rows.push_back({"supply", number(u.actuator.supply_V), "V", kType});
+  rows.push_back({"full voltage at a motor", of_each(s.line, [](const auto& l) { return number(l.voltage_V); }), "V",
+                  u.supply_limited() ? "firmware" : kDrive});
+  const std::string stalled = of_each(s.line, [](const auto& l) { return number(l.stall_current_A); });
+  rows.push_back({"motors / current of each when stalled", fmt::format("{} / {}", motors, stalled), "A", kDrive});
   rows.push_back(
-      {"motors / current of each when stalled", fmt::format("{} / {}", motors, number(s.line.stall_current_A)), "A", kDrive});
-  rows.push_back({"friction of a motor with gears", number(s.line.friction_Nm), "N·m", kType});
+      {"friction of a motor with gears", of_each(s.line, [](const auto& l) { return number(l.friction_Nm); }), "N·m", kType});
   rows.push_back({"position loop", number(1e6 / static_cast<double>(firmware::kTickNs)), "kHz", "firmware"});
-  rows.push_back({"error that moves a motor / gives full voltage", pair(s.errors.moves_rad * degree, s.errors.full_rad * degree),
-                  "°", kDrive});
-  rows.push_back({"encoders", number(u.actuator.encoder.bits), "bit", kType});
-  rows.push_back({"resolution measured / reported",
-                  pair(360.0 / std::pow(2.0, u.actuator.encoder.bits), 360.0 / (65536 >> u.memory.resolution[0])), "°",
-                  "firmware"});
+  rows.push_back({"error that moves a motor / gives full voltage",
+                  of_each(s.errors, [](const auto& e) { return pair(e.moves_rad * 180 / kPi, e.full_rad * 180 / kPi); }), "°",
+                  kDrive});
+  rows.push_back({"encoders", of_each(bits, [](int b) { return number(b); }), "bit", kType});
+  rows.push_back(
+      {"resolution measured / reported",
+       pair(360.0 / std::pow(2.0, *std::min_element(bits.begin(), bits.end())), 360.0 / (65536 >> u.memory.resolution[0])), "°",
+       "firmware"});
   rows.push_back({"current sense, a count", number(25771.0 / 8192.0), "mA", kDevice});
   if (u.memory.limits_on != 0) {
     rows.push_back({"travel of the motors",

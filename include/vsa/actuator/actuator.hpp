@@ -24,45 +24,15 @@
 #pragma once
 
 #include <array>
-#include <memory>
 
 #include "vsa/actuator/ledger.hpp"
+#include "vsa/actuator/params.hpp"
 #include "vsa/actuator/segment.hpp"
-#include "vsa/drive/bridge.hpp"
 #include "vsa/drive/droop_stepper.hpp"
-#include "vsa/drive/motor.hpp"
 #include "vsa/drive/pwm_cycle.hpp"
-#include "vsa/elastic/transmission.hpp"
 #include "vsa/elastic/two_sinh.hpp"
-#include "vsa/sensor/sensors.hpp"
 
 namespace vsa::actuator {
-
-/// Friction proportional to the springs' tension, in the energy's own coordinate (see the top of this file).
-struct TendonParams {
-  double friction = 0;      ///< μ, loss torque a spring torque, [0, 1)
-  double presliding_J = 0;  ///< w_max: how much a spring's energy changes before that friction slides, ≥ 0
-  double damping_s = 0;     ///< T_d: the bristle's damper over its stiffness, ≥ 0
-  bool operator==(const TendonParams&) const = default;
-};
-
-struct ActuatorParams {
-  std::shared_ptr<const elastic::Transmission> transmission;
-  drive::MotorParams motor;  ///< at the motor's shaft; both motors alike
-  drive::GearboxParams gearbox;
-  drive::BridgeParams bridge;
-  drive::FrictionParams shaft_friction;
-  TendonParams tendon;
-  sensor::EncoderParams encoder;                ///< all three alike
-  double shaft_zero_rad = 0;                    ///< and this added to the shaft's reading
-  double shaft_inertia_kgm2 = drive::kMissing;  ///< used as 1/A where a host can't tell the inverse inertia
-  bool operator==(const ActuatorParams&) const = default;
-};
-
-/// The output shaft's friction as the coupling needs it: with a bristle. A presliding of 0 is taken as kLeastPresliding_rad, a
-/// hundredth of an encoder's count or less, so that what holds the shaft has a slope.
-inline constexpr double kLeastPresliding_rad = 1e-5;
-[[nodiscard]] drive::FrictionParams shaft_friction(const ActuatorParams& params) noexcept;
 
 template <class T>
 struct ActuatorStateOf {
@@ -149,15 +119,25 @@ class Actuator {
     double h_s = 0;
     drive::MotorStepper driven, open;
   };
-  const drive::MotorStepper& stepper(double h_s, drive::Terminal terminal) noexcept;
+  /// A motor at its pulley.
+  struct Side {
+    explicit Side(const SideParams& params) noexcept;
+    drive::MotorParams motor;  // with the switches' resistance, too, and no inductance where chopped
+    drive::Friction friction;
+    double load_loss, back_loss;
+    drive::BridgeParams bridge;
+    double winding_Ohm, winding_H;
+    bool chopped;  // the bridge's enable pin is modulated
+  };
+  const drive::MotorStepper& stepper(std::size_t i, double h_s, drive::Terminal terminal) noexcept;
   const drive::PwmCycle& cycle(int i, const drive::PwmHold& hold) noexcept;
-  [[nodiscard]] drive::PwmCycle new_cycle(const drive::PwmHold& hold) const noexcept;
+  [[nodiscard]] drive::PwmCycle new_cycle(int i, const drive::PwmHold& hold) const noexcept;
   void begin_pwm(Segment& segment, int i, double speed, double h_s) noexcept;
   /// The line of a PWM motor's current about a mean speed, and what follows from it.
   void aim(Segment& segment, int i, double speed) const noexcept;
   /// The same where the last displacement found is that of another speed.
   void follow(Segment& segment, int i) const noexcept;
-  drive::MotorStep pwm_step(Ledger& ledger, const PwmInSegment& pwm, double torque) const noexcept;
+  drive::MotorStep pwm_step(Ledger& ledger, const Side& side, const PwmInSegment& pwm, double torque) const noexcept;
   [[nodiscard]] double pwm_current(const drive::MotorState& motor, int i, drive::Terminal terminal,
                                    const drive::PwmHold& hold) const noexcept;
 
@@ -199,15 +179,12 @@ class Actuator {
 
   ActuatorParams params_;
   const elastic::TwoSinh* two_sinh_;  // params_.transmission, if it is one: known by name it is inlined
-  drive::MotorParams motor_;          // at the pulley
-  drive::Friction friction_;          // at the pulley
+  std::array<Side, 2> sides_;
   drive::Friction shaft_friction_;
   drive::Friction tendon_;  // in the energy's coordinate: "torque" μ, "angle" J
   int motors_, springs_;
-  std::array<Prepared, 2> prepared_{};  // the two step lengths used last
-  bool chopped_;                        // the bridge's enable pin is modulated
-  double back_loss_;
-  double winding_Ohm_, winding_H_;  // motor_ has the switches' resistance, too, and no inductance where chopped
+  std::array<std::size_t, 2> steppers_of_;                  // where in prepared_ a motor's are; motors that are alike share them
+  std::array<std::array<Prepared, 2>, 2> prepared_{};       // the two step lengths used last
   std::array<std::array<drive::PwmCycle, 2>, 2> cycles_{};  // of each motor, the two used last
 };
 

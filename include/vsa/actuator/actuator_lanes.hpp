@@ -93,9 +93,10 @@ void Actuator::book_motors(ActuatorStateOf<T>& s) const noexcept {
   LedgerOf<T>& l = s.ledger;
   l.kinetic = l.magnetic = l.bristle = 0.0;
   for (int i = 0; i < motors_; ++i) {
-    l.kinetic += 0.5 * motor_.inertia_kgm2 * s.motor[i].speed * s.motor[i].speed;
-    if (motor_.inductance_H) l.magnetic += 0.5 * *motor_.inductance_H * s.motor[i].current * s.motor[i].current;
-    l.bristle += drive::bristle_energy(friction_, s.motor[i].angle - s.motor_anchor[i]);
+    const Side& side = sides_[i];
+    l.kinetic += 0.5 * side.motor.inertia_kgm2 * s.motor[i].speed * s.motor[i].speed;
+    if (side.motor.inductance_H) l.magnetic += 0.5 * *side.motor.inductance_H * s.motor[i].current * s.motor[i].current;
+    l.bristle += drive::bristle_energy(side.friction, s.motor[i].angle - s.motor_anchor[i]);
   }
 }
 
@@ -103,8 +104,8 @@ template <class T>
 void Actuator::begin(ActuatorStateOf<T>& s, SegmentOf<T>& seg, double h_s, const SegmentInputOf<T>& in) noexcept {
   seg.in = in;
   for (int i = 0; i < 2; ++i) {
-    if (chopped_ && !(in.supply_V > 0)) seg.in.terminal[i] = drive::Terminal::open;
-    seg.stepper[i] = &stepper(h_s, seg.in.terminal[i]);
+    if (sides_[i].chopped && !(in.supply_V > 0)) seg.in.terminal[i] = drive::Terminal::open;
+    seg.stepper[i] = &stepper(i, h_s, seg.in.terminal[i]);
     if constexpr (lanes::kScalar<T>) seg.pwm[i].cycle = nullptr;
   }
   seg.tried = false;
@@ -118,9 +119,10 @@ void Actuator::begin(ActuatorStateOf<T>& s, SegmentOf<T>& seg, double h_s, const
   seg.per_share = 1.0 / in.lead.share;
   seg.per_own = own * seg.per_share;
   for (int i = 0; i < motors_; ++i) {
+    const Side& side = sides_[i];
     bool pwm = false;
     if constexpr (lanes::kScalar<T>) {
-      pwm = chopped_ && seg.in.terminal[i] == drive::Terminal::driven;
+      pwm = side.chopped && seg.in.terminal[i] == drive::Terminal::driven;
       if (pwm) begin_pwm(seg, i, s.motor[i].speed, h_s);
     }
     if (!pwm) {
@@ -131,7 +133,7 @@ void Actuator::begin(ActuatorStateOf<T>& s, SegmentOf<T>& seg, double h_s, const
     // stiffness doesn't, so that a limit that grows adds no energy and one that shrinks burns what it lets go.
     drive::FrictionOf<T>& gear = seg.gear[i];
     const auto back = (seg.free[i] + seg.give[i] * s.load[i]) * s.load[i] > 0.0;
-    gear = drive::at_load<T>(friction_, lanes::select(back, T(back_loss_), T(params_.gearbox.load_loss)), s.load[i]);
+    gear = drive::at_load<T>(side.friction, lanes::select(back, T(side.back_loss), T(side.load_loss)), s.load[i]);
     T& u = seg.gear_u[i];
     u = s.motor[i].angle - s.motor_anchor[i];
     if (!(gear.stiffness > 0)) continue;
@@ -267,31 +269,32 @@ void Actuator::drive_motors(ActuatorStateOf<T>& s, const SegmentOf<T>& seg) cons
   LedgerOf<T>& l = s.ledger;
   const TrialOf<T>& t = seg.found;
   for (int i = 0; i < motors_; ++i) {
+    const Side& side = sides_[i];
     drive::MotorStateOf<T>& m = s.motor[i];
     const T torque = t.mean.load[i] + t.friction[i].torque;
     const T voltage = seg.in.terminal[i] == drive::Terminal::driven ? seg.in.voltage[i] : T(0.0);
     const bool pwm = seg.chopped(i);
     drive::MotorStepOf<T> step;
     if constexpr (lanes::kScalar<T>) {
-      if (seg.in.terminal[i] == drive::Terminal::open && motor_.inductance_H) {
-        l.copper += 0.5 * *motor_.inductance_H * m.current * m.current;  // an opened winding burns what it stored
+      if (seg.in.terminal[i] == drive::Terminal::open && side.motor.inductance_H) {
+        l.copper += 0.5 * *side.motor.inductance_H * m.current * m.current;  // an opened winding burns what it stored
         m.current = 0;
       }
-      if (pwm) step = pwm_step(l, seg.pwm[i], torque);
+      if (pwm) step = pwm_step(l, side, seg.pwm[i], torque);
     }
     if (!pwm) step = seg.stepper[i]->step(m, voltage, torque);
     l.motor_friction += drive::friction_heat(seg.gear[i], seg.gear_u[i], t.friction[i]);
     if (!pwm) {
       l.supply += voltage * step.charge;
       l.supply_moved += lanes::abs(voltage * step.charge);
-      l.copper += winding_Ohm_ * step.int_II;
-      l.bridge += params_.bridge.switch_Ohm * step.int_II;
+      l.copper += side.winding_Ohm * step.int_II;
+      l.bridge += side.bridge.switch_Ohm * step.int_II;
     }
-    l.conversion += (motor_.back_emf_Vs_per_rad - motor_.torque_constant_Nm_per_A) * step.int_Iw;
-    l.viscous += motor_.viscous_Nms_per_rad * step.int_ww;
+    l.conversion += (side.motor.back_emf_Vs_per_rad - side.motor.torque_constant_Nm_per_A) * step.int_Iw;
+    l.viscous += side.motor.viscous_Nms_per_rad * step.int_ww;
     m.angle += step.displacement;
     m.speed = step.speed;
-    m.current = motor_.inductance_H ? step.current : T(0.0);
+    m.current = side.motor.inductance_H ? step.current : T(0.0);
     s.motor_anchor[i] += t.friction[i].anchor_travel;
     s.load[i] = t.mean.load[i];
   }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "vsa/device/unit.hpp"
@@ -20,6 +21,8 @@ enum class Kind {
 
 /// What a parameter's setter gets: the number, 0 or 1 for a switch, or the index of the word.
 using Setter = void (*)(device::UnitConfig& unit, double value);
+/// The same for one of the two sides.
+using SideSetter = void (*)(device::UnitConfig& unit, std::size_t side, double value);
 
 enum class Need { required, optional, defaulted };
 
@@ -33,13 +36,21 @@ struct Parameter {
   Need need = Need::required;
   std::string_view default_value;   ///< defaulted: as text
   std::string_view default_source;  ///< defaulted: where that came from
-  Setter set = nullptr;
+  Setter set = nullptr;             ///< null: `set_side` of both sides
+  SideSetter set_side = nullptr;    ///< not null: the second side may have a value of its own, "drive_2.friction_Nm"
+  bool second = false;              ///< this is that value: optional, in the place of what the first key gave both
+
+  void apply(device::UnitConfig& to, double value) const;
 };
 
 /// Stands for the unit of the law's preset; a law without a preset has no such parameter.
 inline constexpr std::string_view kPresetUnit = "preset unit";
 
+/// Those of the second side follow the group that they are of, made from its rows.
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
+
+/// Why an actuator with this law has no such parameter; empty: it may have it.
+[[nodiscard]] std::string why_absent(const Parameter& parameter, const elastic::Transmission& law);
 
 /// The firmware's 16.16 fixed point of a gain, truncated toward zero as its C cast does: 0.1 → 6553, −0.8 → −52428.
 [[nodiscard]] std::int32_t fixed_16_16(double gain) noexcept;

@@ -46,10 +46,10 @@ struct Faults {
     return visit("powered", "", s.powered, "lost_byte", "", s.lost_byte, "flipped_byte", "", s.flipped_byte, "late", "s", s.late_s,
                  "encoder", "", s.encoder, "supply", "V", s.supply_V, "motor_unplugged", "", s.motor_unplugged, "seed", "", s.seed);
   }
-  [[nodiscard]] const char* impossible() const noexcept;  ///< what check() would find, without words
+  [[nodiscard]] const char* impossible() const noexcept;  ///< what validate() would find, without words
 };
 
 /// Adds what is out of bounds, each with its key behind `where`.
-void check(const Faults& faults, std::string_view where, Problems& problems);
+void validate(const Faults& faults, std::string_view where, Problems& problems);
 
 }  // namespace vsa::device

@@ -38,9 +38,8 @@ struct UnitConfig {
   actuator::ActuatorParams actuator;
   firmware::ProgramParams program;
   firmware::Memory memory = firmware::initial_memory(firmware::Model::maker_pro);  ///< both EEPROM pages; the ID is the robot's
-  int polarity = 1;             ///< −1: motor wired against the sense that the program expects
-  double preset_max = 0.785;    ///< accepted |preset| of a command in SI units
-  double substep_max_s = 1e-3;  ///< longest physics segment, (0, 1 ms]
+  double preset_max = 0.785;                                                       ///< accepted |preset| of a command in SI units
+  double substep_max_s = 1e-3;                                                     ///< longest physics segment, (0, 1 ms]
 
   /// Whether the program limits the duty by the supply.
   [[nodiscard]] bool supply_limited() const noexcept {
@@ -52,9 +51,9 @@ struct UnitConfig {
   bool operator==(const UnitConfig&) const = default;
 };
 
-/// Adds what no unit could have: numbers that aren't finite or outside what the models need, no transmission. config:: checks a
-/// type's own bounds; this is for parameters made by hand. `where` leads each key.
-void check(const UnitConfig& config, std::string_view where, Problems& problems);
+/// Adds what no unit could have: numbers that aren't finite or outside what the models need, no transmission, what doesn't go
+/// together. `where` leads each key. A file's own bounds are checked where it is read.
+void validate(const UnitConfig& config, std::string_view where, Problems& problems);
 /// Whether two units are alike, laws compared by value (elastic::Transmission::equals).
 [[nodiscard]] bool alike(const UnitConfig& a, const UnitConfig& b) noexcept;
 
@@ -144,7 +143,7 @@ struct UnitPhysics;
 
 class Unit {
  public:
-  explicit Unit(UnitConfig config);  ///< throws InputError with all that check() finds
+  explicit Unit(UnitConfig config);  ///< throws InputError with all that validate() finds
   [[nodiscard]] const UnitConfig& config() const noexcept { return config_; }
   [[nodiscard]] const firmware::Program& program() const noexcept { return program_; }
 

@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Supply and H-bridge: from the controller's output to a duty, and to the mean voltage where the inputs are modulated.
+// H-bridge: from the controller's output to a duty, and to the mean voltage where the inputs are modulated.
 //
 //   u      controller output, 1 = the full voltage that the firmware's limit allows
 //   shape  0 for |u| ≤ dead_band, else sign(u)·(min(|u|, 1) − dead_band)/(1 − dead_band)
@@ -13,6 +13,12 @@
 // period and sees V̄; with a modulated enable pin it is left open.
 #pragma once
 
+#include <string_view>
+
+namespace vsa {
+class Problems;
+}
+
 namespace vsa::drive {
 
 /// Which pin of the bridge the PWM modulates: what the winding sees while it is low.
@@ -22,7 +28,6 @@ enum class PwmPin {
 };
 
 struct BridgeParams {
-  double supply_V = 12.0;      ///< ≥ 0; source of the default unknown, 24 V on one published robot
   double dead_band = 0;        ///< [0, 1); none, as in the published firmware (the paper's Table I has 0.3)
   bool brake_when_off = true;  ///< off, inputs modulated: terminals shorted (true) or open (false). UNKNOWN for the maker pro.
   PwmPin pin = PwmPin::input;
@@ -31,6 +36,7 @@ struct BridgeParams {
   double diode_V = 0;     ///< drop of one of the two diodes that it passes, ≥ 0
   bool operator==(const BridgeParams&) const = default;
 };
+void validate(const BridgeParams& params, std::string_view where, Problems& problems);
 
 /// What a bridge with a modulated enable pin holds between two ticks.
 struct PwmHold {
@@ -42,6 +48,6 @@ struct PwmHold {
 [[nodiscard]] double bridge_duty(const BridgeParams& p, double output, double full_duty) noexcept;
 
 /// Mean terminal voltage with modulated inputs, V.
-[[nodiscard]] double bridge_voltage(const BridgeParams& p, double output, double full_duty) noexcept;
+[[nodiscard]] double bridge_voltage(const BridgeParams& p, double supply_V, double output, double full_duty) noexcept;
 
 }  // namespace vsa::drive

@@ -12,7 +12,13 @@
 // Coupled explicitly to an inertia J this needs (τ_c/z_max) dt²/J < 4; solve_friction() has no such limit.
 #pragma once
 
+#include <string_view>
+
 #include "vsa/lanes.hpp"
+
+namespace vsa {
+class Problems;
+}
 
 namespace vsa::drive {
 
@@ -21,6 +27,7 @@ struct FrictionParams {
   double presliding_rad = 0;  ///< z_max ≥ 0
   bool operator==(const FrictionParams&) const = default;
 };
+void validate(const FrictionParams& params, std::string_view where, Problems& problems);
 
 /// The parameters with what every step needs of them, made once.
 struct Friction : FrictionParams {

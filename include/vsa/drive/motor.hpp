@@ -33,14 +33,16 @@ struct MotorParams {
   std::optional<double> inductance_H;  ///< none: I follows V and ω at once
   bool operator==(const MotorParams&) const = default;
 };
+void validate(const MotorParams& params, std::string_view where, Problems& problems);
 
 struct GearboxParams {
-  double ratio = 1.0;       ///< n = motor turns per pulley turn, > 0
-  FrictionParams friction;  ///< loss torque at the motor's shaft (eq. 5) and its presliding at the PULLEY
-  double load_loss = 0;     ///< λ ≥ 0: friction grows by λ·|load on the pulley|; a gear of efficiency η has λ = 1/η − 1
+  double ratio = 1.0;         ///< n = motor turns per pulley turn, > 0
+  FrictionParams friction{};  ///< loss torque at the motor's shaft (eq. 5) and its presliding at the PULLEY
+  double load_loss = 0;       ///< λ ≥ 0: friction grows by λ·|load on the pulley|; a gear of efficiency η has λ = 1/η − 1
   std::optional<double> back_loss{};  ///< λ where the load drives the motor back, ≥ 0: 1 − η; none: as load_loss
   bool operator==(const GearboxParams&) const = default;
 };
+void validate(const GearboxParams& params, std::string_view where, Problems& problems);
 
 /// eq. (4)–(5): everything at the pulley.
 [[nodiscard]] MotorParams at_pulley(const MotorParams& motor, double ratio) noexcept;

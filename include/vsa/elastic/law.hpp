@@ -34,11 +34,14 @@ struct Law {
   std::string_view equation;  ///< in one line; H in J
   std::string_view source;    ///< of the equation
   std::span<const LawParameter> parameters;
-  /// Values in the order of the parameters, each within its bounds.
+  /// Values in the order of the parameters, such as validate() has nothing against.
   std::shared_ptr<const Transmission> (*make)(std::span<const double> values);
   /// Null: whatever is within the bounds goes together.
   std::optional<LawFault> (*fault)(std::span<const double> values) = nullptr;
 };
+
+/// Values in the order of the law's parameters: their bounds, and what doesn't go together. What passes may be made.
+void validate(const Law& law, std::span<const double> values, std::string_view where, Problems& problems);
 
 /// All of the library, by name.
 [[nodiscard]] std::span<const Law* const> laws() noexcept;

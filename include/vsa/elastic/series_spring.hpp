@@ -23,6 +23,7 @@ class SeriesSpring final : public Transmission {
   [[nodiscard]] int spring_count() const noexcept override { return 1; }
   [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override;
   [[nodiscard]] bool equals(const Transmission& other) const noexcept override;
+  void validate(std::string_view where, Problems& problems) const override;
   [[nodiscard]] std::string_view preset_unit() const noexcept override { return ""; }
 
  private:

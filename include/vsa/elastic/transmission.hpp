@@ -12,10 +12,15 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
 #include "vsa/lanes.hpp"
+
+namespace vsa {
+class Problems;
+}
 
 namespace vsa::elastic {
 
@@ -142,6 +147,10 @@ class Transmission {
   [[nodiscard]] virtual std::array<double, 2> signed_energies(const Positions&) const noexcept { return {}; }
   /// Whether the other law gives the same everywhere. A law that doesn't say so is equal to itself only.
   [[nodiscard]] virtual bool equals(const Transmission& other) const noexcept { return this == &other; }
+  /// Of input i: "rad" or, where it is a travel, "m". Motors turn pulleys: a travel needs elastic/travel.hpp between.
+  [[nodiscard]] virtual std::string_view input_unit(std::size_t /*input*/) const noexcept { return "rad"; }
+  /// Adds what is wrong with the law's own parameters, by their keys in files; a law that was made of checked ones has nothing to say.
+  virtual void validate(std::string_view /*where*/, Problems& /*problems*/) const {}
   /// "rad" for the qbmove's half difference; "" where the law has no preset.
   [[nodiscard]] virtual std::string_view preset_unit() const noexcept { return "rad"; }
 

@@ -31,6 +31,8 @@ struct TwoSinhParams {
   double linear_beyond_rad = std::numeric_limits<double>::infinity();  ///< d: beyond |δ_i| = d the torque follows its tangent, > 0
   bool operator==(const TwoSinhParams&) const = default;
 };
+/// Keys as files have them: "k1_Nm".
+void validate(const TwoSinhParams& params, std::string_view where, Problems& problems);
 
 class TwoSinh final : public Transmission {
  public:
@@ -68,6 +70,7 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] std::array<T, 2> signed_energies_lanes(const OriginOf<T>& here) const noexcept;
 
   [[nodiscard]] bool equals(const Transmission& other) const noexcept override;
+  void validate(std::string_view where, Problems& problems) const override;
   [[nodiscard]] const TwoSinhParams& params() const noexcept { return params_; }
 
  private:

@@ -36,8 +36,8 @@ struct LoopErrors {
 
 struct DataSheet {
   config::ActuatorType type;
-  MotorLine line;
-  LoopErrors errors;
+  std::array<MotorLine, 2> line;  ///< of each motor; where the law has one, it twice
+  std::array<LoopErrors, 2> errors;
   double attainable_preset = 0;
   double stiffest_Nm_per_rad = 0;     ///< at rest with that preset
   std::vector<PresetColumn> columns;  ///< from 0 to 90 % of the attainable preset; one for a law without

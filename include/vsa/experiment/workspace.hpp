@@ -25,6 +25,7 @@
 // Friction along the springs (tendon.*) changes the deflection at which a torque passes, not the torque that the motors can pass.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -57,10 +58,11 @@ struct MotorLine {
   [[nodiscard]] double least_Nm(double speed_rad_per_s) const noexcept;  ///< M⁻
   [[nodiscard]] double no_load_speed_rad_per_s() const noexcept;         ///< where M⁺ is 0; 0: friction holds the motor
 };
-[[nodiscard]] MotorLine motor_line(const device::UnitConfig& unit);
+/// Of motor 0 or 1.
+[[nodiscard]] MotorLine motor_line(const device::UnitConfig& unit, std::size_t motor);
 
 /// Mean voltage that a standing motor gets at a controller output, V: its current times the resistance in its way.
-[[nodiscard]] double standing_voltage(const device::UnitConfig& unit, double output, double full_duty) noexcept;
+[[nodiscard]] double standing_voltage(const device::UnitConfig& unit, std::size_t motor, double output, double full_duty) noexcept;
 
 enum class Task {
   move,      ///< turn against the load at a speed; at speed 0: begin to
@@ -97,7 +99,8 @@ class Workspace {
  public:
   explicit Workspace(const device::UnitConfig& unit);
 
-  [[nodiscard]] const MotorLine& line() const noexcept { return line_; }
+  /// Of each motor; where the law has one, it twice.
+  [[nodiscard]] const std::array<MotorLine, 2>& lines() const noexcept { return lines_; }
   /// The largest preset that both motors can wind the unloaded springs to, at most the unit's limit; 0 for a law without preset.
   [[nodiscard]] double attainable_preset() const;
   /// `direction` +1 or −1: which way the shaft is driven; they differ for unequal springs.
@@ -120,7 +123,7 @@ class Workspace {
   [[nodiscard]] bool winds(double preset) const;
 
   device::UnitConfig unit_;
-  MotorLine line_;
+  std::array<MotorLine, 2> lines_;
 };
 
 }  // namespace vsa::experiment

@@ -22,7 +22,9 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
+#include "vsa/errors.hpp"
 #include "vsa/firmware/model.hpp"
 
 namespace vsa::firmware {
@@ -68,6 +70,8 @@ struct Memory {
   }
   bool operator==(const Memory&) const = default;
 };
+/// What a device's own EEPROM could hold for its program to work; keys are those of files ("limit_low_raw").
+void validate(const Memory& memory, std::string_view where, Problems& problems);
 
 struct MemoryState {
   Memory stored, current;

@@ -45,6 +45,7 @@ struct ProgramParams {
   std::int16_t cycle_time_us = 1000;       ///< dialect seven, GET_CYCLE_TIME
   bool operator==(const ProgramParams&) const = default;
 };
+void validate(const ProgramParams& params, std::string_view where, Problems& problems);
 
 /// CALIBRATE: every 100 ms a step. Motors to 0, a second's wait, then 91 raw (0.5°) apart a step with PD 0.1/0.3 until a current is
 /// above +1000 mA; that reference is max_stiffness. Motors to 0, a second's wait, store both pages. The maker pro doesn't hear its

@@ -96,7 +96,7 @@ struct Notice {
 /// A robot that was moved from throws std::logic_error from everything but its destructor and assignment; advance() aborts.
 class Robot {
  public:
-  /// Throws InputError for values that no unit could have (device::check; config:: makes valid ones) and for what only the whole
+  /// Throws InputError for values that no unit could have (validate(); config:: makes valid ones) and for what only the whole
   /// shows (ids, buses).
   explicit Robot(RobotConfig config);
   ~Robot();
@@ -175,7 +175,7 @@ class Robot {
   /// numbers out of range, or a place that the program can't hold (its limits, its 16 bits). The stepping thread's.
   void place(std::size_t actuator, const Placement& at, double step_s = 0);
 
-  /// Other parameters from the next step on, for a randomised domain, say: checked as device::check does. Motion, currents, the
+  /// Other parameters from the next step on, for a randomised domain, say: checked by device::validate(). Motion, currents, the
   /// gears' bristles and the program's loop go on; springs and the other frictions begin relaxed where they are, the actuator's
   /// ledger begins anew; where firmware parameters differ, the program has them at once. Parameters aren't state: restore() and
   /// reset() keep them. InputError: values out of range, another firmware model or dialect, another number of motors. The

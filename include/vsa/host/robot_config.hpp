@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -68,5 +69,8 @@ struct RobotConfig {
   std::optional<std::uint16_t> view_port = std::nullopt;  ///< of the live page; 0: any free one. None: no page
   std::vector<std::string> notices{};                     ///< what its text has and should be told of: old spellings
 };
+
+/// Adds what no robot could have: its units' problems, IDs, buses, rates; what is there twice.
+void validate(const RobotConfig& config, std::string_view where, Problems& problems);
 
 }  // namespace vsa::host

@@ -35,8 +35,8 @@ namespace vsa::identify {
 /// Mean motor torque at the pulley for a position error, at standstill.
 class StaticDrive {
  public:
-  /// Of motor 1; both motors of a unit have one loop. See unsupported().
-  explicit StaticDrive(const device::UnitConfig& unit);
+  /// Of motor 0 or 1. See unsupported().
+  StaticDrive(const device::UnitConfig& unit, std::size_t motor);
   /// Between the program's steps the straight line through the middle of their risers: a motor that creeps waits at a riser.
   /// Constant beyond the ends. N·m for rad; grows with the error.
   [[nodiscard]] double torque_Nm(double error_rad) const noexcept;
@@ -82,8 +82,8 @@ class QuasiStatic {
   [[nodiscard]] Place at_rest(double preset) const;
   /// φ of a spring, N·m a N·m, with its energy at w.
   [[nodiscard]] double rub(const Step& s, int spring, double w) const;
-  /// The gearbox's friction under a load, with the pulley turning in a sense.
-  [[nodiscard]] drive::FrictionOf<double> gear(double load, double sense) const;
+  /// A gearbox's friction under a load, with the pulley turning in a sense.
+  [[nodiscard]] drive::FrictionOf<double> gear(std::size_t motor, double load, double sense) const;
   [[nodiscard]] double pulley_residual(const Step& s, std::array<double, 2> x, int i, double xi) const;
   [[nodiscard]] bool solve_pulleys(Step& s, double equilibrium, std::array<double, 2>& x) const;
   [[nodiscard]] double shaft_residual(const Step& s, const std::array<double, 2>& x) const;
@@ -95,10 +95,11 @@ class QuasiStatic {
   [[nodiscard]] std::vector<double> follow(Place& place, double preset, const std::vector<double>& torques_Nm, double turn) const;
 
   device::UnitConfig unit_;
-  StaticDrive drive_;
+  std::array<StaticDrive, 2> drive_;
   double load_peak_Nm_;
-  drive::Friction gear_, shaft_, tendon_;
-  double back_loss_, shaft_zero_rad_;
+  std::array<drive::Friction, 2> gear_;
+  drive::Friction shaft_, tendon_;
+  double shaft_zero_rad_;
   int motors_, springs_;
 };
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vsa/engine/world.hpp"
@@ -38,6 +39,9 @@ struct Scenario {
   std::string motion;                 ///< TOML: what a scenario replaces in it, or all of it
   std::vector<Command> commands;      ///< in order of time
 };
+
+/// Adds what no run could have, by the keys of a file. Names of files, types and gaits are looked up where they are used.
+void validate(const Scenario& scenario, std::string_view where, Problems& problems);
 
 // Each throws InputError with every problem.
 

@@ -12,8 +12,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include "vsa/units.hpp"
+
+namespace vsa {
+class Problems;
+}
 
 namespace vsa::sensor {
 
@@ -22,6 +27,7 @@ struct EncoderParams {
   double zero_rad = 0;  ///< reading = angle + zero
   bool operator==(const EncoderParams&) const = default;
 };
+void validate(const EncoderParams& params, std::string_view where, Problems& problems);
 
 /// Position within the turn in raw units (65536 a turn), as a signed 16-bit number: −32768…32767.
 [[nodiscard]] inline std::int32_t encoder_sample(const EncoderParams& p, double angle_rad) noexcept {

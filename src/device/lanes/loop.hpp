@@ -85,7 +85,7 @@ struct Loop {
     for (int e = 0; e < 3; ++e) {
       const double zero = e == 2 ? io.shaft_zero_rad : 0.0;
       // The shaft's zero is added as Unit::read_sensors does; a motor's angle plus 0 would lose the sign of −0 only.
-      for (int l = 0; l < W; ++l) word[e][l] = sensor::encoder_sample(io.encoder, e == 2 ? angle[e][l] + zero : angle[e][l]);
+      for (int l = 0; l < W; ++l) word[e][l] = sensor::encoder_sample(io.encoder[e], e == 2 ? angle[e][l] + zero : angle[e][l]);
       for (int l = 0; l < W; ++l) {
         const std::int32_t sample = firmware::cut_16(firmware::wrap_add(word[e][l], offset[e][l]));
         const bool believed = firmware::steps::follow_word(sample, false, last_sample[e][l], turns[e][l], rejected[e][l]);
@@ -113,7 +113,8 @@ struct Loop {
     std::int32_t adc[2][W];
     for (int m = 0; m < 2; ++m)
       for (int l = 0; l < W; ++l)
-        adc[m][l] = sensor::current_adc((io.voltage[m][l] - io.back_emf_Vs_per_rad * io.motor_speed[m][l]) / io.resistance_Ohm);
+        adc[m][l] =
+            sensor::current_adc((io.voltage[m][l] - io.back_emf_Vs_per_rad[m] * io.motor_speed[m][l]) / io.resistance_Ohm[m]);
     read_encoders(io);
     for (int m = 0; m < 2; ++m) {
       drive(m, io);
@@ -124,7 +125,7 @@ struct Loop {
         ref_old[m][l] = ref[m][l];
         ref[m][l] = ref_new[m][l];
       }
-      for (int l = 0; l < W; ++l) io.voltage[m][l] = io.volts_of_duty[duty[m][l] + firmware::steps::kPwmMax];
+      for (int l = 0; l < W; ++l) io.voltage[m][l] = io.volts_of_duty[m][duty[m][l] + firmware::steps::kPwmMax];
     }
     for (int e = 0; e < 3; ++e)
       for (int l = 0; l < W; ++l) meas_old[e][l] = meas[e][l];

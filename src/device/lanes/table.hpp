@@ -35,11 +35,12 @@ struct BlockTrials {
 /// What goes into a block's tick: `width` numbers each, and what all units of a type have in common.
 struct TickStep {
   const double *angle = nullptr, *motor_angle[2]{}, *motor_speed[2]{};
-  double* voltage[2]{};  ///< held until now, and from now on
-  sensor::EncoderParams encoder;
-  double shaft_zero_rad = 0, back_emf_Vs_per_rad = 0, resistance_Ohm = 0;
-  std::int32_t limit_pct = 0;             ///< what the supply allows
-  const double* volts_of_duty = nullptr;  ///< of −100 … 100 %
+  double* voltage[2]{};              ///< held until now, and from now on
+  sensor::EncoderParams encoder[3];  ///< motors, shaft
+  double shaft_zero_rad = 0;
+  double back_emf_Vs_per_rad[2]{}, resistance_Ohm[2]{};
+  std::int32_t limit_pct = 0;        ///< what the supply allows
+  const double* volts_of_duty[2]{};  ///< of each motor, of −100 … 100 %
 };
 
 struct LaneTable {

@@ -1,0 +1,74 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A law whose inputs are travels, behind what makes travels of pulleys' angles: a ball screw, a rack, a winch.
+//
+//   x_i = h_i φ_i                     φ pulley's angle, rad; x the law's own input; h_i lead, m/rad; 1 where the input is an angle
+//   H'(q, φ) = H(q, h φ)              J
+//   load'_i  = h_i load_i             N·m at the pulley, where the law's own load is a force, N
+//   ∂²H'/∂q∂φ_i = h_i ∂²H/∂q∂x_i,     ∂²H'/∂φ_i∂φ_j = h_i h_j ∂²H/∂x_i∂x_j
+//   φ_ref = x_ref / h
+//
+// Exact: a segment that is straight in φ is straight in x, so the law's own means hold. All else of an actuator stays at the pulley:
+// inertia, friction, encoder counts, references and readings are those of a turning motor. The preset's unit stays the law's.
+// Range: h > 0 and finite. What rubs in a screw is the gearbox's (drive/motor.hpp).
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "vsa/elastic/transmission.hpp"
+
+namespace vsa::elastic {
+
+/// Lead of each input that is a travel, m/rad.
+using Leads = std::array<std::optional<double>, 2>;
+
+class Travel final : public Transmission {
+ public:
+  Travel(std::shared_ptr<const Transmission> law, const Leads& leads) noexcept;
+
+  [[nodiscard]] const std::shared_ptr<const Transmission>& law() const noexcept { return law_; }
+  [[nodiscard]] const Leads& leads() const noexcept { return leads_; }
+
+  [[nodiscard]] Response evaluate(const Positions& at) const noexcept override;
+  [[nodiscard]] double energy(const Positions& at) const noexcept override;
+  [[nodiscard]] SegmentMean mean_over(const Positions& from, const Positions& to) const noexcept override;
+  [[nodiscard]] Origin origin(const Positions& at) const noexcept override;
+  [[nodiscard]] Origin moved(const Origin& from, const Positions& to) const noexcept override;
+  [[nodiscard]] SegmentMean mean_from(const Origin& from, const Positions& to, double ahead_rad) const noexcept override;
+  [[nodiscard]] Tangent tangent_of(const Origin& here) const noexcept override;
+  [[nodiscard]] double energy_of(const Origin& here) const noexcept override;
+  [[nodiscard]] std::array<double, 2> signed_energies_of(const Origin& here) const noexcept override;
+  [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& command) const noexcept override;
+  [[nodiscard]] EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override;
+  [[nodiscard]] std::optional<EquilibriumPreset> command_exactly(double q, double torque_Nm,
+                                                                 double stiffness_Nm_per_rad) const noexcept override;
+  [[nodiscard]] int motor_count() const noexcept override { return law_->motor_count(); }
+  /// None where one would lie behind a travel: it has no deflection q − φ.
+  [[nodiscard]] int spring_count() const noexcept override;
+  [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override;
+  [[nodiscard]] bool equals(const Transmission& other) const noexcept override;
+  [[nodiscard]] std::string_view preset_unit() const noexcept override { return law_->preset_unit(); }
+  [[nodiscard]] std::string_view input_unit(std::size_t input) const noexcept override;
+  void validate(std::string_view where, Problems& problems) const override;
+
+ private:
+  [[nodiscard]] Positions own(const Positions& at) const noexcept;
+  [[nodiscard]] Origin own(const Origin& at) const noexcept;
+  [[nodiscard]] Origin seen(Origin origin, const Positions& at) const noexcept;
+  [[nodiscard]] std::array<double, 2> loads(const std::array<double, 2>& own) const noexcept;
+  [[nodiscard]] Hessian curvature(Hessian own) const noexcept;
+
+  std::shared_ptr<const Transmission> law_;
+  Leads leads_;
+  std::array<double, 2> h_;
+};
+
+/// The law with this lead at one of its inputs, and those that it had at the others.
+[[nodiscard]] std::shared_ptr<const Transmission> with_lead(const std::shared_ptr<const Transmission>& law, std::size_t input,
+                                                            double lead_m_per_rad);
+
+/// Of the law without any lead: "m" for a travel.
+[[nodiscard]] std::string_view own_input_unit(const Transmission& law, std::size_t input) noexcept;
+
+}  // namespace vsa::elastic
