@@ -55,6 +55,24 @@ void check_drive(const actuator::ActuatorParams& p, Bounds& b) {
 
 }  // namespace
 
+void check_servo(const UnitConfig& c, std::string_view where, Problems& problems) {
+  const actuator::ActuatorParams& p = c.actuator;
+  control::validate(*c.servo, where, problems);
+  const auto say = [&](const char* key, const std::string& value, const char* message, const char* allowed) {
+    problems.add({"", std::string(where) + key, value, message, allowed});
+  };
+  if (p.bridge.pin != drive::PwmPin::input)
+    say("drive.pwm_pin", "enable", "a servo's drive gives mean voltages, which a modulated enable pin doesn't", "input");
+  if (p.bridge.dead_band != 0)
+    say("drive.dead_band", text_of(p.bridge.dead_band), "a servo's drive gives the voltages that it is told", "0");
+  if (!(p.motor.torque_constant_Nm_per_A > 0))
+    say("drive.torque_constant_Nm_per_A", text_of(p.motor.torque_constant_Nm_per_A),
+        "a servo needs a motor that turns current into torque", "above 0");
+  if (p.transmission && c.is(control::ServoKind::torque_servo) && p.transmission->motor_count() != 1)
+    say("control.kind", "torque_servo", "is of a law with one motor, a series elastic unit",
+        "position_servo, motor_voltages, qbmove");
+}
+
 void check(const UnitConfig& c, std::string_view where, Problems& problems) {
   const actuator::ActuatorParams& p = c.actuator;
   if (!p.transmission) problems.add({"", std::string(where) + "elastic.law", "", "there is no transmission", "a law"});
@@ -71,6 +89,7 @@ void check(const UnitConfig& c, std::string_view where, Problems& problems) {
   for (const std::uint8_t r : c.memory.resolution) b.within("firmware.resolution", r, 0, 8);
   b.within("limits.preset_max", c.preset_max, 0, 100);
   b.within("physics.substep_max_s", c.substep_max_s, 1e-6, 1e-3);
+  if (c.servo) check_servo(c, where, problems);
   if (c.polarity != 1 && c.polarity != -1) {
     problems.add({"", std::string(where) + "drive.polarity", std::to_string(c.polarity), "is neither", "-1|1"});
   }

@@ -123,6 +123,13 @@ report::Table electrical_table(const study::DataSheet& d) {
   rows.push_back(
       {"motors / current of each when stalled", fmt::format("{} / {}", motors, number(s.line.stall_current_A)), "A", kDrive});
   rows.push_back({"friction of a motor with gears", number(s.line.friction_Nm), "N·m", kType});
+  if (u.servo) {
+    rows.push_back({"controller", std::string(control::name_of(u.servo->kind)), "", kType});
+    rows.push_back({"encoders", number(u.actuator.encoder.bits), "bit", kType});
+    if (u.references_limited())
+      rows.push_back({"travel of the motors", "±" + number(u.servo->reference_max_rad * degree), "°", kType});
+    return out;
+  }
   rows.push_back({"position loop", number(1e6 / static_cast<double>(firmware::kTickNs)), "kHz", "firmware"});
   rows.push_back({"error that moves a motor / gives full voltage", pair(s.errors.moves_rad * degree, s.errors.full_rad * degree),
                   "°", kDrive});

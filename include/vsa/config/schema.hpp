@@ -34,7 +34,13 @@ struct Parameter {
   std::string_view default_value;   ///< defaulted: as text
   std::string_view default_source;  ///< defaulted: where that came from
   Setter set = nullptr;
+  std::string_view controllers{};  ///< which controllers have it: "position_servo|torque_servo"; empty: all
 };
+
+/// A type's controllers (`control.kind`): "qbmove|position_servo|…". Keys of firmware.… are of the first.
+inline constexpr std::string_view kControllers = "qbmove|position_servo|torque_servo|motor_voltages";
+/// Those that have this parameter.
+[[nodiscard]] std::string_view controllers_of(const Parameter& parameter) noexcept;
 
 /// Stands for the unit of the law's preset; a law without a preset has no such parameter.
 inline constexpr std::string_view kPresetUnit = "preset unit";
