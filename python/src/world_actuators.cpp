@@ -168,8 +168,9 @@ void bind_world_actuators(WorldClass& c) {
           "reading_dtype", [](const py::object&) { return reading_dtype(); }, "The dtype of read(): numpy.dtype.")
       .def("place", &place, py::arg("actuator"), py::arg("angle_rad"), py::arg("preset"), py::arg("speed_rad_per_s") = 0.0,
            py::arg("equilibrium_rad") = py::none(), kPlace)
-      .def("command_direct", &command_direct, py::arg("actuator"), py::arg("first"), py::arg("second") = 0.0,
-           "Past the law, from the next tick on: control.kind motor_voltages takes V for each motor, torque_servo N·m on the shaft.")
+      .def(
+          "command_direct", &command_direct, py::arg("actuator"), py::arg("first"), py::arg("second") = 0.0,
+          "Past the law, from the next tick on: control.kind motor_voltages takes V for each motor, torque_servo N·m on the shaft.")
       .def("ledger", &ledger, py::arg("actuator") = py::none(),
            "Where the energy went since the start or the last reset, J: dict, of one actuator or summed over all.")
       .def("take_notices", &take_notices, "What was clamped or couldn't be resolved since the last call: list of str.");

@@ -130,6 +130,33 @@ TEST(PositionServo, HoldsItsVoltageFromTickToTick) {
   EXPECT_GT(changes, 50);
 }
 
+TEST(PositionServo, IsStillOnCoarseEncoders) {
+  // The reference lies between two counts: without counting it, too, the integral would never rest.
+  vsa::device::UnitConfig config = series(position_servo(), 50, 0.4);
+  config.actuator.encoder.bits = 10;
+  OneJoint joint(config, 0.0, 0.0, 5e-3, 1'000'000);
+  joint.load = [&](double) { return -0.05 * joint.v; };
+  joint.unit.command(joint.state, 0.5, 0.0);
+  run(joint, 6.0);
+  const double there = joint.state.actuator.motor[0].angle, held = joint.state.servo.integral[0];
+  run(joint, 20.0);
+  EXPECT_NEAR(joint.state.actuator.motor[0].angle, there, 1e-6);
+  EXPECT_NEAR(joint.state.servo.integral[0], held, 1e-9);
+  EXPECT_NEAR(there, 0.5, 2 * kPi / 1024);
+}
+
+TEST(PositionServo, EstimatesSpeedsThroughItsFilter) {
+  auto servo = vsa::test::motor_voltages();
+  servo.speed_filter_s = 0.009;
+  OneJoint joint(series(servo, 50), 0.0, 0.0, 0.0, 1'000'000);
+  for (int n = 0; n < 30; ++n) {
+    joint.v = 8.0;
+    joint.step();
+    const double expected = 8.0 * (1.0 - std::pow(0.9, n));
+    EXPECT_NEAR(joint.state.servo.speed[2], expected, 0.1) << n;
+  }
+}
+
 TEST(PositionServo, GoesTheSameWayInStepsOfAnyLengthUpToAboutTheirOrder) {
   const auto end = [](std::int64_t step_ns) {
     OneJoint joint(series(position_servo(), 50), 0.0, 0.0, 0.01, step_ns);

@@ -113,6 +113,21 @@ TEST(TorqueServo, BeginsWithItsSpringAsItWasWhereverTheShaftIsFound) {
   EXPECT_NEAR(spring_Nm(joint), -20.0 * 0.1, 0.02);
 }
 
+TEST(TorqueServo, LetsErrorsOfItsDeadZoneStand) {
+  using vsa::control::dead_zone;
+  EXPECT_EQ(dead_zone(0.2, 0.3), 0.0);
+  EXPECT_EQ(dead_zone(0.5, 0.25), 0.25);
+  EXPECT_EQ(dead_zone(-0.5, 0.25), -0.25);
+  auto servo = torque_servo();
+  servo.torque.dead_zone_Nm = 0.3;
+  servo.torque.gain = 0;
+  OneJoint joint(series(servo, 50, 0.4), 0.0, 0.0, 0.0, 1'000'000);
+  vsa::device::Unit::command_direct(joint.state, {1.5, 0});
+  run(joint, 10.0);
+  EXPECT_GT(std::abs(spring_Nm(joint) - 1.5), 0.05) << "friction of 0.4 N·m keeps what isn't integrated";
+  EXPECT_LT(std::abs(spring_Nm(joint) - 1.5), 0.31);
+}
+
 TEST(TorqueServo, IsOfALawWithOneMotor) {
   try {
     const vsa::device::Unit unit(vsa::test::antagonist(torque_servo()));
