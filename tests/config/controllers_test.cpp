@@ -33,7 +33,7 @@ TEST(Controller, OfAShippedServoHasTheFilesNumbers) {
   EXPECT_EQ(type.controller, "position_servo");
   ASSERT_TRUE(type.unit.servo.has_value());
   EXPECT_EQ(type.unit.servo->position.gain_per_s, 25.0);
-  EXPECT_EQ(type.unit.servo->position.integral_Nm_per_rad, 2.0);
+  EXPECT_EQ(type.unit.servo->position.integral_Nm_per_rad, 1.0);
   EXPECT_EQ(type.unit.servo->reference_max_rad, 2.876);
   for (const config::Entry& e : type.entries) EXPECT_NE(e.key.rfind("firmware.", 0), 0u) << e.key;
 }
