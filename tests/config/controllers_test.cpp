@@ -86,6 +86,17 @@ TEST(Controller, CantBeOverridden) {
   expect_pieces(text_of(problems), {"override control.kind", "a controller has parameters of its own and can't be overridden"});
 }
 
+TEST(Controller, OfATorqueServoHasAnInitialPresetInItsOwnUnit) {
+  const auto plugin = [](const std::string& attribute) {
+    return "<plugin name='vsa::Robot' filename='f'><actuator><joint>j</joint><type>anydrive_ad119e20</type><initial " + attribute +
+           "/></actuator></plugin>";
+  };
+  const auto robot = config::parse_plugin(plugin("preset_Nm_per_rad='15'"), "arm.sdf", shipped());
+  EXPECT_EQ(robot.actuators[0].initial_preset, 15.0);
+  const auto problems = problems_of([&] { (void)config::parse_plugin(plugin("preset_rad='0.2'"), "arm.sdf", shipped()); });
+  expect_pieces(text_of(problems), {"preset_rad", "is not this actuator's preset", "preset_Nm_per_rad"});
+}
+
 TEST(Controller, WithoutItsGainsIsRefused) {
   const std::string text = told(type_of("qbmove_maker_pro_paper", "[control]\nkind = \"position_servo\"\n"));
   for (const char* key : {"control.current_max_A", "control.position_gain_per_s", "control.reference_max_rad"})
