@@ -17,7 +17,7 @@ int main() {
   config.actuator.shaft_inertia_kgm2 = inertia;
   vsa::device::Unit unit(config);
   auto state = unit.initial(0.0, 0.4, 0.0);  // equilibrium, preset, shaft: rad
-  unit.set_inputs(state, unit.inputs_for(0.8, 0.4));
+  unit.command(state, 0.8, 0.4);
 
   double q = 0, v = 0;
   for (int n = 0; n < 2000; ++n) {

@@ -110,8 +110,11 @@ void bind_texts(Class& c) {
       .def_property_readonly(
           "law_name", [](const PyActuatorType& t) { return t.type.law; }, "The elastic law's name, as \"two_sinh\": str.")
       .def_property_readonly(
-          "preset_unit", [](const PyActuatorType& t) { return std::string(t.law().preset_unit()); },
-          "Unit of the stiffness preset: str; empty where the law has none.")
+          "preset_unit", [](const PyActuatorType& t) { return std::string(t.type.unit.preset_unit()); },
+          "Unit of the stiffness preset: str; empty where there is none.")
+      .def_property_readonly(
+          "controller", [](const PyActuatorType& t) { return t.type.controller; },
+          "\"qbmove\", \"position_servo\", \"torque_servo\" or \"motor_voltages\": str.")
       .def_property_readonly(
           "preset_max", [](const PyActuatorType& t) { return t.type.unit.preset_max; },
           "Largest stiffness preset that a command may have, in preset_unit: float.")

@@ -123,8 +123,16 @@ std::array<int, 2> inputs_for(const PyUnit& u, double equilibrium, double preset
 void set_inputs(PyUnit& u, const std::array<int, 2>& ticks) {
   Problems problems;
   for (const int t : ticks) check(problems, "ticks", t, INT16_MIN, INT16_MAX, "");
+  if (u.unit.servo() != nullptr)
+    problems.add(
+        {"", "set_inputs", std::string(control::name_of(u.unit.servo()->params().kind)), "a servo has no SET_INPUTS", "command()"});
   problems.throw_if_any();
   u.unit.set_inputs(u.state, {Ticks{static_cast<std::int16_t>(ticks[0])}, Ticks{static_cast<std::int16_t>(ticks[1])}});
+}
+
+void command(PyUnit& u, double equilibrium, double preset) {
+  static_cast<void>(inputs_for(u, equilibrium, preset));  // which checks them
+  u.unit.command(u.state, equilibrium, preset);
 }
 
 void restore(PyUnit& u, const UnitSnapshot& s) {
@@ -135,10 +143,9 @@ void restore(PyUnit& u, const UnitSnapshot& s) {
 }
 
 void bind_step(Class& c) {
-  c.def(
-       "command", [](PyUnit& u, double equilibrium, double preset) { set_inputs(u, inputs_for(u, equilibrium, preset)); },
-       py::arg("equilibrium_rad"), py::arg("preset") = 0.0,
-       "References for equilibrium (rad) and stiffness preset (clamped to preset_max), as if SET_INPUTS had just arrived.")
+  c.def("command", &command, py::arg("equilibrium_rad"), py::arg("preset") = 0.0,
+        "References for equilibrium (rad) and stiffness preset (clamped to preset_max), as if SET_INPUTS had just arrived;\n"
+        "a servo's command.")
       .def("set_inputs", &set_inputs, py::arg("ticks"), "The two references in the unit's ticks, int16, as SET_INPUTS brings them.")
       .def("inputs_for", &inputs_for, py::arg("equilibrium_rad"), py::arg("preset") = 0.0,
            "The ticks that command() would send: list of two int.")

@@ -90,6 +90,11 @@ void place(PyWorld& w, const py::object& which, double angle, double preset, dou
   w.get().place(w.actuator(which), {angle, preset, speed, equilibrium});
 }
 
+void command_direct(PyWorld& w, const py::object& which, double first, double second) {
+  const engine::ActuatorRef& a = w.actuator(which);
+  w.get().robot(a.robot).command_direct(a.index, {first, second});
+}
+
 py::list actuator_info(PyWorld& w) {
   py::list out;
   const engine::World& world = w.any_thread();
@@ -103,7 +108,7 @@ py::list actuator_info(PyWorld& w) {
     one["joint"] = world.joints()[world.joint(a).index()].name;
     one["type"] = config.type;
     one["motors"] = law.motor_count();
-    one["preset_unit"] = std::string(law.preset_unit());
+    one["preset_unit"] = std::string(config.unit.preset_unit());
     one["preset_max"] = config.unit.preset_max;
     out.append(one);
   }
@@ -163,6 +168,9 @@ void bind_world_actuators(WorldClass& c) {
           "reading_dtype", [](const py::object&) { return reading_dtype(); }, "The dtype of read(): numpy.dtype.")
       .def("place", &place, py::arg("actuator"), py::arg("angle_rad"), py::arg("preset"), py::arg("speed_rad_per_s") = 0.0,
            py::arg("equilibrium_rad") = py::none(), kPlace)
+      .def(
+          "command_direct", &command_direct, py::arg("actuator"), py::arg("first"), py::arg("second") = 0.0,
+          "Past the law, from the next tick on: control.kind motor_voltages takes V for each motor, torque_servo N·m on the shaft.")
       .def("ledger", &ledger, py::arg("actuator") = py::none(),
            "Where the energy went since the start or the last reset, J: dict, of one actuator or summed over all.")
       .def("take_notices", &take_notices, "What was clamped or couldn't be resolved since the last call: list of str.");

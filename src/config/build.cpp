@@ -1,7 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "config/build.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "config/resolve.hpp"
 #include "vsa/config/text.hpp"
@@ -57,15 +59,42 @@ Law make_law(const Document& document, const LawRegistry& laws, Resolver& resolv
   return law;
 }
 
-Spec spec_of(const Parameter& p, const Law& law) {
+/// The servo where there is one; the reason is reported where its name is none.
+bool make_controller(const Document& document, Resolver& resolver, ActuatorType& type) {
+  type.controller = document.controller.empty() ? "qbmove" : document.controller;
+  const std::vector<std::string> known = split(kControllers, '|');
+  if (std::find(known.begin(), known.end(), type.controller) == known.end()) {
+    resolver.problem(document.controller_line, "control.kind", '"' + type.controller + '"',
+                     "is no controller" + did_you_mean(type.controller, known), join(known));
+    return false;
+  }
+  for (const auto kind :
+       {control::ServoKind::position_servo, control::ServoKind::torque_servo, control::ServoKind::motor_voltages}) {
+    if (type.controller == control::name_of(kind)) type.unit.servo.emplace().kind = kind;
+  }
+  return true;
+}
+
+/// Whether the type's controller has that parameter; one that is given all the same is refused.
+bool is_of(const Parameter& p, const std::string& controller, Resolver& resolver) {
+  const std::vector<std::string> those = split(controllers_of(p), '|');
+  if (std::find(those.begin(), those.end(), controller) != those.end()) return true;
+  if (resolver.has(p.key))
+    resolver.problem(resolver.line_of(p.key), std::string(p.key), "",
+                     "is of the controller " + join(those, ", ") + ": control.kind is " + controller, "leave it out");
+  resolver.know(p.key);
+  return false;
+}
+
+Spec spec_of(const Parameter& p, const Law& law, const device::UnitConfig& with) {
   std::string unit(p.unit);
-  if (p.unit == kPresetUnit) unit = law ? std::string(law->preset_unit()) : "?";
+  if (p.unit == kPresetUnit) unit = law ? std::string(with.preset_unit()) : "?";
   return {std::string(p.key), unit, p.kind, p.min, p.max, p.words, p.meaning};
 }
 
 void read_parameter(const Parameter& p, const Law& law, Resolver& resolver, device::UnitConfig& unit) {
-  const Spec spec = spec_of(p, law);
-  if (const std::string why = law ? why_absent(p, *law) : ""; !why.empty()) {
+  const Spec spec = spec_of(p, law, unit);
+  if (const std::string why = law ? why_absent(p, unit) : ""; !why.empty()) {
     if (resolver.has_own(p.key)) resolver.problem(resolver.line_of(p.key), spec.key, "", why);  // a base's isn't this file's fault
     resolver.know(p.key);
     if (p.unit == kPresetUnit) unit.preset_max = 0;
@@ -107,7 +136,14 @@ ActuatorType build_type(const Document& document, const std::vector<Override>& o
   bool law_known = false;
   const Law law = make_law(document, laws, resolver, law_known);
   type.unit.actuator.transmission = law;
-  for (const Parameter& p : parameters()) read_parameter(p, law, resolver, type.unit);
+  const bool controller_known = make_controller(document, resolver, type);
+  for (const Parameter& p : parameters()) {
+    if (!controller_known) {
+      resolver.know(p.key);
+    } else if (is_of(p, type.controller, resolver)) {
+      read_parameter(p, law, resolver, type.unit);
+    }
+  }
   check_together(type.unit, resolver);
   resolver.report_unknown(law_known ? "" : "elastic.");
   type.entries = std::move(resolver.entries());

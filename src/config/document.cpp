@@ -11,8 +11,8 @@
 namespace vsa::config {
 namespace {
 
-const std::vector<std::string> kGroups{"type",  "evidence", "elastic",  "drive",    "drive_2", "tendon",
-                                       "shaft", "sensor",   "sensor_2", "firmware", "limits",  "physics"};
+const std::vector<std::string> kGroups{"type",   "evidence", "elastic", "drive",    "drive_2", "tendon", "shaft",
+                                       "sensor", "sensor_2", "control", "firmware", "limits",  "physics"};
 const std::vector<std::string> kTypeKeys{"name", "title", "description", "rank", "base"};
 const std::vector<std::string> kRanks{"measured", "published", "symbolic"};
 const std::vector<std::string> kItemKeys{"value", "unit", "bounds", "source"};
@@ -159,6 +159,9 @@ class Reader {
       if (key == "elastic.law") {
         doc_.law = text_at(node, key);
         doc_.law_line = line_of(node);
+      } else if (key == "control.kind") {
+        doc_.controller = text_at(node, key);
+        doc_.controller_line = line_of(node);
       } else if (const toml::table* item = node.as_table()) {
         read_item(key, *item, line_of(node));
       } else {
@@ -224,13 +227,19 @@ std::string Document::place(const Item& item) const {
 void inherit(Document& to, const Document& base) {
   const bool same_law = to.law.empty() || to.law == base.law;
   if (to.law.empty()) to.law = base.law;
+  const auto controller = [](const Document& d) { return d.controller.empty() ? std::string("qbmove") : d.controller; };
+  const bool same_controller = to.controller.empty() || to.controller == controller(base);
+  const bool own_preset = !same_controller && (to.controller == "torque_servo" || base.controller == "torque_servo");
+  if (to.controller.empty()) to.controller = base.controller;
   const auto known = [&](const std::string& key) {
     return std::any_of(to.items.begin(), to.items.end(), [&](const Item& i) { return i.key == key; }) ||
            std::find(to.broken.begin(), to.broken.end(), key) != to.broken.end();
   };
   for (const Item& item : base.items) {
     const bool of_law = item.key.rfind("elastic.", 0) == 0 || item.key == "limits.preset_max";
-    if (known(item.key) || (of_law && !same_law)) continue;
+    const bool of_controller = item.key.rfind("control.", 0) == 0 || item.key.rfind("firmware.", 0) == 0;
+    if (known(item.key) || (of_law && !same_law) || (of_controller && !same_controller)) continue;
+    if (own_preset && item.key == "limits.preset_max") continue;
     to.items.push_back(item);
     Item& copy = to.items.back();
     if (copy.file.empty()) {

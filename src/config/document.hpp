@@ -32,8 +32,9 @@ struct Item {
 struct Document {
   std::string file;
   std::string name, title, description, law, rank;
-  std::string base;  ///< a type that has whatever this one hasn't
-  int law_line = 0, base_line = 0;
+  std::string base;        ///< a type that has whatever this one hasn't
+  std::string controller;  ///< control.kind; empty: the file doesn't say
+  int law_line = 0, base_line = 0, controller_line = 0;
   std::optional<Evidence> evidence;
   std::vector<Item> items;
   std::vector<std::string> notices;
@@ -51,7 +52,8 @@ struct Document {
 
 [[nodiscard]] Document read_document(std::string_view text, std::string file, Problems& problems);
 
-/// Gives `to` what it lacks of `base`: all keys, but of another law's neither its own nor limits.preset_max.
+/// Gives `to` what it lacks of `base`: all keys, but of another law's neither its own nor limits.preset_max, of another controller's
+/// neither control.… nor firmware.…, nor the preset of a torque servo, which is its own.
 void inherit(Document& to, const Document& base);
 
 }  // namespace vsa::config

@@ -15,6 +15,9 @@ namespace {
 // Endings that topics add to an actuator's name: "J_preset" is a channel of J.
 constexpr std::string_view kReservedEndings[] = {"_preset", "_motor_1", "_motor_2"};
 
+/// A unit as an attribute's name can have it: "N·m/rad" → "Nm_per_rad".
+std::string attribute_unit(const std::string& unit) { return unit == "N·m/rad" ? "Nm_per_rad" : unit; }
+
 std::shared_ptr<const host::Settings> settings(const std::vector<Override>& overrides) {
   auto out = std::make_shared<host::Settings>();
   for (const Override& o : overrides) out->emplace_back(o.key, o.value);
@@ -132,10 +135,9 @@ class Finisher {
   }
 
   void check_initial(const ActuatorDraft& a, host::ActuatorConfig& out) {
-    const auto& law = *out.unit.actuator.transmission;
     const std::string path = a.path + "/initial@";
-    const std::string unit(law.preset_unit());
-    const std::string right = unit.empty() ? "" : std::string(kPresetPrefix) + "_" + unit;
+    const std::string unit(out.unit.preset_unit());
+    const std::string right = unit.empty() ? "" : std::string(kPresetPrefix) + "_" + attribute_unit(unit);
     if (a.replaced) {
       const double limit = out.unit.preset_max;
       out.initial_preset = a.initial_preset_key == right ? std::clamp(a.initial_preset, -limit, limit) : 0.0;

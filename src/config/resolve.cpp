@@ -241,10 +241,11 @@ void Resolver::report_unknown(std::string_view lenient_group) {
   }
   for (const Override& o : overrides_) {
     if (!judged(o.key)) continue;
-    const bool law = o.key == "elastic.law";
+    const bool law = o.key == "elastic.law", controller = o.key == "control.kind";
     problem(0, std::string(kOverrideMark) + o.key, '"' + o.value + '"',
-            law ? "a law has parameters of its own and can't be overridden: use another type"
-                : "unknown key" + near_key(o.key, asked_));
+            law || controller ? std::string(law ? "a law" : "a controller") +
+                                    " has parameters of its own and can't be overridden: use another type"
+                              : "unknown key" + near_key(o.key, asked_));
   }
 }
 

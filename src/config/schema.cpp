@@ -42,6 +42,8 @@ void set_model(Unit& u, double v) {
   u.memory = firmware::initial_memory(u.program.model);
 }
 
+constexpr std::string_view kPosition = "position_servo", kTorque = "torque_servo", kServos = "position_servo|torque_servo";
+
 // Bounds are what the models accept and a real actuator could have; a type narrows them to what its device could have.
 constexpr Parameter kTable[] = {
     {"drive.supply_V", "V", Kind::number, 0, 100, "", "supply voltage of the bridge", Need::required, "", "",
@@ -119,6 +121,33 @@ constexpr Parameter kTable[] = {
      "ideal calibration", set_zero, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].encoder.zero_rad = v; }},
     {"sensor.shaft_zero_rad", "rad", Kind::number, -3.2, 3.2, "", "added to the shaft's reading alone", Need::defaulted, "0",
      "ideal calibration", [](Unit& u, double v) { u.actuator.shaft_zero_rad = v; }},
+    {"control.current_max_A", "A", Kind::number, 1e-3, 1e4, "", "largest current of each motor", Need::required, "", "",
+     [](Unit& u, double v) { u.servo->current_max_A = v; }, nullptr, false, kServos},
+    {"control.speed_filter_s", "s", Kind::number, 0, 0.1, "", "time constant of the filter behind the differences of an encoder",
+     Need::defaulted, "0", "no filter", [](Unit& u, double v) { u.servo->speed_filter_s = v; }, nullptr, false, kServos},
+    {"control.reference_max_rad", "rad", Kind::number, 1e-3, 1000, "", "largest magnitude of a motor's reference, at the pulley",
+     Need::required, "", "", [](Unit& u, double v) { u.servo->reference_max_rad = v; }, nullptr, false, kPosition},
+    {"control.position_gain_per_s", "1/s", Kind::number, 1e-3, 1000, "", "wanted speed per position error", Need::required, "", "",
+     [](Unit& u, double v) { u.servo->position.gain_per_s = v; }, nullptr, false, kPosition},
+    {"control.speed_max_rad_per_s", "rad/s", Kind::number, 1e-3, 1e4, "", "largest wanted speed, at the pulley", Need::required, "",
+     "", [](Unit& u, double v) { u.servo->position.speed_max_rad_per_s = v; }, nullptr, false, kPosition},
+    {"control.speed_gain_Nms_per_rad", "N·m·s/rad", Kind::number, 1e-6, 1e5, "", "torque per speed error, at the pulley",
+     Need::required, "", "", [](Unit& u, double v) { u.servo->position.speed_gain_Nms_per_rad = v; }, nullptr, false, kPosition},
+    {"control.speed_integral_Nm_per_rad", "N·m/rad", Kind::number, 0, 1e6, "", "torque per speed error integrated, at the pulley",
+     Need::required, "", "", [](Unit& u, double v) { u.servo->position.integral_Nm_per_rad = v; }, nullptr, false, kPosition},
+    {"control.torque_gain", "1", Kind::number, 0, 1000, "", "motor torque per torque error", Need::required, "", "",
+     [](Unit& u, double v) { u.servo->torque.gain = v; }, nullptr, false, kTorque},
+    {"control.torque_integral_per_s", "1/s", Kind::number, 0, 1e5, "", "motor torque per torque error integrated", Need::required,
+     "", "", [](Unit& u, double v) { u.servo->torque.integral_per_s = v; }, nullptr, false, kTorque},
+    {"control.torque_dead_zone_Nm", "N·m", Kind::number, 0, 1000, "",
+     "torque error that isn't integrated: what the encoders can't tell", Need::required, "", "",
+     [](Unit& u, double v) { u.servo->torque.dead_zone_Nm = v; }, nullptr, false, kTorque},
+    {"control.motor_damping_Nms_per_rad", "N·m·s/rad", Kind::number, 0, 1e4, "", "motor torque against its speed, at the pulley",
+     Need::required, "", "", [](Unit& u, double v) { u.servo->torque.motor_damping_Nms_per_rad = v; }, nullptr, false, kTorque},
+    {"control.stiffness_Nm_per_rad", "N·m/rad", Kind::number, 0, 1e6, "", "of the joint about its equilibrium, at preset 0",
+     Need::required, "", "", [](Unit& u, double v) { u.servo->torque.stiffness_Nm_per_rad = v; }, nullptr, false, kTorque},
+    {"control.damping_Nms_per_rad", "N·m·s/rad", Kind::number, 0, 1e4, "", "of the joint", Need::required, "", "",
+     [](Unit& u, double v) { u.servo->torque.damping_Nms_per_rad = v; }, nullptr, false, kTorque},
     {"firmware.model", "", Kind::word, 0, 0, "maker_pro|advanced", "which program the unit runs", Need::defaulted, "maker_pro",
      "the program of most published units", set_model},
     {"firmware.dialect", "", Kind::word, 0, 0, "6|7", "which messages it speaks: firmware 6, or 7 as its public client expects",
@@ -244,8 +273,9 @@ void Parameter::apply(device::UnitConfig& to, double value) const {
   }
 }
 
-std::string why_absent(const Parameter& p, const elastic::Transmission& law) {
-  if (p.unit == kPresetUnit && law.preset_unit().empty()) return "the law has no preset: leave this out";
+std::string why_absent(const Parameter& p, const device::UnitConfig& unit) {
+  const elastic::Transmission& law = *unit.actuator.transmission;
+  if (p.unit == kPresetUnit && unit.preset_unit().empty()) return "the law has no preset: leave this out";
   if (p.second && law.motor_count() < 2) return "the law has one motor: leave this out";
   if (p.key.substr(p.key.find('.') + 1) != "lead_m_per_rad") return {};
   bool travels = false;
@@ -255,6 +285,11 @@ std::string why_absent(const Parameter& p, const elastic::Transmission& law) {
 }
 
 std::span<const Parameter> parameters() noexcept { return kAll; }
+
+std::string_view controllers_of(const Parameter& p) noexcept {
+  if (p.key.substr(0, 9) == "firmware.") return "qbmove";
+  return p.controllers.empty() ? kControllers : p.controllers;
+}
 
 std::int32_t fixed_16_16(double gain) noexcept { return static_cast<std::int32_t>(gain * 65536.0); }
 

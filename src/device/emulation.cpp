@@ -21,6 +21,9 @@ std::vector<std::shared_ptr<Unit>> checked(const std::vector<EmulatedUnit>& give
     const auto same = [id](const EmulatedUnit& other) { return other.id == id; };
     if (std::any_of(given.begin(), given.begin() + static_cast<std::ptrdiff_t>(i), same))
       problems.add({"", key + ".id", std::to_string(id), "another unit has this id", "unique ids on a line"});
+    if (given[i].config.servo)
+      problems.add({"", key, std::string(control::name_of(given[i].config.servo->kind)),
+                    "a unit with this controller speaks no qbmove protocol", "units with control.kind = qbmove"});
     if (!std::isfinite(given[i].shaft_rad)) problems.add({"", key + ".shaft_rad", "", "isn't a number", "a finite angle"});
   }
   problems.throw_if_any();

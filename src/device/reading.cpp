@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/device/reading.hpp"
 
+#include "vsa/firmware/arithmetic.hpp"
 #include "vsa/firmware/exchange.hpp"
 
 namespace vsa::device {
@@ -28,6 +29,12 @@ UnitReading read(const Unit& unit, const UnitState& state) noexcept {
 }
 
 std::array<Ticks, 3> measured(const Unit& unit, const UnitState& state) noexcept {
+  if (unit.servo() != nullptr) {
+    std::array<Ticks, 3> out;
+    for (std::size_t i = 0; i < 3; ++i)
+      out[i] = {firmware::cut_16(static_cast<std::int32_t>(state.servo.raw[i] >> unit.config().memory.resolution[i]))};
+    return out;
+  }
   return firmware::positions(unit.config().program.model, state.program.memory.stored, state.program.loop);
 }
 

@@ -46,7 +46,8 @@ std::int64_t Unit::segment_ns(const StepPlan& plan, std::int64_t walked) const n
   return std::min({substep_ns_, kTickNs - (plan.t_ns + walked) % kTickNs, plan.dt_ns - walked});
 }
 
-firmware::TickInputs Unit::sample(UnitState& s, StepPlan& plan, std::int64_t at_ns) noexcept {
+/// Where the shaft is at the tick, as foreseen.
+double Unit::walk(UnitState& s, StepPlan& plan, std::int64_t at_ns) noexcept {
   const std::int64_t until = at_ns - plan.t_ns;
   if (until > 0 && plan.walked_ns == 0) plan.start = s.actuator;
   const double whole = static_cast<double>(plan.dt_ns);
@@ -61,7 +62,11 @@ firmware::TickInputs Unit::sample(UnitState& s, StepPlan& plan, std::int64_t at_
   }
   // What the host will do with the shaft if the prediction holds: q' = q + dt·v'.
   const double end_speed = 2.0 * plan.dy / seconds(plan.dt_ns) - plan.in.speed;
-  return read_sensors(s, plan.in.angle + seconds(plan.walked_ns) * end_speed);
+  return plan.in.angle + seconds(plan.walked_ns) * end_speed;
+}
+
+firmware::TickInputs Unit::sample(UnitState& s, StepPlan& plan, std::int64_t at_ns) noexcept {
+  return read_sensors(s, walk(s, plan, at_ns));
 }
 
 double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept {
@@ -71,6 +76,10 @@ double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const Sha
   alone_.set({&in.inverse_inertia, 1}, dt_ns);
   if (first_tick_ns(t_ns + 1) < t_ns + dt_ns) alone_.predict({&joint, 1});
   for (std::int64_t at = first_tick_ns(t_ns); at < t_ns + dt_ns; at += kTickNs) {
+    if (servo_) {
+      run_servo(s, plan, at);
+      continue;
+    }
     const firmware::TickInputs sensors = sample(s, plan, at);
     out_.clear();
     if (s.faults.powered) program_.tick(s.program, sensors, at, out_);
@@ -87,6 +96,7 @@ bool Unit::whole(std::int64_t t_ns, std::int64_t dt_ns) const noexcept {
 }
 
 void Unit::tick(UnitState& s, std::int64_t t_ns, double shaft_rad) noexcept {
+  if (servo_) return tick_servo(s, shaft_rad);
   const firmware::TickInputs sensors = read_sensors(s, shaft_rad);
   out_.clear();
   if (s.faults.powered) program_.tick(s.program, sensors, t_ns, out_);

@@ -62,7 +62,7 @@ void UnitBatch::command(std::size_t i, double equilibrium_rad, double preset) {
   for (const auto& [key, value] : {std::pair{"equilibrium", equilibrium_rad}, std::pair{"preset", preset}})
     if (!std::isfinite(value)) throw InputError({"", key, text_of(value), "not finite", "any finite number"});
   UnitState& s = impl_->states[i];
-  impl_->unit.set_inputs(s, impl_->unit.inputs_for(equilibrium_rad, preset));
+  impl_->unit.command(s, equilibrium_rad, preset);
   const std::size_t b = i / impl_->width;
   if (impl_->ticks_in_lanes[b] != 0)
     impl_->table.refer(impl_->loop(b), static_cast<int>(i % impl_->width), s.program.loop.ref_new.data());

@@ -54,7 +54,7 @@ bool UnitBatch::Impl::plain(const UnitState& s) const noexcept {
                     s.limit_pct == common.limit_pct && c.supply_seen && alike(c.orders, c.orders_new) &&
                     alike(c.orders_old, c.orders_new) && c.current[0].value == c.current_old[0].value &&
                     c.current[1].value == c.current_old[1].value;
-  return program && mode && idle && loop && p.enable == 3 && s.supply_on && s.faults == sound &&
+  return unit.servo() == nullptr && program && mode && idle && loop && p.enable == 3 && s.supply_on && s.faults == sound &&
          s.held.supply_V == unit.config().actuator.supply_V;
 }
 

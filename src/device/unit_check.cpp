@@ -8,6 +8,33 @@
 
 namespace vsa::device {
 
+namespace {
+
+/// What a servo asks of the rest.
+void validate_servo(const UnitConfig& c, std::string_view where, Problems& problems) {
+  const actuator::ActuatorParams& p = c.actuator;
+  control::validate(*c.servo, where, problems);
+  Checks check(where, problems);
+  for (std::size_t i = 0; i < p.sides(); ++i) {
+    const actuator::SideParams& side = p.side[i];
+    const std::string drive = i == 0 || side == p.side[0] ? "drive." : "drive_2.";
+    if (side.bridge.pin != drive::PwmPin::input)
+      check.refuse(drive + "pwm_pin", "enable", "a servo's drive gives mean voltages, which a modulated enable pin doesn't",
+                   "input");
+    if (side.bridge.dead_band != 0)
+      check.refuse(drive + "dead_band", text_of(side.bridge.dead_band), "a servo's drive gives the voltages that it is told", "0");
+    if (!(side.motor.torque_constant_Nm_per_A > 0))
+      check.refuse(drive + "torque_constant_Nm_per_A", text_of(side.motor.torque_constant_Nm_per_A),
+                   "a servo needs a motor that turns current into torque", "above 0");
+    if (side == p.side[1]) break;
+  }
+  if (p.transmission && c.is(control::ServoKind::torque_servo) && p.transmission->motor_count() != 1)
+    check.refuse("control.kind", "torque_servo", "is of a law with one motor, a series elastic unit",
+                 "position_servo, motor_voltages, qbmove");
+}
+
+}  // namespace
+
 void validate(const UnitConfig& c, std::string_view where, Problems& problems) {
   actuator::validate(c.actuator, where, problems);
   const std::string firmware = std::string(where) + "firmware.";
@@ -15,6 +42,7 @@ void validate(const UnitConfig& c, std::string_view where, Problems& problems) {
   firmware::validate(c.memory, firmware, problems);
   Checks check(where, problems);
   check.within("limits.preset_max", c.preset_max, 0, 100);
+  if (c.servo) validate_servo(c, where, problems);
   check.within("physics.substep_max_s", c.substep_max_s, 1e-6, 1e-3);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "device/pulley_speeds.hpp"
 #include "device/text.hpp"
 #include "vsa/device/unit.hpp"
 #include "vsa/firmware/arithmetic.hpp"
@@ -17,14 +18,6 @@ constexpr double kTurn = kRawPerTurn;
 constexpr double kMaxTurns = 120;  // the program counts turns in 8 bits
 
 double raw_of(double rad) noexcept { return rad / (2.0 * kPi) * kTurn; }
-
-/// ẋ of the pulleys where the equilibrium moves with the shaft: the law's own slope, which is 1 for most.
-std::array<double, 2> pulley_speeds(const elastic::Transmission& law, const UnitPlace& at) noexcept {
-  constexpr double kSmall_rad = 1e-4;
-  const auto ahead = law.references({at.equilibrium + kSmall_rad, at.preset});
-  const auto behind = law.references({at.equilibrium - kSmall_rad, at.preset});
-  return {(ahead[0] - behind[0]) / (2 * kSmall_rad) * at.speed, (ahead[1] - behind[1]) / (2 * kSmall_rad) * at.speed};
-}
 
 /// The turns that the program would have counted on the way to where the encoder's word is now.
 std::int8_t turns_at(double true_raw, std::int32_t word, std::int32_t sample) noexcept {
@@ -45,6 +38,8 @@ void Unit::check_place(const UnitState& state, const UnitPlace& at, std::string_
     say("preset", at.preset, "is out of range", "±" + std::to_string(config_.preset_max));
   } else if (!std::isfinite(at.equilibrium)) {
     say("equilibrium_rad", at.equilibrium, "isn't finite", "a finite number");
+  } else if (servo_) {
+    check_servo_place(at, where, problems);
   } else {
     const auto x = config_.actuator.transmission->references({at.equilibrium, at.preset});
     UnitState trial = state;
@@ -71,6 +66,14 @@ void Unit::place(UnitState& s, const UnitPlace& at) const noexcept {
   placed.dice = s.dice;
   placed.held.terminal = s.held.terminal;
   placed.held.supply_V = s.held.supply_V;
+  placed.last_speed = at.speed;
+  placed.reached = {at.shaft_rad, at.speed};
+  if (servo_) {
+    placed.servo = s.servo;
+    place_servo(placed, at);
+    s = placed;
+    return;
+  }
   auto x = config_.actuator.transmission->references({at.equilibrium, at.preset});
   const auto speed = pulley_speeds(*config_.actuator.transmission, at);
   for (std::size_t i = 0; i < 2; ++i) x[i] -= at.lag_s * speed[i];
@@ -96,8 +99,6 @@ void Unit::place(UnitState& s, const UnitPlace& at) const noexcept {
   loop.orders_new.onoff = before.orders_new.onoff;
   placed.program.enable = s.program.enable;
   placed.limit_pct = loop.limit_pct;
-  placed.last_speed = at.speed;
-  placed.reached = {at.shaft_rad, at.speed};
   s = placed;
 }
 

@@ -28,12 +28,30 @@ UnitConfig checked(UnitConfig config) {
   return config;
 }
 
-bool inverted(const UnitConfig& c) noexcept { return c.program.model == firmware::Model::advanced; }
+/// At the pulleys, with all the resistance that the current meets.
+std::optional<control::Servo> make_servo(const UnitConfig& c) {
+  if (!c.servo) return std::nullopt;
+  std::array<control::ServoMotor, 2> motors;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const actuator::SideParams& side = c.actuator.side[i];
+    motors[i] = {drive::at_pulley(side.motor, side.gearbox.ratio), 2.0 * kPi / static_cast<double>(1 << side.encoder.bits)};
+    motors[i].motor.resistance_Ohm += side.bridge.switch_Ohm;
+  }
+  return control::Servo(*c.servo, motors, c.actuator.transmission);
+}
+
+bool inverted(const UnitConfig& c) noexcept { return !c.servo && c.program.model == firmware::Model::advanced; }
 
 }  // namespace
 
 std::array<std::int32_t, 2> UnitConfig::reference_range_raw(int i) const noexcept {
   const auto n = static_cast<std::size_t>(i);
+  if (servo) {
+    constexpr double kWidest = 2147483647.0;
+    const double most = references_limited() ? servo->reference_max_rad / (2.0 * kPi) * kRawPerTurn : kWidest;
+    const auto raw = static_cast<std::int32_t>(std::min(most, kWidest));
+    return {-raw, raw};
+  }
   if (memory.limits_on == 0) {
     const std::int32_t unit = std::int32_t{1} << std::min<int>(memory.resolution[n], 16);
     return {-32768 * unit, 32767 * unit};
@@ -46,6 +64,7 @@ Unit::Unit(UnitConfig config)
     : config_(checked(std::move(config))),
       substep_ns_(std::llround(config_.substep_max_s * 1e9)),
       program_(config_.program),
+      servo_(make_servo(config_)),
       shaft_friction_(actuator::shaft_friction(config_.actuator)),
       tendon_(drive::FrictionParams{config_.actuator.tendon.friction, config_.actuator.tendon.presliding_J}),
       actuator_(config_.actuator),
@@ -68,11 +87,19 @@ UnitState Unit::switched_on(double shaft_rad, std::uint8_t id, std::int64_t now_
   s.program = program_.fresh(now_ns, shipped);
   s.actuator = actuator_.initial({0.0, 0.0}, shaft_rad);
   s.reached.angle = shaft_rad;
+  if (servo_) servo_->settle(s.servo, read_servo(s, shaft_rad), {{0.0, 0.0, shaft_rad}});
   return s;
 }
 
 UnitState Unit::initial(double equilibrium_rad, double preset, double shaft_rad, std::uint8_t id) const noexcept {
   UnitState s = switched_on(shaft_rad, id, 0);
+  if (servo_) {
+    s.servo.command.equilibrium = equilibrium_rad;
+    s.servo.command.preset = std::clamp(preset, -config_.preset_max, config_.preset_max);
+    settle_servo(s, resting_pulleys(s.servo.command, shaft_rad), shaft_rad);
+    s.servo.begun_rad = shaft_rad;
+    return s;
+  }
   set_inputs(s, inputs_for(equilibrium_rad, preset));
   const double rad_per_raw = (inverted(config_) ? -1.0 : 1.0) * radians(Raw{1});
   const auto& ref = s.program.loop.ref_new;
@@ -119,6 +146,16 @@ void Unit::hold(UnitState& s, StepPlan& plan) const noexcept {
 
 void Unit::drive_bridges(UnitState& s) const noexcept {
   const double supply = supply_V(s);
+  if (servo_) {
+    s.held.supply_V = supply;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const actuator::SideParams& side = config_.actuator.side[i];
+      const bool open = s.faults.motor_unplugged[i] || (!s.faults.powered && !side.bridge.brake_when_off);
+      s.held.terminal[i] = open ? drive::Terminal::open : drive::Terminal::driven;
+      s.held.voltage[i] = open ? 0.0 : side.polarity * s.servo.voltage[i];
+    }
+    return;
+  }
   const firmware::Drive drive = program_.drive(s.program);
   const bool direct = s.program.memory.current.control_mode == static_cast<std::uint8_t>(firmware::ControlMode::pwm);
   // The duty went out before this tick's supply reading changed the limit.

@@ -28,6 +28,7 @@ double last_good(double most, double step, const Ok& ok) {
 
 /// The firmware's limit, chosen by the supply as its converter reads it.
 double full_duty(const device::UnitConfig& unit) {
+  if (unit.servo) return 1;
   const auto supply = sensor::supply_from_adc(sensor::supply_adc(unit.actuator.supply_V));
   return (unit.supply_limited() ? firmware::supply_limit_pct(supply, unit.program.generation) : 100) / kDutyScale;
 }
@@ -36,14 +37,16 @@ double full_duty(const device::UnitConfig& unit) {
 
 double MotorLine::most_Nm(double speed) const noexcept {
   if (chopped) return (chopped->torque_Nm(chopped->along, speed) - friction_Nm) / (1 + load_loss);
-  return (stall_Nm - friction_Nm - back_Nms_per_rad * speed) / (1 + load_loss);
+  const double full = full_Nm - friction_Nm - back_Nms_per_rad * speed;
+  return std::min(full, limit_Nm - friction_Nm - viscous_Nms_per_rad * speed) / (1 + load_loss);
 }
 double MotorLine::least_Nm(double speed) const noexcept {
   if (chopped) return chopped->torque_Nm(chopped->against, speed) - friction_Nm;
-  return -(stall_Nm + friction_Nm + back_Nms_per_rad * speed);
+  const double full = full_Nm + friction_Nm + back_Nms_per_rad * speed;
+  return -std::min(full, limit_Nm + friction_Nm + viscous_Nms_per_rad * speed);
 }
 double MotorLine::no_load_speed_rad_per_s() const noexcept {
-  if (!chopped) return std::max(0.0, (stall_Nm - friction_Nm) / back_Nms_per_rad);
+  if (!chopped) return stall_Nm <= friction_Nm ? 0.0 : std::max(0.0, (full_Nm - friction_Nm) / back_Nms_per_rad);
   if (most_Nm(0) <= 0) return 0;
   double low = 0, high = chopped->along.supply_V() / chopped->back_emf_Vs_per_rad;  // where no current is left
   for (double mid = 0.5 * (low + high); mid > low && mid < high; mid = 0.5 * (low + high)) (most_Nm(mid) > 0 ? low : high) = mid;
@@ -70,7 +73,13 @@ MotorLine motor_line(const device::UnitConfig& unit, std::size_t motor) {
   line.full_duty = full_duty(unit);
   line.voltage_V = standing_voltage(unit, motor, 1.0, line.full_duty);
   line.stall_current_A = line.voltage_V / resistance;
+  line.full_Nm = m.torque_constant_Nm_per_A * line.stall_current_A;
+  if (unit.servo && !unit.is(control::ServoKind::motor_voltages)) {
+    line.stall_current_A = std::min(line.stall_current_A, unit.servo->current_max_A);
+    line.limit_Nm = m.torque_constant_Nm_per_A * unit.servo->current_max_A;
+  }
   line.stall_Nm = m.torque_constant_Nm_per_A * line.stall_current_A;
+  line.viscous_Nms_per_rad = m.viscous_Nms_per_rad;
   line.back_Nms_per_rad = m.torque_constant_Nm_per_A * m.back_emf_Vs_per_rad / resistance + m.viscous_Nms_per_rad;
   line.friction_Nm = drive::at_pulley(side.gearbox.friction, side.gearbox.ratio).coulomb_Nm;
   line.load_loss = side.gearbox.load_loss;

@@ -12,13 +12,20 @@
 namespace vsa::host {
 namespace {
 
-std::vector<device::Station> stations(const std::vector<BusMember>& members) {
+using Members = std::span<const BusMember>;
+
+std::size_t count_on_line(Members members) {
+  const auto servo = std::find_if(members.begin(), members.end(), [](const BusMember& m) { return m.unit->servo() != nullptr; });
+  return static_cast<std::size_t>(servo - members.begin());
+}
+
+std::vector<device::Station> stations(Members members) {
   std::vector<device::Station> out;
   for (const BusMember& m : members) out.push_back({&m.unit->program(), &m.slot->unit.program});
   return out;
 }
 
-std::vector<std::uint8_t> ids(const std::vector<BusMember>& members) {
+std::vector<std::uint8_t> ids(Members members) {
   std::vector<std::uint8_t> out;
   for (const BusMember& m : members) out.push_back(m.id);
   return out;
@@ -32,8 +39,9 @@ bus::Schedule schedule(const BusConfig& config, std::size_t units) {
 
 BusLine::BusLine(const BusConfig& config, std::vector<BusMember> members)
     : members_(std::move(members)),
-      chain_({schedule(config, members_.size()).rate, 0}, stations(members_)),
-      master_(schedule(config, members_.size()), ids(members_), *this) {
+      on_line_(count_on_line(members_)),
+      chain_({schedule(config, on_line_).rate, 0}, stations(Members(members_).first(on_line_))),
+      master_(schedule(config, on_line_), ids(Members(members_).first(on_line_)), *this) {
   if (!config.serial_port) return;
   port_ = std::make_unique<device::PortLine>(chain_);
   if (config.any_rate) port_->take_any_rate();
@@ -53,11 +61,19 @@ void BusLine::tick(std::int64_t at_ns) noexcept {
     return;
   }
   chain_.run_to(at_ns, master_);
-  for (std::size_t k = 0; k < members_.size(); ++k) {
+  for (std::size_t k = 0; k < on_line_; ++k) {
     const BusMember& m = members_[k];
     chain_.tick(k, m.unit->sample(m.slot->unit, *m.plan, at_ns), at_ns);
     m.unit->hold(m.slot->unit, *m.plan);
   }
+  for (std::size_t k = on_line_; k < members_.size(); ++k) run_servo(members_[k], at_ns);
+}
+
+void BusLine::run_servo(const BusMember& m, std::int64_t at_ns) noexcept {
+  device::UnitState& state = m.slot->unit;
+  m.unit->command(state, m.slot->equilibrium.at(at_ns), m.slot->preset.at(at_ns));
+  m.unit->run_servo(state, *m.plan, at_ns);
+  m.slot->measured = device::measured(*m.unit, state);
 }
 
 std::size_t BusLine::use(std::span<device::StepPlan> plans, std::size_t first) noexcept {
@@ -89,6 +105,7 @@ std::size_t BusLine::member_of(const ActuatorSlot& slot) const noexcept {
 
 void BusLine::set_wiring(const ActuatorSlot& slot, const device::Faults& faults) noexcept {
   const std::size_t k = member_of(slot);
+  if (k >= on_line_) return;
   const std::lock_guard quiet(*this);
   chain_.set_wiring(k, faults.wiring(), faults.seed);
 }
@@ -96,7 +113,7 @@ void BusLine::set_wiring(const ActuatorSlot& slot, const device::Faults& faults)
 void BusLine::set_unit(const ActuatorSlot& slot, device::Unit& unit) noexcept {
   const std::size_t k = member_of(slot);
   members_[k].unit = &unit;
-  chain_.set_program(k, unit.program());
+  if (k < on_line_) chain_.set_program(k, unit.program());
 }
 
 std::array<Ticks, 3> BusLine::measured(const ActuatorSlot& slot, const device::Unit& unit) const {
@@ -106,7 +123,7 @@ std::array<Ticks, 3> BusLine::measured(const ActuatorSlot& slot, const device::U
 
 const char* BusLine::impossible(const BusState& state, std::int64_t time_ns) const noexcept {
   constexpr std::int64_t kSlack_ns = 1'000'000'000;
-  const int frames = 2 * static_cast<int>(members_.size());
+  const int frames = 2 * static_cast<int>(on_line_);
   if (state.master.frame < 0 || state.master.frame >= std::max(frames, 1)) return "master.frame below two a unit";
   if (port_ || frames == 0) return nullptr;
   const std::int64_t near_ns = master_.schedule().cycle_ns + kSlack_ns;

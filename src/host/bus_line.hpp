@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// One bus of a robot: its units' chain, and who speaks to them: the master, or a client on a serial port.
+// One bus of a robot: its units' chain, and who speaks to them: the master, or a client on a serial port. Units with a servo stand on
+// it without being on its line: each has its command at every tick.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +36,7 @@ struct BusState {
 
 class BusLine final : private bus::MasterClient {
  public:
-  /// `members` by id; they stay where they are.
+  /// `members` by id, those with a servo behind the others; they stay where they are.
   BusLine(const BusConfig& config, std::vector<BusMember> members);
 
   /// Gives its members plans from the `first` on; returns the next free one.
@@ -81,7 +82,10 @@ class BusLine final : private bus::MasterClient {
   std::array<Ticks, 2> inputs(int k, std::int64_t now_ns) noexcept override;
   void measured(int k, const std::array<Ticks, 3>& positions) noexcept override;
 
+  void run_servo(const BusMember& member, std::int64_t at_ns) noexcept;
+
   std::vector<BusMember> members_;
+  std::size_t on_line_;  ///< how many of them, the first ones, are stations of the chain
   device::Chain chain_;
   bus::Master master_;
   std::unique_ptr<device::PortLine> port_;

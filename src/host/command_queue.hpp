@@ -84,7 +84,7 @@ class Queue {
 using CommandQueue = Queue<Order>;
 using FaultQueue = Queue<FaultOrder>;
 
-enum class NoticeKind { preset, limits, port, rate, unresolved, unsettled, energy };
+enum class NoticeKind { preset, limits, port, voltages, rate, unresolved, unsettled, energy };
 
 struct RawNotice {
   std::size_t actuator;

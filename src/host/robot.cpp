@@ -135,10 +135,24 @@ void Robot::set_supply(bool on) {
   for (ActuatorSlot& slot : impl_->state.actuators) slot.unit.supply_on = on;
 }
 
+void Robot::command_direct(std::size_t actuator, const std::array<double, 2>& values) {
+  const ActuatorConfig& a = impl_->config.actuators[known(actuator)];
+  Problems problems;
+  if (!a.unit.is(control::ServoKind::motor_voltages) && !a.unit.is(control::ServoKind::torque_servo))
+    problems.add({"", a.name, "", "its controller takes no voltages and no torque", "control.kind = motor_voltages, torque_servo"});
+  for (const double v : values)
+    if (!std::isfinite(v)) problems.add({"", a.name, std::to_string(v), "isn't finite", "finite numbers"});
+  problems.throw_if_any();
+  device::Unit::command_direct(impl_->state.actuators[actuator].unit, values);
+}
+
 void Robot::set_faults(std::size_t actuator, const device::Faults& faults) {
-  static_cast<void>(known(actuator));
+  const ActuatorConfig& a = impl_->config.actuators[known(actuator)];
   Problems problems;
   device::validate(faults, "", problems);
+  if (a.unit.servo && (!faults.wiring().clean() || faults.late_s > 0))
+    problems.add({"", a.name, std::string(control::name_of(a.unit.servo->kind)),
+                  "has no line on which bytes could be lost, flipped or late", "faults of power, encoders, supply and motors"});
   problems.throw_if_any();
   impl_->faults.push({actuator, faults});
 }

@@ -16,6 +16,10 @@ void check_actuator(const RobotConfig& config, std::size_t i, std::string_view w
   if (!std::isfinite(a.initial_equilibrium_rad) || !std::isfinite(a.initial_preset))
     check.refuse(a.name, "", "initial command isn't finite", "finite numbers");
   if (a.bus >= config.buses.size()) check.refuse(a.name, std::to_string(a.bus), "no such bus", "an index into buses");
+  if (a.unit.servo && a.bus < config.buses.size() && config.buses[a.bus].serial_port)
+    check.refuse(a.name, std::string(control::name_of(a.unit.servo->kind)),
+                 "has no line: its bus " + config.buses[a.bus].name + " can't have a serial port",
+                 "a bus without a port, or an actuator type with control.kind = qbmove");
   for (std::size_t j = 0; j < i; ++j) {
     const ActuatorConfig& b = config.actuators[j];
     if (a.name == b.name) check.refuse(a.name, "", "two actuators have this name", "unique names");

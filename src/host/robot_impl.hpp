@@ -69,6 +69,7 @@ struct Robot::Impl {
         if (config.actuators[i].bus == b) on_it.push_back(i);
       std::stable_sort(on_it.begin(), on_it.end(),
                        [this](std::size_t x, std::size_t y) { return config.actuators[x].id < config.actuators[y].id; });
+      std::stable_partition(on_it.begin(), on_it.end(), [this](std::size_t i) { return units[i]->servo() == nullptr; });
       std::vector<BusMember> members;
       for (const std::size_t i : on_it)
         members.push_back({units[i].get(), &state.actuators[i], nullptr, static_cast<std::uint8_t>(config.actuators[i].id), i});
@@ -104,6 +105,8 @@ struct Robot::Impl {
       ActuatorSlot& slot = state.actuators[c.actuator];
       const BusConfig& bus = config.buses[config.actuators[c.actuator].bus];
       if (bus.serial_port) return notice(c.actuator, slot.noted_port, true, NoticeKind::port, 0);  // its client commands
+      if (units[c.actuator]->config().is(control::ServoKind::motor_voltages))
+        return notice(c.actuator, slot.noted_port, true, NoticeKind::voltages, 0);
       Track& track = c.channel == Channel::equilibrium ? slot.equilibrium : slot.preset;
       if (c.knots) {
         track.begin(std::move(c.knots), state.time_ns);
@@ -135,7 +138,7 @@ struct Robot::Impl {
     notice(i, slot.noted_preset, std::abs(p) > limit, NoticeKind::preset, p);
     const auto x = unit.actuator.transmission->references({q, std::clamp(p, -limit, limit)});
     bool out = false;
-    for (int m = 0; m < 2 && unit.memory.limits_on != 0; ++m) {
+    for (int m = 0; m < 2 && unit.references_limited(); ++m) {
       const auto [low, high] = unit.reference_range_raw(m);
       out = out || x[m] < radians(Raw{low}) || x[m] > radians(Raw{high});
     }

@@ -55,6 +55,10 @@ void check_kind(const std::string& name, const UnitConfig& from, const UnitConfi
   const auto same = [&](const char* key, const std::string& theirs, const std::string& ours) {
     if (theirs != ours) problems.add({"", name + ": " + key, theirs, "a unit's state can't go over to this", ours});
   };
+  const auto controller = [](const UnitConfig& unit) {
+    return unit.servo ? std::string(control::name_of(unit.servo->kind)) : std::string("qbmove");
+  };
+  same("control.kind", controller(from), controller(to));
   same("firmware.model", number(from.program.model), number(to.program.model));
   same("firmware.dialect", number(from.program.dialect), number(to.program.dialect));
   same("number of motors", number(from.actuator.transmission->motor_count()), number(to.actuator.transmission->motor_count()));

@@ -60,7 +60,7 @@ std::vector<Notice> Robot::take_notices() {
   std::vector<Notice> out;
   for (const RawNotice& n : impl_->notices.take()) {
     const ActuatorConfig& a = impl_->config.actuators[n.actuator];
-    const auto unit = std::string(a.unit.actuator.transmission->preset_unit());
+    const auto unit = std::string(a.unit.preset_unit());
     const std::string limit = std::to_string(a.unit.preset_max);
     std::string text = a.name;
     switch (n.kind) {
@@ -90,6 +90,9 @@ std::vector<Notice> Robot::take_notices() {
       case NoticeKind::rate:
         text = "bus " + impl_->config.buses[a.bus].name + ": " + impl_->buses[a.bus]->port()->wrong_rate().text();
         break;
+      case NoticeKind::voltages:
+        text += ": commands of equilibrium and preset aren't taken: its controller is motor_voltages";
+        break;
       case NoticeKind::port:
         text += ": commands aren't taken: its bus belongs to the serial port " + *impl_->config.buses[a.bus].serial_port;
         break;
@@ -102,6 +105,8 @@ std::vector<Notice> Robot::take_notices() {
 
 std::array<Ticks, 2> Robot::received_inputs(std::size_t actuator) const {
   const UnitConfig& config = impl_->config.actuators[known(actuator)].unit;
+  const device::UnitState& state = impl_->state.actuators[actuator].unit;
+  if (config.servo) return impl_->units[actuator]->inputs_for(state.servo.command.equilibrium, state.servo.command.preset);
   const BusLine& bus = *impl_->buses[impl_->config.actuators[actuator].bus];
   const firmware::ProgramState& s = impl_->state.actuators[actuator].unit.program;
   const std::int32_t sign = config.program.model == firmware::Model::advanced ? -1 : 1;

@@ -60,6 +60,7 @@ void Robot::Impl::read_numbers(std::span<const double> in) {
       fault = {in.size() - 1, in.back(), "ends what can't be", wrong};
   }
   for (std::size_t i = 0; i < units.size() && !fault.there(); ++i) {
+    if (units[i]->servo() != nullptr) continue;
     const firmware::ProgramState& p = loaded.state.actuators[i].unit.program;
     const std::int64_t line_ns = loaded.buses[config.actuators[i].bus].chain.now_ps / bus::kPsPerNs;
     const auto [low, high] = std::minmax(line_ns, loaded.state.time_ns);

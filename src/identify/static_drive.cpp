@@ -73,6 +73,7 @@ double torque_of(const actuator::SideParams& side, double supply_V, int duty_pct
 }  // namespace
 
 std::optional<std::string> unsupported(const device::UnitConfig& unit) {
+  if (unit.servo) return "its controller is a servo";
   const firmware::Memory& m = unit.memory;
   if (m.control_mode != static_cast<std::uint8_t>(firmware::ControlMode::position)) return "its control mode isn't position";
   if (m.input_mode != 0) return "its references come from an encoder";

@@ -58,6 +58,7 @@ config::Evidence evidence_with(const std::optional<config::Evidence>& before, co
 std::string type_text(const config::ActuatorType& type, const std::string& name, const std::vector<Identified>& changes,
                       const config::Evidence& fitted, const config::TypeLibrary& library) {
   std::vector<std::string> groups{"elastic"};
+  if (type.controller != "qbmove") groups.emplace_back("control");
   std::map<std::string, std::string> body;
   for (const config::Entry& e : type.entries) {
     const std::string group = e.key.substr(0, e.key.find('.'));
@@ -72,6 +73,7 @@ std::string type_text(const config::ActuatorType& type, const std::string& name,
   for (const std::string& group : groups) {
     out += fmt::format("\n[{}]\n", group);
     if (group == "elastic") out += fmt::format("law = {}\n", toml_string(type.law));
+    if (group == "control") out += fmt::format("kind = {}\n", toml_string(type.controller));
     out += body[group];
   }
   (void)library.load_text(out, name + ".toml");

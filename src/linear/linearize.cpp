@@ -2,6 +2,7 @@
 //
 // One unit by itself on an inertia.
 #include "linear/loops.hpp"
+#include "linear/servo_loop.hpp"
 
 namespace vsa::linear {
 namespace {
@@ -37,10 +38,12 @@ Model linearize(const device::UnitConfig& unit, const OperatingPoint& point, Fir
   if (firmware != Firmware::frozen) loops = find_loops(unit, plant, m.notices);
   if (firmware == Firmware::averaged) average(m, loops);
   if (firmware == Firmware::sampled) sample(m, loops);
+  const bool servo = unit.servo && firmware != Firmware::frozen;
+  if (servo) close(m, alone(servo_loop(unit, plant, point.preset, firmware), plant));
   m.c = output_matrix(plant, m.a.rows());
   m.d = Eigen::MatrixXd::Zero(m.c.rows(), m.b.cols());
   m.held_stiffness_Nm_per_rad = held_stiffness(plant);
-  m.static_stiffness_Nm_per_rad = static_stiffness(plant, loops);
+  m.static_stiffness_Nm_per_rad = servo ? servo_stiffness(unit, plant, point.preset) : static_stiffness(plant, loops);
   return m;
 }
 

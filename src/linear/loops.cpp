@@ -28,6 +28,7 @@ void check_loop(const device::UnitConfig& unit, Problems& problems) {
 std::string motor_signal(int motor, const char* what) { return "motor " + std::to_string(motor + 1) + ' ' + what; }
 
 Loops find_loops(const device::UnitConfig& unit, const Plant& plant, std::vector<std::string>& notices) {
+  if (unit.servo) return {control::kTick_s, {}};
   Problems problems;
   check_loop(unit, problems);
   problems.throw_if_any();

@@ -21,6 +21,7 @@ std::string text_of(double v) {
 
 /// The share of the supply at full output.
 double full_duty(const device::UnitConfig& unit) noexcept {
+  if (unit.servo) return 1;
   const auto supply = sensor::supply_from_adc(sensor::supply_adc(unit.actuator.supply_V));
   return (unit.supply_limited() ? firmware::supply_limit_pct(supply, unit.program.generation) : 100) / device::kDutyScale;
 }
@@ -108,7 +109,7 @@ void check_point(const device::Unit& unit, const OperatingPoint& p, Problems& pr
   if (!(p.damping_Nms_per_rad >= 0 && std::isfinite(p.damping_Nms_per_rad)))
     say("damping_Nms_per_rad", p.damping_Nms_per_rad, "≥ 0");
   if (!std::isfinite(p.load_Nm)) say("load_Nm", p.load_Nm, "a finite number");
-  if (unit.config().actuator.transmission->preset_unit().empty() && p.preset != 0) {
+  if (unit.config().preset_unit().empty() && p.preset != 0) {
     problems.add({"", "preset", text_of(p.preset), "this actuator has no stiffness preset", "0"});
   } else {
     unit.check_place(unit.switched_on(0, 1, 0), {p.shaft_rad.value_or(0), 0, p.equilibrium_rad, p.preset, 0}, "", problems);

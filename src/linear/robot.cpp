@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linear/loops.hpp"
+#include "linear/servo_loop.hpp"
 
 namespace vsa::linear {
 namespace {
@@ -163,13 +164,27 @@ void average_all(RobotModel& m, const std::vector<Mounted>& units) {
   m.firmware = Firmware::averaged;
 }
 
-void tell_stiffness(RobotModel& m, const std::vector<Mounted>& units) {
+/// The servos' loops, behind the others.
+void close_servos(RobotModel& m, const std::vector<Mounted>& units, Firmware firmware) {
+  for (const Mounted& u : units) {
+    if (!u.of->unit.servo) continue;
+    PlacedServo servo{servo_loop(u.of->unit, u.plant, u.of->point.preset, firmware),
+                      {2 * u.joint, 2 * u.joint + 1},
+                      u.first_input,
+                      u.of->name + ' '};
+    for (Index k = 0; k < u.motor_states(); ++k) servo.states.push_back(u.first_state + k);
+    close(m, servo);
+  }
+}
+
+void tell_stiffness(RobotModel& m, const std::vector<Mounted>& units, Firmware firmware) {
   m.held_stiffness = m.bodies.gravity_stiffness;
   for (Index j = 0; j < m.torques; ++j) m.held_stiffness(j, j) += m.bodies.joints[static_cast<std::size_t>(j)].stiffness;
   m.static_stiffness = m.held_stiffness;
   for (const Mounted& u : units) {
-    m.units.push_back(
-        {u.of->name, u.of->joint, u.plant.motors, u.plant.rest, held_stiffness(u.plant), static_stiffness(u.plant, u.loops)});
+    const bool servo = u.of->unit.servo && firmware != Firmware::frozen;
+    const double yielding = servo ? servo_stiffness(u.of->unit, u.plant, u.of->point.preset) : static_stiffness(u.plant, u.loops);
+    m.units.push_back({u.of->name, u.of->joint, u.plant.motors, u.plant.rest, held_stiffness(u.plant), yielding});
     m.held_stiffness(u.joint, u.joint) += m.units.back().held_stiffness_Nm_per_rad;
     m.static_stiffness(u.joint, u.joint) += m.units.back().static_stiffness_Nm_per_rad;
   }
@@ -190,11 +205,12 @@ RobotModel linearize(const Bodies& bodies, const std::vector<MountedUnit>& units
   divide_by_mass(m);
   if (firmware == Firmware::averaged) average_all(m, mounted);
   if (firmware == Firmware::sampled) sample(m, together(mounted, firmware));
+  if (firmware != Firmware::frozen) close_servos(m, mounted, firmware);
   const Index states = m.a.rows(), known = m.c.cols();
   m.c.conservativeResize(Eigen::NoChange, states);
   m.c.rightCols(states - known).setZero();
   m.d = MatrixXd::Zero(m.c.rows(), m.b.cols());
-  tell_stiffness(m, mounted);
+  tell_stiffness(m, mounted, firmware);
   return m;
 }
 

@@ -10,7 +10,7 @@ namespace {
 /// What the unit lets its motors do; a turn where it doesn't limit them.
 Span equilibrium_span(const device::UnitConfig& unit, int motors) {
   Span out{-kPi, kPi};
-  for (int i = 0; i < motors && unit.memory.limits_on != 0; ++i) {
+  for (int i = 0; i < motors && unit.references_limited(); ++i) {
     const auto [low, high] = unit.reference_range_raw(i);
     out = {std::max(out.min, radians(Raw{low})), std::min(out.max, radians(Raw{high}))};
   }
@@ -24,7 +24,7 @@ Rules rules_of(const host::Simulation& world, const motion::Gait* gait, bool con
   for (std::size_t r = 0; r < world.robot_count(); ++r) {
     for (const host::ActuatorConfig& a : world.robot(r).config().actuators) {
       const auto& law = a.unit.actuator.transmission;
-      const bool has_preset = law && !law->preset_unit().empty();
+      const bool has_preset = law && !a.unit.preset_unit().empty();
       out.actuators.push_back({equilibrium_span(a.unit, law ? law->motor_count() : 1), {0, has_preset ? a.unit.preset_max : 0}});
     }
   }

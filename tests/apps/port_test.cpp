@@ -100,6 +100,7 @@ TEST(Emulate, BadInputIsToldBeforeThereIsAPort) {
   expect(with({"--fault", "1"}), 2, {"names no fault"});
   expect(with({"--dialect", "8"}), 2, {"--dialect"});
   expect(run_vsa({"emulate", "walker", "--port", path}), 2, {"walker"});
+  expect(run_vsa({"emulate", "anydrive_ad119e20", "--port", path}), 2, {"anydrive_ad119e20", "speaks no qbmove protocol"});
   write_file(path, "mine");
   expect(with({}), 2, {"left alone"});
 }

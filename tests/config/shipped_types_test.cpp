@@ -162,7 +162,7 @@ TEST(ShippedTypes, EveryUnitTurnsAnUnloadedShaftToTheCommandAndStaysThere) {
     const device::UnitConfig unit = shipped().load(name).unit;
     OneJoint joint(unit, 0.0, 0.5 * unit.preset_max, 1e-3, 1'000'000);
     joint.load = [&joint](double) { return -0.01 * joint.v; };
-    joint.unit.set_inputs(joint.state, joint.unit.inputs_for(0.5, 0.5 * unit.preset_max));
+    joint.unit.command(joint.state, 0.5, 0.5 * unit.preset_max);
     double lowest = 1e9, highest = -1e9;
     while (joint.t_ns < 4'000'000'000) {
       joint.step();

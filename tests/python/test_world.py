@@ -390,6 +390,14 @@ class Bodies(unittest.TestCase):
         with self.assertRaises(vsasim.InputError):
             world.place("shaft", 1e6, 0.3)
 
+    def test_a_torque_past_the_law_moves_a_torque_servo_and_no_qbmove(self):
+        world = loaded("bench_free", type="anydrive_ad119e20")
+        world.command_direct("shaft", 1.0)
+        world.run(2.0)
+        self.assertAlmostEqual(world.joint_angles()[0], 1.0 / 20.0, delta=2e-3)  # its stiffness is 20 N·m/rad
+        with self.assertRaises(vsasim.InputError):
+            loaded().command_direct("shaft", 1.0)
+
     def test_the_ledger_balances_and_notices_tell_what_was_clamped(self):
         world = loaded()
         world.command("shaft", 0.5, 5.0)

@@ -140,6 +140,13 @@ report::Table electrical_table(const study::DataSheet& d) {
   rows.push_back({"motors / current of each when stalled", fmt::format("{} / {}", motors, stalled), "A", kDrive});
   rows.push_back(
       {"friction of a motor with gears", of_each(s.line, [](const auto& l) { return number(l.friction_Nm); }), "N·m", kType});
+  if (u.servo) {
+    rows.push_back({"controller", std::string(control::name_of(u.servo->kind)), "", kType});
+    rows.push_back({"encoders", of_each(bits, [](int b) { return number(b); }), "bit", kType});
+    if (u.references_limited())
+      rows.push_back({"travel of the motors", "±" + number(u.servo->reference_max_rad * 180 / kPi), "°", kType});
+    return out;
+  }
   rows.push_back({"position loop", number(1e6 / static_cast<double>(firmware::kTickNs)), "kHz", "firmware"});
   rows.push_back({"error that moves a motor / gives full voltage",
                   of_each(s.errors, [](const auto& e) { return pair(e.moves_rad * 180 / kPi, e.full_rad * 180 / kPi); }), "°",

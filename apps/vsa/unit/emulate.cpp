@@ -59,7 +59,11 @@ void check(const EmulateOptions& o) {
 }
 
 std::vector<device::EmulatedUnit> units_of(const EmulateOptions& o) {
-  device::UnitConfig config = config::TypeLibrary().load(o.type, config::parse_overrides(o.set, "--set")).unit;
+  const config::ActuatorType type = config::TypeLibrary().load(o.type, config::parse_overrides(o.set, "--set"));
+  if (type.unit.servo)
+    throw InputError({"", "type", o.type, "speaks no qbmove protocol: its controller is " + type.controller,
+                      "an actuator type whose control.kind is qbmove"});
+  device::UnitConfig config = type.unit;
   if (o.dialect) config.program.dialect = *o.dialect == 7 ? bus::Dialect::seven : bus::Dialect::six;
   if (o.active) config.memory.startup_activation = kMotorsOn;
   std::vector<device::EmulatedUnit> units(static_cast<std::size_t>(o.units));

@@ -10,6 +10,8 @@
 //   [elastic]
 //   law = "two_sinh"
 //   k1_Nm = { value = 0.022, unit = "N·m", bounds = [1e-6, 10.0], source = "Table I" }
+//   [control]
+//   kind = "position_servo"             optional: "qbmove" (the default), "position_servo", "torque_servo", "motor_voltages"
 //   [drive]
 //   friction_Nm = { value = 0.8, unit = "N·m", bounds = [0.0, 100.0], source = "Table I" }
 //   [evidence]
@@ -57,8 +59,9 @@ struct ActuatorType {
   std::string description;  ///< may be empty
   std::filesystem::path file;
   std::string law;
-  std::string rank;  ///< on what its numbers stand: "measured", "published", "symbolic"; empty: its file doesn't say
-  std::string base;  ///< the type that it differs from; empty: it is whole
+  std::string controller;  ///< "qbmove", "position_servo", "torque_servo" or "motor_voltages"
+  std::string rank;        ///< on what its numbers stand: "measured", "published", "symbolic"; empty: its file doesn't say
+  std::string base;        ///< the type that it differs from; empty: it is whole
   std::optional<Evidence> evidence;  ///< none: the type doesn't say
   std::vector<Entry> entries;
   std::vector<std::string> notices;  ///< old spellings in its file

@@ -39,9 +39,15 @@ struct Parameter {
   Setter set = nullptr;             ///< null: `set_side` of both sides
   SideSetter set_side = nullptr;    ///< not null: the second side may have a value of its own, "drive_2.friction_Nm"
   bool second = false;              ///< this is that value: optional, in the place of what the first key gave both
+  std::string_view controllers{};   ///< which controllers have it: "position_servo|torque_servo"; empty: all
 
   void apply(device::UnitConfig& to, double value) const;
 };
+
+/// A type's controllers (`control.kind`): "qbmove|position_servo|…". Keys of firmware.… are of the first.
+inline constexpr std::string_view kControllers = "qbmove|position_servo|torque_servo|motor_voltages";
+/// Those that have this parameter.
+[[nodiscard]] std::string_view controllers_of(const Parameter& parameter) noexcept;
 
 /// Stands for the unit of the law's preset; a law without a preset has no such parameter.
 inline constexpr std::string_view kPresetUnit = "preset unit";
@@ -50,7 +56,7 @@ inline constexpr std::string_view kPresetUnit = "preset unit";
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
 
 /// Why an actuator with this law has no such parameter; empty: it may have it.
-[[nodiscard]] std::string why_absent(const Parameter& parameter, const elastic::Transmission& law);
+[[nodiscard]] std::string why_absent(const Parameter& parameter, const device::UnitConfig& unit);
 
 /// The firmware's 16.16 fixed point of a gain, truncated toward zero as its C cast does: 0.1 → 6553, −0.8 → −52428.
 [[nodiscard]] std::int32_t fixed_16_16(double gain) noexcept;

@@ -16,46 +16,29 @@
 // What isn't the program: encoder, ADC, bridge. The program's duty, a percentage after its supply limit, drives the bridge as
 // (output of the law, limit in force); a motor whose enable pin is low is braked or open (drive.off_mode), one that is unplugged is
 // open.
+//
+// A unit with a servo (vsa/control/servo.hpp) has no program and no line: at each tick the servo reads the same encoders, and the
+// bridge gives the voltages that it asks for.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "vsa/actuator/actuator.hpp"
+#include "vsa/control/servo.hpp"
 #include "vsa/device/dice.hpp"
 #include "vsa/device/faults.hpp"
 #include "vsa/device/joint_solver.hpp"
+#include "vsa/device/unit_config.hpp"
 #include "vsa/firmware/program.hpp"
 #include "vsa/state.hpp"
 
 namespace vsa::device {
 
 inline constexpr int kMaxTicksPerStep = 17;  ///< host steps up to 16 ms
-
-struct UnitConfig {
-  actuator::ActuatorParams actuator;
-  firmware::ProgramParams program;
-  firmware::Memory memory = firmware::initial_memory(firmware::Model::maker_pro);  ///< both EEPROM pages; the ID is the robot's
-  double preset_max = 0.785;                                                       ///< accepted |preset| of a command in SI units
-  double substep_max_s = 1e-3;                                                     ///< longest physics segment, (0, 1 ms]
-
-  /// Whether the program limits the duty by the supply.
-  [[nodiscard]] bool supply_limited() const noexcept {
-    return program.supply_table.value_or(program.model == firmware::Model::maker_pro);
-  }
-  /// The references that the program lets motor i have, raw, in the sense of the wire; the widest that it can hold if it doesn't
-  /// limit.
-  [[nodiscard]] std::array<std::int32_t, 2> reference_range_raw(int i) const noexcept;
-  bool operator==(const UnitConfig&) const = default;
-};
-
-/// Adds what no unit could have: numbers that aren't finite or outside what the models need, no transmission, what doesn't go
-/// together. `where` leads each key. A file's own bounds are checked where it is read.
-void validate(const UnitConfig& config, std::string_view where, Problems& problems);
-/// Whether two units are alike, laws compared by value (elastic::Transmission::equals).
-[[nodiscard]] bool alike(const UnitConfig& a, const UnitConfig& b) noexcept;
 
 /// What the bridges hold from one tick to the next.
 struct Held {
@@ -91,12 +74,13 @@ struct UnitState {
   Faults faults;
   std::array<std::int32_t, 3> last_encoder{};  ///< what a stuck encoder says
   Dice dice;                                   ///< of the encoders' noise
+  control::ServoState servo;                   ///< of a unit that has one
   static auto fields(auto& s, auto&& visit) {
     return visit("physics", "", s.actuator, "held", "", s.held, "limit", "%", s.limit_pct, "supply_on", "", s.supply_on, "started",
                  "", s.started, "start_y", "rad", s.start_y, "applied_torque", "N·m", s.applied_torque, "path_work", "J",
                  s.path_work, "last_speed", "rad/s", s.last_speed, "last_dt", "s", s.last_dt, "unresolved", "", s.unresolved,
                  "reached", "", s.reached, "program", "", s.program, "faults", "", s.faults, "last_encoder", "", s.last_encoder,
-                 "dice", "", s.dice);
+                 "dice", "", s.dice, "servo", "", s.servo);
   }
   [[nodiscard]] const char* impossible() const noexcept;
 };
@@ -146,10 +130,12 @@ class Unit {
   explicit Unit(UnitConfig config);  ///< throws InputError with all that validate() finds
   [[nodiscard]] const UnitConfig& config() const noexcept { return config_; }
   [[nodiscard]] const firmware::Program& program() const noexcept { return program_; }
+  [[nodiscard]] const control::Servo* servo() const noexcept { return servo_ ? &*servo_ : nullptr; }  ///< null: it has the program
 
-  /// At rest on its references for (equilibrium, preset), on for long, motors enabled, with the shaft where it is.
+  /// At rest on its references for (equilibrium, preset), on for long, motors enabled, with the shaft where it is; with a torque
+  /// servo the pulley stands where the spring gives what it should.
   [[nodiscard]] UnitState initial(double equilibrium_rad, double preset, double shaft_rad, std::uint8_t id = 1) const noexcept;
-  /// Just switched on: motors off, pulleys at 0.
+  /// Just switched on: motors off, pulleys at 0. A servo is on at once, with the command 0.
   [[nodiscard]] UnitState switched_on(double shaft_rad, std::uint8_t id, std::int64_t now_ns) const noexcept;
 
   /// Puts a unit somewhere as if it had been there for long: pulleys on the law's references for (equilibrium, preset), carried
@@ -174,6 +160,8 @@ class Unit {
   firmware::TickInputs sample(UnitState& state, StepPlan& plan, std::int64_t at_ns) noexcept;
   /// After the program's tick: what the bridges do until the next.
   void hold(UnitState& state, StepPlan& plan) const noexcept;
+  /// All three of a unit with a servo.
+  void run_servo(UnitState& state, StepPlan& plan, std::int64_t at_ns) noexcept;
   /// Solves a unit alone and ends its step; returns the torque.
   double end_step(UnitState& state, StepPlan& plan) noexcept;
 
@@ -193,6 +181,10 @@ class Unit {
   /// Ends the step at the last attempt; `torque` is what the host gets.
   void finish(UnitState& state, StepPlan& plan, double move, double torque) noexcept;
 
+  /// A command that comes by itself: to the servo, or as if SET_INPUTS had just arrived. Of motor_voltages it does nothing.
+  void command(UnitState& state, double equilibrium_rad, double preset) const noexcept;
+  /// What a servo takes besides: motor_voltages V for each motor, torque_servo N·m for the first. Any other has no use for it.
+  static void command_direct(UnitState& state, const std::array<double, 2>& values) noexcept;
   /// As if SET_INPUTS had just arrived.
   void set_inputs(UnitState& state, std::array<Ticks, 2> inputs) const noexcept;
   /// Motor references of a command as the bus carries them; the preset is clamped to preset_max, the rest to 16 bits.
@@ -230,11 +222,20 @@ class Unit {
   double end_whole(UnitState& state, StepPlan& plan) noexcept;
   void set_out(UnitState& state, StepPlan& plan) const noexcept;
   void drive_bridges(UnitState& state) const noexcept;
+  double walk(UnitState& state, StepPlan& plan, std::int64_t at_ns) noexcept;
+  [[nodiscard]] control::ServoReadings read_servo(UnitState& state, double shaft_rad) const noexcept;
+  void tick_servo(UnitState& state, double shaft_rad) const noexcept;
+  [[nodiscard]] std::array<double, 2> resting_pulleys(const control::ServoCommand& command, double shaft_rad) const noexcept;
+  void settle_servo(UnitState& state, const std::array<double, 2>& pulleys, double shaft_rad) const noexcept;
+  void find_shaft(UnitState& state, double shaft_rad) const noexcept;
+  void place_servo(UnitState& placed, const UnitPlace& at) const noexcept;
+  void check_servo_place(const UnitPlace& at, std::string_view where, Problems& problems) const;
   [[nodiscard]] std::int64_t segment_ns(const StepPlan& plan, std::int64_t walked_ns) const noexcept;
 
   UnitConfig config_;
   std::int64_t substep_ns_;
   firmware::Program program_;
+  std::optional<control::Servo> servo_;
   drive::Friction shaft_friction_;
   drive::Friction tendon_;
   actuator::Actuator actuator_;

@@ -9,7 +9,7 @@
 // or, where the bridge's enable pin is modulated, K_τ ī(d, K_b ω) − b ω in place of K_τ V/R − (K_τ K_b/R + b) ω, with the circuit's
 // own mean current at full duty d (drive/pwm_cycle.hpp), and V := ī(d, 0) R; all at the pulley; τ_c Coulomb friction, λ the
 // friction that grows with the load (K_τ, K_b, b, τ_c after the gearbox). The bridge's dead band has no part in V: full output
-// gives full voltage.
+// gives full voltage. With a servo K_τ I_max ∓ b ω bounds both, and full voltage is the supply.
 //
 // While the shaft turns at ω against a load it stays behind its equilibrium by d, and the law's inputs follow the equilibrium with
 // ẋ_i = r_i ω, r_i = ∂x_ref,i/∂θ. Motor i carries M_i = −load_i(q₀ − d, x_ref(0, p)). (ω, p) is reachable with every lag from 0 up
@@ -26,6 +26,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -37,12 +38,15 @@ namespace vsa::experiment {
 struct MotorLine {
   double full_duty = 0;         ///< of the supply, at full output
   double voltage_V = 0;         ///< V
-  double stall_Nm = 0;          ///< K_τ V/R, before friction
-  double stall_current_A = 0;   ///< V/R
+  double stall_Nm = 0;          ///< K_τ V/R, before friction; with a servo no more than its current gives
+  double stall_current_A = 0;   ///< V/R, or the servo's limit
   double friction_Nm = 0;       ///< τ_c
   double back_Nms_per_rad = 0;  ///< K_τ K_b/R + b
-  double load_loss = 0;         ///< λ
-  double back_loss = 0;         ///< λ where the load drives the motor back
+  double full_Nm = 0;           ///< K_τ V/R whatever limits the current
+  double limit_Nm = std::numeric_limits<double>::infinity();  ///< K_τ I_max of a servo
+  double viscous_Nms_per_rad = 0;                             ///< b
+  double load_loss = 0;                                       ///< λ
+  double back_loss = 0;                                       ///< λ where the load drives the motor back
   /// The enable pin is modulated: the motor at full duty, both ways.
   struct Chopped {
     drive::PwmCycle along, against;

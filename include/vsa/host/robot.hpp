@@ -131,6 +131,10 @@ class Robot {
   /// From any thread; taken at the next step's start in order of arrival. NaN or infinity: refused (false). None: keep.
   bool command(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset);
 
+  /// Past the law, from the next tick on: motor_voltages V for each motor; torque_servo N·m on the shaft (the first number), added to
+  /// what its stiffness gives. InputError: another controller, a number that isn't finite. The stepping thread's.
+  void command_direct(std::size_t actuator, const std::array<double, 2>& values);
+
   /// Several at once: all take effect in the same step, or none where one is refused (false).
   struct Command {
     std::size_t actuator = 0;

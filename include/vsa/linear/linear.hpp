@@ -24,6 +24,9 @@
 //             κ = (μ/w_max) T_i² between shaft and pulley, with the damper κ T_d. Good for swings smaller than the preslidings
 // Also left out: quantisation of encoders and duty, and all limits.
 //
+// A SERVO (vsa/control/servo.hpp) is taken the same three ways; its filters and integrals are states, and sampled its last angles. A
+// torque servo has its equilibrium as input, and the point is that of its pulley.
+//
 // The laws of elastic/ are smooth but for the edges of their pieces, where H is the one of the side they call their own.
 #pragma once
 
