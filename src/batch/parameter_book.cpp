@@ -99,7 +99,7 @@ bool ParameterBook::has(const engine::World& world, std::size_t owner, const std
     return friction ? world.link_parameters(*first_.of, links_[owner]).friction.has_value() : !world.links()[owner].is_static;
   }
   if (entry(world, owner, key) != nullptr) return true;
-  const elastic::Transmission& law = *kind(world, owner).unit.actuator.transmission;
+  const elastic::Transmission& law = *world.actuator_parameters(*first_.of, world.actuators()[owner]).unit.actuator.transmission;
   const auto all = config::parameters();
   return std::any_of(all.begin(), all.end(), [&](const config::Parameter& p) {
     return p.key == key && p.need == config::Need::optional && config::why_absent(p, law).empty();
