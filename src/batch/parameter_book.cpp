@@ -99,10 +99,10 @@ bool ParameterBook::has(const engine::World& world, std::size_t owner, const std
     return friction ? world.link_parameters(*first_.of, links_[owner]).friction.has_value() : !world.links()[owner].is_static;
   }
   if (entry(world, owner, key) != nullptr) return true;
-  const device::UnitConfig& unit = kind(world, owner).unit;
+  const auto& type = world.actuator_parameters(*first_.of, world.actuators()[owner]);
   const auto all = config::parameters();
   return std::any_of(all.begin(), all.end(), [&](const config::Parameter& p) {
-    return p.key == key && p.need == config::Need::optional && config::why_absent(p, unit).empty();
+    return p.key == key && p.need == config::Need::optional && config::why_absent(p, type.unit).empty();
   });
 }
 
