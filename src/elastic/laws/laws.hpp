@@ -7,10 +7,13 @@
 
 namespace vsa::elastic {
 
+extern const Law kBiStiffness;
 extern const Law kCamRoller;
+extern const Law kLeverCardan;
 extern const Law kLeverPivot;
 extern const Law kLeverSpring;
 extern const Law kMaccepa;
+extern const Law kMaccepa2;
 extern const Law kSeriesHardening;
 extern const Law kSeriesSpring;
 extern const Law kTwoCams;
