@@ -16,8 +16,17 @@
 
 namespace vsa::test {
 
+/// A law's scale and the rows of a grid file: not separable, with a different curve at each preset.
+inline std::vector<double> typical_grid() {
+  std::vector<double> out{1};
+  for (const double p : {0.0, 0.4, 0.8, 1.2})
+    for (const double d : {-0.5, -0.3, -0.15, 0.0, 0.15, 0.3, 0.5})
+      out.insert(out.end(), {d, (2 + 8 * p * p) * d + 30 * (1 + p) * d * d * d, p});
+  return out;
+}
+
 struct Typical {
-  std::vector<double> values;  ///< in the order of the law's parameters
+  std::vector<double> values;  ///< in the order of the law's parameters, then its file's rows
   double deflection_rad;       ///< tried up to here: |q − x₀|, or of two springs |q − (x₀ + x₁)/2|
   double preset;               ///< and here
 };
@@ -32,6 +41,7 @@ inline const std::map<std::string_view, Typical>& typical() {
       {"maccepa_2", {{323, 0.03, 0.18, 0.010, 0.05}, 1.2, 2.5}},
       {"series_hardening", {{10, 50}, 0.5, 0}},
       {"series_spring", {{10}, 0.5, 0}},
+      {"table", {typical_grid(), 0.5, 1.2}},
       {"two_cams", {{20000, 0.03}, 0.4, 0.5}},
       {"two_exp", {{0.38, 0.38, 8.71, 0.508}, 0.25, 0.25}},
       {"two_quadratic", {{10, 10, 0.05}, 0.5, 0.8}},
@@ -61,7 +71,7 @@ inline std::vector<SomeLaw> all_laws(int more) {
     if (row == typical().end()) throw std::runtime_error(std::string(law->name) + ": no row in all_laws.hpp");
     for (int n = 0; n <= more; ++n) {
       std::vector<double> values = row->second.values;
-      for (std::size_t i = 0; n > 0 && i < values.size(); ++i)
+      for (std::size_t i = 0; n > 0 && i < law->parameters.size(); ++i)
         values[i] = std::clamp(values[i] * std::exp2(exponent(random)), law->parameters[i].min, law->parameters[i].max);
       if (law->fault != nullptr && law->fault(values)) continue;
       out.push_back({std::string(law->name) + (n > 0 ? " " + std::to_string(n) : ""), law->make(values), row->second.deflection_rad,

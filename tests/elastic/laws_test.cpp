@@ -51,8 +51,10 @@ TEST(ElasticLaws, TorqueAndLoadsAreTheNegativeGradientOfTheEnergy) {
         const double slope = (l.law->energy(up) - l.law->energy(down)) / (2 * h);
         EXPECT_NEAR(gradient(r, i), slope, 1e-7 * scale) << l.name << " coordinate " << i;
         for (int j = 0; j < 3; ++j) {
-          const double bend = (gradient(l.law->evaluate(up), j) - gradient(l.law->evaluate(down), j)) / (2 * h);
-          EXPECT_NEAR(hessian(r.curvature, i, j), bend, 1e-6 * scale) << l.name << " " << i << j;
+          const double above = gradient(l.law->evaluate(up), j) - gradient(r, j),
+                       below = gradient(r, j) - gradient(l.law->evaluate(down), j);
+          const double knot = l.name.rfind("table", 0) == 0 ? std::abs(above - below) / h : 0;  // its curvature has bends
+          EXPECT_NEAR(hessian(r.curvature, i, j), (above + below) / (2 * h), 1e-6 * scale + knot) << l.name << " " << i << j;
         }
       }
     }
