@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // The elastic laws that actuator types may name: the library's (vsa/elastic/law.hpp) and whatever is added.
+#include "config/law_modules.hpp"
 #include "vsa/config/actuator_type.hpp"
 #include "vsa/config/csv_table.hpp"
 #include "vsa/config/text.hpp"
@@ -12,6 +13,20 @@ namespace vsa::config {
 LawRegistry LawRegistry::standard() {
   LawRegistry laws;
   for (const elastic::Law* law : elastic::laws()) laws.add(*law);
+  Problems problems;
+  std::map<std::string_view, std::string> where;
+  for (const ForeignLaw& l : laws_of_path(problems)) {
+    const std::string name(l.law->name);
+    if (laws.find(name) == nullptr) {
+      laws.add(*l.law);
+      where[l.law->name] = "of " + l.file.string();
+    } else {
+      const auto of = where.find(name);
+      problems.add({l.file.string(), "law", name, "the name is taken, " + (of == where.end() ? "by a law that ships" : of->second),
+                    "a name of its own"});
+    }
+  }
+  problems.throw_if_any();
   return laws;
 }
 

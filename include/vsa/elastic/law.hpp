@@ -50,8 +50,8 @@ struct Law {
   std::string_view equation;  ///< in one line; H in J
   std::string_view source;    ///< of the equation
   std::span<const LawParameter> parameters;
-  /// Values in the order of the parameters, each within its bounds, and without a fault(). After them the rows of the law's file, where it
-  /// has one, each in the order of its columns.
+  /// Values in the order of the parameters, each within its bounds, and without a fault(). After them the rows of the law's
+  /// file, where it has one, each in the order of its columns.
   std::shared_ptr<const Transmission> (*make)(std::span<const double> values);
   /// Null: whatever is within the bounds goes together.
   std::optional<LawFault> (*fault)(std::span<const double> values) = nullptr;

@@ -1,22 +1,21 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// A series elastic actuator with a second spring beside the first that a clutch engages: two stiffnesses, k and k + k₂, with k = 0 a
-// joint that the clutch lets go.
+// A series elastic actuator with a second spring beside the first that a clutch engages: two stiffnesses, k and k + k₂, with
+// k = 0 a joint that the clutch lets go.
 //
 //   H = ½ (k + k₂ s(u)) δ²,   δ = q − x₀,   u = x₁/w
 //   s = u⁴ (35 − 84 u + 70 u² − 20 u³) from u = 0 (open) to 1 (engaged), 0 before and 1 after, smooth to its third derivative
 //   σ = k + k₂ s,   load₁ = −½ k₂ s'(u) δ²/w
 //
-// The preset is the mover's angle x₁. At rest engaging is free. A deflected second spring is bent by whoever engages it: the mover pays
-// ½ k₂ δ², and gets it back on the way out; between, the joint pushes the clutch open.
+// The preset is the mover's angle x₁. At rest engaging is free. A deflected second spring is bent by whoever engages it: the
+// mover pays ½ k₂ δ², and gets it back on the way out; between, the joint pushes the clutch open.
 //
 // What that isn't: a clutch that latches where the shaft is, so that its spring rests there, holds what it stores and lets it go at
 // will (the switch-and-hold of bi-stiffness actuation). Where it latched is a state, which no potential has; here the second spring
 // rests where the first does. Nor does anything slip, lose energy, or engage at once.
 //
-// Sources: D. Ossadnik and others, BSA: bi-stiffness actuation for optimally exploiting intrinsic compliance, IROS 2022, and E. P. Fortunić
-// and others, Optimally controlling the timing of energy transfer in elastic joints, RA-L 8 (2023) 8106, for the idea; this law and its
-// smooth clutch: ours.
+// Sources: D. Ossadnik and others, BSA: bi-stiffness actuation for optimally exploiting intrinsic compliance, IROS 2022, and
+// E. P. Fortunić and others, Optimally controlling the timing of energy transfer in elastic joints, RA-L 8 (2023) 8106, for the idea; this law and its smooth clutch: ours.
 #include <algorithm>
 
 #include "elastic/laws/laws.hpp"

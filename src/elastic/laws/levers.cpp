@@ -1,25 +1,26 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// A lever between springs and output, whose arms motor 2 changes: at rest the springs are at ease, so stiffening costs no work there
-// (∂H/∂x₁ = 0 at δ = 0).
+// A lever between springs and output, whose arms motor 2 changes: at rest the springs are at ease, so stiffening costs no work
+// there (∂H/∂x₁ = 0 at δ = 0).
 //
 //   H = A(p) sin² δ,   δ = q − x₀,   p = p₀ + h x₁,   σ at rest = 2 A,   largest torque A, at |δ| = π/4
-//   lever_pivot   the pivot moves (AwAS-II, CompAct):       A = K ((L/r) p/(L − p))²   p = 0: no stiffness; p → L: rigid
-//   lever_spring  the springs' place moves (AwAS):          A = k p²                   two springs of rate k, each stretched by p sin δ
+//   lever_pivot   the pivot moves (AwAS-II, CompAct):         A = K ((L/r) p/(L − p))²   p = 0: no stiffness; p → L: rigid
+//   lever_spring  the springs' place moves (AwAS):            A = k p²                   two springs, each stretched by p sin δ
 //   lever_cardan  the pivot moves by Cardan gears (vsaUT-II): A = k d² tan⁴ φ/2,  φ = φ₀ + g x₁
 //
-// lever_cardan: springs at one end of a lever, at the other a pin of the output, d from its axis, which moves d sin δ across it. A planet
-// that rolls inside a ring of twice its size moves the pivot along the whole lever, in a straight line though everything turns: from the
-// springs' end it is at p = (1 − cos φ) half lengths, so that the springs' end moves p/(L − p) = tan² φ/2 times the pin. φ = 0: no
-// stiffness, φ → π: rigid; beyond 0 the pivot comes back. The springs are linear, and so is the torque within 5 % up to |δ| = 0.27.
+// lever_cardan: springs at one end of a lever, at the other a pin of the output, d from its axis, which moves d sin δ across it.
+// A planet that rolls inside a ring of twice its size moves the pivot along the whole lever, in a straight line though everything
+// turns: from the springs' end it is at p = (1 − cos φ) half lengths, so that the springs' end moves p/(L − p) = tan² φ/2 times
+// the pin. φ = 0: no stiffness, φ → π: rigid; beyond 0 the pivot comes back. The springs are linear, and so is the torque within
+// 5 % up to |δ| = 0.27.
 //
 // Beyond the pivot's stop (p > s, |φ| > φ_s) A goes on by its second-order expansion there. Softening beyond |δ| = π/4; use below.
 //
-// Sources: the public NMMI/ROS-Gazebo-compliant-actuators-plugin (2021) for the pivot: τ = −2K ((L/r) p/(L − p))² sin δ cos δ, which
-// leaves out the pivot's own load and divides by zero at p = L; A. Jafari, N. G. Tsagarakis, D. G. Caldwell, IROS 2010 and ICRA 2011,
-// for the mechanisms; S. Groothuis and others, The variable stiffness actuator vsaUT-II, IEEE/ASME Transactions on Mechatronics 19 (2014)
-// 589, whose abstract has the lever, the moved pivot and the planetary gears: its equations here are ours. So are the potentials, and with
-// them the loads of motor 2.
+// Sources: the public NMMI/ROS-Gazebo-compliant-actuators-plugin (2021) for the pivot: τ = −2K ((L/r) p/(L − p))² sin δ cos δ,
+// which leaves out the pivot's own load and divides by zero at p = L; A. Jafari, N. G. Tsagarakis, D. G. Caldwell, IROS 2010 and
+// ICRA 2011, for the mechanisms; S. Groothuis and others, The variable stiffness actuator vsaUT-II, IEEE/ASME Transactions on
+// Mechatronics 19 (2014) 589, whose abstract has the lever, the moved pivot and the planetary gears: its equations here are ours.
+// So are the potentials, and with them the loads of motor 2.
 #include <algorithm>
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// MACCEPA 2.0: the cable of a MACCEPA leaves its lever over a profile, which it wraps the farther the joint is deflected, so that its
-// arm grows: stiffening where the plain one softens. Here the profile is an arc of radius R to either side, which begins at the
-// lever's end B along the lever; the output's fixation is at C, a second motor shortens the cable by r x₁.
+// MACCEPA 2.0: the cable of a MACCEPA leaves its lever over a profile, which it wraps the farther the joint is deflected, so that
+// its arm grows: stiffening where the plain one softens. Here the profile is an arc of radius R to either side, which begins at
+// the lever's end B along the lever; the output's fixation is at C, a second motor shortens the cable by r x₁.
 //
 //   a = |δ|,  δ = q − x₀;  seen from the arc's middle (B, R) the fixation is at (I, J) = (C cos a − B, C sin a − R)
 //   E = √(I² + J² − R²)                       straight part of the cable, m
@@ -10,13 +10,13 @@
 //   e = E + R λ − (C − B) + r x₁              spring's elongation, m;  H = ½ κ max(e, 0)²
 //   e' = C sin(λ − a),   e'' = C cos(λ − a) (λ' − 1),   λ' = C cos(λ − a)/E
 //
-// R = 0 is the law maccepa; at rest any R has its stiffness, σ = κ r x₁ BC/(C − B). It stiffens up to some 0.7 to 1.5 rad, the farther
-// the smaller B and R are beside C. The fixation must pass the arc: C > R + √(B² + R²). Beyond |δ| = π/2, where no profile goes on, e
-// follows its tangent.
+// R = 0 is the law maccepa; at rest any R has its stiffness, σ = κ r x₁ BC/(C − B). It stiffens up to some 0.5 to 1.5 rad, the
+// farther the smaller B and R are beside C. The fixation must pass the arc: C > R + √(B² + R²). Beyond |δ| = π/2, where no
+// profile goes on, e follows its tangent.
 //
-// Sources: B. Vanderborght and others, MACCEPA 2.0: compliant actuator used for energy efficient hopping robot Chobino1D, Autonomous
-// Robots 31 (2011) 55, for the mechanism; I, J, E, λ and the torque as in the public l1va/maccepa_manipulator. The potential, λ' and e''
-// are ours; that program's force doesn't end where the cable goes slack.
+// Sources: B. Vanderborght and others, MACCEPA 2.0: compliant actuator used for energy efficient hopping robot Chobino1D,
+// Autonomous Robots 31 (2011) 55, for the mechanism; I, J, E, λ and the torque as in the public l1va/maccepa_manipulator. The
+// potential, λ' and e'' are ours; that program's force doesn't end where the cable goes slack.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -4,9 +4,10 @@
 //
 //   H(δ, p) = s ∫₀ T(δ', p) dδ',   δ = q − x₀,   p = x₁;   T: torque_grid.hpp
 //
-// T(0, p) is 0, by what a deflection is; what was measured there is taken off every row, up to 5 % of its largest torque. A file that
-// begins at δ = 0 is one side of an odd law. A grid doesn't tell what motor 2 holds at rest: nothing, as with levers. One preset: a
-// series elastic actuator, without preset. Beyond the grid torques follow their tangents, presets fade within ⅔ of an interval.
+// T(0, p) is 0, by what a deflection is; what was measured there is taken off every row, up to 5 % of its largest torque. A file
+// that begins at δ = 0 is one side of an odd law. A grid doesn't tell what motor 2 holds at rest: nothing, as with levers. One
+// preset: a series elastic actuator, without preset. Beyond the grid torques follow their tangents, presets fade within ⅔ of an
+// interval.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -4,15 +4,15 @@
 //
 //   T(δ, p) = Σ_j w_j(p) T_j(δ) + v_j(p) D_j(δ),   H = ∫₀ T dδ = Σ w_j ∫T_j + v_j ∫D_j,   ∂H/∂p = Σ w_j' ∫T_j + v_j' ∫D_j
 //
-//   T_j  a preset's row: cubics between its points, which never fall where these don't (F. N. Fritsch, R. E. Carlson, SIAM J. Numer. Anal. 17
-//        (1980) 238): slopes of three-point parabolas, limited to twice the lesser neighbouring secant; beyond its ends the tangents
+//   T_j  a preset's row: cubics between its points, which never fall where these don't (F. N. Fritsch, R. E. Carlson, SIAM J. Numer.
+//        Anal. 17 (1980) 238): slopes of three-point parabolas, at most twice the lesser neighbouring secant; tangents beyond its ends
 //   D_j  the rows' slope by p, of the neighbouring rows: a three-point parabola's, scaled so that the rows' ranges of torque go as
 //        monotonously as they were measured, and then so that no stiffness falls below 0 (below)
 //   w, v cubic Hermite polynomials between presets; beyond the first and last the slope fades to 0 within ⅔ of an interval
 //
-// Torque and loads have continuous derivatives but the loads' by p, which jumps at presets. The law goes through every point. In p and in δ
-// σ = ∂T/∂δ is a polynomial on each half of a cell whose Bernstein coefficients are those of the rows T_j and T_j ± D_j h/3, and D_j is
-// scaled until none of these is negative: σ ≥ 0 everywhere, so H ≥ 0 where T(0, p) = 0. Ours.
+// Torque and loads have continuous derivatives but the loads' by p, which jumps at presets. The law goes through every point. In p
+// and in δ σ = ∂T/∂δ is a polynomial on each half of a cell whose Bernstein coefficients are those of the rows T_j and T_j ± D_j h/3,
+// and D_j is scaled until none of these is negative: σ ≥ 0 everywhere, so H ≥ 0 where T(0, p) = 0. Ours.
 #pragma once
 
 #include <array>
@@ -26,7 +26,8 @@ namespace vsa::elastic {
 
 class TorqueGrid {
  public:
-  /// At least two deflections, with 0 among or between them, and one preset, both rising; a row of torques each preset. They don't fall.
+  /// At least two deflections, with 0 among or between them, and one preset, both rising; a row of torques each preset, which don't
+  /// fall.
   TorqueGrid(std::vector<double> deflections, std::vector<double> presets, const std::vector<std::vector<double>>& torques);
 
   /// δ and p; every row's torque at δ = 0 is taken off.
