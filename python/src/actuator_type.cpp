@@ -22,6 +22,7 @@ py::object value_of(const config::Entry& e) {
     case config::Kind::integer:
       return py::int_(static_cast<long long>(e.number));
     case config::Kind::word:
+    case config::Kind::file:
       return py::str(e.value);
     case config::Kind::number:
       break;

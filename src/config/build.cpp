@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/resolve.hpp"
+#include "vsa/config/csv_table.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/elastic/travel.hpp"
 
@@ -13,6 +14,34 @@ namespace vsa::config {
 namespace {
 
 using Law = std::shared_ptr<const elastic::Transmission>;
+
+std::string column_text(std::span<const elastic::LawColumn> columns) {
+  std::string out = "a CSV file with";
+  for (const elastic::LawColumn& c : columns) out += ' ' + std::string(c.name) + (c.needed ? "" : " (optional)") + ',';
+  out.pop_back();
+  return out;
+}
+
+/// Every number within its column's bounds.
+LawRows read_rows(const std::filesystem::path& file, std::span<const elastic::LawColumn> columns) {
+  std::vector<WantedColumn> wanted;
+  for (const elastic::LawColumn& c : columns) wanted.push_back({c.name, c.needed});
+  CsvTable table = read_csv(file, wanted);
+  if (table.lines.empty()) throw InputError(Problem{file.string(), "", "", "has no rows", "a header line and numbers"});
+  FewProblems problems;
+  LawRows out{{}, file, std::move(table.lines)};
+  for (std::size_t row = 0; row < out.lines.size(); ++row) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const double value = table.columns[c].empty() ? 0.0 : table.columns[c][row];
+      out.values.push_back(value);
+      if (value >= columns[c].min && value <= columns[c].max) continue;
+      problems.add({at_line(file, out.lines[row]), std::string(columns[c].name), number_text(value),
+                    "is outside of what the model accepts", range_text(columns[c].min, columns[c].max)});
+    }
+  }
+  problems.throw_if_any();
+  return out;
+}
 
 class Reader final : public LawReader {
  public:
@@ -26,15 +55,37 @@ class Reader final : public LawReader {
     return std::numeric_limits<double>::quiet_NaN();
   }
 
+  LawRows rows(const elastic::LawFile& file) override {
+    LawRows out;
+    const std::string columns = column_text(file.columns);
+    const Spec spec{"elastic." + std::string(file.key), "", Kind::file, 0, 0, columns, file.meaning};
+    if (const auto path = resolver_.resolve_file(spec)) {
+      try {
+        out = read_rows(*path, file.columns);
+      } catch (const InputError& error) {
+        for (const Problem& p : error.problems()) resolver_.add(p);
+      }
+    } else {
+      resolver_.report_missing(spec);
+    }
+    failed_ = failed_ || out.values.empty();
+    return out;
+  }
+
+  void remark(std::string text) override { remarks_.push_back(std::move(text)); }
+
   [[nodiscard]] bool failed() const noexcept { return failed_; }
+  [[nodiscard]] std::vector<std::string>& remarks() noexcept { return remarks_; }
 
  private:
   Resolver& resolver_;
   bool failed_ = false;
+  std::vector<std::string> remarks_;
 };
 
 /// Null where the law can't be made; the reason is reported then. `known`: its name is one.
-Law make_law(const Document& document, const LawRegistry& laws, Resolver& resolver, bool& known) {
+Law make_law(const Document& document, const LawRegistry& laws, Resolver& resolver, bool& known,
+             std::vector<std::string>& remarks) {
   const LawFactory* factory = laws.find(document.law);
   known = factory != nullptr;
   if (!known) {
@@ -50,11 +101,13 @@ Law make_law(const Document& document, const LawRegistry& laws, Resolver& resolv
     if (reader.failed()) return nullptr;  // it judged the NaN of a value that is reported already
     for (const Problem& p : error.problems()) {
       const std::string key = "elastic." + p.key;
-      resolver.problem(resolver.line_of(key), key, p.value, p.message, p.allowed);
+      if (p.file.empty()) resolver.problem(resolver.line_of(key), key, p.value, p.message, p.allowed);
+      if (!p.file.empty()) resolver.add({p.file, key, p.value, p.message, p.allowed});
     }
     return nullptr;
   }
   if (reader.failed()) return nullptr;
+  remarks = std::move(reader.remarks());
   if (!law) resolver.problem(document.law_line, "elastic.law", '"' + document.law + '"', "the law's factory returned nothing");
   return law;
 }
@@ -134,7 +187,7 @@ ActuatorType build_type(const Document& document, const std::vector<Override>& o
   type.notices = document.notices;
   Resolver resolver(document, overrides, problems);
   bool law_known = false;
-  const Law law = make_law(document, laws, resolver, law_known);
+  const Law law = make_law(document, laws, resolver, law_known, type.remarks);
   type.unit.actuator.transmission = law;
   const bool controller_known = make_controller(document, resolver, type);
   for (const Parameter& p : parameters()) {

@@ -1,7 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // The elastic laws that actuator types may name: the library's (vsa/elastic/law.hpp) and whatever is added.
+#include "config/law_modules.hpp"
 #include "vsa/config/actuator_type.hpp"
+#include "vsa/config/csv_table.hpp"
+#include "vsa/config/text.hpp"
 #include "vsa/elastic/law.hpp"
 #include "vsa/errors.hpp"
 
@@ -10,18 +13,52 @@ namespace vsa::config {
 LawRegistry LawRegistry::standard() {
   LawRegistry laws;
   for (const elastic::Law* law : elastic::laws()) laws.add(*law);
+  Problems problems;
+  std::map<std::string_view, std::string> where;
+  for (const ForeignLaw& l : laws_of_path(problems)) {
+    const std::string name(l.law->name);
+    if (laws.find(name) == nullptr) {
+      laws.add(*l.law);
+      where[l.law->name] = "of " + l.file.string();
+    } else {
+      const auto of = where.find(name);
+      problems.add({l.file.string(), "law", name, "the name is taken, " + (of == where.end() ? "by a law that ships" : of->second),
+                    "a name of its own"});
+    }
+  }
+  problems.throw_if_any();
   return laws;
 }
 
 void LawRegistry::add(std::string name, LawFactory factory) { factories_.insert_or_assign(std::move(name), std::move(factory)); }
 
+namespace {
+
+/// A law's fault as a problem of its file, or of its parameter.
+Problem problem_of(const elastic::LawFault& fault, const elastic::Law& law, std::span<const double> values, const LawRows& rows) {
+  Problem out{"", std::string(fault.key), "", fault.message, fault.allowed};
+  for (std::size_t i = 0; i < law.parameters.size(); ++i)
+    if (law.parameters[i].key == fault.key) out.value = number_text(values[i]);
+  if (law.file != nullptr && law.file->key == fault.key)
+    out.file = fault.row ? at_line(rows.file, rows.lines.at(*fault.row)) : rows.file.string();
+  return out;
+}
+
+}  // namespace
+
 void LawRegistry::add(const elastic::Law& law) {
-  add(std::string(law.name), [&law](LawReader& reader) {
+  add(std::string(law.name), [&law](LawReader& reader) -> std::shared_ptr<const elastic::Transmission> {
     std::vector<double> values;
     for (const elastic::LawParameter& p : law.parameters) values.push_back(reader.number(p.key, p.unit, p.min, p.max, p.meaning));
-    Problems problems;
-    elastic::validate(law, values, "", problems);
-    problems.throw_if_any();
+    LawRows rows;
+    if (law.file != nullptr) {
+      rows = reader.rows(*law.file);
+      if (rows.values.empty()) return nullptr;
+      values.insert(values.end(), rows.values.begin(), rows.values.end());
+    }
+    if (const auto fault = law.fault != nullptr ? law.fault(values) : std::nullopt)
+      throw InputError(problem_of(*fault, law, values, rows));
+    if (law.remark != nullptr) reader.remark(law.remark(values));
     return law.make(values);
   });
 }

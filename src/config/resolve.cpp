@@ -39,6 +39,8 @@ std::optional<double> convert(const Spec& spec, const Scalar& value) {
     case Kind::word:
       if (const auto* v = std::get_if<std::string>(&value)) return word_index(spec.words, *v);
       return whole ? word_index(spec.words, std::to_string(*whole)) : std::nullopt;
+    case Kind::file:
+      break;  // no number: see resolve_file()
   }
   return std::nullopt;
 }
@@ -66,6 +68,8 @@ std::string kind_text(Kind kind) {
       return "must be true or false";
     case Kind::word:
       return "is not one of the words";
+    case Kind::file:
+      return "must be the name of a file";
   }
   return {};
 }
@@ -73,7 +77,7 @@ std::string kind_text(Kind kind) {
 std::string value_text(const Spec& spec, double value) {
   if (spec.kind == Kind::toggle) return value != 0 ? "true" : "false";
   if (spec.kind == Kind::word) return split(spec.words, '|')[static_cast<std::size_t>(value)];
-  return number_text(value);
+  return spec.kind == Kind::file ? "" : number_text(value);
 }
 
 Entry make_entry(const Spec& spec, const Item* item, double value, std::string source) {
@@ -106,6 +110,7 @@ std::string near_key(const std::string& key, const std::set<std::string, std::le
 std::string allowed_text(const Spec& spec) {
   if (spec.kind == Kind::toggle) return "true, false";
   if (spec.kind == Kind::word) return join(split(spec.words, '|'));
+  if (spec.kind == Kind::file) return std::string(spec.words);
   return range_text(spec.min, spec.max);
 }
 
@@ -161,6 +166,27 @@ std::optional<double> Resolver::resolve(const Spec& spec) {
   if (value) entries_.push_back(make_entry(spec, item, *value, source));
   if (!value && (item != nullptr || given > 0)) failed_.insert(spec.key);
   return value;
+}
+
+std::optional<std::filesystem::path> Resolver::resolve_file(const Spec& spec) {
+  asked_.insert(spec.key);
+  for (const Override& o : overrides_) {
+    if (o.key == spec.key)
+      problem(0, std::string(kOverrideMark) + o.key, '"' + o.value + '"', "a file can't be overridden: use another type");
+  }
+  const Item* item = find(spec.key);
+  if (item == nullptr || !check_form(spec, *item)) return std::nullopt;
+  const auto* name = std::get_if<std::string>(&item->value);
+  if (name == nullptr || trim(*name).empty()) {
+    problem(*item, spec.key, scalar_text(item->value), kind_text(spec.kind), allowed_text(spec));
+    return std::nullopt;
+  }
+  const std::filesystem::path beside = item->file.empty() ? document_.file : item->file;
+  const std::filesystem::path file = std::filesystem::absolute(beside.parent_path() / *name).lexically_normal();
+  Entry entry = make_entry(spec, item, 0, item->source);
+  entry.value = file.string();
+  entries_.push_back(std::move(entry));
+  return file;
 }
 
 double Resolver::use_default(const Spec& spec, std::string_view text, std::string_view source) {

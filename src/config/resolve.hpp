@@ -3,10 +3,12 @@
 // One parameter: what the file says and what an override says, checked against what is allowed.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "config/document.hpp"
@@ -39,6 +41,8 @@ class Resolver {
   [[nodiscard]] bool failed(std::string_view key) const;
   /// The value (a word's index, 0 or 1 for a switch), with its entry added to entries(); none: absent, or wrong and reported.
   [[nodiscard]] std::optional<double> resolve(const Spec& spec);
+  /// A file's path, with its entry; none: absent, or wrong and reported. The type that names it says where it is: no override does.
+  [[nodiscard]] std::optional<std::filesystem::path> resolve_file(const Spec& spec);
   /// The same for a value that the schema gives.
   [[nodiscard]] double use_default(const Spec& spec, std::string_view text, std::string_view source);
   /// The key is known, though it isn't wanted.
@@ -46,6 +50,7 @@ class Resolver {
   void report_missing(const Spec& spec);
   /// `lenient_group`: its keys are not judged ("elastic." while the law is unknown).
   void report_unknown(std::string_view lenient_group);
+  void add(Problem problem) { problems_.add(std::move(problem)); }
   void problem(int line, std::string key, std::string value, std::string message, std::string allowed = {});
   void problem(const Item& item, std::string key, std::string value, std::string message, std::string allowed = {});
 

@@ -9,10 +9,13 @@
 #include <fstream>
 #include <numeric>
 
-#include "experiment/csv_table.hpp"
+#include "vsa/config/csv_table.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::experiment {
+
+using config::at_line, config::CsvTable, config::FewProblems, config::read_csv, config::require_increasing;
+
 namespace {
 
 constexpr double kDeflectionLimit = 6.3;  // a turn: no spring of an actuator gives way further

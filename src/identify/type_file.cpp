@@ -27,7 +27,7 @@ std::string toml_string(std::string_view text) {
 }
 
 std::string entry_text(const config::Entry& e, const Identified* change) {
-  const bool word = e.kind == config::Kind::word;
+  const bool word = e.kind == config::Kind::word || e.kind == config::Kind::file;
   const std::string value = change != nullptr ? config::number_text(change->value) : word ? toml_string(e.value) : e.value;
   const std::string source = toml_string(change != nullptr ? change->source : e.source);
   const std::string name = e.key.substr(e.key.find('.') + 1);

@@ -391,6 +391,11 @@ TEST(Documentation, NamesEveryKeyUnitAndBoundOfTheSchema) {
       expect_pieces(text.substr(at, text.find('\n', at) - at),
                     {std::string(p.unit), config::range_text(p.min, p.max), std::string(p.meaning)});
     }
+    if (law->file == nullptr) continue;
+    const std::string row = "| `" + std::string(law->name) + "` | `elastic." + std::string(law->file->key) + "` |";
+    EXPECT_NE(text.find(row), std::string::npos) << row;
+    for (const elastic::LawColumn& c : law->file->columns)
+      expect_row(std::string(c.name), "", config::range_text(c.min, c.max), c.meaning);
   }
 }
 

@@ -16,6 +16,9 @@ cmake -Wno-dev -S "$source/examples/serial_client" -B "$work/serial" -G Ninja -D
 cmake --build "$work/serial"
 cmake -Wno-dev -S "$source/examples/host" -B "$work/host" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null
 cmake --build "$work/host"
+cmake -Wno-dev -S "$source/examples/law_module" -B "$work/law" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null
+cmake --build "$work/law"
+VSA_LAW_PATH="$work/law" VSA_ACTUATOR_PATH="$source/examples/law_module/types" "$work/prefix/bin/vsa" actuators cubic | grep -q 'elastic law: cubic'
 "$work/build/one_actuator"
 "$work/host/host" | tee "$work/swung"
 grep -qE '^after 2 s at (0\.[789]|1\.0)' "$work/swung"

@@ -89,6 +89,8 @@ int show(const config::ActuatorType& type, bool all) {
       "file: {}\nelastic law: {}, {} at rest, {}\n", type.file.string(), type.law, stiffness_text(type.unit),
       type.unit.actuator.transmission->preset_unit().empty() ? "no stiffness preset" : "preset " + preset_text(type.unit));
   if (type.controller != "qbmove") std::cout << fmt::format("controller: {}\n", type.controller);
+  for (const std::string& remark : type.remarks)
+    for (const std::string& line : wrap(remark, text_width)) std::cout << line << '\n';
   for (const std::string& line : wrap("calibrated on " + evidence_text(type.evidence), text_width)) std::cout << line << '\n';
   std::cout << '\n';
   std::vector<std::vector<std::string>> rows{{"parameter", "value", "unit", "bounds", "source"}};

@@ -65,23 +65,39 @@ struct ActuatorType {
   std::optional<Evidence> evidence;  ///< none: the type doesn't say
   std::vector<Entry> entries;
   std::vector<std::string> notices;  ///< old spellings in its file
+  std::vector<std::string> remarks;  ///< what its law says of what it was made of
   device::UnitConfig unit;
 };
 
+/// Numbers of a file, each row in the order of the columns that were asked for.
+struct LawRows {
+  std::vector<double> values;
+  std::filesystem::path file;
+  std::vector<std::size_t> lines;  ///< each row's
+};
+
 /// What a law's factory reads its own keys with: number("k1_Nm", "N·m", min, max, meaning). Every key asked for is required.
-/// Problems are collected, not thrown: number() is NaN then, and what the factory returns or throws is thrown away. A factory whose
-/// values are fine one by one but not together throws InputError with keys of its own ("C_m"); nothing else.
+/// Problems are collected, not thrown: number() is NaN then, and what the factory returns or throws is dropped. A factory whose
+/// values are fine one by one but not together throws InputError with keys of its own ("C_m"), and a file where it is one of rows();
+/// nothing else.
 class LawReader {
  public:
   virtual ~LawReader() = default;
   virtual double number(std::string_view key, std::string_view unit, double min, double max, std::string_view meaning) = 0;
+  /// The rows of a CSV file that the type names, seen from its own: elastic.KEY = { value = "FILE.csv", source = "…" }. None where
+  /// there are problems.
+  virtual LawRows rows(const elastic::LawFile& file) = 0;
+  /// What users should know of the law made; `vsa actuators NAME` prints it.
+  virtual void remark(std::string text) = 0;
 };
 
 using LawFactory = std::function<std::shared_ptr<const elastic::Transmission>(LawReader&)>;
 
-/// The laws a type may name. standard() has the library's (elastic::laws()); users add their own.
+/// The laws a type may name; users add their own.
 class LawRegistry {
  public:
+  /// The library's (elastic::laws()) and those of the shared libraries that $VSA_LAW_PATH names (vsa/elastic/law_module.hpp).
+  /// Throws InputError: a library that can't be used, with its file, or a name that is taken.
   [[nodiscard]] static LawRegistry standard();
   void add(std::string name, LawFactory factory);
   void add(const elastic::Law& law);  ///< which outlives this

@@ -16,7 +16,8 @@ enum class Kind {
   number,   ///< finite, within bounds
   integer,  ///< a whole number within bounds
   toggle,   ///< true or false
-  word      ///< one of `words`, in the file as a string, or as a number where the words are numbers
+  word,     ///< one of `words`, in the file as a string, or as a number where the words are numbers
+  file      ///< the name of a file, seen from the type's own; only laws have such
 };
 
 /// What a parameter's setter gets: the number, 0 or 1 for a switch, or the index of the word.

@@ -4,6 +4,7 @@
 // has to know it but the list in laws.cpp. Documentation, files' checks and the property tests go over that list.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,10 +23,25 @@ struct LawParameter {
   std::string_view meaning;
 };
 
-/// What is wrong between parameters that are fine one by one.
+/// A column of numbers in the file that a law is made of.
+struct LawColumn {
+  std::string_view name;  ///< as the file's first line has it, with its unit: "deflection_rad"
+  double min, max;        ///< ends included
+  bool needed;            ///< else 0 in every row of a file that hasn't the column
+  std::string_view meaning;
+};
+
+/// The file of a law that is made of one; a type's file names it as elastic.KEY.
+struct LawFile {
+  std::string_view key, meaning;
+  std::span<const LawColumn> columns;
+};
+
+/// What is wrong between values that are fine one by one.
 struct LawFault {
   std::string_view key;  ///< which one to change
   std::string message, allowed;
+  std::optional<std::size_t> row = std::nullopt;  ///< of the law's file
 };
 
 struct Law {
@@ -34,13 +50,17 @@ struct Law {
   std::string_view equation;  ///< in one line; H in J
   std::string_view source;    ///< of the equation
   std::span<const LawParameter> parameters;
-  /// Values in the order of the parameters, such as validate() has nothing against.
+  /// Values in the order of the parameters, such as validate() has nothing against. After them the rows of the law's file, where it
+  /// has one, each in the order of its columns.
   std::shared_ptr<const Transmission> (*make)(std::span<const double> values);
   /// Null: whatever is within the bounds goes together.
   std::optional<LawFault> (*fault)(std::span<const double> values) = nullptr;
+  const LawFile* file = nullptr;  ///< null: the parameters are all that the law is made of
+  /// What a user should know of the law that these values make, in a sentence; null: nothing.
+  std::string (*remark)(std::span<const double> values) = nullptr;
 };
 
-/// Values in the order of the law's parameters: their bounds, and what doesn't go together. What passes may be made.
+/// Values as make() has them: their bounds, and what doesn't go together. What passes may be made.
 void validate(const Law& law, std::span<const double> values, std::string_view where, Problems& problems);
 
 /// All of the library, by name.

@@ -7,12 +7,16 @@
 
 namespace vsa::elastic {
 
+extern const Law kBiStiffness;
 extern const Law kCamRoller;
+extern const Law kLeverCardan;
 extern const Law kLeverPivot;
 extern const Law kLeverSpring;
 extern const Law kMaccepa;
+extern const Law kMaccepa2;
 extern const Law kSeriesHardening;
 extern const Law kSeriesSpring;
+extern const Law kTable;
 extern const Law kTwoCams;
 extern const Law kTwoExp;
 extern const Law kTwoQuadratic;

@@ -69,6 +69,11 @@ struct Potential {
   double energy = 0, d = 0, p = 0, dd = 0, dp = 0, pp = 0;
 };
 
+/// What a law with a mover says: δ = q − x₀, p = x₁.
+[[nodiscard]] inline Response response_of(const Potential& h) noexcept {
+  return {h.energy, -h.d, {h.d, -h.p}, {.qq = h.dd, .qx = {-h.dd, h.dp}, .x0x0 = h.dd, .x0x1 = -h.dp, .x1x1 = h.pp}};
+}
+
 /// H = ½ κ e² of a spring with elongation e(δ, p), which isn't pushed: 0 below e = 0. `e`: that and its derivatives.
 [[nodiscard]] inline Potential pulled(double rate, const Potential& e) noexcept {
   if (e.energy <= 0) return {};
@@ -84,8 +89,7 @@ class SpringAndMover : public Transmission {
   explicit SpringAndMover(const Shape& shape) noexcept : shape_(shape) {}
 
   [[nodiscard]] Response evaluate(const Positions& at) const noexcept override {
-    const Potential h = shape_.at(at.q - at.x[0], at.x[1]);
-    return {h.energy, -h.d, {h.d, -h.p}, {.qq = h.dd, .qx = {-h.dd, h.dp}, .x0x0 = h.dd, .x0x1 = -h.dp, .x1x1 = h.pp}};
+    return response_of(shape_.at(at.q - at.x[0], at.x[1]));
   }
   [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& c) const noexcept override {
     return {c.equilibrium, c.preset};

@@ -1,5 +1,5 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "experiment/csv_table.hpp"
+#include "vsa/config/csv_table.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "vsa/config/text.hpp"
 #include "vsa/files.hpp"
 
-namespace vsa::experiment {
+namespace vsa::config {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 512u << 20;
@@ -70,7 +70,7 @@ std::vector<Line> split_lines(std::string_view text, const std::filesystem::path
       throw InputError({at_line(file, number), "", shown(line), fmt::format("a line of {} characters", line.size()),
                         fmt::format("up to {}", kLongestLine)});
     }
-    if (!config::trim(line).empty()) lines.push_back({number, line});
+    if (!trim(line).empty()) lines.push_back({number, line});
   }
   return lines;
 }
@@ -79,7 +79,7 @@ std::vector<std::string_view> cells(std::string_view line) {
   std::vector<std::string_view> out;
   for (;;) {
     const std::size_t comma = line.find(',');
-    out.push_back(config::trim(line.substr(0, comma)));
+    out.push_back(trim(line.substr(0, comma)));
     if (comma == std::string_view::npos) return out;
     line.remove_prefix(comma + 1);
   }
@@ -125,7 +125,7 @@ std::vector<std::size_t> find_columns(const std::vector<std::string_view>& head,
 double read_cell(std::string_view cell, const WantedColumn& column, const std::string& place, FewProblems& problems) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   if (cell.empty() && column.empty_allowed) return kNaN;
-  if (const auto number = config::parse_number(cell)) return *number;
+  if (const auto number = parse_number(cell)) return *number;
   problems.add({place, std::string(column.name), shown(cell), cell.empty() ? "an empty cell" : "not a number", "a finite number"});
   return kNaN;
 }
@@ -170,9 +170,9 @@ void require_increasing(const CsvTable& table, std::size_t column, std::string_v
   const std::vector<double>& values = table.columns[column];
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (values[i] > values[i - 1]) continue;
-    problems.add({at_line(file, table.lines[i]), std::string(name), config::number_text(values[i]), "doesn't increase",
-                  "more than " + config::number_text(values[i - 1])});
+    problems.add({at_line(file, table.lines[i]), std::string(name), number_text(values[i]), "doesn't increase",
+                  "more than " + number_text(values[i - 1])});
   }
 }
 
-}  // namespace vsa::experiment
+}  // namespace vsa::config

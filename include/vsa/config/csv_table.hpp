@@ -11,7 +11,7 @@
 
 #include "vsa/errors.hpp"
 
-namespace vsa::experiment {
+namespace vsa::config {
 
 struct WantedColumn {
   std::string_view name;
@@ -46,4 +46,4 @@ void require_increasing(const CsvTable& table, std::size_t column, std::string_v
 /// "file:line"
 [[nodiscard]] std::string at_line(const std::filesystem::path& file, std::size_t line);
 
-}  // namespace vsa::experiment
+}  // namespace vsa::config
