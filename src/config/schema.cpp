@@ -207,7 +207,7 @@ constexpr Parameter kTable[] = {
      Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.pwm_rate_per_motor = v != 0; }},
     {"firmware.repair_zeros_reset_samples", "", Kind::toggle, 0, 1, "", "advanced: SET_ZEROS resets the last samples",
      Need::defaulted, "false", kDefect, [](Unit& u, double v) { u.program.repairs.zeros_reset_samples = v != 0; }},
-    {"limits.preset_max", kPresetUnit, Kind::number, 0, 100, "",
+    {"limits.preset_max", kPresetUnit, Kind::number, 0, 1e5, "",
      "largest accepted magnitude of the preset; absent where the law has no preset", Need::required, "", "",
      [](Unit& u, double v) { u.preset_max = v; }},
     {"physics.substep_max_s", "s", Kind::number, 1e-6, 1e-3, "", "longest physics segment inside a step of the simulator",

@@ -22,9 +22,9 @@ void validate_servo(const UnitConfig& c, std::string_view where, Problems& probl
       check.refuse(drive + "pwm_pin", "enable", "a servo's drive gives mean voltages, which a modulated enable pin doesn't",
                    "input");
     if (side.bridge.dead_band != 0)
-      check.refuse(drive + "dead_band", text_of(side.bridge.dead_band), "a servo's drive gives the voltages that it is told", "0");
+      check.refuse(drive + "dead_band", Checks::text(side.bridge.dead_band), "a servo's drive gives the voltages that it is told", "0");
     if (!(side.motor.torque_constant_Nm_per_A > 0))
-      check.refuse(drive + "torque_constant_Nm_per_A", text_of(side.motor.torque_constant_Nm_per_A),
+      check.refuse(drive + "torque_constant_Nm_per_A", Checks::text(side.motor.torque_constant_Nm_per_A),
                    "a servo needs a motor that turns current into torque", "above 0");
     if (side == p.side[1]) break;
   }
@@ -41,7 +41,7 @@ void validate(const UnitConfig& c, std::string_view where, Problems& problems) {
   firmware::validate(c.program, firmware, problems);
   firmware::validate(c.memory, firmware, problems);
   Checks check(where, problems);
-  check.within("limits.preset_max", c.preset_max, 0, 100);
+  check.within("limits.preset_max", c.preset_max, 0, 1e5);
   if (c.servo) validate_servo(c, where, problems);
   check.within("physics.substep_max_s", c.substep_max_s, 1e-6, 1e-3);
 }

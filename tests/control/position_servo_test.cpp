@@ -133,7 +133,7 @@ TEST(PositionServo, HoldsItsVoltageFromTickToTick) {
 TEST(PositionServo, IsStillOnCoarseEncoders) {
   // The reference lies between two counts: without counting it, too, the integral would never rest.
   vsa::device::UnitConfig config = series(position_servo(), 50, 0.4);
-  config.actuator.encoder.bits = 10;
+  config.actuator.side[0].encoder.bits = 10;
   OneJoint joint(config, 0.0, 0.0, 5e-3, 1'000'000);
   joint.load = [&](double) { return -0.05 * joint.v; };
   joint.unit.command(joint.state, 0.5, 0.0);

@@ -32,7 +32,7 @@ void run(OneJoint& joint, double seconds) {
 TEST(MotorVoltages, TurnAMotorAsTheOpenLoopDoes) {
   // J ω' = K_τ (V − K_b ω)/R − b ω:  ω = ω∞ (1 − e^{−t/T}),  ω∞ = K_τ V/(K_τ K_b + R b),  T = J R/(K_τ K_b + R b)
   UnitConfig config = series(motor_voltages(), 1e-6);
-  config.actuator.motor.inertia_kgm2 = 0.02;
+  config.actuator.side[0].motor.inertia_kgm2 = 0.02;
   OneJoint joint(config, 0.0, 0.0, 0.0, 1'000'000);
   Unit::command_direct(joint.state, {6.0, 0.0});
   const double loss = 1.0 + 2.3 * 0.01, time_s = 0.02 * 2.3 / loss;
@@ -223,11 +223,11 @@ TEST(Servo, ParametersThatNoDriveHasAreRefusedByName) {
   refused(c, "control.current_max_A = nan: is out of range");
   c = good, c.servo->position.gain_per_s = 0;
   refused(c, "control.position_gain_per_s");
-  c = good, c.actuator.bridge.dead_band = 0.3;
+  c = good, c.actuator.side[0].bridge.dead_band = 0.3;
   refused(c, "drive.dead_band = 0.3: a servo's drive gives the voltages that it is told");
-  c = good, c.actuator.bridge.pin = vsa::drive::PwmPin::enable;
+  c = good, c.actuator.side[0].bridge.pin = vsa::drive::PwmPin::enable;
   refused(c, "drive.pwm_pin");
-  c = good, c.actuator.motor.torque_constant_Nm_per_A = 0;
+  c = good, c.actuator.side[0].motor.torque_constant_Nm_per_A = 0;
   refused(c, "drive.torque_constant_Nm_per_A");
   c = series(torque_servo(), 50), c.servo->torque.damping_Nms_per_rad = -1;
   refused(c, "control.damping_Nms_per_rad = -1");

@@ -55,7 +55,7 @@ std::complex<double> closed_loop(const vsa::device::UnitConfig& c, double k, dou
   const std::complex<double> s{0, 2 * kPi * frequency_Hz};
   const auto& p = c.servo->torque;
   const std::complex<double> pi = p.gain + p.integral_per_s / s;
-  const auto& m = c.actuator.motor;
+  const auto& m = c.actuator.side[0].motor;
   const auto plant = (m.inertia_kgm2 * s * s + (m.viscous_Nms_per_rad + p.motor_damping_Nms_per_rad) * s) / k + 1.0;
   return (1.0 + pi) / (plant + pi);
 }
@@ -63,7 +63,7 @@ std::complex<double> closed_loop(const vsa::device::UnitConfig& c, double k, dou
 TEST(TorqueServo, HasTheBandwidthOfItsLinearModel) {
   constexpr double kSpring = 50;
   vsa::device::UnitConfig config = series(torque_servo(), kSpring);
-  config.actuator.motor.inertia_kgm2 = 0.01;
+  config.actuator.side[0].motor.inertia_kgm2 = 0.01;
   config.servo->torque.motor_damping_Nms_per_rad = 1.0;
   for (const double frequency_Hz : {2.0, 8.0, 14.0, 20.0}) {
     OneJoint joint(config, 0.0, 0.0, 0.0, 250'000);

@@ -87,7 +87,7 @@ TEST(LinearServo, HasItsStatesBehindThoseOfAFirmwareUnitOfTheSameBodies) {
   bodies.mass = 0.02 * Eigen::MatrixXd::Identity(2, 2);
   bodies.gravity_stiffness = Eigen::MatrixXd::Zero(2, 2);
   vsa::device::UnitConfig qbmove = vsa::test::maker_pro();
-  qbmove.actuator.bridge.dead_band = 0;
+  for (auto& side : qbmove.actuator.side) side.bridge.dead_band = 0;
   const auto servo = series(torque_servo(), kSpring);
   for (const Firmware firmware : {Firmware::averaged, Firmware::sampled}) {
     const auto m = linearize(bodies, {{"q", qbmove, {}, 0}, {"s", servo, {}, 1}}, firmware);

@@ -36,11 +36,12 @@ inline control::ServoParams motor_voltages() {
 inline device::UnitConfig series(control::ServoParams servo, double stiffness_Nm_per_rad, double friction_Nm = 0.0) {
   device::UnitConfig c = maker_pro();
   c.actuator.transmission = std::make_shared<elastic::SeriesSpring>(stiffness_Nm_per_rad);
-  c.actuator.bridge.dead_band = 0;
-  c.actuator.motor = {0.001, 0.01, 1.0, 1.0, 2.3, std::nullopt};
-  c.actuator.gearbox = {1.0, {friction_Nm, 0.01}};
+  c.actuator.set_both({.motor = {0.001, 0.01, 1.0, 1.0, 2.3, std::nullopt},
+                       .gearbox = {1.0, {friction_Nm, 0.01}},
+                       .bridge = {.dead_band = 0},
+                       .encoder = {.bits = 16}});
   c.actuator.shaft_friction = {0.0, 0.0};
-  c.actuator.encoder.bits = 16;
+  c.actuator.shaft_encoder.bits = 16;
   c.preset_max = servo.kind == control::ServoKind::torque_servo ? 30.0 : 0.0;
   c.servo = servo;
   return c;
@@ -49,7 +50,7 @@ inline device::UnitConfig series(control::ServoParams servo, double stiffness_Nm
 /// Two motors behind the maker pro's springs.
 inline device::UnitConfig antagonist(control::ServoParams servo) {
   device::UnitConfig c = maker_pro();
-  c.actuator.bridge.dead_band = 0;
+  for (auto& side : c.actuator.side) side.bridge.dead_band = 0;
   c.servo = servo;
   return c;
 }
