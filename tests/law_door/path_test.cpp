@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "vsa/config/actuator_type.hpp"
+#include "vsa/device/unit_batch.hpp"
 #include "vsa/elastic/law_module.hpp"
 
 namespace {
@@ -72,6 +73,24 @@ TEST(LawPath, LawsOutliveTheRegistryAndMayBeAskedForFromManyThreads) {
   for (auto& law : laws) threads.emplace_back([&law] { law = library().load("cubic").unit.actuator.transmission; });
   for (std::thread& t : threads) t.join();
   for (const auto& law : laws) EXPECT_TRUE(law->equals(*laws[0]));
+}
+
+TEST(LawPath, UnitsSideBySideGoAsOneAlone) {
+  const LawPath set((kModules / "good").string());
+  const device::UnitConfig config = library().load("cubic").unit;
+  device::UnitBatch batch(config, 3);
+  device::Unit alone(config);
+  device::UnitState state = alone.initial(0, 0, 0);
+  alone.set_inputs(state, alone.inputs_for(0.4, 0.3));
+  for (std::size_t i = 0; i < 3; ++i) batch.command(i, 0.4, 0.3);
+  const std::vector<double> none(3, 0.0), inertia(3, 1 / 0.005);
+  std::vector<double> torque(3);
+  for (std::int64_t now = 0; now < 300'000'000; now += 1'000'000) {
+    const double expected = alone.step(state, now, 1'000'000, {0, 0, inertia[0]});
+    batch.step(1'000'000, none, none, inertia, torque);
+    for (const double t : torque) ASSERT_EQ(t, expected) << now;
+  }
+  EXPECT_GT(torque[0], 0.5) << "it was driven";
 }
 
 TEST(LawPath, RefusesALibraryThatDoesntFitWithItsFileAndWhatWould) {
