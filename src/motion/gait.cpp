@@ -15,22 +15,35 @@ double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
 
 }  // namespace
 
+void validate(const GaitParams& p, std::string_view where, Problems& problems) {
+  const auto ask = [&](bool right, const std::string& key, double value, const char* allowed) {
+    if (!right) problems.add({p.file, std::string(where) + key, fmt::format("{}", value), "can't be played", allowed});
+  };
+  const auto finite = [&](const std::string& key, double value) { ask(std::isfinite(value), key, value, "a finite number"); };
+  ask(p.period_ns >= 1, "period_ns", static_cast<double>(p.period_ns), "1 or more");
+  finite("frequency_rad_per_s", p.frequency_rad_per_s);
+  ask(p.ramp_s >= 0 && std::isfinite(p.ramp_s), "ramp_s", p.ramp_s, "finite, ≥ 0");
+  for (const GaitGroup& g : p.groups) {
+    const std::string of = "group." + g.name + ".";
+    ask(g.n.size() == g.actuators.size(), of + "n", static_cast<double>(g.n.size()), "one an actuator");
+    ask(std::isfinite(g.lambda) && g.lambda != 0, of + "lambda", g.lambda, "finite, not 0");
+    for (const double v : {g.amplitude_rad, g.offset_rad, g.delta_rad, g.preset_rad})
+      ask(std::isfinite(v), of + "angles", v, "finite numbers");
+  }
+  if (p.steering) {
+    const SteeringParams& s = *p.steering;
+    ask(p.frequency_rad_per_s > 0, "frequency_rad_per_s", p.frequency_rad_per_s, "above 0 to steer");
+    for (const double v : {s.gain, s.limit_rad, s.slew_rad_per_s, s.min_travel_m, s.target_rad.value_or(0)}) finite("steering", v);
+  }
+  if (p.motion) {
+    finite("end_s", p.motion->end_s);
+    finite("loop_from_s", p.motion->loop_from_s.value_or(0));
+  }
+}
+
 Gait::Gait(GaitParams params) : params_(std::move(params)) {
   Problems problems;
-  const auto ask = [&](bool right, const std::string& key, double value, const char* allowed) {
-    if (!right) problems.add({params_.file, key, fmt::format("{}", value), "can't be played", allowed});
-  };
-  ask(params_.period_ns >= 1, "period_ns", static_cast<double>(params_.period_ns), "1 or more");
-  ask(std::isfinite(params_.frequency_rad_per_s), "frequency_rad_per_s", params_.frequency_rad_per_s, "a finite number");
-  ask(params_.ramp_s >= 0 && std::isfinite(params_.ramp_s), "ramp_s", params_.ramp_s, "finite, ≥ 0");
-  ask(!params_.steering || params_.frequency_rad_per_s > 0, "frequency_rad_per_s", params_.frequency_rad_per_s, "above 0 to steer");
-  for (const GaitGroup& g : params_.groups) {
-    const std::string where = "group." + g.name + ".";
-    ask(g.n.size() == g.actuators.size(), where + "n", static_cast<double>(g.n.size()), "one an actuator");
-    ask(std::isfinite(g.lambda) && g.lambda != 0, where + "lambda", g.lambda, "finite, not 0");
-    for (const double v : {g.amplitude_rad, g.offset_rad, g.delta_rad, g.preset_rad})
-      ask(std::isfinite(v), where + "angles", v, "finite numbers");
-  }
+  validate(params_, "", problems);
   problems.throw_if_any();
 }
 

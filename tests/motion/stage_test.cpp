@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <vector>
 
 #include "motion/gait_file.hpp"
@@ -89,6 +91,35 @@ TEST(OnAnyStage, SteeringAsksForTheModelOfTheGroupAndTurnsIt) {
   stage.play(gait, 4);
   EXPECT_EQ(stage.asked, "walker");
   EXPECT_NEAR(gait.state().steering.phase_rad, 0.8, 1e-12) << "it goes along x and should go along y";
+}
+
+TEST(OnAnyStage, NothingThatIsNoNumberIsPlayed) {
+  GaitParams whole = walk();
+  whole.steering = SteeringParams{"legs", 1.0, 0.8, 10.0, 0.03, kPi / 2};
+  whole.motion = MotionParams{};
+  EXPECT_NO_THROW(Gait{whole});
+  for (int n = 0;; ++n) {
+    GaitParams p = whole;
+    GaitGroup& g = p.groups[0];
+    SteeringParams& s = *p.steering;
+    double* const numbers[] = {&p.frequency_rad_per_s,
+                               &p.ramp_s,
+                               &g.amplitude_rad,
+                               &g.offset_rad,
+                               &g.lambda,
+                               &g.delta_rad,
+                               &g.preset_rad,
+                               &s.gain,
+                               &s.limit_rad,
+                               &s.slew_rad_per_s,
+                               &s.min_travel_m,
+                               &*s.target_rad,
+                               &p.motion->end_s,
+                               &p.motion->loop_from_s.emplace(0)};
+    if (n == static_cast<int>(std::size(numbers))) break;
+    *numbers[n] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(Gait{p}, InputError) << n;
+  }
 }
 
 TEST(OnAnyStage, AMotionLeavesWhatHasNoKeyframeYetAlone) {

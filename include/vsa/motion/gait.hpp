@@ -90,6 +90,9 @@ struct GaitParams {
   std::optional<MotionParams> motion;  ///< keyframes; then there are no groups and frequency_rad_per_s is 0
 };
 
+/// Adds what can't be played.
+void validate(const GaitParams& params, std::string_view where, Problems& problems);
+
 struct GaitRange {
   double min = 0, max = 0;
 };
