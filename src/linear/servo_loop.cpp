@@ -51,8 +51,10 @@ class Writer {
     return estimate;
   }
 
-  /// ξ of that rate.
-  Row integral(const Row& rate, const std::string& whose) {
+  /// ξ; of a gain of 0 there is none.
+  Row integral(double gain, const Row& error, const std::string& whose) {
+    if (gain == 0) return Row::Zero(n_ + y_ + r_);
+    const Row rate = gain * error;
     const Index s = take(whose + " integral", "N·m");
     next_.row(s) = sampled_ ? Row(of_state(s) + control::kTick_s * rate) : rate;
     return of_state(s);
@@ -92,12 +94,12 @@ class Writer {
 
 ServoLoop position_loop(const device::UnitConfig& unit, const Plant& plant, bool sampled) {
   const control::PositionServoParams& p = unit.servo->position;
-  Writer w(unit, plant, sampled, plant.motors * (sampled ? 3 : 2), plant.motors);
+  Writer w(unit, plant, sampled, plant.motors * ((sampled ? 2 : 1) + (p.integral_Nm_per_rad == 0 ? 0 : 1)), plant.motors);
   std::vector<Signal> inputs;
   for (int i = 0; i < plant.motors; ++i) {
     const Row speed = w.speed(plant.angle(i), motor_name(i));
     const Row error = p.gain_per_s * (w.of_input(i) - w.of_plant(plant.angle(i))) - speed;
-    w.drive(i, p.speed_gain_Nms_per_rad * error + w.integral(p.integral_Nm_per_rad * error, motor_name(i)), speed);
+    w.drive(i, p.speed_gain_Nms_per_rad * error + w.integral(p.integral_Nm_per_rad, error, motor_name(i)), speed);
     inputs.push_back({motor_signal(i, "reference"), "rad"});
   }
   return w.done(std::move(inputs));
@@ -105,14 +107,13 @@ ServoLoop position_loop(const device::UnitConfig& unit, const Plant& plant, bool
 
 ServoLoop torque_loop(const device::UnitConfig& unit, const Plant& plant, double preset, bool sampled) {
   const control::TorqueServoParams& p = unit.servo->torque;
-  Writer w(unit, plant, sampled, sampled ? 5 : 3, 1);
+  Writer w(unit, plant, sampled, 2 * (sampled ? 2 : 1) + (p.integral_per_s == 0 ? 0 : 1), 1);
   const Row motor_speed = w.speed(plant.angle(0), motor_name(0)), shaft_speed = w.speed(0, "shaft");
   const double stiffness = std::fmax(p.stiffness_Nm_per_rad + preset, 0.0);
   const Row wish = stiffness * (w.of_input(0) - w.of_plant(0)) - p.damping_Nms_per_rad * shaft_speed;
   const Row spring = -plant.curvature.qq * w.of_plant(0) - plant.curvature.qx[0] * w.of_plant(plant.angle(0));
   const Row error = wish - spring;
-  w.drive(0,
-          wish + p.gain * error + w.integral(p.integral_per_s * error, motor_name(0)) - p.motor_damping_Nms_per_rad * motor_speed,
+  w.drive(0, wish + p.gain * error + w.integral(p.integral_per_s, error, motor_name(0)) - p.motor_damping_Nms_per_rad * motor_speed,
           motor_speed);
   return w.done({{"equilibrium", "rad"}});
 }
