@@ -24,6 +24,10 @@ PresetColumn column(const Workspace& workspace, double preset) {
   c.unpowered = workspace.reach(preset, 0, Task::unpowered);
   c.no_load_speed_rad_per_s = workspace.no_load_speed(preset);
   c.energy_at_rest_J = workspace.energy_at_rest(preset);
+  c.half_load_Nm = c.peak.torque_Nm / 2;
+  c.stiffness_at_half_Nm_per_rad = workspace.stiffness_under(preset, c.half_load_Nm);
+  c.held_at_rest = workspace.holding(preset);
+  c.held_at_half = workspace.holding(preset, c.half_load_Nm);
   c.boundary = workspace.boundary(preset, kBoundaryPoints);
   c.power = best_power(c.boundary);
   c.curve = workspace.law_curve(preset, kCurvePoints);

@@ -88,6 +88,10 @@ int show(const config::ActuatorType& type, bool all) {
   std::cout << fmt::format(
       "file: {}\nelastic law: {}, {} at rest, {}\n", type.file.string(), type.law, stiffness_text(type.unit),
       type.unit.actuator.transmission->preset_unit().empty() ? "no stiffness preset" : "preset " + preset_text(type.unit));
+  if (type.mass_kg) {
+    for (const std::string& line : wrap(fmt::format("mass: {:g} kg, {}", type.mass_kg->value, type.mass_kg->source), text_width))
+      std::cout << line << '\n';
+  }
   for (const std::string& line : wrap("calibrated on " + evidence_text(type.evidence), text_width)) std::cout << line << '\n';
   std::cout << '\n';
   std::vector<std::vector<std::string>> rows{{"parameter", "value", "unit", "bounds", "source"}};

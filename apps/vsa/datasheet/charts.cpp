@@ -138,9 +138,9 @@ Chart preset_step(const study::DataSheet& d) {
   const auto& o = d.simulated.preset_step.front().options;
   Curve command = started("command", -1, Curve::Style::dotted);
   command.x = {0, o.hold_s, o.hold_s, 2 * o.hold_s};
-  command.y = {o.preset, o.preset, 0, 0};
+  command.y = {o.preset, o.preset, o.from, o.from};
   out.curves.push_back(std::move(command));
-  out.caption = "Simulated: from 0 to the preset and back.";
+  out.caption = "Simulated: to the preset and back.";
   return out;
 }
 

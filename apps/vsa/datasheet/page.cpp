@@ -47,8 +47,7 @@ std::string law_text(const config::ActuatorType& type) {
 std::string how_text(const study::DataSheet& d) {
   return fmt::format(
       "law: from the spring's equation; drive: from the motors' parameters at {} V; simulation: from runs on the benches, as vsa "
-      "characterize does them. Steady values at full voltage: no parameter tells what the motors may give for long, nor mass and "
-      "size.",
+      "characterize does them. Steady values at full voltage: no parameter tells what the motors may give for long, nor size.",
       number(d.computed.type.unit.actuator.bridge.supply_V));
 }
 
