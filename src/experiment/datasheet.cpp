@@ -10,7 +10,6 @@
 namespace vsa::experiment {
 namespace {
 
-constexpr double kShares[] = {0, 0.25, 0.5, 0.75, 0.9};  // of the attainable preset; all of it leaves no torque for a load
 constexpr int kEnergyPoints = 61;
 constexpr int kBoundaryPoints = 81;
 constexpr int kCurvePoints = 101;
@@ -60,7 +59,7 @@ DataSheet data_sheet(const config::ActuatorType& type) {
   sheet.attainable_preset = workspace.attainable_preset();
   sheet.stiffest_Nm_per_rad = workspace.stiffness_at_rest(sheet.attainable_preset);
   const bool one = sheet.attainable_preset == 0;
-  for (const double share : kShares) {
+  for (const double share : kPresetShares) {
     if (share == 0 || !one) sheet.columns.push_back(column(workspace, share * sheet.attainable_preset));
   }
   for (int i = 0; i < (one ? 1 : kEnergyPoints); ++i) {

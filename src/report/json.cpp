@@ -61,7 +61,9 @@ Json curve(const Curve& c) {
           {"x", numbers(c.x)}, {"y", numbers(c.y)}, {"error", numbers(c.error)}};
 }
 
-Json range(const std::optional<std::array<double, 2>>& r) { return r ? Json::array({(*r)[0], (*r)[1]}) : Json(nullptr); }
+void put_range(Json& to, const char* key, const std::optional<std::array<double, 2>>& range) {
+  if (range) to[key] = Json::array({(*range)[0], (*range)[1]});
+}
 
 Json bar(const Bars::Bar& b) {
   return {{"label", b.label}, {"value", page::number(b.value)}, {"text", b.text}, {"note", b.note}, {"link", b.link}};
@@ -79,19 +81,16 @@ Json figure(const Figure& f) { return {{"label", f.label}, {"value", f.value}, {
 struct BlockJson {
   Json operator()(const Text& t) const { return {{"kind", "text"}, {"text", t.text}}; }
   Json operator()(const Table& t) const {
-    return {{"kind", "table"}, {"title", t.title}, {"head", t.head}, {"rows", t.rows}, {"caption", t.caption}, {"links", t.links}};
+    Json out{{"kind", "table"}, {"title", t.title}, {"head", t.head}, {"rows", t.rows}, {"caption", t.caption}};
+    if (!t.links.empty()) out["links"] = t.links;
+    return out;
   }
   Json operator()(const Chart& c) const {
-    return {{"kind", "chart"},
-            {"title", c.title},
-            {"x_label", c.x_label},
-            {"y_label", c.y_label},
-            {"y_log", c.y_log},
-            {"x_log", c.x_log},
-            {"x_range", range(c.x_range)},
-            {"y_range", range(c.y_range)},
-            {"caption", c.caption},
-            {"curves", array(c.curves, curve)}};
+    Json out{{"kind", "chart"},  {"title", c.title}, {"x_label", c.x_label}, {"y_label", c.y_label},
+             {"y_log", c.y_log}, {"x_log", c.x_log}, {"caption", c.caption}, {"curves", array(c.curves, curve)}};
+    put_range(out, "x_range", c.x_range);
+    put_range(out, "y_range", c.y_range);
+    return out;
   }
   Json operator()(const Bars& b) const {
     return {{"kind", "bars"}, {"title", b.title}, {"bars", array(b.bars, bar)}, {"caption", b.caption}};
@@ -111,13 +110,14 @@ Json section(const Section& s) {
 }  // namespace
 
 std::string to_json(const Report& report) {
-  return page::text({{"format", 1},
-                     {"title", report.title},
-                     {"subtitle", report.subtitle},
-                     {"footer", report.footer},
-                     {"one_page", report.one_page},
-                     {"links", report.links},
-                     {"sections", array(report.sections, section)}});
+  Json out{{"format", 1},
+           {"title", report.title},
+           {"subtitle", report.subtitle},
+           {"footer", report.footer},
+           {"one_page", report.one_page},
+           {"sections", array(report.sections, section)}};
+  if (!report.links.empty()) out["links"] = report.links;
+  return page::text(out);
 }
 
 }  // namespace vsa::report

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "vsa/errors.hpp"
-#include "vsa/experiment/workspace.hpp"
+#include "vsa/experiment/datasheet.hpp"
 #include "vsa/page/json.hpp"
 
 namespace vsa::study {
@@ -18,7 +18,6 @@ using page::Json;
 using page::real;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kShares[] = {0, 0.25, 0.5, 0.75, 0.9};  // of the attainable preset, as on the data sheet
 constexpr double kAcceleration_rad_per_s2 = 200;
 constexpr double kArm_m = 0.5, kGravity_m_per_s2 = 9.81;
 
@@ -26,7 +25,7 @@ TaskResults planned(config::ActuatorType type, const TaskOptions& options) {
   TaskResults out;
   const experiment::Workspace workspace(type.unit);
   const double attainable = workspace.attainable_preset();
-  for (const double share : kShares) {
+  for (const double share : experiment::kPresetShares) {
     if (share == 0 || attainable > 0) out.presets.push_back(share * attainable);
   }
   for (const double p : out.presets) out.torque_Nm = std::fmax(out.torque_Nm, workspace.reach(p, 0).torque_Nm);

@@ -19,7 +19,7 @@ constexpr double kRest_s = 2;       // before each task
 constexpr double kSwing_rad = 1, kSwingStep_s = 0.05, kAfter_s = 1.5;
 constexpr int kSwings = 25;
 constexpr double kBlow_rad_per_s = 2, kSettleWithin_s = 20, kBand = 0.05, kTail = 0.1;
-constexpr double kGrow_s = 1, kWait_s = 4, kHold_s = 10, kCreep_rad = 0.01;
+constexpr double kGrow_s = 1, kWait_s = 4, kHold_s = 10, kMean_s = 1, kCreep_rad = 0.01;
 constexpr double kThrow_s = kRest_s + (kSwings - 1) * kSwingStep_s + kAfter_s;
 constexpr double kSettle_s = kRest_s + kSettleWithin_s;
 constexpr double kHoldAll_s = kRest_s + kGrow_s + kWait_s + kHold_s;
@@ -114,19 +114,28 @@ std::vector<HoldResult> run_hold(const TaskResults& of, double step_s, experimen
   for (std::size_t i = 0; i < count; ++i) links.rest(i, of.presets[i]);
   links.run(kRest_s);
   const auto angles = [&] { return std::vector<double>(links.batch().shaft_rad().begin(), links.batch().shaft_rad().end()); };
+  // A small swing may go on for long, where the shaft's friction is elastic.
+  const auto mean_angles = [&] {
+    std::vector<double> sum(count, 0.0);
+    links.run(kMean_s, [&](long) {
+      for (std::size_t i = 0; i < count; ++i) sum[i] += links.batch().shaft_rad()[i];
+    });
+    for (double& angle : sum) angle *= kSample_s / kMean_s;
+    return sum;
+  };
   const auto supplied = [&] {
     std::vector<double> out;
     for (std::size_t i = 0; i < count; ++i) out.push_back(links.supplied_J(i));
     return out;
   };
   const std::vector<double> start = angles();
-  links.run(kGrow_s + kWait_s, [&](long k) {
+  links.run(kGrow_s + kWait_s - kMean_s, [&](long k) {
     const double share = std::min(1.0, static_cast<double>(k + 1) * kSample_s / kGrow_s);
     std::fill(links.batch().push().begin(), links.batch().push().end(), share * of.load_Nm);
   });
-  const std::vector<double> before = angles(), before_J = supplied();
-  links.run(kHold_s);
-  const std::vector<double> after = angles(), after_J = supplied();
+  const std::vector<double> before = mean_angles(), before_J = supplied();
+  links.run(kHold_s - kMean_s);
+  const std::vector<double> after = mean_angles(), after_J = supplied();
   std::vector<HoldResult> out;
   for (std::size_t i = 0; i < count; ++i) {
     const double sag = after[i] - start[i];

@@ -18,12 +18,12 @@ before(async () => {
 after(() => browser?.close());
 
 const wide = { viewport: { width: 1280, height: 900 } };
-/** How many lines each plot has, and the shortest of their paths. */
+/** How many lines each plot has, and how far the farthest-reaching goes, px. */
 const plots = (tab) =>
   tab.evaluate(() =>
     [...document.querySelectorAll('.plot')].map((plot) => {
-      const lengths = [...plot.querySelectorAll('.trace .js-line')].map((p) => p.getAttribute('d').length);
-      return { lines: lengths.length, shortest: Math.min(...lengths) };
+      const boxes = [...plot.querySelectorAll('.trace .js-line')].map((p) => p.getBBox());
+      return { lines: boxes.length, span: Math.max(...boxes.map((b) => Math.hypot(b.width, b.height))) };
     }));
 const hrefs = (tab, place) => tab.locator(place).evaluateAll((links) => links.map((l) => decodeURIComponent(l.getAttribute('href').slice(2))));
 
@@ -47,7 +47,7 @@ test('the comparison has a row and curves of every type, on equal axes', { timeo
   assert.deepEqual([...new Set(await hrefs(tab, 'tbody th a'))].sort(), [...sheets].sort());
   const charts = await plots(tab);
   assert.equal(charts.length, 6);
-  for (const { lines, shortest } of charts) assert.ok(lines >= 8 && shortest > 20, `${lines} lines, ${shortest}`);
+  for (const { lines, span } of charts) assert.ok(lines >= 8 && span > 150, `${lines} lines, ${span} px`);
   assert.equal(charts[0].lines, sheets.length, 'stiffness against load, softest');
   const ranges = await tab.evaluate(() => [...document.querySelectorAll('.plot')].map((p) => JSON.stringify([p._fullLayout.xaxis.range, p._fullLayout.yaxis.range])));
   assert.equal(ranges[0], ranges[1], 'softest and stiffest');
@@ -61,7 +61,7 @@ for (const file of sheets) {
     const { tab, wrong, close } = await openPage(browser, 'sheets', file, wide);
     const charts = await plots(tab);
     assert.ok(charts.length >= 3);
-    for (const { lines, shortest } of charts) assert.ok(lines >= 1 && shortest > 20, `${lines} lines, ${shortest}`);
+    for (const { lines, span } of charts) assert.ok(lines >= 1 && span > 100, `${lines} lines, ${span} px`);
     const text = (await tab.pdf({ preferCSSPageSize: true, printBackground: true })).toString('latin1');
     assert.equal(text.match(/\/Type \/Page\b/g).length, 1);
     assert.match(text, /\/MediaBox \[0 0 59[45][.\d]* 84[12][.\d]*\]/, 'A4');

@@ -95,8 +95,10 @@ Chart stiffness_load(const Sheets& sheets, bool stiff) {
   chart = chart_of(sheets, std::move(chart), [&](report::Curve& curve, const study::DataSheet& d) {
     if (stiff && !d.has_preset()) return;
     const PresetColumn& c = stiff ? d.computed.columns.back() : d.computed.columns.front();
+    double largest = 0;
+    for (const experiment::LawPoint& p : c.curve) largest = std::max(largest, p.stiffness_Nm_per_rad);
     for (const experiment::LawPoint& p : c.curve) {
-      if (p.load_Nm < kLeastLoad * c.curve.back().load_Nm) continue;
+      if (p.load_Nm < kLeastLoad * c.curve.back().load_Nm || !shown(p.stiffness_Nm_per_rad, largest)) continue;
       curve.x.push_back(p.load_Nm);
       curve.y.push_back(p.stiffness_Nm_per_rad);
     }
@@ -122,7 +124,9 @@ Chart torque_deflection(const Sheets& sheets, bool stiff) {
 Chart torque_speed(const Sheets& sheets) {
   Chart chart{"Torque and speed, softest", "speed [rad/s]", "torque [N·m]", {}, "At full voltage, from law and drive.", true};
   return chart_of(sheets, std::move(chart), [](report::Curve& curve, const study::DataSheet& d) {
-    for (const auto& p : d.computed.columns.front().boundary) {
+    const PresetColumn& c = d.computed.columns.front();
+    for (const auto& p : c.boundary) {
+      if (p.reach.torque_Nm < kLeastLoad * c.peak.torque_Nm) continue;
       curve.x.push_back(p.speed_rad_per_s);
       curve.y.push_back(p.reach.torque_Nm);
     }

@@ -13,22 +13,23 @@ namespace {
 
 using experiment::PresetColumn;
 
-constexpr int kPoints = 40;
+constexpr int kPoints = 40, kPresets = 24;
+constexpr double kMostPreset = 0.9;  // of the attainable one, as the sheet's last
 constexpr double kLeastLoad = 0.01;  // of the peak torque: where a picture's logarithmic axis begins
 
-/// σ against load up to the softest preset's peak torque: the least and the most over the sheet's presets.
+/// σ against load up to the softest preset's peak torque: the least and the most over presets.
 void add_picture(const study::DataSheet& d, report::Cards::Card& card) {
   const experiment::Workspace workspace(d.computed.type.unit);
   const double most = d.computed.columns.front().peak.torque_Nm;
   for (int i = 0; i < kPoints; ++i) {
     const double load = most * std::pow(kLeastLoad, 1 - static_cast<double>(i) / (kPoints - 1));
     double low = std::nan(""), high = std::nan("");
-    for (const PresetColumn& c : d.computed.columns) {
-      const double stiffness = workspace.stiffness_under(c.preset, load);
+    for (int k = 0; k <= (d.has_preset() ? kPresets : 0); ++k) {
+      const double stiffness = workspace.stiffness_under(kMostPreset * d.computed.attainable_preset * k / kPresets, load);
       low = std::fmin(low, stiffness);
       high = std::fmax(high, stiffness);
     }
-    if (!std::isfinite(low)) continue;
+    if (!std::isfinite(low) || !shown(low, high)) continue;
     card.x.push_back(load);
     card.low.push_back(low);
     card.high.push_back(high);

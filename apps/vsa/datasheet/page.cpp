@@ -53,7 +53,10 @@ std::string how_text(const study::DataSheet& d) {
 
 }  // namespace
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
+std::string number(double value) {
+  constexpr double kRounding = 1e-12;  // what is left of a stiffness where the law gives way
+  return std::isfinite(value) ? fmt::format("{:.3g}", std::abs(value) < kRounding ? 0.0 : value) : "–";
+}
 
 report::Report data_sheet_report(const study::DataSheet& d, const std::string& command) {
   const config::ActuatorType& p = d.computed.type;

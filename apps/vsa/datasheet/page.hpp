@@ -21,6 +21,9 @@ namespace vsa::app {
 /// The tables as text.
 [[nodiscard]] std::string data_sheet_text(const study::DataSheet& d);
 
+/// Whether a stiffness is worth a place on a logarithmic axis beside the largest of its curve: where a law gives way it falls to 0.
+[[nodiscard]] bool shown(double stiffness, double largest);
+
 /// "0.302": three digits that count; "–" where there is no number.
 [[nodiscard]] std::string number(double value);
 

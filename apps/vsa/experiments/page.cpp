@@ -49,7 +49,7 @@ std::vector<const TaskResults*> ordered(const Tasks& tasks, Score score, bool mo
   return out;
 }
 
-/// "2.": equal numbers share a place.
+/// "2"; equal numbers share a place.
 std::string place(const Tasks& tasks, const TaskResults& of, Score score, bool most) {
   const double own = score(of);
   if (std::isnan(own)) return "–";

@@ -7,12 +7,16 @@
 // Not here, because no parameter tells it: size, and what the motors may give for long (heat). A mass is what the type's file states.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "vsa/config/actuator_type.hpp"
 #include "vsa/experiment/workspace.hpp"
 
 namespace vsa::experiment {
+
+/// Of the attainable preset; all of it leaves no torque for a load.
+inline constexpr std::array kPresetShares{0.0, 0.25, 0.5, 0.75, 0.9};
 
 /// The actuator at one attained preset, computed.
 struct PresetColumn {
@@ -43,7 +47,7 @@ struct DataSheet {
   LoopErrors errors;
   double attainable_preset = 0;
   double stiffest_Nm_per_rad = 0;     ///< at rest with that preset
-  std::vector<PresetColumn> columns;  ///< from 0 to 90 % of the attainable preset; one for a law without
+  std::vector<PresetColumn> columns;  ///< kPresetShares of the attainable preset; one for a law without
   double most_energy_J = 0;           ///< over all reachable presets and loads
 };
 

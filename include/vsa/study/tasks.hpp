@@ -12,8 +12,8 @@
 //           the link, lies r = 0.5 m from the axis; it flies off where it is fastest, at 45° upwards, and lands as high as it left:
 //           d = (r q̇)²/g
 //   settle  a blow gives the resting link 2 rad/s. Settled: it stays within 5 % of its largest way from where it comes to rest.
-//   hold    an external torque τ_p/2, or one for all, grows within 1 s; after another 4 s, what the supply gives in 10 s. Held: it moves
-//           by less than 0.01 rad meanwhile and gave way by less than a right angle.
+//   hold    an external torque τ_p/2, or one for all, grows within 1 s; after another 4 s, what the supply gives in 10 s. Held: its
+//           mean over a second moves by less than 0.01 rad meanwhile, and it gave way by less than a right angle.
 //
 // Each at presets from 0 to 90 % of what the motors wind to; a type without preset once. No gravity, no air, no heat.
 #pragma once

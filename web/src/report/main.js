@@ -66,8 +66,9 @@ for (const place of ['title', 'subtitle', 'footer']) {
   e.hidden = !report[place];
 }
 const beside = document.getElementById('beside');
-beside.hidden = !report.links.length;
-beside.append(...report.links.map(([text, file]) => linkTo(file, text)));
+const pages = report.links ?? [];
+beside.hidden = !pages.length;
+beside.append(...pages.map(([text, file]) => linkTo(file, text)));
 document.getElementById('sections').append(...report.sections.map(sectionOf));
 writeContents();
 const prepare = () => charts.forEach((chart) => chart.drawKeys());

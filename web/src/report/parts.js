@@ -16,7 +16,7 @@ export const textOf = ({ text }) => element('p', 'text', text);
 const isNumber = (cell) => cell.split(/[±…/]/).every((part) => /^([+−-]?[\d.]+(e[+−-]?\d+)?|–|)$/i.test(part.trim()));
 
 /** Columns that hold numbers (or nothing: a dash) are set to the right; the first column heads its row. */
-export function tableOf({ title, head, rows, caption, links }) {
+export function tableOf({ title, head, rows, caption, links = [] }) {
   const columns = Math.max(head.length, ...rows.map((r) => r.length));
   const numeric = Array.from({ length: columns }, (_, c) => {
     const cells = rows.map((r) => r[c] ?? '').filter((t) => !/^[-–—]?$/.test(t.trim()));
