@@ -25,8 +25,8 @@ constexpr const char* kNotes = R"(Experiments, on the worlds bench_load and benc
   speed        square wave of the equilibrium, 1.57 rad, no load: rise time, speed, overshoot, ringing
   preset-step  the preset from 0 to its largest value and back, without load and with the lever held out
 
-A joint that can't carry the lever at preset 0 begins at the first preset that does; where none does, or the lever is nothing to it,
-the mass is another. Both are told.
+A joint that can't carry the lever at preset 0 begins at the first preset that does; where none does, or the
+lever is nothing to it, the mass is another. Both are told.
 
 Writes report.html, results.json and a CSV file for each run. An actuator without a stiffness preset has no
 --preset-rad and no preset-step.
