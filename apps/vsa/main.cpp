@@ -14,6 +14,7 @@
 #include "command/command.hpp"
 #include "datasheet/datasheet.hpp"
 #include "doctor/doctor.hpp"
+#include "experiments/experiments.hpp"
 #include "identify/identify.hpp"
 #include "linearize/linearize.hpp"
 #include "run/run.hpp"
@@ -75,6 +76,7 @@ void set_up(CLI::App& app, int& exit_code) {
   vsa::app::setup_optimize(app, exit_code);
   vsa::app::setup_validate(app, exit_code);
   vsa::app::setup_datasheet(app, exit_code);
+  vsa::app::setup_experiments(app, exit_code);
   vsa::app::setup_doctor(app, exit_code);
 }
 

@@ -184,6 +184,7 @@ ActuatorType build_type(const Document& document, const std::vector<Override>& o
   type.base = document.base;
   type.file = document.file;
   type.evidence = document.evidence;
+  type.mass_kg = document.mass_kg;
   type.notices = document.notices;
   Resolver resolver(document, overrides, problems);
   bool law_known = false;

@@ -13,8 +13,9 @@ namespace {
 
 const std::vector<std::string> kGroups{"type",   "evidence", "elastic", "drive",    "drive_2", "tendon", "shaft",
                                        "sensor", "sensor_2", "control", "firmware", "limits",  "physics"};
-const std::vector<std::string> kTypeKeys{"name", "title", "description", "rank", "base"};
+const std::vector<std::string> kTypeKeys{"name", "title", "description", "rank", "base", "mass_kg"};
 const std::vector<std::string> kRanks{"measured", "published", "symbolic"};
+const std::vector<std::string> kStatedKeys{"value", "unit", "source"};
 const std::vector<std::string> kItemKeys{"value", "unit", "bounds", "source"};
 const std::vector<std::string> kEvidenceKeys{"calibrated_on"};
 const std::vector<std::string> kEvidenceParts{"value", "source"};
@@ -100,10 +101,39 @@ class Reader {
         doc_.rank = text_at(node, key);
         if (std::find(kRanks.begin(), kRanks.end(), doc_.rank) == kRanks.end())
           add(line_of(node), key, node_text(node), "is no rank", join(kRanks));
+      } else if (name == "mass_kg") {
+        doc_.mass_kg = stated(node, key, "kg");
       } else {
         unknown(line_of(node), key, name.str(), kTypeKeys, "unknown key");
       }
     }
+  }
+
+  /// None: its problems are told.
+  std::optional<Stated> stated(const toml::node& node, const std::string& key, const std::string& unit) {
+    constexpr double kLeast = 1e-6, kMost = 1e6;
+    const std::string form = "{ value = …, unit = \"" + unit + "\", source = … }";
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      add(line_of(node), key, node_text(node), "must be a table", form);
+      return std::nullopt;
+    }
+    const std::size_t before = problems_.list().size();
+    for (const auto& [name, part] : *table) {
+      if (std::find(kStatedKeys.begin(), kStatedKeys.end(), std::string(name.str())) == kStatedKeys.end())
+        unknown(line_of(part), key + "." + std::string(name.str()), name.str(), kStatedKeys, "unknown key");
+    }
+    Stated out;
+    const auto value = (*table)["value"].value<double>();
+    if (!value || !(*value >= kLeast && *value <= kMost))
+      add(line_of(node), key + ".value", value ? number_text(*value) : "", value ? "is out of range" : "is missing, or no number",
+          range_text(kLeast, kMost) + " " + unit);
+    out.value = value.value_or(0);
+    if ((*table)["unit"].value_or(std::string()) != unit)
+      add(line_of(node), key + ".unit", (*table)["unit"].value_or(std::string()), "is missing or the wrong unit", unit);
+    out.source = (*table)["source"].value_or(std::string());
+    if (trim(out.source).empty()) add(line_of(node), key + ".source", "", "is missing", "where the value comes from");
+    return problems_.list().size() == before ? std::optional(out) : std::nullopt;
   }
 
   void read_evidence(const toml::table& table) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "vsa/config/evidence.hpp"
+#include "vsa/config/stated.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::config {
@@ -36,6 +37,7 @@ struct Document {
   std::string controller;  ///< control.kind; empty: the file doesn't say
   int law_line = 0, base_line = 0, controller_line = 0;
   std::optional<Evidence> evidence;
+  std::optional<Stated> mass_kg;
   std::vector<Item> items;
   std::vector<std::string> notices;
   /// Keys whose form is wrong, so that they are not reported as missing as well.

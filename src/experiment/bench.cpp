@@ -34,6 +34,7 @@ void check(const Specimen& specimen, const StiffnessOptions& o) {
   if (o.amplitude_rad) require(problems, "amplitude_rad", *o.amplitude_rad, 1e-3, 10.0, "rad");
   require(problems, "lead_in_cycles", o.lead_in_cycles, 0, 1e4, "cycles");
   require(problems, "cycles", o.cycles, 0.5, 1e4, "cycles");
+  require(problems, "load_share", o.load_share, 1e-4, 1e4, "1");
   require_sampling(problems, o.sample_s, o.period_s);
   if (problems.empty()) require(problems, "period_s × cycles", simulated_s(o), 0, kLongest_s, "s");
   problems.throw_if_any();
@@ -53,14 +54,19 @@ void check(const Specimen& specimen, const SpeedOptions& o) {
 void check(const Specimen& specimen, const PresetStepOptions& o) {
   Problems problems;
   require(problems, "hold_s", o.hold_s, 0.05, 1e4, "s");
+  require(problems, "load_share", o.load_share, 1e-4, 1e4, "1");
   require_sampling(problems, o.sample_s, o.hold_s);
   problems.throw_if_any();
   if (specimen.library.load(specimen.type, specimen.overrides).unit.actuator.transmission->preset_unit().empty()) {
     throw InputError({"", "preset step", specimen.type, "this actuator has no stiffness preset, so there is none to step",
                       "the other experiments"});
   }
-  if (o.preset == 0) throw InputError({"", "preset", "0", "a step from 0 to 0 is none", "above 0"});
+  if (o.preset == o.from) {
+    const std::string same = fmt::format("{}", o.preset);
+    throw InputError({"", "preset", same, fmt::format("a step from {} to {} is none", same, same), "above " + same});
+  }
   check_preset(specimen, o.preset);
+  check_preset(specimen, o.from);
 }
 
 void settle(Bench& bench, const elastic::EquilibriumPreset& command) {
@@ -102,11 +108,11 @@ void note_reach(BenchRun& run, double target_rad, double reached_rad) {
 struct Lifted {
   double held_rad, target_rad, reached_rad;
 };
-Lifted lift_lever(Bench& bench, double preset) {
-  const double load = bench.load_peak_Nm(), sag = law_deflection(bench.law(), 0, load);
+Lifted lift_lever(Bench& bench, double from, double preset) {
+  const double load = bench.load_peak_Nm(), sag = law_deflection(bench.law(), from, load);
   const double target = kPi / 2 - 0.5 * (sag - law_deflection(bench.law(), preset, load));
-  settle(bench, {0, 0});
-  const double held = bench.lift(target, target + sag + kMostMore_rad, 0);
+  settle(bench, {0, from});
+  const double held = bench.lift(target, target + sag + kMostMore_rad, from);
   return {held, target, bench.shaft_rad()};
 }
 
@@ -166,7 +172,7 @@ SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double p
 
 BenchRun run_stiffness(const Specimen& specimen, const StiffnessOptions& options, Watch* watch) {
   check(specimen, options);
-  Bench bench(specimen, kLoadBench, watch);
+  Bench bench(specimen, kLoadBench, watch, options.load_share);
   SweepAmplitude found;
   if (!options.amplitude_rad) found = amplitude_on(bench, options.preset, options.period_s);
   const double amplitude = options.amplitude_rad.value_or(found.amplitude_rad);
@@ -207,13 +213,13 @@ BenchRun run_speed(const Specimen& specimen, const SpeedOptions& options, Watch*
 
 BenchRun run_preset_step(const Specimen& specimen, const PresetStepOptions& options, Watch* watch) {
   check(specimen, options);
-  Bench bench(specimen, options.loaded ? kLoadBench : kFreeBench, watch);
+  Bench bench(specimen, options.loaded ? kLoadBench : kFreeBench, watch, options.loaded ? options.load_share : 1.0);
   Lifted lifted{};
-  if (options.loaded) lifted = lift_lever(bench, options.preset);
-  settle(bench, {lifted.held_rad, 0});
+  if (options.loaded) lifted = lift_lever(bench, options.from, options.preset);
+  settle(bench, {lifted.held_rad, options.from});
   BenchRun out = bench.record(2 * options.hold_s, 0, options.sample_s, [&](double t) {
     constexpr double kRound = 1e-9;
-    return elastic::EquilibriumPreset{lifted.held_rad, t / options.hold_s + kRound < 1 ? options.preset : 0.0};
+    return elastic::EquilibriumPreset{lifted.held_rad, t / options.hold_s + kRound < 1 ? options.preset : options.from};
   });
   out.amplitude_rad = lifted.held_rad;
   note_reach(out, lifted.target_rad, lifted.reached_rad);

@@ -40,16 +40,26 @@ double measure_load_peak(engine::World& world, const std::string& joint) {
   return std::abs(peak) < kTolerance_J ? 0.0 : peak;
 }
 
+void scale_load(engine::World& world, const std::string& model, double share) {
+  const engine::LinkHandle flange = world.link(scoped_name(model, "flange"));
+  engine::LinkParameters load = world.link_parameters(flange);
+  load.mass_kg *= share;
+  for (double& moment : load.inertia_kgm2) moment *= share;
+  world.set_link_parameters(flange, load);
+}
+
 double angle_of(Ticks ticks, int resolution) { return radians(Raw{ticks.value * (1 << resolution)}); }
 
 }  // namespace
 
-Bench::Bench(const Specimen& specimen, const char* world, Watch* watch) : world_(load_bench(specimen, world)), watch_(watch) {
+Bench::Bench(const Specimen& specimen, const char* world, Watch* watch, double load_share)
+    : world_(load_bench(specimen, world)), watch_(watch) {
   if (world_.actuators().size() != 1) {
     throw InputError({"", "bench", world, fmt::format("has {} actuators", world_.actuators().size()), "one"});
   }
   actuator_ = world_.actuators().front();
   config_ = &world_.robot(actuator_.robot).config().actuators[actuator_.index];
+  if (load_share != 1) scale_load(world_, world_.robot_model(actuator_.robot), load_share);
   load_peak_Nm_ = measure_load_peak(world_, scoped_name(world_.robot_model(actuator_.robot), config_->joint));
 }
 

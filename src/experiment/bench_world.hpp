@@ -20,7 +20,8 @@ using Command = std::function<elastic::EquilibriumPreset(double time_s)>;
 
 class Bench {
  public:
-  Bench(const Specimen& specimen, const char* world, Watch* watch);
+  /// `load_share` scales mass and inertia of what the shaft turns.
+  Bench(const Specimen& specimen, const char* world, Watch* watch, double load_share = 1);
 
   [[nodiscard]] const elastic::Transmission& law() const { return *config_->unit.actuator.transmission; }
   [[nodiscard]] double load_peak_Nm() const noexcept { return load_peak_Nm_; }

@@ -10,7 +10,6 @@
 namespace vsa::experiment {
 namespace {
 
-constexpr double kShares[] = {0, 0.25, 0.5, 0.75, 0.9};  // of the attainable preset; all of it leaves no torque for a load
 constexpr int kEnergyPoints = 61;
 constexpr int kBoundaryPoints = 81;
 constexpr int kCurvePoints = 101;
@@ -24,6 +23,10 @@ PresetColumn column(const Workspace& workspace, double preset) {
   c.unpowered = workspace.reach(preset, 0, Task::unpowered);
   c.no_load_speed_rad_per_s = workspace.no_load_speed(preset);
   c.energy_at_rest_J = workspace.energy_at_rest(preset);
+  c.half_load_Nm = c.peak.torque_Nm / 2;
+  c.stiffness_at_half_Nm_per_rad = workspace.stiffness_under(preset, c.half_load_Nm);
+  c.held_at_rest = workspace.holding(preset);
+  c.held_at_half = workspace.holding(preset, c.half_load_Nm);
   c.boundary = workspace.boundary(preset, kBoundaryPoints);
   c.power = best_power(c.boundary);
   c.curve = workspace.law_curve(preset, kCurvePoints);
@@ -59,7 +62,7 @@ DataSheet data_sheet(const config::ActuatorType& type) {
   sheet.attainable_preset = workspace.attainable_preset();
   sheet.stiffest_Nm_per_rad = workspace.stiffness_at_rest(sheet.attainable_preset);
   const bool one = sheet.attainable_preset == 0;
-  for (const double share : kShares) {
+  for (const double share : kPresetShares) {
     if (share == 0 || !one) sheet.columns.push_back(column(workspace, share * sheet.attainable_preset));
   }
   for (int i = 0; i < (one ? 1 : kEnergyPoints); ++i) {

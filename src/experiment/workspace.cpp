@@ -78,6 +78,8 @@ MotorLine motor_line(const device::UnitConfig& unit, std::size_t motor) {
     line.stall_current_A = std::min(line.stall_current_A, unit.servo->current_max_A);
     line.limit_Nm = m.torque_constant_Nm_per_A * unit.servo->current_max_A;
   }
+  line.torque_constant_Nm_per_A = m.torque_constant_Nm_per_A;
+  line.resistance_Ohm = resistance;
   line.stall_Nm = m.torque_constant_Nm_per_A * line.stall_current_A;
   line.viscous_Nms_per_rad = m.viscous_Nms_per_rad;
   line.back_Nms_per_rad = m.torque_constant_Nm_per_A * m.back_emf_Vs_per_rad / resistance + m.viscous_Nms_per_rad;
@@ -189,14 +191,35 @@ std::vector<LawPoint> Workspace::law_curve(double preset, int points) const {
 double Workspace::stiffness_at_rest(double preset) const { return at(preset, 0, 1).curvature.qq; }
 double Workspace::energy_at_rest(double preset) const { return at(preset, 0, 1).energy; }
 
-double Workspace::stiffness_under(double preset, double load_Nm) const {
+/// How far the shaft gives way to an external load; none: beyond the task's reach.
+std::optional<double> Workspace::lag_under(double preset, double load_Nm, Task task) const {
   const int direction = load_Nm < 0 ? 1 : -1;
-  const Reach most = reach(preset, 0, Task::move, direction);
-  if (!(direction * at(preset, most.deflection_rad, direction).torque >= std::abs(load_Nm))) return kNaN;
+  const Reach most = reach(preset, 0, task, direction);
+  if (!(direction * at(preset, most.deflection_rad, direction).torque >= std::abs(load_Nm))) return std::nullopt;
   double low = 0, high = most.deflection_rad;  // within reach the torque grows
   for (double mid = 0.5 * (low + high); mid > low && mid < high; mid = 0.5 * (low + high))
     (direction * at(preset, mid, direction).torque < std::abs(load_Nm) ? low : high) = mid;
-  return at(preset, high, direction).curvature.qq;
+  return high;
+}
+
+double Workspace::stiffness_under(double preset, double load_Nm) const {
+  const auto lag = lag_under(preset, load_Nm, Task::move);
+  return lag ? at(preset, *lag, load_Nm < 0 ? 1 : -1).curvature.qq : kNaN;
+}
+
+Holding Workspace::holding(double preset, double load_Nm) const {
+  const auto lag = lag_under(preset, load_Nm, Task::hold);
+  if (!lag) return {kNaN, kNaN};
+  const elastic::Response r = at(preset, *lag, load_Nm < 0 ? 1 : -1);
+  Holding out;
+  for (int i = 0; i < unit_.actuator.transmission->motor_count(); ++i) {
+    const MotorLine& line = lines_[i];
+    const double driven = std::max(0.0, (1 - line.back_loss) * std::abs(r.load[i]) - line.friction_Nm);
+    const double current = driven / line.torque_constant_Nm_per_A;
+    out.current_A += current;
+    out.power_W += line.resistance_Ohm * current * current;
+  }
+  return out;
 }
 
 }  // namespace vsa::experiment

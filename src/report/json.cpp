@@ -61,16 +61,43 @@ Json curve(const Curve& c) {
           {"x", numbers(c.x)}, {"y", numbers(c.y)}, {"error", numbers(c.error)}};
 }
 
+void put_range(Json& to, const char* key, const std::optional<std::array<double, 2>>& range) {
+  if (range) to[key] = Json::array({(*range)[0], (*range)[1]});
+}
+
+Json bar(const Bars::Bar& b) {
+  return {{"label", b.label}, {"value", page::number(b.value)}, {"text", b.text}, {"note", b.note}, {"link", b.link}};
+}
+
+Json card(const Cards::Card& c) {
+  if (c.low.size() != c.x.size() || c.high.size() != c.x.size())
+    throw std::invalid_argument("report: card \"" + c.title + "\" has x, low and high of different lengths");
+  return {{"title", c.title},      {"subtitle", c.subtitle},  {"tag", c.tag},        {"link", c.link}, {"x", numbers(c.x)},
+          {"low", numbers(c.low)}, {"high", numbers(c.high)}, {"figures", c.figures}};
+}
+
 Json figure(const Figure& f) { return {{"label", f.label}, {"value", f.value}, {"note", f.note}, {"verdict", verdict(f.verdict)}}; }
 
 struct BlockJson {
   Json operator()(const Text& t) const { return {{"kind", "text"}, {"text", t.text}}; }
   Json operator()(const Table& t) const {
-    return {{"kind", "table"}, {"title", t.title}, {"head", t.head}, {"rows", t.rows}, {"caption", t.caption}};
+    Json out{{"kind", "table"}, {"title", t.title}, {"head", t.head}, {"rows", t.rows}, {"caption", t.caption}};
+    if (!t.links.empty()) out["links"] = t.links;
+    return out;
   }
   Json operator()(const Chart& c) const {
-    return {{"kind", "chart"},  {"title", c.title}, {"x_label", c.x_label}, {"y_label", c.y_label},
-            {"y_log", c.y_log}, {"x_log", c.x_log}, {"caption", c.caption}, {"curves", array(c.curves, curve)}};
+    Json out{{"kind", "chart"},  {"title", c.title}, {"x_label", c.x_label}, {"y_label", c.y_label},
+             {"y_log", c.y_log}, {"x_log", c.x_log}, {"caption", c.caption}, {"curves", array(c.curves, curve)}};
+    put_range(out, "x_range", c.x_range);
+    put_range(out, "y_range", c.y_range);
+    return out;
+  }
+  Json operator()(const Bars& b) const {
+    return {{"kind", "bars"}, {"title", b.title}, {"bars", array(b.bars, bar)}, {"caption", b.caption}};
+  }
+  Json operator()(const Cards& c) const {
+    return {
+        {"kind", "cards"}, {"x_label", c.x_label}, {"y_label", c.y_label}, {"cards", array(c.cards, card)}, {"caption", c.caption}};
   }
   Json operator()(const Figures& f) const { return {{"kind", "figures"}, {"figures", array(f.figures, figure)}}; }
 };
@@ -83,12 +110,14 @@ Json section(const Section& s) {
 }  // namespace
 
 std::string to_json(const Report& report) {
-  return page::text({{"format", 1},
-                     {"title", report.title},
-                     {"subtitle", report.subtitle},
-                     {"footer", report.footer},
-                     {"one_page", report.one_page},
-                     {"sections", array(report.sections, section)}});
+  Json out{{"format", 1},
+           {"title", report.title},
+           {"subtitle", report.subtitle},
+           {"footer", report.footer},
+           {"one_page", report.one_page},
+           {"sections", array(report.sections, section)}};
+  if (!report.links.empty()) out["links"] = report.links;
+  return page::text(out);
 }
 
 }  // namespace vsa::report

@@ -165,6 +165,7 @@ class Drawing {
         if (std::isfinite(c.y[i])) r.add(c.x[i], chart_.x_log);
       }
     }
+    if (chart_.x_range) r = {(*chart_.x_range)[0], (*chart_.x_range)[1]};
     return r.axis(kLeft, kWidth - kRight, chart_.x_log);
   }
   [[nodiscard]] Axis y_axis() const {
@@ -176,6 +177,7 @@ class Drawing {
         r.add(c.y[i] + e, chart_.y_log);
       }
     }
+    if (chart_.y_range) r = {(*chart_.y_range)[0], (*chart_.y_range)[1]};
     return r.axis(kHeight - kBottom, kTop, chart_.y_log);
   }
 

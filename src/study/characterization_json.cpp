@@ -97,6 +97,7 @@ Json preset_step_json(const Characterization& c, const PresetStepResult& r) {
   put_preset(out, c, r.options.preset);
   out["file"] = csv_name(r);
   out["loaded"] = r.options.loaded;
+  out["from_preset_" + c.preset_unit()] = r.options.from;
   out["hold_s"] = r.options.hold_s;
   out["sample_s"] = r.options.sample_s;
   out["equilibrium_command_rad"] = r.run.amplitude_rad;

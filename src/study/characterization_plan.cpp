@@ -5,17 +5,19 @@
 #include <algorithm>
 #include <set>
 
+#include "study/preset_steps.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/study/characterization.hpp"
 
 namespace vsa::study {
 namespace {
 
+// The paper's, of which 0.75 counts as 100 %.
 const std::vector<double> kStiffnessPresets{0, 0.4602, 0.6903};
 const std::vector<double> kSpeedPresets{0, 0.1125, 0.30, 0.75};
-constexpr double kStepPreset = 0.75;
+constexpr double kFull = 0.75;
 
-/// The paper's presets; all smaller in proportion where the unit's limit is below the largest.
+/// All smaller in proportion where the unit's limit is below the largest.
 std::vector<double> fitted(std::vector<double> presets, double limit) {
   const double factor = std::min(1.0, limit / presets.back());
   for (double& p : presets) p *= factor;
@@ -37,6 +39,9 @@ class Planner {
       add("--experiment", word(Experiment::preset_step), plan_.specimen.type + " has no stiffness preset to step",
           "stiffness, speed");
     }
+    problems_.throw_if_any();
+    plan_.fit = fit_bench(plan_.specimen, plan_.actuator);
+    check_carried();
     problems_.throw_if_any();
     if (wants(Experiment::stiffness)) add_stiffness();
     if (wants(Experiment::speed)) add_speed();
@@ -65,7 +70,7 @@ class Planner {
     for (const double p : options_.preset) {
       if (!(p >= 0 && p <= limit)) {
         add("--preset-rad", fmt::format("{}", p), "beyond what " + plan_.specimen.type + " accepts",
-            fmt::format("0 … {} rad", limit));
+            fmt::format("0 … {} {}", limit, plan_.preset_unit()));
       } else if (!names.insert(fmt::format("{:.4f}", p)).second) {
         add("--preset-rad", fmt::format("{}", p), "is there twice; files are named by four decimals", "different presets");
       }
@@ -95,35 +100,48 @@ class Planner {
     require(options_.cycles, "--cycles", 1, 1000, "cycles");
   }
 
-  [[nodiscard]] std::vector<double> presets(const std::vector<double>& usual) const {
+  /// A sweep finds its amplitude by what the law carries.
+  void check_carried() {
+    if (!wants(Experiment::stiffness) || options_.amplitude_rad) return;
+    for (const double p : options_.preset) {
+      if (p >= plan_.fit.softest) continue;
+      add("--preset-rad", fmt::format("{}", p), "the joint is too soft there for the load bench",
+          fmt::format("{:.3g} {} or more; or --amplitude-rad", plan_.fit.softest, plan_.preset_unit()));
+    }
+  }
+
+  /// The given ones, else the usual ones as the actuator can have them. `on_bench`: that carry the load.
+  [[nodiscard]] std::vector<double> presets(const std::vector<double>& usual, bool on_bench) const {
     if (!has_preset_) return {0.0};
-    return options_.preset.empty() ? fitted(usual, plan_.actuator.unit.preset_max) : options_.preset;
+    if (!options_.preset.empty()) return options_.preset;
+    if (plan_.fit.papers_law) return fitted(usual, plan_.actuator.unit.preset_max);
+    std::vector<double> out;
+    for (const double p : usual) {
+      const double share = p / kFull, here = on_bench ? carried_preset(plan_.fit, share) : share * plan_.fit.full;
+      if (out.empty() || here > out.back() + 1e-4 * plan_.actuator.unit.preset_max) out.push_back(here);
+    }
+    return out;
   }
 
   void add_stiffness() {
-    for (const double p : presets(kStiffnessPresets)) {
+    for (const double p : presets(kStiffnessPresets, true)) {
       experiment::StiffnessOptions o;
       o.preset = p;
       o.period_s = options_.period_s.value_or(o.period_s);
       o.amplitude_rad = options_.amplitude_rad;
       o.cycles = options_.cycles.value_or(static_cast<int>(o.cycles));
+      o.load_share = plan_.fit.load_share;
       plan_.stiffness.emplace_back().options = o;
     }
   }
 
   void add_speed() {
-    for (const double p : presets(kSpeedPresets)) plan_.speed.emplace_back().options.preset = p;
+    for (const double p : presets(kSpeedPresets, false)) plan_.speed.emplace_back().options.preset = p;
   }
 
   void add_preset_step() {
-    const std::vector<double> all = presets({kStepPreset});
-    const double largest = *std::max_element(all.begin(), all.end());
-    if (largest == 0) return;
-    for (const bool loaded : {false, true}) {
-      experiment::PresetStepOptions& o = plan_.preset_step.emplace_back().options;
-      o.preset = largest;
-      o.loaded = loaded;
-    }
+    const std::vector<double> all = presets({kFull}, false);
+    plan_preset_steps(plan_, *std::max_element(all.begin(), all.end()));
   }
 
   const CharacterizationOptions& options_;
@@ -144,6 +162,19 @@ const char* word(Experiment experiment) {
       return "preset-step";
   }
   return "";
+}
+
+void plan_preset_steps(Characterization& plan, double preset) {
+  const BenchFit& fit = plan.fit;
+  if (preset == 0) return;
+  plan.preset_step.emplace_back().options.preset = preset;
+  const double loaded = fit.papers_law ? preset : std::min(preset, fit.stiffest);
+  if (!fit.carries || !(loaded > fit.softest)) return;
+  experiment::PresetStepOptions& o = plan.preset_step.emplace_back().options;
+  o.preset = loaded;
+  o.from = fit.softest;
+  o.loaded = true;
+  o.load_share = fit.load_share;
 }
 
 Characterization plan_characterization(const CharacterizationOptions& options) { return Planner(options).plan(); }

@@ -1,12 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
-#include <future>
 #include <limits>
 
-#include "vsa/experiment/parallel.hpp"
+#include "study/watched_runs.hpp"
 #include "vsa/study/characterization.hpp"
 
 namespace vsa::study {
@@ -17,6 +15,7 @@ using experiment::BenchSample;
 using experiment::StepMeasures;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kWindow_Nm = 0.4;  // of the stiffness curve, on the bench as it ships
 
 Range range_of(const BenchRun& run, double BenchSample::*field) {
   const auto less = [field](const BenchSample& a, const BenchSample& b) { return a.*field < b.*field; };
@@ -68,42 +67,18 @@ StepMeasures mean_of(const std::vector<Edge>& edges, StepMeasures Edge::*part) {
   return out;
 }
 
-/// Lets go of the runs whichever way the watcher leaves.
-struct StopAtEnd {
-  experiment::Watch& watch;
-  ~StopAtEnd() { watch.stop = true; }
-};
-
-/// False: stopped.
-bool run_watched(const std::vector<std::function<void()>>& jobs, experiment::Watch& watch, double total_s,
-                 const OnProgress& on_progress, unsigned threads) {
-  const auto begun = std::chrono::steady_clock::now();
-  auto done =
-      std::async(std::launch::async, [&] { experiment::run_in_parallel(jobs.size(), threads, [&](std::size_t i) { jobs[i](); }); });
-  {
-    const StopAtEnd stop{watch};
-    do {
-      const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begun;
-      if (on_progress && !on_progress({static_cast<double>(watch.simulated_ns.load()) * 1e-9, total_s, wall.count()})) break;
-    } while (done.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready);
-  }
-  try {
-    done.get();
-  } catch (const experiment::Stopped&) {
-    return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 StiffnessResult measure(const experiment::StiffnessOptions& options, BenchRun run, const std::string& preset_unit) {
   StiffnessResult out{options, std::move(run), {}, {}, {}, {}, {}, {}, {}};
   experiment::LoadRecording recording = experiment::as_recording(out.run, options.preset);
   recording.preset_unit = preset_unit;
-  out.branches = experiment::branches(recording, {.skip_cycles = 0});
+  experiment::BranchOptions grid{.skip_cycles = 0};
+  grid.grid_Nm *= options.load_share;
+  grid.max_Nm *= options.load_share;
+  out.branches = experiment::branches(recording, grid);
   out.loop = experiment::loop(out.branches);
-  out.curve = experiment::stiffness_curve(out.branches);
+  out.curve = experiment::stiffness_curve(out.branches, kWindow_Nm * options.load_share);
   out.shaft_rad = range_of(out.run, &BenchSample::measured_shaft_rad);
   out.load_Nm = range_of(out.run, &BenchSample::measured_load_Nm);
   out.deflection_rad = range_of(out.run, &BenchSample::measured_deflection_rad);
@@ -133,7 +108,7 @@ PresetStepResult measure(const experiment::PresetStepOptions& options, BenchRun 
   PresetStepResult out{options, std::move(run), {}, {}, {}};
   const double hold = options.hold_s;
   out.up = measure_step(out.run, &BenchSample::preset, 0, hold, std::nullopt, options.preset);
-  out.down = measure_step(out.run, &BenchSample::preset, hold, hold, out.up.final_value, 0);
+  out.down = measure_step(out.run, &BenchSample::preset, hold, hold, out.up.final_value, options.from);
   out.load_Nm = range_of(out.run, &BenchSample::measured_load_Nm);
   return out;
 }

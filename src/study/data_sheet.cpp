@@ -1,32 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/study/data_sheet.hpp"
 
-#include <algorithm>
-
-#include "vsa/errors.hpp"
-#include "vsa/units.hpp"
+#include "study/preset_steps.hpp"
 
 namespace vsa::study {
-namespace {
-
-constexpr double kPaperPreset = 0.75;  // section IV-B and IV-C: 100 %
-
-/// The preset that counts as stiff: the paper's for the law that it is about, else the largest that the motors wind to.
-double full_preset(const experiment::DataSheet& computed) {
-  const bool papers = computed.type.law.rfind("two_sinh", 0) == 0;
-  return papers ? std::min(kPaperPreset, computed.type.unit.preset_max) : computed.attainable_preset;
-}
-
-/// Whether the softest joint holds what hangs on the bench.
-bool carries_the_bench(const experiment::Specimen& specimen, const elastic::Transmission& law) {
-  try {
-    return experiment::law_deflection(law, 0, experiment::bench_load_peak_Nm(specimen)) < kPi / 2;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
-}  // namespace
 
 std::optional<double> DataSheet::nominal_load_Nm() const {
   for (const PresetStepResult& r : simulated.preset_step) {
@@ -41,17 +18,12 @@ DataSheet plan_data_sheet(const experiment::Specimen& specimen) {
   plan.actuator = specimen.library.load(specimen.type, specimen.overrides);
   const bool has_preset = !plan.preset_unit().empty() && plan.actuator.unit.preset_max > 0;
   experiment::DataSheet computed = experiment::data_sheet(plan.actuator);
-  const double full = full_preset(computed);
-  const bool steps = has_preset && full > 0;
+  plan.fit = fit_bench(specimen, plan.actuator);
+  const bool steps = has_preset && plan.fit.full > 0;
   for (const double share : {0.0, 0.15, 0.4, 1.0}) {
-    if (share == 0 || steps) plan.speed.emplace_back().options.preset = share * full;
+    if (share == 0 || steps) plan.speed.emplace_back().options.preset = share * plan.fit.full;
   }
-  for (const bool loaded : {false, true}) {
-    if (!steps || (loaded && !carries_the_bench(specimen, *plan.actuator.unit.actuator.transmission))) break;
-    experiment::PresetStepOptions& o = plan.preset_step.emplace_back().options;
-    o.preset = full;
-    o.loaded = loaded;
-  }
+  if (steps) plan_preset_steps(plan, plan.fit.full);
   return {std::move(computed), std::move(plan)};
 }
 

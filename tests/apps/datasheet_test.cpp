@@ -120,18 +120,19 @@ TEST(Datasheet, AFullDiskIsAFailureThatLeavesNoHalfPage) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "s.html.part"));
 }
 
-TEST(Datasheet, OfAllTypesComesWithAPageThatComparesThem) {
+TEST(Datasheet, OfAllTypesComesWithAGalleryAndAPageThatComparesThem) {
   const Scratch scratch;
   const auto result = run_vsa({"datasheet", "--all", "--out", scratch / "sheets"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::vector<std::string> names = vsa::config::TypeLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "actuators"}).names();
-  const std::string page = data_of(scratch / "sheets/index.html");
+  const std::string page = data_of(scratch / "sheets/comparison.html"), gallery = data_of(scratch / "sheets/index.html");
   for (const std::string& name : names) {
     EXPECT_NE(result.out.find("\n" + name + ' '), std::string::npos) << name;
     EXPECT_NE(page.find('"' + name + '"'), std::string::npos) << name;
+    EXPECT_NE(gallery.find("\"link\":\"" + name + ".html\""), std::string::npos) << name;
     EXPECT_TRUE(std::filesystem::exists(scratch / ("sheets/" + name + ".html"))) << name;
   }
-  // 2 a k and 2 a k cosh(a · 0.785 rad) of the paper's; a lever is stiffened for nothing, a cable's winch holds by friction.
+  // 2 a k and 2 a k cosh(a · 0.785 rad) of the paper's.
   expect_holds(page, {"0.301 … 32.6", "\"measured\"", "\"symbolic\"", "\"published\""});
 }
 

@@ -260,6 +260,22 @@ TEST(Base, HasWhateverATypeHasnt) {
             0.5);
 }
 
+TEST(Mass, IsWhatTheFileStatesAndNoBaseStatesItForAnother) {
+  const config::ActuatorType maker = shipped().load("qbmove_maker_pro_6_1");
+  ASSERT_TRUE(maker.mass_kg);
+  EXPECT_EQ(maker.mass_kg->value, 0.45);
+  EXPECT_FALSE(maker.mass_kg->source.empty());
+  const auto with = [](const std::string& mass) {
+    return shipped().load_text(replaced(derived("qbmove_maker_pro_6_1", ""), "base", mass + "\nbase"), "mine.toml");
+  };
+  EXPECT_FALSE(with("").mass_kg);
+  EXPECT_EQ(with("mass_kg = { value = 2, unit = \"kg\", source = \"scales\" }").mass_kg->value, 2);
+  const auto told = [&](const std::string& mass) { return text_of(problems_of([&] { (void)with(mass); })); };
+  expect_pieces(told("mass_kg = 2"), {"mine.toml:4: type.mass_kg", "must be a table"});
+  expect_pieces(told("mass_kg = { value = -2, unit = \"g\", colour = \"red\" }"),
+                {"type.mass_kg.value", "out of range", "type.mass_kg.unit", "kg", "type.mass_kg.source", "type.mass_kg.colour"});
+}
+
 TEST(Base, OfAnotherLawGivesNothingOfThatLaw) {
   const std::string law =
       "[elastic]\nlaw = \"series_spring\"\nstiffness_Nm_per_rad = { value = 20.0, unit = \"N·m/rad\", bounds = "

@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Form, TypeBadInput,
     testing::Values(
-        BadType{"not_toml", "[drive]", "[drive", {"qbmove_maker_pro_paper.toml:19"}},
+        BadType{"not_toml", "[drive]", "[drive", {"qbmove_maker_pro_paper.toml:20"}},
         BadType{"twice", "[drive]", "[drive]\npolarity = { value = 1, source = \"x\" }", {"polarity"}},
         BadType{"bare_number", "polarity = { value = 1", "polarity = 1 #", {"drive.polarity = 1: must be a table"}},
         BadType{"unknown_key",

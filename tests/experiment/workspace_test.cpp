@@ -148,6 +148,21 @@ TEST(Workspace, HoldsMoreThanItMovesAndSomethingWithoutVoltage) {
   EXPECT_TRUE(std::isnan(w.reach(too_stiff, 0, Task::unpowered).torque_Nm));
 }
 
+TEST(Workspace, PaysForWhatFrictionDoesntHoldWithTheHeatOfTheWindings) {
+  const double p = std::asinh(1.0 / kK) / kA;  // each spring's tension is 1 N·m, of which friction holds 0.8
+  const Workspace w(qbmove());
+  const double current = (1.0 - 0.8) / 0.8;
+  EXPECT_NEAR(w.holding(p).current_A, 2 * current, 1e-9);
+  EXPECT_NEAR(w.holding(p).power_W, 2 * 2.3 * current * current, 1e-9);
+  EXPECT_EQ(w.holding(0).power_W, 0) << "slack springs";
+  // A load that one motor takes over and the other gives up: k sinh(a(p + d)) = 1.4, k sinh(a(p − d)) = 0.6 N·m at most.
+  const double d = std::asinh(1.4 / kK) / kA - p;
+  const double load = 1.4 - kK * std::sinh(kA * (p - d));
+  EXPECT_NEAR(w.holding(p, load).current_A, (1.4 - 0.8) / 0.8, 1e-6);
+  EXPECT_NEAR(w.holding(p, -load).power_W, w.holding(p, load).power_W, 1e-9) << "a symmetric pair";
+  EXPECT_TRUE(std::isnan(w.holding(0, 2 * (kStall + 0.8) + 0.1).power_W)) << "beyond full voltage";
+}
+
 TEST(Workspace, WindsItsSpringsUpToTheMotorsTorque) {
   EXPECT_NEAR(Workspace(qbmove()).attainable_preset(), std::asinh(kMost / kK) / kA, 1e-9);
   device::UnitConfig limited = qbmove();
@@ -234,12 +249,12 @@ TEST(DataSheet, StoresTheMostEnergyAtItsCorners) {
 TEST(DataSheet, ErrorsOfThePositionLoopFollowFromItsGainDeadBandAndFriction) {
   config::ActuatorType type;
   type.unit = qbmove();
-  const LoopErrors e = data_sheet(type).errors;
+  const LoopErrors e = data_sheet(type).errors[0];
   const double full = 100 / (6553 / 65536.0) * 2 * 3.14159265358979 / 65536;
   EXPECT_NEAR(e.full_rad, full, 1e-9);
   EXPECT_NEAR(e.moves_rad, full * (0.3 + 0.7 * 0.8 / kStall), 1e-9);
   type.unit.actuator.supply_V = 1;
-  EXPECT_TRUE(std::isnan(data_sheet(type).errors.moves_rad));
+  EXPECT_TRUE(std::isnan(data_sheet(type).errors[0].moves_rad));
 }
 
 TEST(DataSheet, OfAnActuatorWithoutPresetHasOneColumn) {

@@ -48,13 +48,19 @@ TEST(ReportPages, TextsOfAUserArentMarkup) {
   EXPECT_TRUE(fs::exists(written(r, "report_hostile")));
 }
 
+TEST(ReportPages, AGalleryThatLeadsToOtherPages) {
+  EXPECT_TRUE(fs::exists(written(samples::gallery(), "gallery")));
+  EXPECT_TRUE(fs::exists(written(samples::gallery("<img src=x onerror=\"window.hacked=1\">"), "gallery_hostile")));
+}
+
 TEST(ReportPages, ReportsThatHaveNothingToShow) {
   Report r;
   Curve empty;
   Curve gaps;
   gaps.style = Curve::Style::band;
   gaps.x = gaps.y = gaps.error = {samples::kNaN, samples::kNaN};
-  r.sections = {{"", {}}, {"nothing", {Text{}, Table{}, Figures{}, Chart{}, Chart{"", "", "", {empty, gaps}, "", true}}}};
+  r.sections = {{"", {}},
+                {"nothing", {Text{}, Table{}, Figures{}, Bars{}, Cards{}, Chart{}, Chart{"", "", "", {empty, gaps}, "", true}}}};
   EXPECT_TRUE(fs::exists(written(r, "report_empty")));
 }
 

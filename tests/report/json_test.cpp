@@ -38,6 +38,18 @@ TEST(ReportJson, HoldsEveryKindOfBlock) {
   expect_holds(chart, R"("curves":[])");
 }
 
+TEST(ReportJson, HasLinksAndRangesWhereTheyAre) {
+  const std::string json = to_json(samples::gallery("two"));
+  expect_holds(json, R"("links":[["two","comparison.html"]])");
+  expect_holds(json, R"("links":["one \u0026 only.html",""])");
+  expect_holds(json, R"("x_range":[1.0,100.0],"y_range":[0.0,5.0])");
+  expect_holds(json, R"({"label":"none","value":null,"text":"–","note":"","link":""})");
+  expect_holds(json, R"("x":[0.02,0.2,2],"low":[0.5,0.6,4],"high":[30,31,60],"figures":[["torque","2 N·m"]])");
+  Cards cards;
+  cards.cards = {{"c", "", "", "", {1, 2}, {1}, {1, 2}, {}}};
+  EXPECT_THROW((void)to_json(with(cards)), std::invalid_argument);
+}
+
 TEST(ReportJson, NamesEveryStyleOfCurve) {
   const std::string json = to_json(samples::full());
   for (const char* style : {"line", "dashed", "dotted", "markers", "band"})

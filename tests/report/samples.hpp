@@ -62,6 +62,29 @@ inline Report full() {
   return r;
 }
 
+/// What leads to other pages: cards, bars and a table with links.
+inline Report gallery(const std::string& text = "soft & stiff") {
+  Report r;
+  r.title = "Gallery";
+  r.links = {{text, "comparison.html"}};
+  Cards cards;
+  cards.x_label = "load [N·m]";
+  cards.y_label = "stiffness [N·m/rad]";
+  cards.cards = {
+      {text, "law", "measured", "one.html", {0.02, 0.2, 2}, {0.5, 0.6, 4}, {30, 31, 60}, {{{"torque", "2 N·m"}}}},
+      {"a line", "law", "symbolic", "two.html", {0.1, 1, 10}, {160, 160, 160}, {160, 160, 160}, {{{"torque", "10 N·m"}}}},
+      {"nothing", "", "", "", {}, {}, {}, {}}};
+  cards.caption = "equal axes";
+  Bars bars{
+      "Farthest", {{text, 4, "4 m", "preset 0", "one.html"}, {"half", 2, "2 m", "", ""}, {"none", kNaN, "–", "", ""}}, "caption"};
+  Table table{"Table", {"type", "torque"}, {{text, "2"}, {"plain", "3"}}, "", {"one & only.html", ""}};
+  Chart left{"Left", "x [1]", "y [1]", {curve("a", {1, 10}, {1, 2}, Curve::Style::line, 0)}, "", false, true};
+  left.x_range = {1, 100};
+  left.y_range = {0, 5};
+  r.sections = {{"Cards", {cards}}, {"Bars", {bars, bars}}, {"Numbers", {table, left}}};
+  return r;
+}
+
 /// As dense as a data sheet gets; `lines` rows in each of two tables.
 inline Report sheet(int lines) {
   Report r = full();

@@ -146,6 +146,53 @@ test('texts that a user wrote are text, not markup', { timeout: 600_000 }, async
   await close();
 });
 
+test('a gallery', { timeout: 600_000 }, async (t) => {
+  const { tab, wrong, close } = await open('gallery', { viewport: { width: 1280, height: 900 } });
+  const href = (place) => tab.locator(place).evaluateAll((links) => links.map((l) => l.getAttribute('href')));
+
+  await t.test('leads to files beside it, from its head, its cards, its bars and the first cells of its table', async () => {
+    assert.deepEqual(await href('#beside a'), ['./comparison.html']);
+    assert.deepEqual(await href('.gallery h3 a'), ['./one.html', './two.html']);
+    assert.deepEqual(await href('.bars dt a'), ['./one.html', './one.html']);
+    assert.deepEqual(await href('tbody th a'), ['./one%20%26%20only.html']);
+  });
+
+  await t.test('draws all cards on the same decades, a line where there is no range', async () => {
+    const cards = await tab.evaluate(() =>
+      [...document.querySelectorAll('.gallery li')].map((li) => ({
+        ticks: [...li.querySelectorAll('svg text')].map((e) => e.textContent).join(' '),
+        high: li.querySelector('.between')?.getBBox().height ?? -1,
+        edges: li.querySelectorAll('.edge').length,
+      })));
+    assert.equal(new Set(cards.map((c) => c.ticks)).size, 1);
+    assert.match(cards[0].ticks, /^0\.01 0\.1 1 10 .*100.* load/);
+    assert.ok(cards[0].high > 20, 'softest to stiffest');
+    assert.equal(cards[1].high, 0);
+    assert.deepEqual(cards.map((c) => c.edges), [2, 2, 0]);
+  });
+
+  await t.test('has bars as long as their numbers', async () => {
+    const widths = await tab.evaluate(() => [...document.querySelectorAll('.bars')[0].querySelectorAll('.bar')].map((e) => e.getBoundingClientRect().width));
+    assert.ok(widths[0] > 40);
+    assert.ok(Math.abs(widths[1] / widths[0] - 0.5) < 0.01);
+    assert.equal(widths[2], 0);
+  });
+
+  await t.test('has the ranges that a chart was given', async () => {
+    const ranges = await tab.evaluate(() => ['xaxis', 'yaxis'].map((name) => document.querySelector('.plot')._fullLayout[name].range));
+    assert.deepEqual(ranges, [[0, 2], [0, 5]]);
+  });
+
+  assert.ok(pagesOf(await pdf(tab)) <= 3);
+  assert.deepEqual(wrong, []);
+  await close();
+  const evil = await open('gallery_hostile');
+  assert.equal(await evil.tab.evaluate(() => window.hacked), undefined);
+  assert.equal(await evil.tab.locator('img').count(), 0);
+  assert.deepEqual(evil.wrong, []);
+  await evil.close();
+});
+
 test('a report with nothing in it opens', { timeout: 600_000 }, async () => {
   const { tab, wrong, close } = await open('report_empty');
   assert.equal(await tab.locator('.plot .main-svg').count() > 0, true);
@@ -154,7 +201,7 @@ test('a report with nothing in it opens', { timeout: 600_000 }, async () => {
 });
 
 test('a phone shows it without scrolling sideways', { timeout: 600_000 }, async () => {
-  for (const name of ['report', 'sheet', 'report_hostile']) {
+  for (const name of ['report', 'sheet', 'report_hostile', 'gallery']) {
     const { tab, wrong, close } = await open(name, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
     assert.ok((await tab.evaluate(() => document.documentElement.scrollWidth)) <= 390, name);
     assert.deepEqual(wrong, []);

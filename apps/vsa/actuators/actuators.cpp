@@ -91,6 +91,10 @@ int show(const config::ActuatorType& type, bool all) {
   if (type.controller != "qbmove") std::cout << fmt::format("controller: {}\n", type.controller);
   for (const std::string& remark : type.remarks)
     for (const std::string& line : wrap(remark, text_width)) std::cout << line << '\n';
+  if (type.mass_kg) {
+    for (const std::string& line : wrap(fmt::format("mass: {:g} kg, {}", type.mass_kg->value, type.mass_kg->source), text_width))
+      std::cout << line << '\n';
+  }
   for (const std::string& line : wrap("calibrated on " + evidence_text(type.evidence), text_width)) std::cout << line << '\n';
   std::cout << '\n';
   std::vector<std::vector<std::string>> rows{{"parameter", "value", "unit", "bounds", "source"}};

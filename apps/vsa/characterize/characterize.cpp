@@ -25,6 +25,9 @@ constexpr const char* kNotes = R"(Experiments, on the worlds bench_load and benc
   speed        square wave of the equilibrium, 1.57 rad, no load: rise time, speed, overshoot, ringing
   preset-step  the preset from 0 to its largest value and back, without load and with the lever held out
 
+A joint that can't carry the lever at preset 0 begins at the first preset that does; where none does, or the
+lever is nothing to it, the mass is another. Both are told.
+
 Writes report.html, results.json and a CSV file for each run. An actuator without a stiffness preset has no
 --preset-rad and no preset-step.
 
@@ -65,7 +68,7 @@ template <class Results>
 void tell_notices(const Results& results, const std::string& unit, Console& console) {
   for (const auto& r : results) {
     for (const std::string& n : r.run.notices) {
-      console.line(unit.empty() ? "warning: " + n : fmt::format("warning: preset {} {}: {}", r.options.preset, unit, n));
+      console.line(unit.empty() ? "warning: " + n : fmt::format("warning: preset {:.4g} {}: {}", r.options.preset, unit, n));
     }
   }
 }
@@ -100,9 +103,10 @@ void setup_characterize(CLI::App& app, int& exit_code) {
   sub->add_option("TYPE", options->type, "Actuator type, see vsa actuators")->required();
   sub->add_option("--experiment", options->experiments, "Which to run; default: all")
       ->check(CLI::IsMember({"stiffness", "speed", "preset-step"}));
-  sub->add_option("--preset-rad", options->preset_rad,
-                  "Stiffness presets; default: 0 0.4602 0.6903 for stiffness, 0 0.1125 0.3 0.75 for speed, 0.75 for preset-step; "
-                  "preset-step takes the largest")
+  sub->add_option(
+         "--preset-rad", options->preset_rad,
+         "Stiffness presets, in the type's own unit; default: 0 0.4602 0.6903 for stiffness, 0 0.1125 0.3 0.75 for speed, 0.75 for "
+         "preset-step, or such shares of what its motors wind to; preset-step takes the largest")
       ->check(number_given());
   sub->add_option("--period-s", options->period_s, "Period of the stiffness sweep; default 38")->check(number_given());
   sub->add_option("--amplitude-rad", options->amplitude_rad,

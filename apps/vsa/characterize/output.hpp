@@ -25,6 +25,8 @@ namespace vsa::app {
 [[nodiscard]] report::Table stiffness_table(const study::Characterization& c);
 [[nodiscard]] report::Table speed_table(const study::Characterization& c);
 [[nodiscard]] report::Table preset_step_table(const study::Characterization& c);
+/// Where the benches aren't the paper's for this actuator: a sentence each.
+[[nodiscard]] std::vector<std::string> fit_notes(const study::Characterization& c);
 /// The tables as text.
 [[nodiscard]] std::string characterization_text(const study::Characterization& c);
 

@@ -77,7 +77,9 @@ Chart stiffness_chart(const study::Characterization& c) {
     }
     out.curves.push_back(named(std::move(curve), curve_name(c, r.options.preset), color++, Curve::Style::markers));
   }
-  out.caption = "Slope of a cubic fitted to each branch in windows of 0.4 N·m, mean of both branches; bars: one standard error.";
+  out.caption =
+      fmt::format("Slope of a cubic fitted to each branch in windows of {:g} N·m, mean of both branches; bars: one standard error.",
+                  0.4 * c.stiffness.front().options.load_share);
   return out;
 }
 
@@ -136,7 +138,7 @@ Chart preset_chart(const study::Characterization& c) {
   out.curves.push_back(
       named(sampled(run, &BenchSample::time_s, &BenchSample::preset_command, 0, run.samples.back().time_s, run.samples.size()),
             "command", color, Curve::Style::dashed));
-  out.caption = "A step from 0 to the preset and back to 0.";
+  out.caption = "A step to the preset and back.";
   return out;
 }
 
@@ -179,6 +181,9 @@ report::Report characterization_report(const study::Characterization& c, const s
   report::Report out;
   out.title = c.actuator.title;
   out.subtitle = "Characterised as the paper's section IV does it, in simulation: " + c.actuator.name + overrides_text(c);
+  report::Section notes{"", {}};
+  for (const std::string& note : fit_notes(c)) notes.blocks.emplace_back(report::Text{note});
+  if (!notes.blocks.empty()) out.sections.push_back(std::move(notes));
   if (!c.stiffness.empty()) {
     out.sections.push_back(
         {"Stiffness", {report::Text{sweep_text(c)}, loop_chart(c), stiffness_chart(c), width_chart(c), stiffness_table(c)}});

@@ -25,8 +25,8 @@ std::string stiffness_at(const study::StiffnessResult& r, double torque_Nm) {
   const auto distance = [torque_Nm](const auto& p) { return std::abs(p.torque_Nm - torque_Nm); };
   const auto at =
       std::min_element(r.curve.begin(), r.curve.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-  constexpr double kNear_Nm = 0.026;  // half the branches' grid
-  if (at == r.curve.end() || distance(*at) > kNear_Nm) return "–";
+  const double near_Nm = 0.026 * r.options.load_share;  // half the branches' grid
+  if (at == r.curve.end() || distance(*at) > near_Nm) return "–";
   return fmt::format("{:.3g} ± {:.1g}", at->stiffness_Nm_per_rad, at->standard_error_Nm_per_rad);
 }
 
@@ -49,23 +49,42 @@ std::string range_text(double least, double most) {
   return from == to ? from : from + " … " + to;
 }
 
+/// Up to where the branches go.
+double most_Nm(const study::Characterization& c) {
+  return experiment::BranchOptions{}.max_Nm * c.stiffness.front().options.load_share;
+}
+
 /// Deflection is the difference of two readings, each short of the truth by up to a count: a branch errs by a count, a width by two.
 std::string resolution_text(const study::Characterization& c) {
   const actuator::ActuatorParams& a = c.actuator.unit.actuator;
   const int coarsest = std::min({a.side[0].encoder.bits, a.side[a.sides() - 1].encoder.bits, a.shaft_encoder.bits});
   const double count_rad = 2 * kPi / std::pow(2.0, coarsest);
   return fmt::format("The encoders resolve the loop to ±{:.4f} N·m·rad; a smaller area may be none.\n",
-                     2 * count_rad * 2 * experiment::BranchOptions{}.max_Nm);
+                     2 * count_rad * 2 * most_Nm(c));
 }
 
 }  // namespace
 
+std::vector<std::string> fit_notes(const study::Characterization& c) {
+  std::vector<std::string> out;
+  const bool loaded = !c.stiffness.empty() || c.preset_step.size() > 1;
+  if (!loaded) return out;
+  if (c.fit.load_share != 1)
+    out.push_back(
+        fmt::format("The load bench carries {:g} kg in place of 1 kg: this joint moves twice as much.", c.fit.load_share));
+  if (c.fit.softest > 0)
+    out.push_back(fmt::format("Below preset {:.3g} {} the joint is too soft for that load: its runs begin there.", c.fit.softest,
+                              c.preset_unit()));
+  return out;
+}
+
 report::Table stiffness_table(const study::Characterization& c) {
   report::Table out;
   out.title = kStiffness;
+  const double share = c.stiffness.empty() ? 1 : c.stiffness.front().options.load_share;
   out.head = head(c,
-                  {"shaft to [°]", "load to [N·m]", "δ to [rad]", "σ at 0 [N·m/rad]", "σ at 1 N·m", "loop [N·m·rad]",
-                   "mean |width|", "A [rad]"},
+                  {"shaft to [°]", "load to [N·m]", "δ to [rad]", "σ at 0 [N·m/rad]", fmt::format("σ at {:g} N·m", share),
+                   "loop [N·m·rad]", "mean |width|", "A [rad]"},
                   true);
   for (const study::StiffnessResult& r : c.stiffness) {
     Row row;
@@ -75,16 +94,17 @@ report::Table stiffness_table(const study::Characterization& c) {
     row.push_back(fmt::format("{:.3f}", r.load_Nm.most));
     row.push_back(fmt::format("{:.3f}", r.deflection_rad.most));
     row.push_back(stiffness_at(r, 0));
-    row.push_back(stiffness_at(r, 1));
+    row.push_back(stiffness_at(r, share));
     row.push_back(text(r.loop.area_Nm_rad, "{:.4f}"));
     row.push_back(text(r.loop.mean_abs_width_rad, "{:.4f}"));
     row.push_back(fmt::format("{:.4f}", r.run.amplitude_rad));
     out.rows.push_back(row);
   }
-  out.caption =
-      "Torque and deflection δ as the unit's encoders read them, mean of both branches; ± one standard error. Loop: ∫(falling − "
-      "rising) dτ over |τ| ≤ 1.4 N·m, positive where energy is lost. Mean |width|: of |falling − rising|, rad. A: amplitude of the "
-      "sweep.";
+  out.caption = fmt::format(
+      "Torque and deflection δ as the unit's encoders read them, mean of both branches; ± one standard error. Loop: "
+      "∫(falling − rising) dτ over |τ| ≤ {:g} N·m, positive where energy is lost. Mean |width|: of |falling − rising|, "
+      "rad. A: amplitude of the sweep.",
+      1.4 * share);
   return out;
 }
 
@@ -123,8 +143,9 @@ report::Table preset_step_table(const study::Characterization& c) {
   for (const study::PresetStepResult& r : c.preset_step) {
     out.rows.push_back({r.options.loaded ? "lever" : "none",
                         r.options.loaded ? fmt::format("{:.2f} … {:.2f}", r.load_Nm.least, r.load_Nm.most) : "0",
-                        fmt::format("0 → {:.4g} → 0", r.options.preset), text(r.up.final_value, "{:.4f}"),
-                        text(r.up.rise_s, "{:.3f}"), text(r.down.final_value, "{:.4f}"), text(r.down.rise_s, "{:.3f}")});
+                        fmt::format("{0:.4g} → {1:.4g} → {0:.4g}", r.options.from, r.options.preset),
+                        text(r.up.final_value, "{:.4f}"), text(r.up.rise_s, "{:.3f}"), text(r.down.final_value, "{:.4f}"),
+                        text(r.down.rise_s, "{:.3f}")});
   }
   out.caption = "Attained preset, from the pulleys; times are 10–90 % of the attained change.";
   return out;
@@ -139,6 +160,7 @@ std::string characterization_text(const study::Characterization& c) {
     out += '\n' + t.title + '\n' + table_text(rows, 0);
     if (t.title == kStiffness) out += resolution_text(c);
   }
+  for (const std::string& note : fit_notes(c)) out += '\n' + note + '\n';
   return out + '\n';
 }
 

@@ -67,8 +67,10 @@ Chart torque_deflection(const study::DataSheet& d) {
 Chart stiffness_load(const study::DataSheet& d) {
   Chart out{"Stiffness and load", "load torque [N·m]", "stiffness [N·m/rad]", {}, "", true};
   by_preset(d, out, [](Curve& curve, const PresetColumn& c) {
+    double largest = 0;
+    for (const auto& p : c.curve) largest = std::max(largest, p.stiffness_Nm_per_rad);
     for (const auto& p : c.curve) {
-      if (p.load_Nm < 0) continue;
+      if (p.load_Nm < 0 || !shown(p.stiffness_Nm_per_rad, largest)) continue;
       curve.x.push_back(p.load_Nm);
       curve.y.push_back(p.stiffness_Nm_per_rad);
     }
@@ -138,13 +140,15 @@ Chart preset_step(const study::DataSheet& d) {
   const auto& o = d.simulated.preset_step.front().options;
   Curve command = started("command", -1, Curve::Style::dotted);
   command.x = {0, o.hold_s, o.hold_s, 2 * o.hold_s};
-  command.y = {o.preset, o.preset, 0, 0};
+  command.y = {o.preset, o.preset, o.from, o.from};
   out.curves.push_back(std::move(command));
-  out.caption = "Simulated: from 0 to the preset and back.";
+  out.caption = "Simulated: to the preset and back.";
   return out;
 }
 
 }  // namespace
+
+bool shown(double stiffness, double largest) { return stiffness > 1e-3 * largest; }
 
 std::vector<report::Block> sheet_charts(const study::DataSheet& d) {
   if (!d.has_preset()) return {torque_speed(d), torque_deflection(d), step(d)};

@@ -29,7 +29,7 @@ change of stiffness are, from the benches as vsa characterize runs them. Each nu
 Examples:
   vsa datasheet qbmove_maker_pro
   vsa datasheet qbmove_maker_pro --set drive.supply_V=24 --out at_24V.html
-  vsa datasheet --all --out sheets)";
+  vsa datasheet --all --out sheets                   # index.html: the gallery; comparison.html)";
 
 /// Known before a minute's work, not after.
 void check_writable(const std::filesystem::path& file) {
@@ -86,14 +86,19 @@ int run_gallery(const DatasheetOptions& options) {
     auto done = study::run(std::move(plan), follow(console));
     console.wipe();
     if (!done) return kSignalled + interrupted();
-    report::write_report(data_sheet_report(*done, "vsa datasheet " + name + step), folder / (name + ".html"));
+    report::Report sheet = data_sheet_report(*done, "vsa datasheet " + name + step);
+    sheet.links = {{"Gallery", kGalleryFile}, {"Comparison", kComparisonFile}};
+    report::write_report(sheet, folder / sheet_file(*done));
     sheets.push_back(std::move(*done));
   }
-  report::write_report(comparison_page(sheets, "vsa datasheet --all" + step), folder / "index.html");
-  const report::Table table = comparison_table(sheets);
-  std::vector<std::vector<std::string>> rows{table.head};
-  rows.insert(rows.end(), table.rows.begin(), table.rows.end());
-  std::cout << table_text(rows, terminal_width()) << "written: " << (folder / "index.html").string() << " and a sheet of each\n";
+  report::write_report(comparison_page(sheets, "vsa datasheet --all" + step), folder / kComparisonFile);
+  report::write_report(gallery_page(sheets, "vsa datasheet --all" + step), folder / kGalleryFile);
+  for (const report::Table& table : {strength_table(sheets), stiffness_range_table(sheets), holding_table(sheets)}) {
+    std::vector<std::vector<std::string>> rows{table.head};
+    rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+    std::cout << table.title << '\n' << table_text(rows, terminal_width()) << '\n';
+  }
+  std::cout << "written: " << (folder / kGalleryFile).string() << ", " << kComparisonFile << " and a sheet of each\n";
   return std::cout.flush() ? kDone : kFailed;
 }
 
@@ -126,7 +131,7 @@ void setup_datasheet(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DatasheetOptions>();
   CLI::App* sub = app.add_subcommand("datasheet", "Write a one-page data sheet of an actuator type");
   CLI::Option* type = sub->add_option("TYPE", options->type, "Actuator type, see vsa actuators");
-  CLI::Option* all = sub->add_flag("--all", options->all, "Of every type, and a page that compares them");
+  CLI::Option* all = sub->add_flag("--all", options->all, "Of every type, with a gallery and a page that compares them");
   sub->add_option("--step-s", options->step_s, "Simulated seconds per step; default 0.001, the benches' own")
       ->check(number_given());
   CLI::Option* set = sub->add_option("--set", options->set, "Override a parameter: key=value")->allow_extra_args(false);

@@ -10,7 +10,7 @@ namespace vsa::app {
 
 struct DatasheetOptions {
   std::string type;              ///< the actuator's; empty with `all`
-  bool all = false;              ///< of every type, and a page that compares them
+  bool all = false;              ///< of every type, with a gallery and a page that compares them
   std::optional<double> step_s;  ///< of the simulated rows; none: the benches' own
   std::vector<std::string> set;  ///< "drive.friction_Nm=0.7"
   std::string out;               ///< file, with `all` a directory; empty: datasheet_TYPE.html, datasheets

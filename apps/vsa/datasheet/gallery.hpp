@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Data sheets beside each other: one table, one page.
+// Data sheets of many types: a gallery that leads to each (index.html), and a page that compares them (comparison.html).
 #pragma once
 
 #include <string>
@@ -11,13 +11,23 @@
 
 namespace vsa::app {
 
-/// A row a type, upwards by name: what a user chooses by, after Grioli et al., "Variable Stiffness Actuators: the User's Point of View"
-/// (IJRR 2015). Mass and size aren't there: no parameter tells them.
-[[nodiscard]] report::Table comparison_table(const std::vector<study::DataSheet>& sheets);
+inline constexpr const char* kGalleryFile = "index.html";
+inline constexpr const char* kComparisonFile = "comparison.html";
+/// Of a type's data sheet beside them.
+[[nodiscard]] std::string sheet_file(const study::DataSheet& d);
+
+/// A card a type: its stiffness against load from softest to stiffest, on axes that all cards share.
+[[nodiscard]] report::Report gallery_page(const std::vector<study::DataSheet>& sheets, const std::string& command);
+
+/// What a user chooses by (experiment/datasheet.hpp), a row a type in the order given.
+[[nodiscard]] report::Table strength_table(const std::vector<study::DataSheet>& sheets);
+[[nodiscard]] report::Table stiffness_range_table(const std::vector<study::DataSheet>& sheets);
+[[nodiscard]] report::Table holding_table(const std::vector<study::DataSheet>& sheets);
 [[nodiscard]] report::Report comparison_page(const std::vector<study::DataSheet>& sheets, const std::string& command);
 
-/// What full voltage's driver gives out as heat to hold the unloaded joint at a preset: Σ I² R with the currents that the springs ask for
-/// beyond what friction holds, W.
-[[nodiscard]] double holding_power_W(const device::UnitConfig& unit, double preset);
+/// "0.3 … 30"; one number where both read the same.
+[[nodiscard]] std::string span_text(double low, double high);
+/// σ at rest: at preset 0, and at the largest preset that the motors wind to.
+[[nodiscard]] std::array<double, 2> stiffness_at_rest(const study::DataSheet& d);
 
 }  // namespace vsa::app

@@ -47,14 +47,16 @@ std::string law_text(const config::ActuatorType& type) {
 std::string how_text(const study::DataSheet& d) {
   return fmt::format(
       "law: from the spring's equation; drive: from the motors' parameters at {} V; simulation: from runs on the benches, as vsa "
-      "characterize does them. Steady values at full voltage: no parameter tells what the motors may give for long, nor mass and "
-      "size.",
+      "characterize does them. Steady values at full voltage: no parameter tells what the motors may give for long, nor size.",
       number(d.computed.type.unit.actuator.supply_V));
 }
 
 }  // namespace
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
+std::string number(double value) {
+  constexpr double kRounding = 1e-12;  // what is left of a stiffness where the law gives way
+  return std::isfinite(value) ? fmt::format("{:.3g}", std::abs(value) < kRounding ? 0.0 : value) : "–";
+}
 
 report::Report data_sheet_report(const study::DataSheet& d, const std::string& command) {
   const config::ActuatorType& p = d.computed.type;

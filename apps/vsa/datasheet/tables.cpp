@@ -42,8 +42,9 @@ void add_preset_steps(const study::DataSheet& d, report::Table& out) {
   }
   for (const study::PresetStepResult& r : d.simulated.preset_step) {
     const std::string load = r.options.loaded ? fmt::format("{} N·m", number(r.run.load_peak_Nm)) : "no load";
-    out.rows.push_back({fmt::format("preset attained of {} / left of 0, {}", number(r.options.preset), load),
-                        pair(r.up.final_value, r.down.final_value), unit, kSimulation});
+    out.rows.push_back(
+        {fmt::format("preset attained of {} / left of {}, {}", number(r.options.preset), number(r.options.from), load),
+         pair(r.up.final_value, r.down.final_value), unit, kSimulation});
   }
 }
 
@@ -66,6 +67,8 @@ void add_columns(const PresetColumn& c, report::Table& out) {
   out.rows.push_back({"torque held without current", number(c.unpowered.torque_Nm), "N·m", kBoth});
   out.rows.push_back({"no-load speed", number(c.no_load_speed_rad_per_s), "rad/s", kDrive});
   out.rows.push_back({"deflection at peak torque", number(c.peak.deflection_rad), "rad", kBoth});
+  out.rows.push_back(
+      {"power / current to hold half the peak torque", pair(c.held_at_half.power_W, c.held_at_half.current_A), "W / A", kBoth});
 }
 
 }  // namespace
@@ -109,20 +112,9 @@ report::Table mechanical_table(const study::DataSheet& d) {
   add_speeds(d, out);
   add_preset_steps(d, out);
   rows.push_back({"friction of the shaft", number(s.type.unit.actuator.shaft_friction.coulomb_Nm), "N·m", kType});
+  if (s.type.mass_kg) rows.push_back({"mass", number(s.type.mass_kg->value), "kg", kType});
   if (d.has_preset()) out.caption = "At preset 0 where nothing else is said.";
   return out;
-}
-
-/// A value of each motor or encoder: once where all are alike, else one after the other, as "0.8, 0.5".
-template <class Values, class Text>
-std::string of_each(const Values& values, const Text& text) {
-  std::string all;
-  bool alike = true;
-  for (const auto& v : values) {
-    alike = alike && text(v) == text(values[0]);
-    all += (all.empty() ? "" : ", ") + text(v);
-  }
-  return alike ? text(values[0]) : all;
 }
 
 report::Table electrical_table(const study::DataSheet& d) {
@@ -182,7 +174,10 @@ report::Table preset_table(const study::DataSheet& d) {
   row("peak torque [N·m]", [](const PresetColumn& c) { return c.peak.torque_Nm; });
   row("deflection at peak torque [rad]", [](const PresetColumn& c) { return c.peak.deflection_rad; });
   row("stiffness at peak torque [N·m/rad]", [](const PresetColumn& c) { return c.peak.stiffness_Nm_per_rad; });
+  row("stiffness at half of it [N·m/rad]", [](const PresetColumn& c) { return c.stiffness_at_half_Nm_per_rad; });
   row("torque held without current [N·m]", [](const PresetColumn& c) { return c.unpowered.torque_Nm; });
+  row("power to hold it at rest [W]", [](const PresetColumn& c) { return c.held_at_rest.power_W; });
+  row("power to hold half the peak torque [W]", [](const PresetColumn& c) { return c.held_at_half.power_W; });
   row("no-load speed [rad/s]", [](const PresetColumn& c) { return c.no_load_speed_rad_per_s; });
   row("peak output power [W]", [](const PresetColumn& c) { return c.power.power_W; });
   row("elastic energy without load [J]", [](const PresetColumn& c) { return c.energy_at_rest_J; });

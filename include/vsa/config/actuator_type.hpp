@@ -7,6 +7,7 @@
 //   title = "qbmove maker pro (paper, Table I)"
 //   rank = "published"                  optional: measured, published or symbolic
 //   base = "sea_example"                optional: a type that has all that this file hasn't
+//   mass_kg = { value = 0.45, unit = "kg", source = "leaflet" }      optional, of the whole actuator; not the base's
 //   [elastic]
 //   law = "two_sinh"
 //   k1_Nm = { value = 0.022, unit = "N·m", bounds = [1e-6, 10.0], source = "Table I" }
@@ -34,6 +35,7 @@
 
 #include "vsa/config/evidence.hpp"
 #include "vsa/config/schema.hpp"
+#include "vsa/config/stated.hpp"
 #include "vsa/device/unit.hpp"
 #include "vsa/elastic/law.hpp"
 #include "vsa/errors.hpp"
@@ -63,6 +65,7 @@ struct ActuatorType {
   std::string rank;        ///< on what its numbers stand: "measured", "published", "symbolic"; empty: its file doesn't say
   std::string base;        ///< the type that it differs from; empty: it is whole
   std::optional<Evidence> evidence;  ///< none: the type doesn't say
+  std::optional<Stated> mass_kg;     ///< of the whole actuator; none: the type doesn't say, and no base does it for it
   std::vector<Entry> entries;
   std::vector<std::string> notices;  ///< old spellings in its file
   std::vector<std::string> remarks;  ///< what its law says of what it was made of

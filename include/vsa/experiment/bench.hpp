@@ -82,6 +82,7 @@ struct StiffnessOptions {
   double lead_in_cycles = 1;            ///< simulated and left out of the samples
   double cycles = 4;                    ///< in the samples
   double sample_s = 0.01;
+  double load_share = 1;  ///< of the bench's mass: for those that can't carry a qbmove's load, or hardly notice it
 };
 /// M g r of the load bench with this specimen on it, N·m.
 [[nodiscard]] double bench_load_peak_Nm(const Specimen& specimen);
@@ -110,13 +111,15 @@ struct SpeedOptions {
 [[nodiscard]] BenchRun run_speed(const Specimen& specimen, const SpeedOptions& options, Watch* watch = nullptr);
 
 struct PresetStepOptions {
-  double preset = 0.75;  ///< 0 → preset at time 0, → 0 after hold_s
+  double preset = 0.75;  ///< from → preset at time 0, → from after hold_s
+  double from = 0;       ///< above 0 where the softest joint doesn't carry the lever
   bool loaded = false;   ///< the lever held out so that the shaft carries about M g r all the time, see run_preset_step()
   double hold_s = 2.0;
   double sample_s = 0.001;
+  double load_share = 1;  ///< as StiffnessOptions has it
 };
-/// Loaded: while the preset steps the equilibrium stays, so that the lever rises by about δ(0) − δ(preset), the law's deflections
-/// under M g r. At preset 0 it is lifted to 90° less half of that and so ends as far beyond: the load stays within a few percent of
+/// Loaded: while the preset steps the equilibrium stays, so that the lever rises by about δ(from) − δ(preset), the law's deflections
+/// under M g r. At preset `from` it is lifted to 90° less half of that and so ends as far beyond: the load stays within a few percent of
 /// M g r. Where the unit can't lift it so far, a notice tells.
 [[nodiscard]] BenchRun run_preset_step(const Specimen& specimen, const PresetStepOptions& options, Watch* watch = nullptr);
 

@@ -1,18 +1,22 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The computed numbers of a data sheet, in the spirit of Grioli et al., "Variable Stiffness Actuators: the User's Point of View"
-// (IJRR 2015): what law and drive alone tell (workspace.hpp). How long a change of stiffness takes and how fast a step is are
-// simulated (bench.hpp).
+// The computed numbers of a data sheet, after Grioli and others, "Variable Stiffness Actuators: the User's Point of View" (IJRR 2015),
+// and Wolf and others, "Variable Stiffness Actuators: Review on Design and Components" (IEEE/ASME T-Mech 2016): what law and drive
+// alone tell (workspace.hpp). How long a change of stiffness takes and how fast a step is are simulated (bench.hpp).
 //
-// Not here, because no parameter tells it: mass, size, and what the motors may give for long (heat).
+// Not here, because no parameter tells it: size, and what the motors may give for long (heat). A mass is what the type's file states.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "vsa/config/actuator_type.hpp"
 #include "vsa/experiment/workspace.hpp"
 
 namespace vsa::experiment {
+
+/// Of the attainable preset; all of it leaves no torque for a load.
+inline constexpr std::array kPresetShares{0.0, 0.25, 0.5, 0.75, 0.9};
 
 /// The actuator at one attained preset, computed.
 struct PresetColumn {
@@ -24,6 +28,9 @@ struct PresetColumn {
   double no_load_speed_rad_per_s = 0;
   BestPower power;
   double energy_at_rest_J = 0;
+  double half_load_Nm = 0;  ///< half of what it moves at its peak
+  double stiffness_at_half_Nm_per_rad = 0;
+  Holding held_at_rest, held_at_half;
   std::vector<WorkspacePoint> boundary;
   std::vector<LawPoint> curve;
 };
@@ -40,7 +47,7 @@ struct DataSheet {
   std::array<LoopErrors, 2> errors;
   double attainable_preset = 0;
   double stiffest_Nm_per_rad = 0;     ///< at rest with that preset
-  std::vector<PresetColumn> columns;  ///< from 0 to 90 % of the attainable preset; one for a law without
+  std::vector<PresetColumn> columns;  ///< kPresetShares of the attainable preset; one for a law without
   double most_energy_J = 0;           ///< over all reachable presets and loads
 };
 

@@ -20,6 +20,9 @@
 //
 // Torque at the shaft: τ(q₀ − d) − τ_shaft; stiffness: σ there. At the largest p the motors hold each other: pretension costs
 // torque. Holding (ω = 0, friction helps): (1 − λ_b)|M_i| ≤ K_τ V/R + τ_c, without voltage ≤ τ_c, and the shaft's friction adds.
+// What friction doesn't hold costs current, and the windings turn it into heat:
+//
+//   I_i = max(0, (1 − λ_b)|M_i| − τ_c)/K_τ,    P = Σ R I_i²
 //
 // Valid for rotary inputs and steady motion: no heat, no inertia, no controller error (the attained preset, not the commanded one).
 // Friction along the springs (tendon.*) changes the deflection at which a torque passes, not the torque that the motors can pass.
@@ -42,7 +45,8 @@ struct MotorLine {
   double stall_current_A = 0;   ///< V/R, or the servo's limit
   double friction_Nm = 0;       ///< τ_c
   double back_Nms_per_rad = 0;  ///< K_τ K_b/R + b
-  double full_Nm = 0;           ///< K_τ V/R whatever limits the current
+  double torque_constant_Nm_per_A = 0, resistance_Ohm = 0;    ///< K_τ; R in the way of V
+  double full_Nm = 0;                                         ///< K_τ V/R whatever limits the current
   double limit_Nm = std::numeric_limits<double>::infinity();  ///< K_τ I_max of a servo
   double viscous_Nms_per_rad = 0;                             ///< b
   double load_loss = 0;                                       ///< λ
@@ -94,6 +98,12 @@ struct BestPower {
 };
 [[nodiscard]] BestPower best_power(const std::vector<WorkspacePoint>& boundary);
 
+/// What a place at standstill costs. NaN where full voltage doesn't hold it, or the law doesn't.
+struct Holding {
+  double current_A = 0;  ///< Σ I_i
+  double power_W = 0;    ///< P
+};
+
 /// The law under an external load at a preset, pulleys held: what a torque–deflection curve shows.
 struct LawPoint {
   double deflection_rad = 0, load_Nm = 0, stiffness_Nm_per_rad = 0;
@@ -120,11 +130,14 @@ class Workspace {
   [[nodiscard]] double energy_at_rest(double preset) const;
   /// σ with the pulleys held under an external load; NaN beyond what the motors move.
   [[nodiscard]] double stiffness_under(double preset, double load_Nm) const;
+  /// With the shaft under an external load, its own friction left out.
+  [[nodiscard]] Holding holding(double preset, double load_Nm = 0) const;
 
  private:
   [[nodiscard]] elastic::Response at(double preset, double lag_rad, int direction) const;
   [[nodiscard]] bool carries(const elastic::Response& r, const std::array<double, 2>& rates, double speed, Task task) const;
   [[nodiscard]] bool winds(double preset) const;
+  [[nodiscard]] std::optional<double> lag_under(double preset, double load_Nm, Task task) const;
 
   device::UnitConfig unit_;
   std::array<MotorLine, 2> lines_;

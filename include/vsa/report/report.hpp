@@ -5,7 +5,9 @@
 // came from a user's file is data to the page, never markup.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,6 +33,8 @@ struct Chart {
   std::string caption;
   bool y_log = false;
   bool x_log = false;  ///< as y_log: what isn't positive isn't drawn
+  std::optional<std::array<double, 2>> x_range{},
+      y_range{};  ///< so that charts beside each other have equal axes; none: by the curves
 };
 
 struct Table {
@@ -38,6 +42,7 @@ struct Table {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;
   std::string caption;
+  std::vector<std::string> links{};  ///< empty, or one a row: the file beside this page that its first cell leads to
 };
 
 struct Text {
@@ -53,7 +58,33 @@ struct Figures {
   std::vector<Figure> figures;
 };
 
-using Block = std::variant<Text, Table, Chart, Figures>;
+/// Horizontal bars from 0, one a row, in the order given: for few numbers of many things.
+struct Bars {
+  struct Bar {
+    std::string label;
+    double value = 0;  ///< not finite, or below 0: no bar
+    std::string text;  ///< what stands at its end: "4.2 m"
+    std::string note;
+    std::string link;  ///< as Table's
+  };
+  std::string title;
+  std::vector<Bar> bars;
+  std::string caption;
+};
+
+/// A gallery: a card each with a small picture, all with the same logarithmic axes, and a few numbers; it leads to a page of its own.
+struct Cards {
+  struct Card {
+    std::string title, subtitle, tag, link;
+    std::vector<double> x, low, high;                 ///< the picture: from `low` to `high` over x; equal ones are a line
+    std::vector<std::array<std::string, 2>> figures;  ///< label, value with its unit
+  };
+  std::string x_label, y_label;
+  std::vector<Card> cards;
+  std::string caption;
+};
+
+using Block = std::variant<Text, Table, Chart, Figures, Bars, Cards>;
 
 struct Section {
   std::string title;
@@ -63,8 +94,9 @@ struct Section {
 struct Report {
   std::string title, subtitle;
   std::vector<Section> sections;
-  std::string footer;     ///< the command that made it, versions
-  bool one_page = false;  ///< a data sheet: laid out to print on one A4 page
+  std::string footer;                               ///< the command that made it, versions
+  bool one_page = false;                            ///< a data sheet: laid out to print on one A4 page
+  std::vector<std::array<std::string, 2>> links{};  ///< other pages beside this one: text, file
 };
 
 /// The page's data. Throws std::invalid_argument where a curve's x, y and error differ in length.

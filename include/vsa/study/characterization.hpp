@@ -14,6 +14,7 @@
 
 #include "vsa/experiment/bench.hpp"
 #include "vsa/experiment/measures.hpp"
+#include "vsa/study/bench_fit.hpp"
 #include "vsa/study/progress.hpp"
 
 namespace vsa::study {
@@ -30,8 +31,8 @@ enum class Experiment {
 struct CharacterizationOptions {
   experiment::Specimen specimen;
   std::vector<Experiment> experiments;  ///< empty: all that the actuator has
-  std::vector<double> preset;           ///< in the law's unit; a preset step takes the largest. Empty: the paper's
-  std::optional<double> period_s;       ///< of the stiffness sweep, 1 … 3600; none: 38
+  std::vector<double> preset;      ///< in the law's unit; a preset step takes the largest. Empty: the paper's, see bench_fit.hpp
+  std::optional<double> period_s;  ///< of the stiffness sweep, 1 … 3600; none: 38
   std::optional<double> amplitude_rad;  ///< of the stiffness sweep, 0.01 … 3; none: by the rule in experiment/bench.hpp
   std::optional<int> cycles;            ///< of the stiffness sweep after the first, 1 … 1000; none: 4
 };
@@ -74,6 +75,7 @@ struct PresetStepResult {
 struct Characterization {
   experiment::Specimen specimen;
   config::ActuatorType actuator;
+  BenchFit fit;  ///< what of the benches it can bear
   std::vector<StiffnessResult> stiffness;
   std::vector<SpeedResult> speed;
   std::vector<PresetStepResult> preset_step;

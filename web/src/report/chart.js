@@ -152,6 +152,16 @@ export class Chart {
     Plotly.react(this.plot, traces, this.layout(), { displayModeBar: false, responsive: false });
   }
 
+  /** Logarithmic or not, over the range that was given or what the curves need. */
+  scale(name) {
+    const log = this.data[`${name}_log`];
+    const range = this.data[`${name}_range`];
+    return {
+      ...(log ? logTicks(range ?? this.data.curves.flatMap((c) => c[name])) : {}),
+      ...(range ? { range: log ? range.map(Math.log10) : range } : {}),
+    };
+  }
+
   layout() {
     const { clientWidth: width, clientHeight: height } = this.plot;
     const small = document.documentElement.classList.contains('sheet');
@@ -174,8 +184,8 @@ export class Chart {
       paper_bgcolor: 'transparent',
       plot_bgcolor: 'transparent',
       font: { family: getComputedStyle(document.body).fontFamily, size },
-      xaxis: { ...axis, ...titled(this.data.x_label), nticks: 8, ...(this.data.x_log ? logTicks(this.data.curves.flatMap((c) => c.x)) : {}) },
-      yaxis: { ...axis, ...titled(this.data.y_label), nticks: 7, ...(this.data.y_log ? logTicks(this.data.curves.flatMap((c) => c.y)) : {}) },
+      xaxis: { ...axis, ...titled(this.data.x_label), nticks: 8, ...this.scale('x') },
+      yaxis: { ...axis, ...titled(this.data.y_label), nticks: 7, ...this.scale('y') },
     };
   }
 }

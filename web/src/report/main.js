@@ -4,9 +4,10 @@
 // they hold goes into text nodes.
 import { element } from '../marks.js';
 import { dark } from '../palette.js';
+import { cardsOf } from './cards.js';
 import { Chart } from './chart.js';
 import { keepFitting } from './paper.js';
-import { figuresOf, tableOf, textOf } from './parts.js';
+import { barsOf, figuresOf, linkTo, tableOf, textOf } from './parts.js';
 
 const kContentsFrom = 3; // sections that are worth a table of contents
 
@@ -19,7 +20,7 @@ function blockOf(block) {
     charts.push(new Chart(block));
     return charts[charts.length - 1].figure;
   }
-  return { text: textOf, table: tableOf, figures: figuresOf }[block.kind](block);
+  return { text: textOf, table: tableOf, figures: figuresOf, bars: barsOf, cards: cardsOf }[block.kind](block);
 }
 
 /** Blocks of one kind that follow each other stand in one grid: charts and a sheet's tables side by side where there is room. */
@@ -64,6 +65,10 @@ for (const place of ['title', 'subtitle', 'footer']) {
   e.textContent = report[place];
   e.hidden = !report[place];
 }
+const beside = document.getElementById('beside');
+const pages = report.links ?? [];
+beside.hidden = !pages.length;
+beside.append(...pages.map(([text, file]) => linkTo(file, text)));
 document.getElementById('sections').append(...report.sections.map(sectionOf));
 writeContents();
 const prepare = () => charts.forEach((chart) => chart.drawKeys());

@@ -1,7 +1,14 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// What a report has beside charts: paragraphs, tables, numbers that stand out.
+// What a report has beside charts: paragraphs, tables, numbers that stand out, bars.
 import { element } from '../marks.js';
+
+/** To a file beside this page; nowhere else. */
+export function linkTo(file, text) {
+  const link = element('a', '', text);
+  link.href = `./${encodeURIComponent(file)}`;
+  return link;
+}
 
 export const textOf = ({ text }) => element('p', 'text', text);
 
@@ -9,7 +16,7 @@ export const textOf = ({ text }) => element('p', 'text', text);
 const isNumber = (cell) => cell.split(/[±…/]/).every((part) => /^([+−-]?[\d.]+(e[+−-]?\d+)?|–|)$/i.test(part.trim()));
 
 /** Columns that hold numbers (or nothing: a dash) are set to the right; the first column heads its row. */
-export function tableOf({ title, head, rows, caption }) {
+export function tableOf({ title, head, rows, caption, links = [] }) {
   const columns = Math.max(head.length, ...rows.map((r) => r.length));
   const numeric = Array.from({ length: columns }, (_, c) => {
     const cells = rows.map((r) => r[c] ?? '').filter((t) => !/^[-–—]?$/.test(t.trim()));
@@ -30,11 +37,12 @@ export function tableOf({ title, head, rows, caption }) {
     table.append(thead);
   }
   const body = element('tbody');
-  for (const cells of rows) {
+  rows.forEach((cells, r) => {
     const row = element('tr');
     row.append(...cells.map((text, c) => cellOf(c === 0 ? 'th' : 'td', text, c, c === 0 ? 'row' : null)));
+    if (links[r]) row.firstChild.replaceChildren(linkTo(links[r], row.firstChild.textContent));
     body.append(row);
-  }
+  });
   table.append(body);
   const scroll = element('div', 'scroll');
   scroll.append(table);
@@ -65,4 +73,27 @@ export function figuresOf({ figures }) {
     list.append(tile);
   }
   return list;
+}
+
+/** As long as their numbers, from one zero on. */
+export function barsOf({ title, bars, caption }) {
+  const most = Math.max(...bars.map((b) => b.value ?? 0), 0);
+  const card = element('div', 'card bars');
+  card.append(element('h3', '', title));
+  const list = element('dl');
+  for (const { label, value, text, note, link } of bars) {
+    const name = element('dt');
+    name.append(link ? linkTo(link, label) : label);
+    const track = element('dd', 'track');
+    const bar = element('span', 'bar');
+    bar.style.setProperty('--share', most > 0 && value > 0 ? value / most : 0);
+    bar.setAttribute('aria-hidden', 'true');
+    track.append(bar);
+    const end = element('dd');
+    end.append(element('b', '', text), element('span', 'note', note));
+    list.append(name, track, end);
+  }
+  card.append(list);
+  if (caption) card.append(element('p', 'caption', caption));
+  return card;
 }

@@ -1,0 +1,17 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace vsa::config {
+
+/// What a type's file tells about the device though no model needs it.
+///
+///   [type]
+///   mass_kg = { value = 0.45, unit = "kg", source = "maker's leaflet" }
+struct Stated {
+  double value = 0;
+  std::string source;
+};
+
+}  // namespace vsa::config
