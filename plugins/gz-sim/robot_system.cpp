@@ -80,7 +80,7 @@ void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManage
 
 void SimRobot::step(std::int64_t time_ns, sim::EntityComponentManager& ecm) {
   if (steps_ <= kPhysicsSteps && steps_++ == kPhysicsSteps && !any_filled<components::JointPosition>(joints_, ecm))
-    VSA_ERROR << "vsa::Robot: " << name_ << kNoPhysics << std::endl;
+    VSA_ERROR << "vsa::Robot: " << name_ + kNoPhysics << std::endl;  // in one piece: colours go around each
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     seat_->in()[i].angle_rad = first_number<components::JointPosition>(joints_[i], ecm);
     seat_->in()[i].speed_rad_per_s = first_number<components::JointVelocity>(joints_[i], ecm);

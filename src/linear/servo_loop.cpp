@@ -25,7 +25,7 @@ class Writer {
         plant_(plant),
         sampled_(sampled),
         n_(states),
-        y_(2 + plant.motors * plant.states_a_motor()),
+        y_(plant.states()),
         r_(inputs) {
     next_ = MatrixXd::Zero(n_, n_ + y_ + r_);
     volts_ = MatrixXd::Zero(plant.motors, n_ + y_ + r_);
@@ -144,7 +144,7 @@ ServoLoop servo_loop(const device::UnitConfig& unit, const Plant& plant, double 
 }
 
 PlacedServo alone(ServoLoop loop, const Plant& plant) {
-  PlacedServo out{std::move(loop), std::vector<Index>(static_cast<std::size_t>(2 + plant.motors * plant.states_a_motor())), 1, ""};
+  PlacedServo out{std::move(loop), std::vector<Index>(static_cast<std::size_t>(plant.states())), 1, ""};
   std::iota(out.states.begin(), out.states.end(), Index{0});
   return out;
 }
