@@ -82,7 +82,7 @@ TEST(Identify, FindsTheSpringOfAJointThatWasSweptWithALighterLever) {
   const auto found = [&](const std::string& mass) {
     return identify(
         {"--type", "maccepa_example", "--set", "elastic.spring_N_per_m=400", "--parameters", "elastic.spring_N_per_m", "--period-s",
-         "8", "--load-kg", mass, "--no-global", "--starts", "1", "--iterations", "5", "--out", scratch / "found"},
+         "8", "--load-kg", mass, "--no-global", "--starts", "1", "--iterations", "5", "--out", scratch / ("found_" + mass)},
         scratch / "swept/stiffness_preset_1.0000rad.csv");
   };
   expect_refused(found("1"), "doesn't carry it");
