@@ -161,12 +161,13 @@ double sweep_target_rad(double preset, std::string_view preset_unit) {
 
 double bench_load_peak_Nm(const Specimen& specimen) { return Bench(specimen, kLoadBench, nullptr).load_peak_Nm(); }
 
-SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s) {
+SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s, double load_share) {
   StiffnessOptions options;
   options.preset = preset;
   options.period_s = period_s;
+  options.load_share = load_share;
   check(specimen, options);
-  Bench bench(specimen, kLoadBench, nullptr);
+  Bench bench(specimen, kLoadBench, nullptr, load_share);
   return amplitude_on(bench, preset, period_s);
 }
 

@@ -45,6 +45,7 @@ experiment::LoadRecording run(const experiment::Specimen& specimen, double prese
   options.lead_in_cycles = 0;
   options.cycles = sweep.cycles;
   options.sample_s = sweep.sample_s;
+  options.load_share = sweep.load_share;
   return experiment::as_recording(experiment::run_stiffness(specimen, options, watch), preset);
 }
 
@@ -72,7 +73,10 @@ experiment::BranchOptions grid_of(const experiment::Branches& data) {
 class Surrogate {
  public:
   Surrogate(const Task& task, const experiment::Specimen& specimen, const SweepOptions& sweep, experiment::Watch* watch)
-      : specimen_(specimen), parameters_(task.parameters), watch_(watch), load_peak_Nm_(experiment::bench_load_peak_Nm(specimen)) {
+      : specimen_(specimen),
+        parameters_(task.parameters),
+        watch_(watch),
+        load_peak_Nm_(sweep.load_share * experiment::bench_load_peak_Nm(specimen)) {
     const device::UnitConfig unit = specimen.library.load(specimen.type, specimen.overrides).unit;
     const std::string_view preset_unit = unit.actuator.transmission->preset_unit();
     for (const Observation& o : task.observations) {
@@ -178,7 +182,7 @@ void use_bench(Task& task, const experiment::Specimen& specimen, const SweepOpti
     std::vector<double> found(presets.size());
     const experiment::Specimen unit = shared->with(values);
     experiment::run_in_parallel(presets.size(), threads, [&](std::size_t i) {
-      found[i] = experiment::sweep_amplitude(unit, presets[i], shared->sweep.period_s).amplitude_rad;
+      found[i] = experiment::sweep_amplitude(unit, presets[i], shared->sweep.period_s, shared->sweep.load_share).amplitude_rad;
     });
     for (std::size_t i = 0; i < presets.size(); ++i) shared->amplitude_rad[presets[i]] = found[i];
   };

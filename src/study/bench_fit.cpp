@@ -64,22 +64,23 @@ struct Searched {
 
 }  // namespace
 
-BenchFit fit_bench(const experiment::Specimen& specimen, const config::ActuatorType& type) {
+BenchFit fit_bench(const experiment::Specimen& specimen, const config::ActuatorType& type, std::optional<double> load_share) {
   const elastic::Transmission& law = *type.unit.actuator.transmission;
   const experiment::Workspace workspace(type.unit);
   const double load = experiment::bench_load_peak_Nm(specimen);
   BenchFit fit;
+  fit.load_share = load_share.value_or(1.0);
   fit.papers_law = type.law.rfind("two_sinh", 0) == 0;
   if (fit.papers_law) {
     fit.full = fit.stiffest = std::min(kPaperPreset, type.unit.preset_max);
-    fit.carries = law_carries(law, 0, load);
+    fit.carries = law_carries(law, 0, fit.load_share * load);
     return fit;
   }
   const Searched searched{workspace, law, workspace.attainable_preset()};
   fit.full = fit.stiffest = searched.full;
   const double most = searched.peak_Nm() / (kReserve * load);
   if (!(most > 0)) return fit;
-  for (const double share : {std::max(1.0, round_down(most)), round_down(most)}) {
+  for (const double share : {load_share.value_or(std::max(1.0, round_down(most))), load_share.value_or(round_down(most))}) {
     const auto softest = searched.first(share * load);
     if (!softest) continue;
     fit.carries = true;

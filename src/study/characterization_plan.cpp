@@ -40,7 +40,7 @@ class Planner {
           "stiffness, speed");
     }
     problems_.throw_if_any();
-    plan_.fit = fit_bench(plan_.specimen, plan_.actuator);
+    plan_.fit = fit_bench(plan_.specimen, plan_.actuator, options_.load_kg);  // of 1 kg
     check_carried();
     problems_.throw_if_any();
     if (wants(Experiment::stiffness)) add_stiffness();
@@ -98,6 +98,7 @@ class Planner {
     require(options_.period_s, "--period-s", 1, 3600, "s");
     require(options_.amplitude_rad, "--amplitude-rad", 0.01, 3, "rad");
     require(options_.cycles, "--cycles", 1, 1000, "cycles");
+    require(options_.load_kg, "--load-kg", 1e-3, 1e3, "kg");
   }
 
   /// A sweep finds its amplitude by what the law carries.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 
 #include "pool_runs.hpp"
@@ -61,6 +62,7 @@ TEST(Identify, RefusesPresetsRecordingsAndNumbersThatArentFine) {
   expect_refused(with({"--period-s", "0"}), "--period-s");
   expect_refused(with({"--period-s", "nan"}), "--period-s");
   expect_refused(with({"--cycles", "1"}), "1.5");
+  expect_refused(with({"--load-kg", "0"}), "--load-kg");
   expect_refused(with({"--starts", "0"}), "--starts");
   expect_refused(with({"--weights", "none"}), "--weights");
   expect_refused(with({"--name", "../x"}), "--name");
@@ -69,6 +71,28 @@ TEST(Identify, RefusesPresetsRecordingsAndNumbersThatArentFine) {
   expect_refused(with({"--part", "3/2"}), "--part");
   expect_refused(with({"--threads", "-1"}), "--threads");
   expect_refused(with({"--retry-failed"}), "--resume");
+}
+
+TEST(Identify, FindsTheSpringOfAJointThatWasSweptWithALighterLever) {
+  const Scratch scratch;
+  const Result swept = run_vsa({"characterize", "maccepa_example", "--experiment", "stiffness", "--preset-rad", "1", "--period-s",
+                                "8", "--cycles", "1", "--out", scratch / "swept"});
+  ASSERT_EQ(swept.exit_code, 0) << swept.err;
+  EXPECT_NE(swept.out.find("carries 0.1 kg"), std::string::npos) << swept.out;
+  const auto found = [&](const std::string& mass) {
+    return identify(
+        {"--type", "maccepa_example", "--set", "elastic.spring_N_per_m=400", "--parameters", "elastic.spring_N_per_m", "--period-s",
+         "8", "--load-kg", mass, "--no-global", "--starts", "1", "--iterations", "5", "--out", scratch / ("found_" + mass)},
+        scratch / "swept/stiffness_preset_1.0000rad.csv");
+  };
+  expect_refused(found("1"), "doesn't carry it");
+  const Result right = found("0.1");
+  ASSERT_EQ(right.exit_code, 0) << right.err;
+  const std::size_t at = right.out.find("N/m  ");
+  ASSERT_NE(at, std::string::npos) << right.out;
+  double before = 0, estimate = 0;
+  ASSERT_EQ(std::sscanf(right.out.c_str() + at, "N/m %lf %lf", &before, &estimate), 2) << right.out;
+  EXPECT_NEAR(estimate, 323, 5) << "the type's own";
 }
 
 TEST(Identify, RefusesBadRecordingsAllAtOnceAndWritesNothing) {

@@ -80,6 +80,20 @@ TEST(BenchFit, GivesTheCableOfAMaccepaALighterLeverSinceNoPresetCarriesTheShippe
   EXPECT_GT(experiment::Workspace(plan.actuator.unit).reach(plan.fit.full, 0).torque_Nm, 2 * plan.fit.load_share * load);
 }
 
+TEST(BenchFit, TakesTheMassThatItIsGiven) {
+  for (const char* type : {"sea_example", "qbmove_maker_pro"}) {
+    CharacterizationOptions options;
+    options.specimen = specimen(type);
+    options.experiments = {Experiment::stiffness};
+    options.load_kg = 0.5;
+    options.period_s = 6;
+    options.cycles = 1;
+    const Characterization c = run(plan_characterization(options)).value();
+    EXPECT_NEAR(c.stiffness.front().run.load_peak_Nm, 0.5 * experiment::bench_load_peak_Nm(options.specimen), 1e-9);
+    EXPECT_NEAR(c.stiffness.front().load_Nm.most, c.stiffness.front().run.load_peak_Nm, 0.02);
+  }
+}
+
 TEST(BenchFit, BeginsAtTheFirstPresetThatCarriesTheLever) {
   CharacterizationOptions options;
   options.specimen = specimen("maccepa_example");

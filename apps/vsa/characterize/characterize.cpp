@@ -48,6 +48,7 @@ study::CharacterizationOptions study_of(const CharacterizeOptions& o) {
   out.period_s = o.period_s;
   out.amplitude_rad = o.amplitude_rad;
   out.cycles = o.cycles;
+  out.load_kg = o.load_kg;
   return out;
 }
 
@@ -59,6 +60,7 @@ std::string command_of(const CharacterizeOptions& o) {
   if (o.period_s) out += fmt::format(" --period-s {}", *o.period_s);
   if (o.amplitude_rad) out += fmt::format(" --amplitude-rad {}", *o.amplitude_rad);
   if (o.cycles) out += fmt::format(" --cycles {}", *o.cycles);
+  if (o.load_kg) out += fmt::format(" --load-kg {}", *o.load_kg);
   if (o.step_s) out += fmt::format(" --step-s {}", *o.step_s);
   for (const auto& s : o.set) out += " --set " + s;
   return out;
@@ -113,6 +115,8 @@ void setup_characterize(CLI::App& app, int& exit_code) {
                   "Amplitude of the stiffness sweep; default: the shaft reaches 94° at preset 0, 81° at 0.6903 rad")
       ->check(number_given());
   sub->add_option("--cycles", options->cycles, "Cycles of the stiffness sweep after the first, which is left out; default 4")
+      ->check(number_given());
+  sub->add_option("--load-kg", options->load_kg, "Mass on the load bench's lever; default: 1, or what the joint carries")
       ->check(number_given());
   sub->add_option("--step-s", options->step_s, "Simulated seconds per step; default 0.001, the benches' own")
       ->check(number_given());

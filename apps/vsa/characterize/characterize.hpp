@@ -14,10 +14,11 @@ struct CharacterizeOptions {
   std::vector<double> preset_rad;        ///< empty: the paper's
   std::optional<double> period_s;        ///< of the stiffness sweep
   std::optional<double> amplitude_rad;   ///< of the stiffness sweep; none: by the rule in experiment/bench.hpp
-  std::optional<int> cycles;             ///< of the stiffness sweep, after the first
-  std::optional<double> step_s;          ///< of the simulation; none: the benches' own
-  std::vector<std::string> set;          ///< "drive.friction_Nm=0.7"
-  std::string out;                       ///< directory; empty: characterize_TYPE
+  std::optional<double> load_kg;
+  std::optional<int> cycles;     ///< of the stiffness sweep, after the first
+  std::optional<double> step_s;  ///< of the simulation; none: the benches' own
+  std::vector<std::string> set;  ///< "drive.friction_Nm=0.7"
+  std::string out;               ///< directory; empty: characterize_TYPE
 };
 
 /// `vsa characterize TYPE`. Sets the exit code when it was the subcommand.

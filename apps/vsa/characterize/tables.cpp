@@ -69,9 +69,7 @@ std::vector<std::string> fit_notes(const study::Characterization& c) {
   std::vector<std::string> out;
   const bool loaded = !c.stiffness.empty() || c.preset_step.size() > 1;
   if (!loaded) return out;
-  if (c.fit.load_share != 1)
-    out.push_back(
-        fmt::format("The load bench carries {:g} kg in place of 1 kg: this joint moves twice as much.", c.fit.load_share));
+  if (c.fit.load_share != 1) out.push_back(fmt::format("The load bench carries {:g} kg in place of 1 kg.", c.fit.load_share));
   if (c.fit.softest > 0)
     out.push_back(fmt::format("Below preset {:.3g} {} the joint is too soft for that load: its runs begin there.", c.fit.softest,
                               c.preset_unit()));

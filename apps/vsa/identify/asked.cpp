@@ -52,6 +52,7 @@ void check_numbers(const IdentifyOptions& o) {
   };
   require(o.period_s, "--period-s", 1, 3600, "s");
   if (o.amplitude_rad) require(*o.amplitude_rad, "--amplitude-rad", 0.01, 3, "rad");
+  require(o.load_kg, "--load-kg", 1e-3, 1e3, "kg");
   require(o.cycles, "--cycles", 1.5, 100, "cycles");
   require(o.starts, "--starts", 1, 100, "starts");
   require(o.seed, "--seed", 0, 1e9, "");
@@ -106,6 +107,7 @@ Asked::Asked(const IdentifyOptions& options) : options_(options) {
   sweep_.period_s = options.period_s;
   sweep_.amplitude_rad = options.amplitude_rad;
   sweep_.cycles = options.cycles;
+  sweep_.load_share = options.load_kg;  // of 1 kg
   bare_ = read_task(options, type_);
   (void)task(1, nullptr);  // what the bench can't do with these recordings is told here
 }
@@ -150,6 +152,7 @@ std::string Asked::command() const {
   if (o.name != usual.name) out += " --name " + o.name;
   if (o.period_s != usual.period_s) out += fmt::format(" --period-s {}", o.period_s);
   if (o.amplitude_rad) out += fmt::format(" --amplitude-rad {}", *o.amplitude_rad);
+  if (o.load_kg != usual.load_kg) out += fmt::format(" --load-kg {}", o.load_kg);
   if (o.cycles != usual.cycles) out += fmt::format(" --cycles {}", o.cycles);
   if (o.starts != usual.starts) out += fmt::format(" --starts {}", o.starts);
   if (o.seed != usual.seed) out += fmt::format(" --seed {}", o.seed);

@@ -71,6 +71,7 @@ std::function<void()> add_identify_options(CLI::App& to, const std::shared_ptr<I
   sub->add_option("--amplitude-rad", o->amplitude_rad,
                   "Amplitude of the sweep; default: the shaft reaches 94° at preset 0, 81° at 0.6903 rad")
       ->check(number_given());
+  sub->add_option("--load-kg", o->load_kg, "Mass on the bench's lever")->check(number_given())->capture_default_str();
   sub->add_option("--cycles", o->cycles, "Cycles to simulate; the first half is left out")
       ->check(number_given())
       ->capture_default_str();

@@ -20,6 +20,7 @@ struct IdentifyOptions {
   std::string name = "identified";      ///< of the type that is written: NAME.toml
   double period_s = 38;                 ///< of the sweep, of all recordings
   std::optional<double> amplitude_rad;  ///< of the sweep; none: by the rule in experiment/bench.hpp
+  double load_kg = 1;                   ///< on the bench's lever
   double cycles = 1.5;                  ///< simulated; the first half is left out
   int starts = 3;
   int seed = 1;  ///< of the global search and of the bootstrap

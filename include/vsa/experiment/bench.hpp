@@ -96,7 +96,7 @@ struct SweepAmplitude {
 };
 /// That angle of the shaft, rad; `preset_unit` is the law's, "" where it has no preset.
 [[nodiscard]] double sweep_target_rad(double preset, std::string_view preset_unit);
-[[nodiscard]] SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s);
+[[nodiscard]] SweepAmplitude sweep_amplitude(const Specimen& specimen, double preset, double period_s, double load_share = 1);
 [[nodiscard]] BenchRun run_stiffness(const Specimen& specimen, const StiffnessOptions& options, Watch* watch = nullptr);
 /// As the hardware recorded it: torque from the measured shaft angle, measured deflection.
 [[nodiscard]] LoadRecording as_recording(const BenchRun& run, double preset);

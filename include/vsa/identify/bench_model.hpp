@@ -17,6 +17,7 @@ struct SweepOptions {
   std::optional<double> amplitude_rad;  ///< none: by experiment::sweep_amplitude() at each solution's start, then held
   double cycles = 1.5;                  ///< 1.5 or more
   double sample_s = 0.01;
+  double load_share = 1;  ///< of the bench's mass, 1 kg
 };
 
 /// Puts `model`, `prepare` and, where the unit has one (quasi_static.hpp), `surrogate` into a task whose parameters and

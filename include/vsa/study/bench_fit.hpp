@@ -3,6 +3,8 @@
 // What of the paper's benches an actuator can bear: their mass and their presets are a qbmove's.
 #pragma once
 
+#include <optional>
+
 #include "vsa/config/actuator_type.hpp"
 #include "vsa/experiment/bench.hpp"
 
@@ -19,7 +21,9 @@ struct BenchFit {
 /// The paper's law keeps the paper's mass. Any other has more where its strongest preset still moves twice as much, and less, by the
 /// same rule, where no preset carries the paper's. "Carries": the motors move 1.1 times the load, under which the joint gives way by
 /// less than a right angle.
-[[nodiscard]] BenchFit fit_bench(const experiment::Specimen& specimen, const config::ActuatorType& type);
+/// `load_share`: it has that.
+[[nodiscard]] BenchFit fit_bench(const experiment::Specimen& specimen, const config::ActuatorType& type,
+                                 std::optional<double> load_share = std::nullopt);
 
 /// The preset `share` of the way to full, moved to where the bench is carried.
 [[nodiscard]] double carried_preset(const BenchFit& fit, double share);

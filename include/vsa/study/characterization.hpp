@@ -35,6 +35,7 @@ struct CharacterizationOptions {
   std::optional<double> period_s;  ///< of the stiffness sweep, 1 … 3600; none: 38
   std::optional<double> amplitude_rad;  ///< of the stiffness sweep, 0.01 … 3; none: by the rule in experiment/bench.hpp
   std::optional<int> cycles;            ///< of the stiffness sweep after the first, 1 … 1000; none: 4
+  std::optional<double> load_kg;        ///< on the load bench's lever, 0.001 … 1000; none: by fit_bench()
 };
 
 struct Range {
