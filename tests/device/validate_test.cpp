@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "support/one_joint.hpp"
+#include "support/servos.hpp"
 #include "vsa/elastic/law.hpp"
 #include "vsa/elastic/series_spring.hpp"
 #include "vsa/errors.hpp"
@@ -100,7 +101,8 @@ void visit(actuator::ActuatorParams& p, Visitor& see) {
 }
 
 void visit(UnitConfig& c, Visitor& see) {
-  auto& [actuator, program, memory, preset_max, substep_max] = c;
+  auto& [actuator, program, memory, preset_max, substep_max, servo] = c;
+  static_cast<void>(servo);
   visit(actuator, see);
   see("firmware.row_write_ns", program.row_write_ns);
   see("firmware.limit_low_raw", memory.limit_low[0]);
@@ -109,6 +111,28 @@ void visit(UnitConfig& c, Visitor& see) {
   for (auto& bits : memory.resolution) see("firmware.resolution", bits);
   see("limits.preset_max", preset_max);
   see("physics.substep_max_s", substep_max);
+}
+
+void visit(control::ServoParams& p, Visitor& see) {
+  auto& [kind, current_max, speed_filter, reference_max, position, torque] = p;
+  see("control.current_max_A", current_max);
+  see("control.speed_filter_s", speed_filter);
+  if (kind == control::ServoKind::position_servo) {
+    auto& [gain, speed_max, speed_gain, integral] = position;
+    see("control.reference_max_rad", reference_max);
+    see("control.position_gain_per_s", gain);
+    see("control.speed_max_rad_per_s", speed_max);
+    see("control.speed_gain_Nms_per_rad", speed_gain);
+    see("control.speed_integral_Nm_per_rad", integral);
+  } else {
+    auto& [gain, integral, dead_zone, motor_damping, stiffness, damping] = torque;
+    see("control.torque_gain", gain);
+    see("control.torque_integral_per_s", integral);
+    see("control.torque_dead_zone_Nm", dead_zone);
+    see("control.motor_damping_Nms_per_rad", motor_damping);
+    see("control.stiffness_Nm_per_rad", stiffness);
+    see("control.damping_Nms_per_rad", damping);
+  }
 }
 
 UnitConfig whole() {
@@ -144,6 +168,26 @@ TEST(Validate, ReportsEveryNumberThatIsNoneOrOutOfRangeOnceUnderItsKey) {
     }
   }
   EXPECT_EQ(keys.size(), 48U);
+}
+
+TEST(Validate, ReportsEveryNumberOfAServoToo) {
+  for (const control::ServoParams& good : {position_servo(), torque_servo()}) {
+    int count = 1;
+    for (int n = 0; n < count; ++n) {
+      for (const double bad : {std::nan(""), -1.0, 1e300}) {
+        control::ServoParams p = good;
+        Visitor see{n, bad};
+        visit(p, see);
+        visit(p, see);
+        count = see.count;
+        Problems found;
+        control::validate(p, "", found);
+        ASSERT_EQ(found.list().size(), 1U) << see.key << " = " << bad;
+        EXPECT_EQ(found.list()[0].key, see.key);
+      }
+    }
+    EXPECT_EQ(count, good.kind == control::ServoKind::position_servo ? 7 : 8);
+  }
 }
 
 TEST(Validate, TellsWhatBothSidesHaveWrongOnce) {
