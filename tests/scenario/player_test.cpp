@@ -57,6 +57,8 @@ TEST(Scenario, EachPartReachesTheWorld) {
   EXPECT_EQ(vsa::scenario::travel_window_s(nullptr), 1.3);
 }
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
 TEST(Scenario, MadeInCppIsCheckedAsAFileIs) {
   const auto problems = [](const Scenario& s) {
     vsa::Problems found;
@@ -73,7 +75,6 @@ TEST(Scenario, MadeInCppIsCheckedAsAFileIs) {
     EXPECT_EQ(found[0].key, key);
     EXPECT_THROW((void)vsa::scenario::load_world(s), vsa::InputError) << key;
   };
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   refused("duration_s", [](Scenario& s) { s.duration_s = kNan; });
   refused("step_s", [](Scenario& s) { s.step_s = 2; });
   refused("seed", [](Scenario& s) { s.seed = std::uint64_t{1} << 60; });
