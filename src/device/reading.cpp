@@ -7,7 +7,9 @@
 namespace vsa::device {
 
 UnitReading read(const Unit& unit, const UnitState& state) noexcept {
-  const actuator::ActuatorState& now = state.actuator;
+  actuator::ActuatorState now = state.actuator;
+  // Springs and pulleys stand where the coupling has the shaft, at y = q − dt/2·q̇: here they come to where the shaft is.
+  for (drive::MotorState& motor : now.motor) motor.angle += 0.5 * state.last_dt * motor.speed;
   const actuator::Actuator& physics = unit.physics();
   UnitReading r;
   const auto attained = unit.config().actuator.transmission->attained({now.motor[0].angle, now.motor[1].angle});

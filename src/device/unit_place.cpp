@@ -67,6 +67,7 @@ void Unit::place(UnitState& s, const UnitPlace& at) const noexcept {
   placed.held.terminal = s.held.terminal;
   placed.held.supply_V = s.held.supply_V;
   placed.last_speed = at.speed;
+  placed.last_dt = 2.0 * at.lag_s;
   placed.reached = {at.shaft_rad, at.speed};
   if (servo_) {
     placed.servo = s.servo;

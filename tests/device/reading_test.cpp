@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "support/one_joint.hpp"
+#include "vsa/elastic/series_spring.hpp"
 
 namespace {
 
@@ -38,6 +39,22 @@ TEST(Reading, MeanTorqueIsWhatTheLastStepGaveTheHost) {
   EXPECT_GT(std::abs(r.current_A[0]), 0.01);
   EXPECT_GT(r.motor_speed_rad_per_s[0], 0.1);
   EXPECT_NEAR(r.shaft_rad, joint.q, 1e-5);
+}
+
+TEST(Reading, OfAJointThatIsCarriedAlongIsThatOfOneInstant) {
+  // Pulley and shaft go at the same speed: the spring is slack, whatever the step. Half a step between them would be up to 0.1 N·m.
+  vsa::device::UnitConfig config = vsa::test::without_losses();
+  config.actuator.transmission = std::make_shared<vsa::elastic::SeriesSpring>(50);
+  for (const std::int64_t dt_ns : {500'000, 1'000'000, 4'000'000}) {
+    OneJoint joint(config, 0.0, 0.0, 0.1, dt_ns);
+    joint.v = 1.0;
+    joint.unit.place(joint.state, {.speed = joint.v, .lag_s = 0.5e-9 * static_cast<double>(dt_ns)});
+    EXPECT_NEAR(read(joint.unit, joint.state).torque_Nm, 0, 1e-9) << "as it is put";
+    for (int n = 0; n < 50; ++n) joint.step();
+    const auto r = read(joint.unit, joint.state);
+    EXPECT_NEAR(r.motor_rad[0], r.shaft_rad, 1e-9) << dt_ns;
+    EXPECT_NEAR(r.torque_Nm, 0, 1e-5) << dt_ns;
+  }
 }
 
 }  // namespace

@@ -178,7 +178,6 @@ TEST(Validate, ReportsEveryNumberOfAServoToo) {
         control::ServoParams p = good;
         Visitor see{n, bad};
         visit(p, see);
-        visit(p, see);
         count = see.count;
         Problems found;
         control::validate(p, "", found);

@@ -142,7 +142,7 @@ TEST(QuasiStatic, IsWithinSomeMilliradiansOfTheSimulatedBench) {
                         {"qbmove_maker_pro", {}, 0.005},
                         {"qbmove_maker_pro_6_1", {{"drive.supply_V", "24"}, {"drive.back_loss", "0.8"}}, 0.006},
                         {"qbmove_maker_pro_6_1",
-                         {{"drive.supply_V", "24"}, {"drive_2.torque_constant_Nm_per_A", "0.6"}, {"drive_2.friction_Nm", "0.1"}},
+                         {{"drive.supply_V", "24"}, {"drive_2.resistance_Ohm", "8"}, {"drive_2.friction_Nm", "0.1"}},
                          0.006}};
   for (const Case& c : cases) {
     experiment::Specimen specimen;

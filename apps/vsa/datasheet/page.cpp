@@ -55,7 +55,10 @@ std::string how_text(const study::DataSheet& d) {
 
 std::string number(double value) {
   constexpr double kRounding = 1e-12;  // what is left of a stiffness where the law gives way
-  return std::isfinite(value) ? fmt::format("{:.3g}", std::abs(value) < kRounding ? 0.0 : value) : "–";
+  if (!std::isfinite(value)) return "–";
+  const double digits = std::abs(value) >= 1000 ? std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2) : 0;
+  if (digits > 0 && std::abs(value) < 1e6) return fmt::format("{:.0f}", std::round(value / digits) * digits);
+  return fmt::format("{:.3g}", std::abs(value) < kRounding ? 0.0 : value);
 }
 
 report::Report data_sheet_report(const study::DataSheet& d, const std::string& command) {
