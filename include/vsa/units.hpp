@@ -6,7 +6,7 @@
 namespace vsa {
 
 /// The device's own integer units, as distinct types so that a tick can't be taken for a milliampere.
-/// Raw position: 65536 a turn. Reported position ("ticks"): raw >> resolution, 32768 a turn by default.
+/// Raw position: 65536 per turn. Reported position ("ticks"): raw >> resolution, 32768 per turn by default.
 struct Raw {
   std::int32_t value = 0;
   constexpr bool operator==(const Raw&) const = default;

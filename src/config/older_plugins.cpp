@@ -192,7 +192,7 @@ void answer_older_plugin(const XMLElement& root, XmlReader& xml) {
       "plugin", file_of(root),
       of_2015
           ? "is the plug-in of 2015, one a module; here one <plugin> lists all the model's actuators, whose units share a bus"
-          : "is the 2021 toolbox's form, one a joint; here one <plugin> lists all the model's actuators, whose units share a bus",
+          : "is the 2021 toolbox's form, one per joint; here one <plugin> lists all the model's actuators, whose units share a bus",
       "<plugin name=\"" + std::string(kPluginName) + "\" filename=\"libvsa-robot.so\">" +
           actuator_text(driven, type_of(root, of_2015), tags, name) + "</plugin>, and see docs/howto/migration.md");
 }

@@ -161,7 +161,7 @@ class Finisher {
       if (raw >= low - 0.5 && raw <= high + 0.5) continue;
       add(a.path + "/initial", number_text(x[i]) + " rad",
           "reference of motor " + std::to_string(i + 1) + " is beyond the firmware's limits",
-          range_text(low, high) + " raw, 65536 a turn");
+          range_text(low, high) + " raw, 65536 per turn");
     }
   }
 

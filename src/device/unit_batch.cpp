@@ -79,7 +79,7 @@ void UnitBatch::step(std::int64_t dt_ns, std::span<const double> angle, std::spa
   check_step(dt_ns);
   Problems problems;
   const auto sized = [&](const char* key, std::size_t size) {
-    if (size != m.count) problems.add({"", key, std::to_string(size) + " numbers", "one a unit", std::to_string(m.count)});
+    if (size != m.count) problems.add({"", key, std::to_string(size) + " numbers", "one per unit", std::to_string(m.count)});
   };
   sized("angle", angle.size());
   sized("speed", speed.size());

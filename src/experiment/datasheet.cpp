@@ -36,7 +36,7 @@ PresetColumn column(const Workspace& workspace, double preset) {
 LoopErrors loop_errors(const device::UnitConfig& unit, std::size_t motor, const MotorLine& line) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   if (unit.servo) return {kNaN, kNaN};                                     // it integrates, or has no position loop
-  const double gain = std::abs(unit.memory.position.p) / 65536.0 / 100.0;  // of full output a raw tick
+  const double gain = std::abs(unit.memory.position.p) / 65536.0 / 100.0;  // of full output per raw tick
   LoopErrors e;
   e.full_rad = gain > 0 ? radians(Raw{1}) / gain : std::numeric_limits<double>::quiet_NaN();
   // The voltage grows with the output, so bisection finds where it is enough.

@@ -124,7 +124,7 @@ std::array<Ticks, 3> BusLine::measured(const ActuatorSlot& slot, const device::U
 const char* BusLine::impossible(const BusState& state, std::int64_t time_ns) const noexcept {
   constexpr std::int64_t kSlack_ns = 1'000'000'000;
   const int frames = 2 * static_cast<int>(on_line_);
-  if (state.master.frame < 0 || state.master.frame >= std::max(frames, 1)) return "master.frame below two a unit";
+  if (state.master.frame < 0 || state.master.frame >= std::max(frames, 1)) return "master.frame below two per unit";
   if (port_ || frames == 0) return nullptr;
   const std::int64_t near_ns = master_.schedule().cycle_ns + kSlack_ns;
   const std::int64_t start_ns = state.master.cycle_start_ps / bus::kPsPerNs;

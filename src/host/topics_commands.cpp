@@ -100,7 +100,7 @@ bool TopicCommands::check_points(const std::string& topic, const Trajectory& mes
     const auto& point = message.points[p];
     const std::string where = "point " + std::to_string(p) + ": ";
     if (point.positions.size() != message.names.size()) {
-      refuse(topic, Refusal::wrong_length, where + length_text(point.positions.size(), message.names.size(), "one a joint name"));
+      refuse(topic, Refusal::wrong_length, where + length_text(point.positions.size(), message.names.size(), "one per joint name"));
       return false;
     }
     if (const auto bad = first_not_finite(point.positions)) {

@@ -25,7 +25,7 @@ void validate(const GaitParams& p, std::string_view where, Problems& problems) {
   ask(p.ramp_s >= 0 && std::isfinite(p.ramp_s), "ramp_s", p.ramp_s, "finite, ≥ 0");
   for (const GaitGroup& g : p.groups) {
     const std::string of = "group." + g.name + ".";
-    ask(g.n.size() == g.actuators.size(), of + "n", static_cast<double>(g.n.size()), "one an actuator");
+    ask(g.n.size() == g.actuators.size(), of + "n", static_cast<double>(g.n.size()), "one per actuator");
     ask(std::isfinite(g.lambda) && g.lambda != 0, of + "lambda", g.lambda, "finite, not 0");
     for (const double v : {g.amplitude_rad, g.offset_rad, g.delta_rad, g.preset_rad})
       ask(std::isfinite(v), of + "angles", v, "finite numbers");

@@ -60,7 +60,7 @@ void read_members(Reader& reader, const toml::table& table, const std::string& s
   const toml::array* names = table["actuators"].as_array();
   const toml::array* numbers = table["n"].as_array();
   if (names == nullptr || names->empty()) reader.problem(scope + "actuators", "", "missing or empty", "a list of actuators");
-  if (numbers == nullptr) reader.problem(scope + "n", "", "missing", "a list of whole numbers, one an actuator");
+  if (numbers == nullptr) reader.problem(scope + "n", "", "missing", "a list of whole numbers, one per actuator");
   for (std::size_t i = 0; names != nullptr && i < names->size(); ++i) {
     const auto name = names->get(i)->value<std::string>();
     if (!name) reader.problem(fmt::format("{}actuators[{}]", scope, i), "", "not a text", "");
@@ -73,7 +73,7 @@ void read_members(Reader& reader, const toml::table& table, const std::string& s
     group.n.push_back(static_cast<int>(n.value_or(0)));
   }
   if (names != nullptr && numbers != nullptr && group.n.size() != group.actuators.size()) {
-    reader.problem(scope + "n", fmt::format("{} numbers", group.n.size()), "not one an actuator",
+    reader.problem(scope + "n", fmt::format("{} numbers", group.n.size()), "not one per actuator",
                    fmt::format("{}", group.actuators.size()));
   }
 }

@@ -95,7 +95,7 @@ struct CsvFiles::Impl {
   };
   std::vector<Robot> robots;
   std::vector<std::pair<std::size_t, std::string>> links;  // index, quoted name
-  std::vector<OutputFile> files;                           // one a robot, then links, energy
+  std::vector<OutputFile> files;                           // one per robot, then links, energy
   std::vector<std::string> headers;
   std::string text, time;  // reused
 

@@ -48,7 +48,7 @@ struct RunLog::Impl {
     }
   }
 
-  // Channels: one a robot, then these.
+  // Channels: one per robot, then these.
   [[nodiscard]] std::size_t energy() const { return info.robots.size(); }
   [[nodiscard]] std::size_t links() const { return energy() + 1; }
   [[nodiscard]] std::size_t static_links() const { return energy() + 2; }

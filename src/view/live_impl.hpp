@@ -85,7 +85,7 @@ struct LiveView::Impl final : Host {
   const std::vector<Actuator> actuators;
   const std::string page;
   const std::string run = std::to_string(std::chrono::system_clock::now().time_since_epoch().count());  ///< unlike any other's
-  std::vector<std::string> gait_names;  ///< one an actuator; empty: not the gait's
+  std::vector<std::string> gait_names;  ///< one per actuator; empty: not the gait's
   Recordings recordings;
   FrameMaker frames;
   Factor factor;

@@ -16,7 +16,7 @@ namespace vsa::view {
 struct State {
   std::optional<double> speed;
   const motion::Gait* gait = nullptr;
-  std::vector<motion::ByHand> by_hand;  ///< one an actuator
+  std::vector<motion::ByHand> by_hand;  ///< one per actuator
   const Recordings* recordings = nullptr;
 };
 

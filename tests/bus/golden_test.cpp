@@ -40,7 +40,7 @@ struct GoldenRequest {
 };
 
 std::vector<GoldenRequest> requests() {
-  const std::array<Ticks, 2> inputs{Ticks{4551}, Ticks{-4551}};  // ±50° at 32768 a turn
+  const std::array<Ticks, 2> inputs{Ticks{4551}, Ticks{-4551}};  // ±50° at 32768 per turn
   return {
       {"commPing", kSix, Ping{}, "3A 3A 07 02 00 00"},
       {"commSetZeros", kSix, SetZeros{{{Ticks{1}, Ticks{-2}, Ticks{300}}}}, "3A 3A 07 08 01 00 01 FF FE 01 2C 2C"},

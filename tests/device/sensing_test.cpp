@@ -78,7 +78,7 @@ TEST(Sensing, TicksInsideALongStepSeeTheShaftWhereItIsThen) {
   const double speed = 3.1;
   const auto each_tick = shaft_samples(1'000'000, speed);
   ASSERT_EQ(each_tick.size(), 160u);
-  EXPECT_GT(each_tick.back(), 4900) << "0.159 s · 3.1 rad/s, 65536 a turn";
+  EXPECT_GT(each_tick.back(), 4900) << "0.159 s · 3.1 rad/s, 65536 per turn";
   for (const std::int64_t dt_ns : {2'000'000, 4'000'000, 8'000'000, 16'000'000})
     EXPECT_EQ(shaft_samples(dt_ns, speed), each_tick) << dt_ns;
 }

@@ -144,7 +144,7 @@ TEST(Stiffness, AtRestIsTheImpedancesLimit) {
 TEST(Stiffness, OfOneSpringBehindOneMotorIsTheirSeries) {
   const device::UnitConfig unit = test::smooth("sea_example", {{"drive.dead_band", "0"}});
   const Model m = linear::linearize(unit, test::point(0, 0, 0, 1e-3), Firmware::averaged);
-  // 0.1 % per raw of 65536 a turn, in 16.16 fixed point 6553; 61/101 of 12 V at 100 %; 1.02 N·m/A on 2.3 Ω.
+  // 0.1 % per raw of 65536 per turn, in 16.16 fixed point 6553; 61/101 of 12 V at 100 %; 1.02 N·m/A on 2.3 Ω.
   const double motor = 6553.0 / (2 * kPi) * (61.0 / 101 * 12 / 100) * 1.02 / 2.3, spring = 10;
   EXPECT_NEAR(m.static_stiffness_Nm_per_rad, motor * spring / (motor + spring), 1e-9);
 }

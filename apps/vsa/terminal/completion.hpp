@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // What a shell offers when the user presses Tab, worked out from the command line's own definition, so that it is never behind it.
-// `vsa --complete WORD… LAST` prints it, one a line; vsa.bash asks for it.
+// `vsa --complete WORD… LAST` prints it, one per line; vsa.bash asks for it.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -21,7 +21,7 @@ namespace vsa::actuator {
 
 /// Friction proportional to the springs' tension, in the energy's own coordinate (actuator.hpp).
 struct TendonParams {
-  double friction = 0;      ///< μ, loss torque a spring torque, [0, 1)
+  double friction = 0;      ///< μ, loss torque per spring torque, [0, 1)
   double presliding_J = 0;  ///< w_max: how much a spring's energy changes before that friction slides, ≥ 0; above 0 where μ is
   double damping_s = 0;     ///< T_d: the bristle's damper over its stiffness, ≥ 0
   bool operator==(const TendonParams&) const = default;

@@ -75,7 +75,7 @@ class MasterClient {
 
 struct MasterState {
   std::int64_t cycle_start_ps = 0;
-  int frame = 0;  ///< of the cycle, the next to set out: two a unit
+  int frame = 0;  ///< of the cycle, the next to set out: two per unit
   MasterReceiver receiver;
   static auto fields(auto& s, auto&& visit) {
     return visit("cycle_start", "ps", s.cycle_start_ps, "frame", "", s.frame, "receiver", "", s.receiver);

@@ -92,7 +92,7 @@ struct ServoCommand {
 
 struct ServoState {
   ServoCommand command;
-  std::array<std::int64_t, 3> raw{};  ///< motor 1, motor 2, shaft as counted, 65536 a turn
+  std::array<std::int64_t, 3> raw{};  ///< motor 1, motor 2, shaft as counted, 65536 per turn
   std::array<double, 3> speed{};      ///< ω̂
   std::array<double, 2> integral{};   ///< ξ, N·m
   std::array<double, 2> voltage{};    ///< V since the last tick

@@ -19,7 +19,7 @@ inline constexpr std::int32_t kSuspectJump = 16384;  // a quarter turn in a tick
 inline constexpr std::int32_t kBelieveAfter = 10;    // … unless it stays for ten ticks
 inline constexpr std::int32_t kFarError = 131072;    // 2¹⁷: beyond it the P product is shifted early
 inline constexpr std::int32_t kAdcOffset = 1638;
-inline constexpr std::int32_t kFilterAlpha = 3;  // of 1024 a tick: τ ≈ 341 ms
+inline constexpr std::int32_t kFilterAlpha = 3;  // of 1024 per tick: τ ≈ 341 ms
 
 /// A new word of an encoder, its offset added: the turns it tells of, and whether it is believed.
 template <class Turns, class Rejected>

@@ -70,7 +70,7 @@ struct JointStates {
   std::vector<Joint> joints;             ///< of each actuator: shaft, motor 1, and motor 2 where it has one
   std::vector<std::string> names;        ///< of the actuators
   std::vector<std::size_t> first_joint;  ///< each actuator's shaft, in `joints`
-  std::vector<Command> commands;         ///< one an actuator
+  std::vector<Command> commands;         ///< one per actuator
 };
 
 /// One advertised topic. `wanted` must be cheap: it is asked for every topic at the state rate.

@@ -11,7 +11,7 @@
 //   τ_units  −H_qq q − Σ H_qi x_i of each unit, as linear.hpp has it; joints without a unit have none
 //
 // STATES: angle and speed of joint after joint, then the motors of unit after unit, each as linear.hpp has them; sampled: the last
-// loop's angles after them. INPUTS: a load torque a joint, then each unit's voltages or references. OUTPUTS: angle and speed of
+// loop's angles after them. INPUTS: a load torque per joint, then each unit's voltages or references. OUTPUTS: angle and speed of
 // each joint, then spring torque and motor angles of each unit. With one joint these are linear.hpp's own.
 #pragma once
 

@@ -62,7 +62,7 @@ namespace vsa::motion {
 struct GaitGroup {
   std::string name;
   std::vector<std::string> actuators;  ///< "joint_1", or "model/joint_1" where several models have it
-  std::vector<int> n;                  ///< one an actuator
+  std::vector<int> n;                  ///< one per actuator
   double amplitude_rad = 0;
   double offset_rad = 0;
   double lambda = 1;

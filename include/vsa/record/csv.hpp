@@ -3,7 +3,7 @@
 // The CSV files of a recording (RFC 4180 quoting, "\n" line ends, "." decimal point, shortest digits that read back the same
 // double):
 //
-//   MODEL_actuators.csv  one a robot, long form, one line an actuator and sample:
+//   MODEL_actuators.csv  one per robot, long form, one line an actuator and sample:
 //     time_s,actuator,shaft_rad,shaft_speed_rad_per_s,equilibrium_command_rad,equilibrium_rad,preset_command_rad,preset_rad,
 //     deflection_rad,stiffness_Nm_per_rad,torque_Nm,motor_1_rad,motor_2_rad,current_1_A,current_2_A
 //     The preset's columns end in its law's unit; where a robot mixes laws, a last column preset_unit tells. One-motor

@@ -2,7 +2,7 @@
 //
 // What the unit's electronics read.
 //
-// Encoder  magnetic rotary sensor (AS5045): B bits a turn, sampled, floor quantisation, wraps each turn. The firmware keeps the
+// Encoder  magnetic rotary sensor (AS5045): B bits per turn, sampled, floor quantisation, wraps each turn. The firmware keeps the
 //          sample in the upper bits of 16, so one count of 12 bits is 16 raw = 1.534 mrad; counting turns is its business.
 // Current  12-bit ADC, offset 1638 counts, 25771/8192 mA a count (firmware; the paper: 5/1638 of its unit).
 // Supply   12-bit ADC, offset 1638 counts, 1952/128 mV a count.
@@ -29,7 +29,7 @@ struct EncoderParams {
 };
 void validate(const EncoderParams& params, std::string_view where, Problems& problems);
 
-/// Position within the turn in raw units (65536 a turn), as a signed 16-bit number: −32768…32767.
+/// Position within the turn in raw units (65536 per turn), as a signed 16-bit number: −32768…32767.
 [[nodiscard]] inline std::int32_t encoder_sample(const EncoderParams& p, double angle_rad) noexcept {
   constexpr double kFarthest = 1e15;  // counts; beyond it a double has no counts left to tell
   const double counts = (angle_rad + p.zero_rad) * (static_cast<double>(1 << p.bits) / (2.0 * kPi));

@@ -102,7 +102,7 @@ struct Characterization {
 /// results.json: every measure, units in the keys; what couldn't be measured is null. `command`: what made it.
 [[nodiscard]] std::string to_json(const Characterization& c, const std::string& command);
 
-/// The samples, one a line, units in the head.
+/// The samples, one per line, units in the head.
 [[nodiscard]] std::string csv_text(const experiment::BenchRun& run);
 /// "stiffness_preset_0.6903rad.csv", "speed_preset_0.1125rad.csv", "preset_step_loaded.csv"; an actuator without a preset has
 /// "stiffness.csv" and "speed.csv". results.json names them.

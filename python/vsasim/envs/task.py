@@ -24,7 +24,7 @@ class Quantity(NamedTuple):
 class Task:
     """Deriving: say the constants, and write start(), command(), observe() and outcome(), each for many copies at once.
 
-    A task keeps what it remembers of each copy in arrays with a row a copy; `copies` says how many. A row depends on nothing in
+    A task keeps what it remembers of each copy in arrays with a row per copy; `copies` says how many. A row depends on nothing in
     other rows, so that a copy goes the same way whatever its neighbours do.
     """
 
