@@ -74,7 +74,8 @@ std::optional<Problem> mismatch(const LawModule& module, const std::string& file
 const LawModule* load(const fs::path& file) {
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr)
-    throw InputError(Problem{file.string(), "", "", "can't be loaded: " + loader_error(), "a shared library for this machine"});
+    throw InputError(Problem{file.string(), "", "", "can't be loaded: " + loader_error(),
+                             "a shared library for this machine, linked with vsa::elastic"});
   const auto* module = static_cast<const LawModule*>(dlsym(library, kSymbol));
   auto problem = module != nullptr ? mismatch(*module, file.string())
                                    : Problem{file.string(), kSymbol, "", "the library exports no such symbol",

@@ -58,7 +58,7 @@ TEST(ShippedTypes, GiveEveryParameterThemselvesSoThatNoneDependsOnADefault) {
         EXPECT_EQ(e.value, "false") << name << " " << e.key;
         continue;
       }
-      EXPECT_EQ(e.source.rfind("default:", 0), std::string::npos) << e.key;
+      EXPECT_EQ(e.source.rfind("default:", 0), std::string::npos) << name << " " << e.key;
     }
   }
 }

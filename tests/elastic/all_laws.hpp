@@ -61,6 +61,11 @@ struct SomeLaw {
 inline constexpr char kDraw = 12;  // none so near a lever's pole that a millisecond is long
 inline std::vector<SomeLaw> all_laws(int more) {
   std::vector<SomeLaw> out;
+  for (const auto& [name, values] : typical()) {
+    const auto has = [&name = name](const elastic::Law* law) { return law->name == name; };
+    if (std::none_of(elastic::laws().begin(), elastic::laws().end(), has))
+      throw std::runtime_error(std::string(name) + ": not in the list of laws.cpp");
+  }
   for (const elastic::Law* law : elastic::laws()) {
     std::string seed(law->name);  // of its own, so that a new law changes no other's numbers
     seed.push_back(kDraw);
