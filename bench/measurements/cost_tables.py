@@ -44,8 +44,8 @@ def tables(found: dict) -> dict:
     def pairs(name: str, units: int) -> str:
         return f"{ns[name] / units / pair:.3g}"
 
-    head = f"`python3 bench/measurements/cost_tables.py build/release/bin`, {datetime.date.today()}, processor time, medians of 5, "
-    head += f"lanes by {lanes or 'the base'}:"
+    head = f"`python3 bench/measurements/cost_tables.py build/release/bin`, {datetime.date.today()}:\n"
+    head += f"processor time, medians of 5, lanes by {lanes or 'the base'}."
     beside = [("units_in_lanes_any/64", "64 side by side, the processor's base (2 lanes)", 64),
               ("units_in_lanes_avx2/64", "64 side by side, AVX2 (4 lanes)", 64),
               ("units_in_lanes_avx512/64", "64 side by side, AVX-512 (8 lanes)", 64),
