@@ -46,6 +46,7 @@ std::string evidence_text(const config::Evidence& e) {
 
 config::Evidence evidence_with(const std::optional<config::Evidence>& before, const config::Evidence& fitted) {
   if (!before) return {fitted.calibrated_on, fitted.source + "; the type that it began from doesn't say what it was calibrated on"};
+  if (before->calibrated_on.empty()) return fitted;
   config::Evidence out = *before;
   if (out.source.find(fitted.source) == std::string::npos) out.source += "; " + fitted.source;
   for (const std::string& name : fitted.calibrated_on) {
@@ -67,7 +68,7 @@ std::string type_text(const config::ActuatorType& type, const std::string& name,
     body[group] += entry_text(e, it == changes.end() ? nullptr : &*it);
   }
   std::string out = "# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0\n\n[type]\n";
-  out += fmt::format("name = {}\ntitle = {}\n", toml_string(name), toml_string(type.title + ", identified"));
+  out += fmt::format("name = {}\ntitle = {}\n", toml_string(name), toml_string(name + ", identified from " + type.name));
   if (!type.description.empty()) out += fmt::format("description = {}\n", toml_string(type.description));
   out += evidence_text(evidence_with(type.evidence, fitted));
   for (const std::string& group : groups) {
