@@ -22,7 +22,8 @@ void validate_servo(const UnitConfig& c, std::string_view where, Problems& probl
       check.refuse(drive + "pwm_pin", "enable", "a servo's drive gives mean voltages, which a modulated enable pin doesn't",
                    "input");
     if (side.bridge.dead_band != 0)
-      check.refuse(drive + "dead_band", Checks::text(side.bridge.dead_band), "a servo's drive gives the voltages that it is told", "0");
+      check.refuse(drive + "dead_band", Checks::text(side.bridge.dead_band), "a servo's drive gives the voltages that it is told",
+                   "0");
     if (!(side.motor.torque_constant_Nm_per_A > 0))
       check.refuse(drive + "torque_constant_Nm_per_A", Checks::text(side.motor.torque_constant_Nm_per_A),
                    "a servo needs a motor that turns current into torque", "above 0");

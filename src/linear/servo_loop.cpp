@@ -21,12 +21,7 @@ std::string motor_name(int i) { return "motor " + std::to_string(i + 1); }
 class Writer {
  public:
   Writer(const device::UnitConfig& unit, const Plant& plant, bool sampled, Index states, Index inputs)
-      : servo_(*unit.servo),
-        plant_(plant),
-        sampled_(sampled),
-        n_(states),
-        y_(plant.states()),
-        r_(inputs) {
+      : servo_(*unit.servo), plant_(plant), sampled_(sampled), n_(states), y_(plant.states()), r_(inputs) {
     next_ = MatrixXd::Zero(n_, n_ + y_ + r_);
     volts_ = MatrixXd::Zero(plant.motors, n_ + y_ + r_);
     for (std::size_t i = 0; i < 2; ++i) sign_[i] = unit.actuator.side[i].polarity;

@@ -138,12 +138,11 @@ TEST(QuasiStatic, IsWithinSomeMilliradiansOfTheSimulatedBench) {
     double within_rad;
   };
   // With 12 V the users' motors stall under the whole load. A motor within the dead zone of an open bridge creeps: less exact.
-  const Case cases[] = {{"qbmove_maker_pro_6_1", {{"drive.supply_V", "24"}}, 0.006},
-                        {"qbmove_maker_pro", {}, 0.005},
-                        {"qbmove_maker_pro_6_1", {{"drive.supply_V", "24"}, {"drive.back_loss", "0.8"}}, 0.006},
-                        {"qbmove_maker_pro_6_1",
-                         {{"drive.supply_V", "24"}, {"drive_2.resistance_Ohm", "8"}, {"drive_2.friction_Nm", "0.1"}},
-                         0.006}};
+  const Case cases[] = {
+      {"qbmove_maker_pro_6_1", {{"drive.supply_V", "24"}}, 0.006},
+      {"qbmove_maker_pro", {}, 0.005},
+      {"qbmove_maker_pro_6_1", {{"drive.supply_V", "24"}, {"drive.back_loss", "0.8"}}, 0.006},
+      {"qbmove_maker_pro_6_1", {{"drive.supply_V", "24"}, {"drive_2.resistance_Ohm", "8"}, {"drive_2.friction_Nm", "0.1"}}, 0.006}};
   for (const Case& c : cases) {
     experiment::Specimen specimen;
     specimen.type = c.type;
