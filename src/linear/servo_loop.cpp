@@ -40,7 +40,7 @@ class Writer {
     }
     const Index last = take(whose + " angle at the last tick", "rad");
     const double share = control::kTick_s / (control::kTick_s + servo_.speed_filter_s);
-    const Row estimate = (1 - share) * of_state(s) + share / control::kTick_s * (of_plant(i) - of_state(last));
+    Row estimate = (1 - share) * of_state(s) + share / control::kTick_s * (of_plant(i) - of_state(last));
     next_.row(s) = estimate;
     next_.row(last) = of_plant(i);
     return estimate;

@@ -17,7 +17,6 @@ using vsa::elastic::Law;
 using vsa::elastic::LawFault;
 using vsa::elastic::Positions;
 using vsa::elastic::SegmentMean;
-using vsa::elastic::Transmission;
 
 const Law& table() {
   for (const Law* law : vsa::elastic::laws())
@@ -225,7 +224,7 @@ TEST(Table, RefusesWhatIsNoSpringOrNoGridAndTellsTheRow) {
 TEST(Table, IsEqualToOneOfTheSameRowsInAnyOrder) {
   auto values = grid({-0.2, -0.1, 0, 0.1, 0.2}, {0, 1}, [](double d, double p) { return (5 + 5 * p) * d; });
   const auto one = table().make(values);
-  for (int k = 0; k < 3; ++k) std::swap(values[static_cast<std::size_t>(4 + k)], values[static_cast<std::size_t>(25 + k)]);
+  for (std::size_t k = 0; k < 3; ++k) std::swap(values[4 + k], values[25 + k]);
   const auto other = table().make(values);
   EXPECT_TRUE(one->equals(*other));
   values[0] = 1.5;
