@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 namespace vsa {
 
@@ -29,6 +31,10 @@ struct MilliVolt {
 
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kRawPerTurn = 65536.0;
+
+/// Words of a turning shaft as a sliding one has them: "torque [N·m]" → "force [N]", "load_torque_Nm" → "load_force_N", "N·m/rad" →
+/// "N/m", "deflection_rad" → "deflection_m", "rad/s" → "m/s". What has nothing of that stays.
+[[nodiscard]] std::string sliding(std::string_view words);
 
 constexpr double radians(Raw raw) { return raw.value * (2.0 * kPi / kRawPerTurn); }
 

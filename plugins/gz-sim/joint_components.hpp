@@ -15,6 +15,10 @@ inline bool has_one_axis(sim::Entity joint, const sim::EntityComponentManager& e
   return type == sdf::JointType::REVOLUTE || type == sdf::JointType::CONTINUOUS || type == sdf::JointType::PRISMATIC;
 }
 
+inline bool slides(sim::Entity joint, const sim::EntityComponentManager& ecm) {
+  return ecm.ComponentData<sim::components::JointType>(joint) == sdf::JointType::PRISMATIC;
+}
+
 /// The first of a component's numbers; 0 where the physics hasn't filled it yet. Creates the component where it is missing.
 template <class Component>
 double first_number(sim::Entity joint, sim::EntityComponentManager& ecm) {

@@ -80,7 +80,8 @@ void validate(const ActuatorParams& p, std::string_view where, Problems& problem
   check_sides(p, where, problems);
   check.within("drive.supply_V", p.supply_V, 0, 1000);
   drive::validate(p.shaft_friction, std::string(where) + "shaft.", problems);
-  check.positive("shaft.inertia_kgm2", p.shaft_inertia_kgm2);
+  check.positive(p.linear() ? "shaft.mass_kg" : "shaft.inertia_kgm2", p.shaft_inertia_kgm2);
+  check.positive("sensor.shaft_scale", p.shaft_scale);
   validate(p.tendon, std::string(where) + "tendon.", problems);
   check.within("sensor.shaft_zero_rad", p.shaft_zero_rad, -1e3, 1e3);
 }

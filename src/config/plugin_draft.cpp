@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kReservedEndings[] = {"_preset", "_motor_1", "_motor_2"};
 
 /// A unit as an attribute's name can have it: "N·m/rad" → "Nm_per_rad".
-std::string attribute_unit(const std::string& unit) { return unit == "N·m/rad" ? "Nm_per_rad" : unit; }
+std::string attribute_unit(const std::string& unit) { return unit == "N·m/rad" ? "Nm_per_rad" : unit == "N/m" ? "N_per_m" : unit; }
 
 std::shared_ptr<const host::Settings> settings(const std::vector<Override>& overrides) {
   auto out = std::make_shared<host::Settings>();
@@ -149,6 +149,10 @@ class Finisher {
           range_text(-out.unit.preset_max, out.unit.preset_max) + " " + unit);
     }
     check_references(a, out);
+    const bool slides = out.unit.actuator.linear(), in_m = a.equilibrium_key == "equilibrium_m";
+    if (!a.equilibrium_key.empty() && slides != in_m && !a.replaced)
+      add(path + a.equilibrium_key, number_text(a.initial_equilibrium),
+          slides ? "this actuator's shaft slides" : "this actuator's shaft turns", slides ? "equilibrium_m" : "equilibrium_rad");
   }
 
   /// The firmware would clamp the references; where the unit starts must be what the file says.

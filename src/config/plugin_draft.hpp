@@ -27,6 +27,7 @@ struct ActuatorDraft {
   bool id_ok = true;
   double initial_equilibrium = 0, initial_preset = 0;
   bool equilibrium_given = false;
+  std::string equilibrium_key;     ///< "equilibrium_rad", "equilibrium_m"; empty: not given
   std::string initial_preset_key;  ///< "preset_rad"; empty: not given
   std::vector<Override> overrides;
   std::map<std::string, std::string> tag_of;   ///< keys of overrides that an older plug-in's tag gave, and that tag

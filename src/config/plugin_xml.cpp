@@ -158,7 +158,7 @@ class Parser {
   /// The preset's attribute carries the unit of the preset's law, which isn't known yet: any "preset_…" is kept.
   void initial(const XMLElement& e, ActuatorDraft& draft) {
     const std::string path = draft.path + "/initial";
-    std::vector<std::string> known{"equilibrium_rad", "preset_rad"};
+    std::vector<std::string> known{"equilibrium_rad", "equilibrium_m", "preset_rad"};
     for (const tinyxml2::XMLAttribute* a = e.FirstAttribute(); a != nullptr; a = a->Next()) {
       const std::string name = a->Name();
       if (name.compare(0, kPresetPrefix.size(), kPresetPrefix) != 0) continue;
@@ -170,9 +170,14 @@ class Parser {
     }
     xml_.check_attributes(e, path, known);
     xml_.check_children(e, path, {});
-    if (const auto text = xml_.attribute(e, "equilibrium_rad")) {
+    for (const std::string key : {"equilibrium_rad", "equilibrium_m"}) {
+      const auto text = xml_.attribute(e, key.c_str());
+      if (!text) continue;
+      if (draft.equilibrium_given) xml_.add(attribute_path(path, key), *text, "the equilibrium is given more than once");
       draft.equilibrium_given = true;
-      draft.initial_equilibrium = xml_.number(path + "@equilibrium_rad", *text, -kMaxAngle, kMaxAngle, "rad").value_or(0);
+      draft.equilibrium_key = key;
+      const std::string unit = key.substr(key.rfind('_') + 1);
+      draft.initial_equilibrium = xml_.number(attribute_path(path, key), *text, -kMaxAngle, kMaxAngle, unit).value_or(0);
     }
   }
 

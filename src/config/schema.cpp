@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <utility>
 
 #include "vsa/elastic/travel.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::config {
 namespace {
@@ -102,13 +104,96 @@ constexpr Parameter kTable[] = {
     {"drive.polarity", "", Kind::word, 0, 0, "-1|1", "-1: motor wired against its encoder", Need::defaulted, "1",
      "motor and encoder turn the same way", nullptr,
      [](Unit& u, std::size_t i, double v) { u.actuator.side[i].polarity = v == 0 ? -1 : 1; }},
-    {"shaft.friction_Nm", "N·m", Kind::number, 0, 1000, "", "Coulomb friction of the output shaft", Need::required, "", "",
-     [](Unit& u, double v) { u.actuator.shaft_friction.coulomb_Nm = v; }},
-    {"shaft.presliding_rad", "rad", Kind::number, 0, 1, "", "displacement before that friction slides", Need::required, "", "",
-     [](Unit& u, double v) { u.actuator.shaft_friction.presliding_rad = v; }},
-    {"shaft.inertia_kgm2", "kg·m²", Kind::number, 1e-7, 1000, "",
-     "what turns with the shaft, where the simulator can't tell its effective inertia", Need::required, "", "",
-     [](Unit& u, double v) { u.actuator.shaft_inertia_kgm2 = v; }},
+    {"shaft.friction_Nm",
+     "N·m",
+     Kind::number,
+     0,
+     1000,
+     "",
+     "Coulomb friction of the output shaft",
+     Need::required,
+     "",
+     "",
+     [](Unit& u, double v) { u.actuator.shaft_friction.coulomb_Nm = v; },
+     nullptr,
+     false,
+     {},
+     "rad"},
+    {"shaft.presliding_rad",
+     "rad",
+     Kind::number,
+     0,
+     1,
+     "",
+     "displacement before that friction slides",
+     Need::required,
+     "",
+     "",
+     [](Unit& u, double v) { u.actuator.shaft_friction.presliding_rad = v; },
+     nullptr,
+     false,
+     {},
+     "rad"},
+    {"shaft.inertia_kgm2",
+     "kg·m²",
+     Kind::number,
+     1e-7,
+     1000,
+     "",
+     "what turns with the shaft, where the simulator can't tell its effective inertia",
+     Need::required,
+     "",
+     "",
+     [](Unit& u, double v) { u.actuator.shaft_inertia_kgm2 = v; },
+     nullptr,
+     false,
+     {},
+     "rad"},
+    {"shaft.friction_N",
+     "N",
+     Kind::number,
+     0,
+     1e6,
+     "",
+     "a linear actuator's: Coulomb friction of its output",
+     Need::required,
+     "",
+     "",
+     [](Unit& u, double v) { u.actuator.shaft_friction.coulomb_Nm = v; },
+     nullptr,
+     false,
+     {},
+     "m"},
+    {"shaft.presliding_m",
+     "m",
+     Kind::number,
+     0,
+     0.1,
+     "",
+     "a linear actuator's: displacement before that friction slides",
+     Need::required,
+     "",
+     "",
+     [](Unit& u, double v) { u.actuator.shaft_friction.presliding_rad = v; },
+     nullptr,
+     false,
+     {},
+     "m"},
+    {"shaft.mass_kg",
+     "kg",
+     Kind::number,
+     1e-6,
+     1e5,
+     "",
+     "a linear actuator's: what slides with its output, where the simulator can't tell its effective mass",
+     Need::required,
+     "",
+     "",
+     [](Unit& u, double v) { u.actuator.shaft_inertia_kgm2 = v; },
+     nullptr,
+     false,
+     {},
+     "m"},
     {"tendon.friction", "1", Kind::number, 0, 0.99, "", "loss torque per spring torque, μ", Need::defaulted, "0", "ideal tendons",
      [](Unit& u, double v) { u.actuator.tendon.friction = v; }},
     {"tendon.presliding_J", "J", Kind::number, 0, 10, "", "change of a spring's energy before that friction slides",
@@ -121,6 +206,21 @@ constexpr Parameter kTable[] = {
      "ideal calibration", set_zero, [](Unit& u, std::size_t i, double v) { u.actuator.side[i].encoder.zero_rad = v; }},
     {"sensor.shaft_zero_rad", "rad", Kind::number, -3.2, 3.2, "", "added to the shaft's reading alone", Need::defaulted, "0",
      "ideal calibration", [](Unit& u, double v) { u.actuator.shaft_zero_rad = v; }},
+    {"sensor.shaft_turn_m",
+     "m",
+     Kind::number,
+     1e-6,
+     10,
+     "",
+     "a linear actuator's: travel that its output's encoder counts as a turn, so 2^bits counts",
+     Need::required,
+     "",
+     "",
+     [](Unit& u, double v) { u.actuator.shaft_scale = 2.0 * kPi / v; },
+     nullptr,
+     false,
+     {},
+     "m"},
     {"control.current_max_A", "A", Kind::number, 1e-3, 1e4, "", "largest current of each motor", Need::required, "", "",
      [](Unit& u, double v) { u.servo->current_max_A = v; }, nullptr, false, kServos},
     {"control.speed_filter_s", "s", Kind::number, 0, 0.1, "", "time constant of the filter behind the differences of an encoder",
@@ -141,13 +241,21 @@ constexpr Parameter kTable[] = {
      "", "", [](Unit& u, double v) { u.servo->torque.integral_per_s = v; }, nullptr, false, kTorque},
     {"control.torque_dead_zone_Nm", "N·m", Kind::number, 0, 1000, "",
      "torque error that isn't integrated: what the encoders can't tell", Need::required, "", "",
-     [](Unit& u, double v) { u.servo->torque.dead_zone_Nm = v; }, nullptr, false, kTorque},
+     [](Unit& u, double v) { u.servo->torque.dead_zone_Nm = v; }, nullptr, false, kTorque, "rad"},
     {"control.motor_damping_Nms_per_rad", "N·m·s/rad", Kind::number, 0, 1e4, "", "motor torque against its speed, at the pulley",
      Need::required, "", "", [](Unit& u, double v) { u.servo->torque.motor_damping_Nms_per_rad = v; }, nullptr, false, kTorque},
     {"control.stiffness_Nm_per_rad", "N·m/rad", Kind::number, 0, 1e6, "", "of the joint about its equilibrium, at preset 0",
-     Need::required, "", "", [](Unit& u, double v) { u.servo->torque.stiffness_Nm_per_rad = v; }, nullptr, false, kTorque},
+     Need::required, "", "", [](Unit& u, double v) { u.servo->torque.stiffness_Nm_per_rad = v; }, nullptr, false, kTorque, "rad"},
     {"control.damping_Nms_per_rad", "N·m·s/rad", Kind::number, 0, 1e4, "", "of the joint", Need::required, "", "",
-     [](Unit& u, double v) { u.servo->torque.damping_Nms_per_rad = v; }, nullptr, false, kTorque},
+     [](Unit& u, double v) { u.servo->torque.damping_Nms_per_rad = v; }, nullptr, false, kTorque, "rad"},
+    {"control.force_dead_zone_N", "N", Kind::number, 0, 1e6, "",
+     "a linear actuator's: force error that isn't integrated: what the encoders can't tell", Need::required, "", "",
+     [](Unit& u, double v) { u.servo->torque.dead_zone_Nm = v; }, nullptr, false, kTorque, "m"},
+    {"control.stiffness_N_per_m", "N/m", Kind::number, 0, 1e9, "",
+     "a linear actuator's: of the output about its equilibrium, at preset 0", Need::required, "", "",
+     [](Unit& u, double v) { u.servo->torque.stiffness_Nm_per_rad = v; }, nullptr, false, kTorque, "m"},
+    {"control.damping_Ns_per_m", "N·s/m", Kind::number, 0, 1e7, "", "a linear actuator's: of the output", Need::required, "", "",
+     [](Unit& u, double v) { u.servo->torque.damping_Nms_per_rad = v; }, nullptr, false, kTorque, "m"},
     {"firmware.model", "", Kind::word, 0, 0, "maker_pro|advanced", "which program the unit runs", Need::defaulted, "maker_pro",
      "the program of most published units", set_model},
     {"firmware.dialect", "", Kind::word, 0, 0, "6|7", "which messages it speaks: firmware 6, or 7 as its public client expects",
@@ -212,6 +320,22 @@ constexpr Parameter kTable[] = {
      [](Unit& u, double v) { u.preset_max = v; }},
     {"physics.substep_max_s", "s", Kind::number, 1e-6, 1e-3, "", "longest physics segment inside a step of the simulator",
      Need::defaulted, "0.001", "one firmware tick", [](Unit& u, double v) { u.substep_max_s = v; }},
+    // Behind all that it moves from a slide to a joint.
+    {"shaft.pinion_m",
+     "m",
+     Kind::number,
+     1e-4,
+     10,
+     "",
+     "a linear actuator's: radius of a pinion, on which its output as a rack turns a joint; left out: its joint slides",
+     Need::optional,
+     "",
+     "",
+     [](Unit& u, double v) { u = device::at_pinion(std::move(u), v); },
+     nullptr,
+     false,
+     {},
+     "m"},
 };
 
 constexpr std::string_view group_of(std::string_view key) noexcept { return key.substr(0, key.find('.')); }
@@ -273,9 +397,23 @@ void Parameter::apply(device::UnitConfig& to, double value) const {
   }
 }
 
+namespace {
+
+std::string linear_keys() {
+  std::string out;
+  for (const Parameter& p : kTable)
+    if (p.shaft == "m" && p.need == Need::required) out += (out.empty() ? "" : ", ") + std::string(p.key);
+  return out;
+}
+
+}  // namespace
+
 std::string why_absent(const Parameter& p, const device::UnitConfig& unit) {
   const elastic::Transmission& law = *unit.actuator.transmission;
   if (p.unit == kPresetUnit && unit.preset_unit().empty()) return "the law has no preset: leave this out";
+  if (!p.shaft.empty() && p.shaft != law.shaft_unit())
+    return p.shaft == "m" ? "is of linear actuators, and the law's shaft turns: leave this out"
+                          : "the law's shaft slides: numbers in m, N and kg are " + linear_keys();
   if (p.second && law.motor_count() < 2) return "the law has one motor: leave this out";
   if (p.key.substr(p.key.find('.') + 1) != "lead_m_per_rad") return {};
   bool travels = false;

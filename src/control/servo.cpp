@@ -30,10 +30,12 @@ std::int64_t counted(double angle_rad, std::int32_t word) noexcept {
 
 double dead_zone(double torque, double zone) noexcept { return torque - std::clamp(torque, -zone, zone); }
 
-Servo::Servo(const ServoParams& params, const std::array<ServoMotor, 2>& motors, std::shared_ptr<const elastic::Transmission> law)
+Servo::Servo(const ServoParams& params, const std::array<ServoMotor, 2>& motors, std::shared_ptr<const elastic::Transmission> law,
+             double shaft_per_rad)
     : params_(params),
       motor_(motors),
       law_(std::move(law)),
+      shaft_per_rad_(shaft_per_rad),
       motors_(law_->motor_count()),
       filter_(kTick_s / (kTick_s + params.speed_filter_s)) {}
 
@@ -46,9 +48,10 @@ std::array<double, 2> Servo::references(const ServoCommand& command) const noexc
 double Servo::pulley(const ServoCommand& command, double shaft_rad) const noexcept {
   const double wanted = -stiffness(command.preset) * (shaft_rad - command.equilibrium) + command.direct[0];
   const auto short_of = [&](double x) { return law_->evaluate({shaft_rad, {x, 0.0}}).torque < wanted; };
+  const double slack = shaft_rad / motor_[0].shaft_per_rad;  // where its spring has no tension
   double reach = 1e-3;
-  while (reach < 100 && (short_of(shaft_rad + reach) || !short_of(shaft_rad - reach))) reach *= 2;
-  double low = shaft_rad - reach, high = shaft_rad + reach;
+  while (reach < 100 && (short_of(slack + reach) || !short_of(slack - reach))) reach *= 2;
+  double low = slack - reach, high = slack + reach;
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     (short_of(middle) ? low : high) = middle;
@@ -96,13 +99,13 @@ void Servo::position(ServoState& s, double supply_V) const noexcept {
 
 void Servo::torque(ServoState& s, double supply_V) const noexcept {
   const TorqueServoParams& p = params_.torque;
-  const double q = rad(s.raw[2]), x = rad(s.raw[0]);
-  const double wish =
-      -stiffness(s.command.preset) * (q - s.command.equilibrium) - p.damping_Nms_per_rad * s.speed[2] + s.command.direct[0];
+  const double q = shaft_per_rad_ * rad(s.raw[2]), x = rad(s.raw[0]), h = motor_[0].shaft_per_rad;
+  const double damping = p.damping_Nms_per_rad * (shaft_per_rad_ * s.speed[2]);
+  const double wish = -stiffness(s.command.preset) * (q - s.command.equilibrium) - damping + s.command.direct[0];
   const double error = wish - law_->evaluate({q, {x, 0.0}}).torque;
   const Driven driven =
-      drive(0, wish + p.gain * error + s.integral[0] - p.motor_damping_Nms_per_rad * s.speed[0], s.speed[0], supply_V);
-  integrate(s, 0, p.integral_per_s * dead_zone(error, p.dead_zone_Nm), driven);
+      drive(0, h * (wish + p.gain * error) + s.integral[0] - p.motor_damping_Nms_per_rad * s.speed[0], s.speed[0], supply_V);
+  integrate(s, 0, h * p.integral_per_s * dead_zone(error, p.dead_zone_Nm), driven);
   s.voltage[0] = driven.volts;
 }
 

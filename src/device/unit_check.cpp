@@ -5,6 +5,7 @@
 
 #include "vsa/checks.hpp"
 #include "vsa/device/unit.hpp"
+#include "vsa/elastic/travel.hpp"
 
 namespace vsa::device {
 
@@ -36,6 +37,23 @@ void validate_servo(const UnitConfig& c, std::string_view where, Problems& probl
 
 }  // namespace
 
+UnitConfig at_pinion(UnitConfig unit, double radius_m) {
+  actuator::ActuatorParams& p = unit.actuator;
+  const double square = radius_m * radius_m;
+  const bool series = unit.is(control::ServoKind::torque_servo);
+  if (p.transmission) p.transmission = elastic::with_pinion(p.transmission, radius_m);
+  p.shaft_friction.coulomb_Nm *= radius_m;
+  p.shaft_friction.presliding_rad /= radius_m;
+  p.shaft_inertia_kgm2 *= square;
+  p.shaft_scale *= radius_m;
+  if (series) unit.preset_max *= square;
+  if (!unit.servo) return unit;
+  unit.servo->torque.stiffness_Nm_per_rad *= square;
+  unit.servo->torque.damping_Nms_per_rad *= square;
+  unit.servo->torque.dead_zone_Nm *= radius_m;
+  return unit;
+}
+
 void validate(const UnitConfig& c, std::string_view where, Problems& problems) {
   actuator::validate(c.actuator, where, problems);
   const std::string firmware = std::string(where) + "firmware.";
@@ -44,6 +62,9 @@ void validate(const UnitConfig& c, std::string_view where, Problems& problems) {
   Checks check(where, problems);
   check.within("limits.preset_max", c.preset_max, 0, 1e5);
   if (c.servo) validate_servo(c, where, problems);
+  if (!c.servo && c.actuator.linear())
+    check.refuse("control.kind", "qbmove", "the qbmove's program is of a turning shaft, and this law's slides",
+                 "position_servo, torque_servo, motor_voltages");
   check.within("physics.substep_max_s", c.substep_max_s, 1e-6, 1e-3);
 }
 

@@ -8,11 +8,12 @@
 #include "device/pulley_speeds.hpp"
 #include "device/text.hpp"
 #include "vsa/device/unit.hpp"
+#include "vsa/elastic/travel.hpp"
 
 namespace vsa::device {
 
 std::string_view UnitConfig::preset_unit() const noexcept {
-  if (is(control::ServoKind::torque_servo)) return "N·m/rad";
+  if (is(control::ServoKind::torque_servo)) return actuator.linear() ? "N/m" : "N·m/rad";
   return actuator.transmission ? actuator.transmission->preset_unit() : "";
 }
 
@@ -49,14 +50,16 @@ void Unit::settle_servo(UnitState& s, const std::array<double, 2>& x, double sha
   control::ServoPlace at{{x[0], x[1], shaft_rad}, {}, {-spring.load[0], -spring.load[1]}};
   const actuator::ActuatorParams& p = config_.actuator;
   for (std::size_t i = 0; i < 2; ++i) at.angle[i] += p.side[i].encoder.zero_rad;
-  at.angle[2] += p.shaft_encoder.zero_rad + p.shaft_zero_rad;
+  at.angle[2] = p.shaft_scale * shaft_rad + (p.shaft_encoder.zero_rad + p.shaft_zero_rad);
   servo_->settle(s.servo, read_servo(s, shaft_rad), at);
 }
+
+double Unit::lead() const noexcept { return elastic::shaft_per_pulley(*config_.actuator.transmission, 0); }
 
 /// The first tick finds the shaft. What a torque servo has on its spring stays as it is: the pulley is found where it goes with that.
 void Unit::find_shaft(UnitState& s, double shaft_rad) const noexcept {
   std::array<double, 2> x{s.actuator.motor[0].angle, s.actuator.motor[1].angle};
-  if (config_.is(control::ServoKind::torque_servo)) x[0] += shaft_rad - s.servo.begun_rad;
+  if (config_.is(control::ServoKind::torque_servo)) x[0] += (shaft_rad - s.servo.begun_rad) / lead();
   settle_servo(s, x, shaft_rad);
   s.servo.fresh = false;
 }
@@ -67,12 +70,12 @@ void Unit::place_servo(UnitState& placed, const UnitPlace& at) const noexcept {
   command.preset = at.preset;
   settle_servo(placed, resting_pulleys(command, at.shaft_rad), at.shaft_rad);
   const bool series = config_.is(control::ServoKind::torque_servo);
-  const auto speed = series ? std::array{at.speed, 0.0} : pulley_speeds(*config_.actuator.transmission, at);
+  const auto speed = series ? std::array{at.speed / lead(), 0.0} : pulley_speeds(*config_.actuator.transmission, at);
   std::array<double, 2> x{placed.actuator.motor[0].angle, placed.actuator.motor[1].angle};
   for (std::size_t i = 0; i < 2; ++i) x[i] -= at.lag_s * speed[i];
   placed.actuator = actuator_.initial(x, at.shaft_rad - at.lag_s * at.speed);
   for (int i = 0; i < actuator_.motors(); ++i) placed.actuator.motor[i].speed = speed[i];
-  placed.servo.speed = {speed[0], speed[1], at.speed};
+  placed.servo.speed = {speed[0], speed[1], config_.actuator.shaft_scale * at.speed};
   placed.servo.fresh = false;
 }
 

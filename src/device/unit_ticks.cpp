@@ -7,6 +7,7 @@
 
 #include "vsa/device/duty.hpp"
 #include "vsa/device/unit.hpp"
+#include "vsa/elastic/travel.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/firmware/exchange.hpp"
 
@@ -34,10 +35,11 @@ std::optional<control::Servo> make_servo(const UnitConfig& c) {
   std::array<control::ServoMotor, 2> motors;
   for (std::size_t i = 0; i < 2; ++i) {
     const actuator::SideParams& side = c.actuator.side[i];
-    motors[i] = {drive::at_pulley(side.motor, side.gearbox.ratio), 2.0 * kPi / static_cast<double>(1 << side.encoder.bits)};
+    motors[i] = {drive::at_pulley(side.motor, side.gearbox.ratio), 2.0 * kPi / static_cast<double>(1 << side.encoder.bits),
+                 elastic::shaft_per_pulley(*c.actuator.transmission, i)};
     motors[i].motor.resistance_Ohm += side.bridge.switch_Ohm;
   }
-  return control::Servo(*c.servo, motors, c.actuator.transmission);
+  return control::Servo(*c.servo, motors, c.actuator.transmission, 1.0 / c.actuator.shaft_scale);
 }
 
 bool inverted(const UnitConfig& c) noexcept { return !c.servo && c.program.model == firmware::Model::advanced; }
@@ -124,7 +126,8 @@ firmware::TickInputs Unit::read_sensors(UnitState& s, double shaft) const noexce
   // The advanced program turns the motors' words round and not the shaft's, and on the wire all three; in deflection mode the
   // motors follow the shaft only if its encoder counts the other way. So its magnet must be mounted like that.
   const double shaft_sign = inverted(config_) ? -1.0 : 1.0;
-  const std::array<double, 3> angle{s.actuator.motor[0].angle, s.actuator.motor[1].angle, shaft_sign * (shaft + p.shaft_zero_rad)};
+  const std::array<double, 3> angle{s.actuator.motor[0].angle, s.actuator.motor[1].angle,
+                                    shaft_sign * (p.shaft_scale * shaft + p.shaft_zero_rad)};
   const std::array<const sensor::EncoderParams*, 3> encoder{&p.side[0].encoder, &p.side[1].encoder, &p.shaft_encoder};
   for (std::size_t i = 0; i < 3; ++i) {
     const EncoderFault& fault = s.faults.encoder[i];

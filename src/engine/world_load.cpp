@@ -28,16 +28,15 @@ std::int64_t step_ns(const WorldOptions& options, const description::World& worl
   return std::llround(step_s * 1e9);
 }
 
-/// The laws' positions are angles, their outputs torques. Empty: an actuator can drive it.
+/// Empty: an actuator can drive it.
 std::string refusal_of(const description::World& world, std::size_t joint) {
   const Joint& j = world.joints[joint];
   const bool follows = std::any_of(world.couplings.begin(), world.couplings.end(),
                                    [&](const description::Coupling& k) { return k.follower == joint; });
-  return j.kind == Joint::Kind::fixed   ? "can't move: it is fixed, or its limits leave it no room"
-         : j.kind == Joint::Kind::slide ? "is prismatic: the actuators' laws are for angles and torques"
-         : !j.one_axis()                ? "isn't a joint with one axis"
-         : follows                      ? "follows another joint (<mimic>)"
-                                        : "";
+  return j.kind == Joint::Kind::fixed ? "can't move: it is fixed, or its limits leave it no room"
+         : !j.one_axis()              ? "isn't a joint with one axis"
+         : follows                    ? "follows another joint (<mimic>)"
+                                      : "";
 }
 
 /// Joints as a plugin in `model` may name them: relative to that model. `index`: of each in the world, which `owner` steps.
@@ -51,6 +50,7 @@ std::vector<seat::Joint> joints_under(const description::World& world, const voi
     index.push_back(j);
     out.push_back({std::string(*name), {owner, j}, refusal_of(world, j), std::nullopt});
     if (joints[j].one_axis()) out.back().start_rad = joints[j].axes[0].start;
+    out.back().slides = joints[j].kind == Joint::Kind::slide;
   }
   return out;
 }

@@ -50,6 +50,12 @@ void scale_load(engine::World& world, const std::string& model, double share) {
 
 double angle_of(Ticks ticks, int resolution) { return radians(Raw{ticks.value * (1 << resolution)}); }
 
+/// The same with its turns: a word on the wire comes round every second one, and a servo counts on. `truth`: the encoder's angle.
+double counted_angle(Ticks ticks, int resolution, double truth) {
+  const double word = angle_of(ticks, resolution), round = angle_of(Ticks{-32768}, resolution) * -2;
+  return word + round * std::round((truth - word) / round);
+}
+
 }  // namespace
 
 Bench::Bench(const Specimen& specimen, const char* world, Watch* watch, double load_share)
@@ -128,8 +134,16 @@ BenchSample Bench::sample(double time_s) const {
   s.torque_Nm = r.torque_Nm;
   s.mean_torque_Nm = r.mean_torque_Nm;
   s.stiffness_Nm_per_rad = r.stiffness_Nm_per_rad;
-  s.measured_shaft_rad = angle_of(r.measured[2], resolution[2]);
-  const std::array<double, 2> pulleys{angle_of(r.measured[0], resolution[0]), angle_of(r.measured[1], resolution[1])};
+  if (config_->unit.servo) {
+    const double scale = config_->unit.actuator.shaft_scale;
+    s.measured_shaft_rad = counted_angle(r.measured[2], resolution[2], scale * r.shaft_rad) / scale;
+  } else {
+    s.measured_shaft_rad = angle_of(r.measured[2], resolution[2]);
+  }
+  std::array<double, 2> pulleys{};
+  for (std::size_t i = 0; i < 2; ++i)
+    pulleys[i] =
+        config_->unit.servo ? counted_angle(r.measured[i], resolution[i], r.motor_rad[i]) : angle_of(r.measured[i], resolution[i]);
   s.measured_deflection_rad = s.measured_shaft_rad - law().attained(pulleys).equilibrium;
   s.measured_load_Nm = load_peak_Nm_ == 0 ? 0.0 : -load_peak_Nm_ * std::sin(s.measured_shaft_rad);
   s.motor_rad = r.motor_rad;

@@ -18,6 +18,7 @@ using config::at_line, config::CsvTable, config::FewProblems, config::read_csv, 
 
 namespace {
 
+constexpr double kForceLimit_N = 1e6;
 constexpr double kDeflectionLimit = 6.3;  // a turn: no spring of an actuator gives way further
 constexpr std::string_view kNameMark = "preset_";
 
@@ -97,12 +98,13 @@ Branches read_branches(const std::filesystem::path& csv) {
   return {c[0], c[1], c[2], c[3], c[4]};
 }
 
-Branches read_points(const std::filesystem::path& csv, double limit_Nm) {
-  const CsvTable table = read_csv(csv, {{"load_torque_Nm"}, {"deflection_rad"}});
+Branches read_points(const std::filesystem::path& csv, bool linear, double limit_Nm) {
+  const char *const load = linear ? "load_force_N" : "load_torque_Nm", *const way = linear ? "deflection_m" : "deflection_rad";
+  const CsvTable table = read_csv(csv, {{load}, {way}});
   require_samples(table.lines.size(), csv);
   FewProblems problems;
-  require_within(table, 0, "load_torque_Nm", limit_Nm, csv, problems);
-  require_within(table, 1, "deflection_rad", kDeflectionLimit, csv, problems);
+  require_within(table, 0, load, linear ? kForceLimit_N : limit_Nm, csv, problems);
+  require_within(table, 1, way, kDeflectionLimit, csv, problems);
   problems.throw_if_any();
   const auto& torque = table.columns[0];
   std::vector<std::size_t> order(torque.size());

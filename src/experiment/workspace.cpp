@@ -14,6 +14,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDutyScale = 101.0;  // the PWM counter's period, as in device/unit.cpp
 constexpr double kLagStep_rad = 2e-3;
 constexpr double kLagMost_rad = 2 * kPi;
+constexpr double kSlideShare_m_per_rad = 0.05;  // a linear actuator's springs give way by as much on a pinion of this radius
 
 /// The last value in [0, most] up to which ok() holds everywhere on a grid of `step`, then by bisection. ok(0) must hold.
 template <class Ok>
@@ -139,7 +140,8 @@ Reach Workspace::reach(double preset, double speed, Task task, int direction) co
     return r.curvature.qq >= 0 && carries(r, rates, speed, task);  // where the law softens to nothing, the joint gives way
   };
   if (!ok(0)) return {kNaN, kNaN, kNaN, kNaN};
-  const double lag = last_good(kLagMost_rad, kLagStep_rad, ok);
+  const double share = unit_.actuator.linear() ? kSlideShare_m_per_rad : 1.0;
+  const double lag = last_good(share * kLagMost_rad, share * kLagStep_rad, ok);
   const elastic::Response r = at(preset, lag, direction);
   const double shaft = unit_.actuator.shaft_friction.coulomb_Nm;
   const double torque = direction * r.torque + (task == Task::move ? -shaft : shaft);

@@ -55,7 +55,8 @@ experiment::Branches at_rest(const experiment::Specimen& specimen, double preset
   experiment::Branches out;
   for (const double load : loads_Nm) {
     out.torque_Nm.push_back(load);
-    out.rising_rad.push_back(unit.actuator.shaft_zero_rad + experiment::law_deflection(*unit.actuator.transmission, preset, load));
+    out.rising_rad.push_back(unit.actuator.shaft_zero_rad / unit.actuator.shaft_scale +
+                             experiment::law_deflection(*unit.actuator.transmission, preset, load));
   }
   out.falling_rad = out.sd_rising_rad = out.sd_falling_rad = std::vector<double>(loads_Nm.size(), std::nan(""));
   return out;
@@ -69,6 +70,10 @@ experiment::BranchOptions grid_of(const experiment::Branches& data) {
   return out;
 }
 
+bool any_swept(const Task& task) {
+  return std::any_of(task.observations.begin(), task.observations.end(), [](const Observation& o) { return !o.points; });
+}
+
 /// A surrogate and what all its calls share: the units of the values asked for last, as building one costs as much as using it.
 class Surrogate {
  public:
@@ -76,7 +81,7 @@ class Surrogate {
       : specimen_(specimen),
         parameters_(task.parameters),
         watch_(watch),
-        load_peak_Nm_(sweep.load_share * experiment::bench_load_peak_Nm(specimen)) {
+        load_peak_Nm_(any_swept(task) ? sweep.load_share * experiment::bench_load_peak_Nm(specimen) : 0) {
     const device::UnitConfig unit = specimen.library.load(specimen.type, specimen.overrides).unit;
     const std::string_view preset_unit = unit.actuator.transmission->preset_unit();
     for (const Observation& o : task.observations) {

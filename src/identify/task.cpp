@@ -110,13 +110,17 @@ Observation read_observation(const std::filesystem::path& file, const config::Ac
   };
   const bool points = ends("_points.csv");
   const std::string unit(type.unit.actuator.transmission->preset_unit());
-  if (points && unit.empty()) return {path, 0, experiment::read_points(file), 1.0, true};
+  const bool linear = type.unit.actuator.linear();
+  if (linear && !points)
+    throw InputError({path, "file name", "", type.name + " is a linear actuator, of which places at rest are read",
+                      "a file NAME_points.csv with load_force_N,deflection_m"});
+  if (points && unit.empty()) return {path, 0, experiment::read_points(file, linear), 1.0, true};
   const experiment::NamedPreset named = experiment::preset_of_name(file);
   if (named.unit != unit) {
     throw InputError({path, "file name", named.unit, "the preset isn't in the unit of " + type.name,
                       unit.empty() ? "an actuator with a preset" : unit});
   }
-  if (points) return {path, named.value, experiment::read_points(file), 1.0, true};
+  if (points) return {path, named.value, experiment::read_points(file, linear), 1.0, true};
   const bool means = ends("_branches.csv");
   return {path, named.value, means ? experiment::read_branches(file) : experiment::branches(experiment::read_load_recording(file)),
           1.0};

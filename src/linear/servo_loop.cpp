@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "linear/loops.hpp"
+#include "vsa/elastic/travel.hpp"
 
 namespace vsa::linear {
 namespace {
@@ -108,8 +109,9 @@ ServoLoop torque_loop(const device::UnitConfig& unit, const Plant& plant, double
   const Row wish = stiffness * (w.of_input(0) - w.of_plant(0)) - p.damping_Nms_per_rad * shaft_speed;
   const Row spring = -plant.curvature.qq * w.of_plant(0) - plant.curvature.qx[0] * w.of_plant(plant.angle(0));
   const Row error = wish - spring;
-  w.drive(0, wish + p.gain * error + w.integral(p.integral_per_s, error, motor_name(0)) - p.motor_damping_Nms_per_rad * motor_speed,
-          motor_speed);
+  const double h = elastic::shaft_per_pulley(*unit.actuator.transmission, 0);
+  const Row integral = w.integral(h * p.integral_per_s, error, motor_name(0));
+  w.drive(0, h * (wish + p.gain * error) + integral - p.motor_damping_Nms_per_rad * motor_speed, motor_speed);
   return w.done({{"equilibrium", "rad"}});
 }
 

@@ -9,6 +9,7 @@
 #include "record/energy_columns.hpp"
 #include "record/number_text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::record {
 namespace {
@@ -39,12 +40,27 @@ const std::string* common_unit(const RobotInfo& robot) {
   return same ? &first : nullptr;
 }
 
+std::size_t slides(const RobotInfo& robot) {
+  return static_cast<std::size_t>(
+      std::count_if(robot.actuators.begin(), robot.actuators.end(), [](const auto& a) { return a.linear; }));
+}
+/// Linear actuators beside others: a column tells which.
+bool mixed(const RobotInfo& robot) { return slides(robot) > 0 && slides(robot) < robot.actuators.size(); }
+
+/// All but the motors' are the shaft's.
+std::string sliding_columns(const std::string& header) {
+  const std::size_t motors = header.find(",motor_1_rad");
+  return sliding(std::string_view(header).substr(0, motors)) + header.substr(motors);
+}
+
 std::string actuators_header(const RobotInfo& robot) {
   const std::string* unit = common_unit(robot);
   const std::string suffix = unit != nullptr && !unit->empty() ? "_" + *unit : "";
   std::string h = "time_s,actuator,shaft_rad,shaft_speed_rad_per_s,equilibrium_command_rad,equilibrium_rad,";
   h += csv_text("preset_command" + suffix) + ',' + csv_text("preset" + suffix);
   h += ",deflection_rad,stiffness_Nm_per_rad,torque_Nm,motor_1_rad,motor_2_rad,current_1_A,current_2_A";
+  if (slides(robot) == robot.actuators.size() && !robot.actuators.empty()) h = sliding_columns(h);
+  if (mixed(robot)) h += ",shaft_unit";
   if (unit == nullptr && !robot.actuators.empty()) h += ",preset_unit";
   return h + '\n';
 }
@@ -104,7 +120,9 @@ struct CsvFiles::Impl {
     for (const ActuatorInfo& a : info.actuators) {
       r.names.push_back(csv_text(a.name));
       r.motors.push_back(a.motors);
-      if (common_unit(info) == nullptr) r.units.push_back(csv_text(a.preset_unit));
+      std::string units = mixed(info) ? (a.linear ? ",m" : ",rad") : "";
+      if (common_unit(info) == nullptr) units += ',' + csv_text(a.preset_unit);
+      r.units.push_back(std::move(units));
     }
     robots.push_back(std::move(r));
     headers.push_back(actuators_header(info));
@@ -116,7 +134,7 @@ struct CsvFiles::Impl {
     for (std::size_t i = 0; i < robot.names.size(); ++i) {
       text += time + ',' + robot.names[i];
       actuator_line(text, sample.actuators[first + i], robot.motors[i]);
-      if (!robot.units.empty()) text += ',' + robot.units[i];
+      text += robot.units[i];
       text += '\n';
     }
     files[index].append(text);

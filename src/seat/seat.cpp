@@ -26,9 +26,18 @@ void check_joints(const host::RobotConfig& config, const Model& model, Problems&
   config::check_joints(config, names, model.where, problems);
   for (const host::ActuatorConfig& a : config.actuators) {
     const Joint* joint = find(model, a.joint);
-    if (joint != nullptr && !joint->refusal.empty())
-      problems.add({model.where, "actuator[" + a.name + "]/joint", a.joint, joint->refusal,
-                    "a revolute or continuous joint that follows no other"});
+    if (joint == nullptr) continue;
+    const std::string key = "actuator[" + a.name + "]/joint";
+    const bool slides = a.unit.actuator.linear();
+    if (!joint->refusal.empty()) {
+      problems.add({model.where, key, a.joint, joint->refusal, "a joint with one axis that follows no other"});
+    } else if (joint->slides && !slides) {
+      problems.add({model.where, key, a.joint, "is prismatic: " + a.type + " turns its joint",
+                    "a revolute or continuous joint, or a linear actuator, whose law has its shaft in m"});
+    } else if (!joint->slides && slides) {
+      problems.add({model.where, key, a.joint, "turns: " + a.type + " is a linear actuator",
+                    "a prismatic joint, or <override key=\"shaft.pinion_m\" value=\"…\"/>, a rack on a pinion"});
+    }
   }
 }
 

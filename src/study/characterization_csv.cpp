@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "vsa/study/characterization.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::study {
 namespace {
@@ -46,8 +47,10 @@ std::string preset_part(const Characterization& c, double preset) {
 
 }  // namespace
 
-std::string csv_text(const BenchRun& run) {
-  const std::vector<Column> columns = columns_of(run);
+std::string csv_text(const BenchRun& run, bool linear) {
+  std::vector<Column> columns = columns_of(run);
+  for (Column& c : columns)
+    if (linear && c.name.rfind("motor_", 0) != 0 && c.name.rfind("preset", 0) != 0) c.name = sliding(c.name);
   fmt::memory_buffer out;
   const auto to = std::back_inserter(out);
   for (std::size_t i = 0; i < columns.size(); ++i) fmt::format_to(to, "{}{}", i == 0 ? "" : ",", columns[i].name);

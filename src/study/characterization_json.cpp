@@ -122,6 +122,19 @@ Json actuator_json(const Characterization& c) {
   return out;
 }
 
+/// A linear actuator's.
+Json sliding_keys(const Json& from) {
+  if (from.is_array()) {
+    Json out = Json::array();
+    for (const Json& one : from) out.push_back(sliding_keys(one));
+    return out;
+  }
+  if (!from.is_object()) return from;
+  Json out = Json::object();
+  for (const auto& [key, value] : from.items()) out[sliding(key)] = sliding_keys(value);
+  return out;
+}
+
 double step_of(const Characterization& c) {
   if (!c.stiffness.empty()) return c.stiffness.front().run.step_s;
   return c.speed.empty() ? c.preset_step.front().run.step_s : c.speed.front().run.step_s;
@@ -133,9 +146,10 @@ std::string to_json(const Characterization& c, const std::string& command) {
   Json out = page::results_head(command);
   out["actuator"] = actuator_json(c);
   out["engine_step_s"] = step_of(c);
-  for (const StiffnessResult& r : c.stiffness) out["stiffness"].push_back(stiffness_json(c, r));
-  for (const SpeedResult& r : c.speed) out["speed"].push_back(speed_json(c, r));
-  for (const PresetStepResult& r : c.preset_step) out["preset_step"].push_back(preset_step_json(c, r));
+  const auto told = [&](Json result) { return c.linear() ? sliding_keys(result) : result; };
+  for (const StiffnessResult& r : c.stiffness) out["stiffness"].push_back(told(stiffness_json(c, r)));
+  for (const SpeedResult& r : c.speed) out["speed"].push_back(told(speed_json(c, r)));
+  for (const PresetStepResult& r : c.preset_step) out["preset_step"].push_back(told(preset_step_json(c, r)));
   return page::results_text(out);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "study/linear_shaft.hpp"
 #include "study/preset_steps.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/study/characterization.hpp"
@@ -29,6 +30,7 @@ class Planner {
   explicit Planner(const CharacterizationOptions& options) : options_(options) {
     plan_.specimen = options.specimen;
     plan_.actuator = plan_.specimen.library.load(plan_.specimen.type, plan_.specimen.overrides);
+    mount(plan_);
     has_preset_ = !plan_.preset_unit().empty();
   }
 

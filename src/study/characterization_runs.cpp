@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "study/linear_shaft.hpp"
 #include "study/watched_runs.hpp"
 #include "vsa/study/characterization.hpp"
 
@@ -130,7 +131,9 @@ std::optional<Characterization> run(Characterization plan, const OnProgress& on_
   add(plan.preset_step,
       [&](const experiment::PresetStepOptions& o) { return measure(o, experiment::run_preset_step(plan.specimen, o, &watch)); });
   add(plan.speed, [&](const experiment::SpeedOptions& o) { return measure(o, experiment::run_speed(plan.specimen, o, &watch)); });
-  return run_watched(jobs, watch, total_s, on_progress, threads) ? std::optional(std::move(plan)) : std::nullopt;
+  if (!run_watched(jobs, watch, total_s, on_progress, threads)) return std::nullopt;
+  tell_of_output(plan);
+  return plan;
 }
 
 }  // namespace vsa::study

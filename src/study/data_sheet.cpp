@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/study/data_sheet.hpp"
 
+#include "study/linear_shaft.hpp"
 #include "study/preset_steps.hpp"
 
 namespace vsa::study {
@@ -16,9 +17,10 @@ DataSheet plan_data_sheet(const experiment::Specimen& specimen) {
   Characterization plan;
   plan.specimen = specimen;
   plan.actuator = specimen.library.load(specimen.type, specimen.overrides);
-  const bool has_preset = !plan.preset_unit().empty() && plan.actuator.unit.preset_max > 0;
   experiment::DataSheet computed = experiment::data_sheet(plan.actuator);
-  plan.fit = fit_bench(specimen, plan.actuator);
+  mount(plan);
+  const bool has_preset = !plan.preset_unit().empty() && plan.actuator.unit.preset_max > 0;
+  plan.fit = fit_bench(plan.specimen, plan.actuator);
   const bool steps = has_preset && plan.fit.full > 0;
   for (const double share : {0.0, 0.15, 0.4, 1.0}) {
     if (share == 0 || steps) plan.speed.emplace_back().options.preset = share * plan.fit.full;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "study/linear_shaft.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/experiment/datasheet.hpp"
 #include "vsa/page/json.hpp"
@@ -121,7 +122,13 @@ Tasks plan_tasks(const TaskOptions& options) {
   out.step_s = options.step_s;
   for (const std::string& name : options.types.empty() ? options.library.names() : options.types) {
     try {
-      out.each.push_back(planned(options.library.load(name, options.overrides), options));
+      config::ActuatorType type = options.library.load(name, options.overrides);
+      if (type.unit.actuator.linear()) {
+        std::vector<config::Override> mounted = options.overrides;
+        mounted.push_back({"shaft.pinion_m", fmt::format("{}", kBenchPinion_m)});
+        type = options.library.load(name, mounted);
+      }
+      out.each.push_back(planned(std::move(type), options));
     } catch (const InputError& error) {
       problems.add_all(error);
     }

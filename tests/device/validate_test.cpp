@@ -37,13 +37,10 @@ struct Visitor {
   void operator()(const std::string& name, T& number) {
     if (count++ != wanted) return;
     key = name;
-    if constexpr (std::is_floating_point_v<T>) {
-      number = static_cast<T>(bad);
-      changed = true;
-    } else if (std::isfinite(bad) && (bad >= 0 || std::is_signed_v<T>)) {
-      number = static_cast<T>(bad);
-      changed = true;
-    }
+    const bool held = std::is_floating_point_v<T> || (std::isfinite(bad) && (bad >= 0 || std::is_signed_v<T>));
+    if (!held) return;
+    number = static_cast<T>(bad);
+    changed = true;
   }
 };
 
@@ -85,7 +82,7 @@ void visit(actuator::SideParams& p, const std::string& number, Visitor& see) {
 }
 
 void visit(actuator::ActuatorParams& p, Visitor& see) {
-  auto& [transmission, side, supply, shaft_friction, tendon, shaft_encoder, shaft_zero, shaft_inertia] = p;
+  auto& [transmission, side, supply, shaft_friction, tendon, shaft_encoder, shaft_zero, shaft_scale, shaft_inertia] = p;
   static_cast<void>(transmission);
   visit(side[0], "", see);
   visit(side[1], "_2", see);
@@ -97,6 +94,7 @@ void visit(actuator::ActuatorParams& p, Visitor& see) {
   see("tendon.damping_s", damping);
   visit(shaft_encoder, "sensor.", see);
   see("sensor.shaft_zero_rad", shaft_zero);
+  see("sensor.shaft_scale", shaft_scale);
   see("shaft.inertia_kgm2", shaft_inertia);
 }
 

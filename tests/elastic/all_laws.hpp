@@ -41,6 +41,7 @@ inline const std::map<std::string_view, Typical>& typical() {
       {"maccepa_2", {{323, 0.03, 0.18, 0.010, 0.05}, 1.2, 2.5}},
       {"series_hardening", {{10, 50}, 0.5, 0}},
       {"series_spring", {{10}, 0.5, 0}},
+      {"series_travel", {{10, 50}, 0.5, 0}},
       {"table", {typical_grid(), 0.5, 1.2}},
       {"two_cams", {{20000, 0.03}, 0.4, 0.5}},
       {"two_exp", {{0.38, 0.38, 8.71, 0.508}, 0.25, 0.25}},

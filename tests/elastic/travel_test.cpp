@@ -17,13 +17,22 @@ using elastic::Positions;
 using elastic::Response;
 
 std::shared_ptr<const elastic::Transmission> behind_leads(const SomeLaw& l) {
-  return elastic::with_lead(elastic::with_lead(l.law, 0, 0.7), 1, 1.6);
+  return elastic::with_pinion(elastic::with_lead(elastic::with_lead(l.law, 0, 0.7), 1, 1.6), 0.8);
 }
 
 /// A place that the law is at home in, in the pulleys' angles.
 Positions near(const elastic::Transmission& law, const SomeLaw& l) {
   const auto x = law.references({0.1, 0.5 * l.preset});
   return {0.1 + 0.3 * l.deflection_rad, x};
+}
+
+/// ∂/∂q at a place, by differences.
+template <class Value>
+double slope_q(const elastic::Transmission& law, Positions at, const Value& value) {
+  constexpr double kStep = 1e-5;
+  Positions back = at;
+  at.q += kStep, back.q -= kStep;
+  return (value(law.evaluate(at)) - value(law.evaluate(back))) / (2 * kStep);
 }
 
 TEST(Travel, HasTheDerivativesOfItsEnergy) {
@@ -41,8 +50,13 @@ TEST(Travel, HasTheDerivativesOfItsEnergy) {
       EXPECT_NEAR(r.load[i], -slope(b.energy, a.energy), 1e-5 * scale) << l.name;
       EXPECT_NEAR(r.curvature.qx[i], -slope(b.torque, a.torque), 1e-4 * scale) << l.name;
       EXPECT_NEAR(r.curvature.x0x1, -slope(b.load[1 - i], a.load[1 - i]), 1e-4 * scale) << l.name;
+      EXPECT_NEAR(r.curvature.qx[i], slope_q(*law, at, [&](const Response& s) { return -s.load[i]; }), 1e-4 * scale) << l.name;
       EXPECT_NEAR(i == 0 ? r.curvature.x0x0 : r.curvature.x1x1, -slope(b.load[i], a.load[i]), 1e-4 * scale) << l.name;
     }
+    const double scale = std::abs(r.curvature.qq) + 1e-3;
+    EXPECT_NEAR(r.torque, -slope_q(*law, at, [](const Response& s) { return s.energy; }), 1e-5 * scale) << l.name;
+    EXPECT_NEAR(r.curvature.qq, -slope_q(*law, at, [](const Response& s) { return s.torque; }), 1e-4 * scale) << l.name;
+    EXPECT_EQ(law->tangent_of(law->origin(at)).stiffness, r.curvature.qq) << l.name;
     EXPECT_EQ(law->energy(at), r.energy);
   }
 }

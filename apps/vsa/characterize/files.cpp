@@ -8,7 +8,7 @@ std::vector<std::string> write_characterization(const study::Characterization& c
                                                 const std::filesystem::path& directory) {
   std::vector<std::string> files{"report.html", "results.json"};
   const auto csv = [&](const std::string& name, const experiment::BenchRun& run) {
-    write_whole(directory / name, study::csv_text(run));
+    write_whole(directory / name, study::csv_text(run, c.linear()));
     files.push_back(name);
   };
   for (const auto& r : c.stiffness) csv(study::csv_name(c, r), r.run);

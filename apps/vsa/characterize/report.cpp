@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "characterize/output.hpp"
+#include "vsa/report/sliding.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::app {
 namespace {
@@ -79,7 +81,7 @@ Chart stiffness_chart(const study::Characterization& c) {
   }
   out.caption =
       fmt::format("Slope of a cubic fitted to each branch in windows of {:g} N·m, mean of both branches; bars: one standard error.",
-                  0.4 * c.stiffness.front().options.load_share);
+                  0.4 * c.stiffness.front().options.load_share * c.load_scale);
   return out;
 }
 
@@ -181,18 +183,20 @@ report::Report characterization_report(const study::Characterization& c, const s
   report::Report out;
   out.title = c.actuator.title;
   out.subtitle = "Characterised as the paper's section IV does it, in simulation: " + c.actuator.name + overrides_text(c);
+  const auto told = [&](Chart chart) { return c.linear() ? report::sliding(std::move(chart)) : chart; };
   report::Section notes{"", {}};
   for (const std::string& note : fit_notes(c)) notes.blocks.emplace_back(report::Text{note});
   if (!notes.blocks.empty()) out.sections.push_back(std::move(notes));
   if (!c.stiffness.empty()) {
-    out.sections.push_back(
-        {"Stiffness", {report::Text{sweep_text(c)}, loop_chart(c), stiffness_chart(c), width_chart(c), stiffness_table(c)}});
+    out.sections.push_back({"Stiffness",
+                            {report::Text{c.linear() ? sliding(sweep_text(c)) : sweep_text(c)}, told(loop_chart(c)),
+                             told(stiffness_chart(c)), told(width_chart(c)), stiffness_table(c)}});
   }
   if (!c.speed.empty()) {
-    out.sections.push_back({"Speed", {step_chart(c), speed_table(c)}});
+    out.sections.push_back({"Speed", {told(step_chart(c)), speed_table(c)}});
   }
   if (!c.preset_step.empty()) {
-    out.sections.push_back({"Stiffness variation", {preset_chart(c), sag_chart(c), preset_step_table(c)}});
+    out.sections.push_back({"Stiffness variation", {preset_chart(c), told(sag_chart(c)), preset_step_table(c)}});
   }
   if (c.preset_unit().empty()) {
     out.sections.push_back({"Stiffness variation", {report::Text{"This actuator has no stiffness preset."}}});

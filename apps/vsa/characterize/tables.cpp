@@ -6,6 +6,7 @@
 
 #include "characterize/output.hpp"
 #include "terminal/table.hpp"
+#include "vsa/report/sliding.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::app {
@@ -21,11 +22,11 @@ std::string text(double value, const char* format) {
 }
 
 /// σ ± standard error at the point whose torque is nearest.
-std::string stiffness_at(const study::StiffnessResult& r, double torque_Nm) {
+std::string stiffness_at(const study::StiffnessResult& r, double torque_Nm, double scale) {
   const auto distance = [torque_Nm](const auto& p) { return std::abs(p.torque_Nm - torque_Nm); };
   const auto at =
       std::min_element(r.curve.begin(), r.curve.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-  const double near_Nm = 0.026 * r.options.load_share;  // half the branches' grid
+  const double near_Nm = 0.026 * r.options.load_share * scale;  // half the branches' grid
   if (at == r.curve.end() || distance(*at) > near_Nm) return "–";
   return fmt::format("{:.3g} ± {:.1g}", at->stiffness_Nm_per_rad, at->standard_error_Nm_per_rad);
 }
@@ -59,6 +60,7 @@ std::string resolution_text(const study::Characterization& c) {
   const actuator::ActuatorParams& a = c.actuator.unit.actuator;
   const int coarsest = std::min({a.side[0].encoder.bits, a.side[a.sides() - 1].encoder.bits, a.shaft_encoder.bits});
   const double count_rad = 2 * kPi / std::pow(2.0, coarsest);
+  if (c.linear()) return "";  // its encoders' counts are of different sizes
   return fmt::format("The encoders resolve the loop to ±{:.4f} N·m·rad; a smaller area may be none.\n",
                      2 * count_rad * 2 * most_Nm(c));
 }
@@ -67,6 +69,10 @@ std::string resolution_text(const study::Characterization& c) {
 
 std::vector<std::string> fit_notes(const study::Characterization& c) {
   std::vector<std::string> out;
+  if (c.linear())
+    out.push_back(
+        fmt::format("The output turns the benches as a rack on a pinion of {:g} m; the results are the output's own, in m and N.",
+                    1 / c.load_scale));
   const bool loaded = !c.stiffness.empty() || c.preset_step.size() > 1;
   if (!loaded) return out;
   if (c.fit.load_share != 1) out.push_back(fmt::format("The load bench carries {:g} kg in place of 1 kg.", c.fit.load_share));
@@ -79,22 +85,26 @@ std::vector<std::string> fit_notes(const study::Characterization& c) {
 report::Table stiffness_table(const study::Characterization& c) {
   report::Table out;
   out.title = kStiffness;
-  const double share = c.stiffness.empty() ? 1 : c.stiffness.front().options.load_share;
+  const double share = c.load_scale * (c.stiffness.empty() ? 1 : c.stiffness.front().options.load_share);
   out.head = head(c,
-                  {"shaft to [°]", "load to [N·m]", "δ to [rad]", "σ at 0 [N·m/rad]", fmt::format("σ at {:g} N·m", share),
-                   "loop [N·m·rad]", "mean |width|", "A [rad]"},
+                  {c.linear() ? "shaft to [m]" : "shaft to [°]", "load to [N·m]", "δ to [rad]", "σ at 0 [N·m/rad]",
+                   fmt::format("σ at {:g} N·m", share), "loop [N·m·rad]", "mean |width|", "A [rad]"},
                   true);
+  // Of an angle, as many decimals as an encoder tells; a travel in m has its own size.
+  const auto rad = [&](double value, int decimals) {
+    return !std::isfinite(value) ? "–" : c.linear() ? fmt::format("{:.3g}", value) : fmt::format("{:.{}f}", value, decimals);
+  };
   for (const study::StiffnessResult& r : c.stiffness) {
     Row row;
     put_preset(row, c, fmt::format("{:.4g}", r.options.preset));
     put_preset(row, c, range_text(r.preset.least, r.preset.most));
-    row.push_back(fmt::format("{:.1f}", r.shaft_rad.most * 180 / kPi));
+    row.push_back(c.linear() ? fmt::format("{:.4f}", r.shaft_rad.most) : fmt::format("{:.1f}", r.shaft_rad.most * 180 / kPi));
     row.push_back(fmt::format("{:.3f}", r.load_Nm.most));
-    row.push_back(fmt::format("{:.3f}", r.deflection_rad.most));
-    row.push_back(stiffness_at(r, 0));
-    row.push_back(stiffness_at(r, share));
+    row.push_back(rad(r.deflection_rad.most, 3));
+    row.push_back(stiffness_at(r, 0, c.load_scale));
+    row.push_back(stiffness_at(r, share, c.load_scale));
     row.push_back(text(r.loop.area_Nm_rad, "{:.4f}"));
-    row.push_back(text(r.loop.mean_abs_width_rad, "{:.4f}"));
+    row.push_back(rad(r.loop.mean_abs_width_rad, 4));
     row.push_back(fmt::format("{:.4f}", r.run.amplitude_rad));
     out.rows.push_back(row);
   }
@@ -103,7 +113,7 @@ report::Table stiffness_table(const study::Characterization& c) {
       "∫(falling − rising) dτ over |τ| ≤ {:g} N·m, positive where energy is lost. Mean |width|: of |falling − rising|, "
       "rad. A: amplitude of the sweep.",
       1.4 * share);
-  return out;
+  return c.linear() ? report::sliding(std::move(out)) : out;
 }
 
 report::Table speed_table(const study::Characterization& c) {
@@ -124,13 +134,13 @@ report::Table speed_table(const study::Characterization& c) {
     row.push_back(text(s.overshoot_pct, "{:.2f}"));
     row.push_back(text(s.ringing_Hz, "{:.1f}"));
     row.push_back(text(s.damping_ratio, "{:.3f}"));
-    row.push_back(text(s.steady_error, "{:+.4f}"));
+    row.push_back(c.linear() ? text(s.steady_error, "{:+.3g}") : text(s.steady_error, "{:+.4f}"));
     out.rows.push_back(row);
   }
   out.caption =
       "Means over the square wave's edges. Rise: 10–90 % of the attained change; ω: Δθ/Δt over it, of the shaft and of the mean of "
       "the pulleys. Steady error: negative where the shaft falls short. –: nothing to measure.";
-  return out;
+  return c.linear() ? report::sliding(std::move(out)) : out;
 }
 
 report::Table preset_step_table(const study::Characterization& c) {
@@ -146,7 +156,7 @@ report::Table preset_step_table(const study::Characterization& c) {
                         text(r.down.rise_s, "{:.3f}")});
   }
   out.caption = "Attained preset, from the pulleys; times are 10–90 % of the attained change.";
-  return out;
+  return c.linear() ? report::sliding(std::move(out)) : out;
 }
 
 std::string characterization_text(const study::Characterization& c) {

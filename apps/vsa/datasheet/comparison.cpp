@@ -36,7 +36,7 @@ std::string amount_held(const experiment::Holding& h) {
 template <class Cells>
 void add_rows(const Sheets& sheets, report::Table& out, Cells cells) {
   for (const study::DataSheet& d : sheets) {
-    std::vector<std::string> row{d.computed.type.name};
+    std::vector<std::string> row{d.computed.type.name + (d.simulated.linear() ? ", on a pinion" : "")};
     for (std::string& cell : cells(d)) row.push_back(std::move(cell));
     out.rows.push_back(std::move(row));
     out.links.push_back(sheet_file(d));
@@ -231,7 +231,7 @@ report::Report comparison_page(const Sheets& sheets, const std::string& command)
   equalise({&soft_curve, &stiff_curve});
   report::Report out;
   out.title = "Actuator types beside each other";
-  out.subtitle = fmt::format("{} types; a name leads to its data sheet", sheets.size());
+  out.subtitle = fmt::format("{} types; a name leads to its data sheet; linear actuators turn a pinion of 0.05 m", sheets.size());
   out.links = {{"Gallery", kGalleryFile}};
   out.sections = {{"Numbers", {strength_table(sheets), stiffness_range_table(sheets), holding_table(sheets)}},
                   {"Curves", {soft, stiff, soft_curve, stiff_curve, torque_speed(sheets), stiffness_preset(sheets)}}};

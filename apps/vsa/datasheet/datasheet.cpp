@@ -91,8 +91,9 @@ int run_gallery(const DatasheetOptions& options) {
     report::write_report(sheet, folder / sheet_file(*done));
     sheets.push_back(std::move(*done));
   }
-  report::write_report(comparison_page(sheets, "vsa datasheet --all" + step), folder / kComparisonFile);
   report::write_report(gallery_page(sheets, "vsa datasheet --all" + step), folder / kGalleryFile);
+  sheets = comparable(std::move(sheets));
+  report::write_report(comparison_page(sheets, "vsa datasheet --all" + step), folder / kComparisonFile);
   for (const report::Table& table : {strength_table(sheets), stiffness_range_table(sheets), holding_table(sheets)}) {
     std::vector<std::vector<std::string>> rows{table.head};
     rows.insert(rows.end(), table.rows.begin(), table.rows.end());

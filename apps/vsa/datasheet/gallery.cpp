@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "datasheet/page.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::app {
 namespace {
@@ -16,6 +17,12 @@ using experiment::PresetColumn;
 constexpr int kPoints = 40, kPresets = 24;
 constexpr double kMostPreset = 0.9;  // of the attainable one, as the sheet's last
 constexpr double kLeastLoad = 0.01;  // of the peak torque: where a picture's logarithmic axis begins
+
+/// On the benches' pinion, where a linear actuator is one among others.
+study::DataSheet turning(study::DataSheet d) {
+  if (d.simulated.linear()) d.computed = experiment::data_sheet(d.simulated.actuator);
+  return d;
+}
 
 /// σ against load up to the softest preset's peak torque: the least and the most over presets.
 void add_picture(const study::DataSheet& d, report::Cards::Card& card) {
@@ -44,19 +51,27 @@ report::Cards::Card card_of(const study::DataSheet& d) {
   card.subtitle = fmt::format("{}, law {}", s.type.name, s.type.law);
   card.tag = s.type.rank.empty() ? "no rank" : s.type.rank;
   card.link = sheet_file(d);
-  add_picture(d, card);
+  add_picture(d.simulated.linear() ? turning(d) : d, card);
   const auto [low, high] = stiffness_at_rest(d);
   card.figures = {{"stiffness", span_text(low, high) + " N·m/rad"},
                   {"peak torque", number(soft.peak.torque_Nm) + " N·m"},
                   {"speed, no load", number(soft.no_load_speed_rad_per_s) + " rad/s"},
                   {"elastic energy", number(s.most_energy_J) + " J"}};
   const auto& steps = d.simulated.preset_step;
+  if (d.simulated.linear())
+    for (auto& figure : card.figures)
+      for (std::string& words : figure) words = sliding(words);
   card.figures.push_back({"stiffens in", steps.empty() ? "no preset" : number(steps[0].up.rise_s) + " s"});
   if (s.type.mass_kg) card.figures.push_back({"mass", number(s.type.mass_kg->value) + " kg"});
   return card;
 }
 
 }  // namespace
+
+std::vector<study::DataSheet> comparable(std::vector<study::DataSheet> sheets) {
+  for (study::DataSheet& d : sheets) d = turning(std::move(d));
+  return sheets;
+}
 
 std::string sheet_file(const study::DataSheet& d) { return d.computed.type.name + ".html"; }
 
@@ -78,7 +93,8 @@ report::Report gallery_page(const std::vector<study::DataSheet>& sheets, const s
   cards.caption =
       "Pictures: stiffness that the law gives under a load that the motors move, from the softest preset to 90 % of the largest; "
       "all "
-      "axes are the same. Numbers: stiffness at rest; time from 10 to 90 % of the preset's way without load, simulated; the rest "
+      "axes are the same (linear actuators: on a pinion of 0.05 m). Numbers: stiffness at rest; time from 10 to 90 % of the "
+      "preset's way without load, simulated; the rest "
       "from "
       "law and drive, but the mass, which the type's file states.";
   report::Report out;

@@ -16,10 +16,13 @@ inline constexpr const char* kComparisonFile = "comparison.html";
 /// Of a type's data sheet beside them.
 [[nodiscard]] std::string sheet_file(const study::DataSheet& d);
 
+/// Linear actuators as the benches have them, on a pinion, so that all are in N·m and rad.
+[[nodiscard]] std::vector<study::DataSheet> comparable(std::vector<study::DataSheet> sheets);
+
 /// A card a type: its stiffness against load from softest to stiffest, on axes that all cards share.
 [[nodiscard]] report::Report gallery_page(const std::vector<study::DataSheet>& sheets, const std::string& command);
 
-/// What a user chooses by (experiment/datasheet.hpp), a row a type in the order given.
+/// What a user chooses by (experiment/datasheet.hpp), a row a type in the order given; of comparable() sheets.
 [[nodiscard]] report::Table strength_table(const std::vector<study::DataSheet>& sheets);
 [[nodiscard]] report::Table stiffness_range_table(const std::vector<study::DataSheet>& sheets);
 [[nodiscard]] report::Table holding_table(const std::vector<study::DataSheet>& sheets);

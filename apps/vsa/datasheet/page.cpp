@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "terminal/table.hpp"
+#include "vsa/report/sliding.hpp"
 
 namespace vsa::app {
 namespace {
@@ -20,8 +21,8 @@ std::string overridden(const study::DataSheet& d) {
 
 /// "linear_beyond_rad" → "linear beyond": the unit stands beside the value.
 std::string symbol(std::string key) {
-  for (const std::string_view suffix :
-       {"_Nm_per_rad3", "_Nm_per_rad2", "_Nm_per_rad", "_m_per_rad2", "_m_per_rad", "_N_per_m", "_per_rad", "_Nm", "_rad", "_m"}) {
+  for (const std::string_view suffix : {"_Nm_per_rad3", "_Nm_per_rad2", "_Nm_per_rad", "_m_per_rad2", "_m_per_rad", "_N_per_m3",
+                                        "_N_per_m", "_per_rad", "_Nm", "_rad", "_m"}) {
     if (key.size() <= suffix.size() || key.compare(key.size() - suffix.size(), suffix.size(), suffix) != 0) continue;
     key.resize(key.size() - suffix.size());
     break;
@@ -42,6 +43,12 @@ std::string law_text(const config::ActuatorType& type) {
         fmt::format("{}{} = {}{}", with.empty() ? "; " : ", ", symbol(e.key.substr(8)), e.value, e.unit == "1" ? "" : " " + e.unit);
   }
   return out + with + ".";
+}
+
+/// What is told of the shaft, as the actuator has it.
+template <class T>
+T told(const study::DataSheet& d, T words) {
+  return d.simulated.linear() ? report::sliding(std::move(words)) : words;
 }
 
 std::string how_text(const study::DataSheet& d) {
@@ -68,11 +75,13 @@ report::Report data_sheet_report(const study::DataSheet& d, const std::string& c
   out.subtitle = "Data sheet of the simulated actuator " + p.name + (p.rank.empty() ? "" : ", " + p.rank) + overridden(d);
   out.one_page = true;
   std::string about = p.description.empty() ? "" : p.description + " ";
-  report::Section head{"", {report::Text{about + law_text(p)}, report::Figures{key_figures(d)}}};
+  report::Section head{"", {report::Text{about + law_text(p)}, report::Figures{told(d, key_figures(d))}}};
   report::Section curves{"", sheet_charts(d)};
+  for (report::Block& block : curves.blocks)
+    if (auto* chart = std::get_if<report::Chart>(&block)) *chart = told(d, std::move(*chart));
   report::Section tables{"", {}};
-  if (d.has_preset()) tables.blocks.push_back(preset_table(d));
-  report::Section operating{"", {mechanical_table(d), electrical_table(d)}};
+  if (d.has_preset()) tables.blocks.push_back(told(d, preset_table(d)));
+  report::Section operating{"", {told(d, mechanical_table(d)), electrical_table(d)}};
   out.sections = {std::move(head), std::move(curves)};
   if (!tables.blocks.empty()) out.sections.push_back(std::move(tables));
   out.sections.push_back(std::move(operating));
@@ -82,8 +91,8 @@ report::Report data_sheet_report(const study::DataSheet& d, const std::string& c
 
 std::string data_sheet_text(const study::DataSheet& d) {
   std::string out = d.computed.type.title + "\n\n";
-  std::vector<report::Table> tables{mechanical_table(d), electrical_table(d)};
-  if (d.has_preset()) tables.insert(tables.begin(), preset_table(d));
+  std::vector<report::Table> tables{told(d, mechanical_table(d)), electrical_table(d)};
+  if (d.has_preset()) tables.insert(tables.begin(), told(d, preset_table(d)));
   for (const report::Table& t : tables) {
     std::vector<std::vector<std::string>> rows{t.head};
     rows.insert(rows.end(), t.rows.begin(), t.rows.end());

@@ -79,7 +79,7 @@ std::vector<report::Figure> key_figures(const study::DataSheet& d) {
   std::vector<report::Figure> out{
       {"Peak torque", number(soft.peak.torque_Nm) + " N·m", "moves it; holds " + number(soft.holding.torque_Nm)},
       {"No-load speed", number(soft.no_load_speed_rad_per_s) + " rad/s",
-       fmt::format("{:.0f} rpm", soft.no_load_speed_rad_per_s * 30 / kPi)},
+       d.simulated.linear() ? "" : fmt::format("{:.0f} rpm", soft.no_load_speed_rad_per_s * 30 / kPi)},
       {"Peak output power", number(soft.power.power_W) + " W",
        fmt::format("{} N·m, {} rad/s", number(soft.power.torque_Nm), number(soft.power.speed_rad_per_s))},
   };

@@ -5,6 +5,9 @@
 // A side is a motor with its gearbox, its bridge and the encoder on its driving pulley. All of it is told by the pulley's angle φ:
 // that is what the encoder reads, what the firmware's references mean and what friction's presliding counts. Where the law's input
 // is a travel, the law is taken through elastic/travel.hpp, which makes it one of pulleys.
+//
+// A linear actuator is one whose law's shaft slides: its shaft's numbers are in m, N and kg where those of others are in rad, N·m and
+// kg·m².
 #pragma once
 
 #include <array>
@@ -47,6 +50,7 @@ struct ActuatorParams {
   TendonParams tendon;
   sensor::EncoderParams shaft_encoder;
   double shaft_zero_rad = 0;                    ///< and this added to the shaft's reading
+  double shaft_scale = 1;                       ///< radians of the shaft's encoder per unit of the shaft; 1: turns with it
   double shaft_inertia_kgm2 = drive::kMissing;  ///< used as 1/A where a host can't tell the inverse inertia
 
   void set_both(const SideParams& alike) { side = {alike, alike}; }
@@ -54,6 +58,7 @@ struct ActuatorParams {
   [[nodiscard]] std::size_t sides() const noexcept {
     return transmission ? static_cast<std::size_t>(transmission->motor_count()) : side.size();
   }
+  [[nodiscard]] bool linear() const noexcept { return transmission && transmission->shaft_unit() == "m"; }
   bool operator==(const ActuatorParams&) const = default;
 };
 /// Adds what no actuator could have: numbers that aren't finite or outside what the models need, no transmission. What both sides

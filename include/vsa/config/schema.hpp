@@ -41,6 +41,7 @@ struct Parameter {
   SideSetter set_side = nullptr;    ///< not null: the second side may have a value of its own, "drive_2.friction_Nm"
   bool second = false;              ///< this is that value: optional, in the place of what the first key gave both
   std::string_view controllers{};   ///< which controllers have it: "position_servo|torque_servo"; empty: all
+  std::string_view shaft{};         ///< whose shaft's unit this is: "rad" or, of linear actuators, "m"; empty: all
 
   void apply(device::UnitConfig& to, double value) const;
 };

@@ -20,7 +20,9 @@
 // makes the joint a spring of the stiffness k about the equilibrium θ. The preset (N·m/rad) is added to the stiffness k₀ that the
 // type has; τ_c is a torque commanded besides, 0 at first:
 //   τ* = −k (q̂ − θ) − d ω̂_q + τ_c,    k = max(k₀ + preset, 0)
-//   τ_w = τ* + k_τ (τ* − τ̂) + ξ − d_x ω̂_x,    ξ += k_ξ T dead_zone(τ* − τ̂)
+//   τ_w = h (τ* + k_τ (τ* − τ̂)) + ξ − d_x ω̂_x,    ξ += h k_ξ T dead_zone(τ* − τ̂)
+// h is 1 where pulley and shaft turn together. In a linear actuator, whose q̂ is in m and τ in N, it is the lead, m/rad
+// (elastic::shaft_per_pulley), and the shaft's encoder counts a turn in so many metres.
 // A spring behind it can't be passive if it shall be stiffer than the unit's own: k ≤ ∂²H/∂q².
 //
 // MOTOR VOLTAGES: V = clamp(what was commanded, ±supply). For who closes the loops.
@@ -120,13 +122,17 @@ struct ServoPlace {
 struct ServoMotor {
   drive::MotorParams motor;
   double count_rad = 0;
+  double shaft_per_rad =
+      1;  ///< how far the shaft goes with a radian of the pulley where the spring doesn't give (elastic/travel.hpp)
 };
 
 /// One unit's controller; a state belongs to whoever owns time.
 class Servo {
  public:
   /// Parameters that validate() takes, torque constants above 0.
-  Servo(const ServoParams& params, const std::array<ServoMotor, 2>& motors, std::shared_ptr<const elastic::Transmission> law);
+  /// `shaft_per_rad`: of the shaft's encoder, 1 where that turns with the shaft.
+  Servo(const ServoParams& params, const std::array<ServoMotor, 2>& motors, std::shared_ptr<const elastic::Transmission> law,
+        double shaft_per_rad = 1);
 
   [[nodiscard]] const ServoParams& params() const noexcept { return params_; }
   /// x*, before counts.
@@ -161,6 +167,7 @@ class Servo {
   ServoParams params_;
   std::array<ServoMotor, 2> motor_;
   std::shared_ptr<const elastic::Transmission> law_;
+  double shaft_per_rad_;
   int motors_;
   double filter_;  // T/(T + T_f)
 };

@@ -228,6 +228,7 @@ class Unit {
   [[nodiscard]] std::array<double, 2> resting_pulleys(const control::ServoCommand& command, double shaft_rad) const noexcept;
   void settle_servo(UnitState& state, const std::array<double, 2>& pulleys, double shaft_rad) const noexcept;
   void find_shaft(UnitState& state, double shaft_rad) const noexcept;
+  [[nodiscard]] double lead() const noexcept;  ///< of a torque servo: how far the shaft goes with a radian of the pulley
   void place_servo(UnitState& placed, const UnitPlace& at) const noexcept;
   void check_servo_place(const UnitPlace& at, std::string_view where, Problems& problems) const;
   [[nodiscard]] std::int64_t segment_ns(const StepPlan& plan, std::int64_t walked_ns) const noexcept;

@@ -41,6 +41,10 @@ struct UnitConfig {
   bool operator==(const UnitConfig&) const = default;
 };
 
+/// A linear actuator (ActuatorParams::linear()) that turns a joint by a rack on a pinion of this radius: what was m, N and kg at its
+/// shaft is rad, N·m and kg·m² at the joint, q = ρ ψ, τ = ρ F, J = ρ² m.
+[[nodiscard]] UnitConfig at_pinion(UnitConfig unit, double radius_m);
+
 /// Adds what no unit could have: numbers that aren't finite or outside what the models need, no transmission, what doesn't go
 /// together. `where` leads each key. A file's own bounds are checked where it is read.
 void validate(const UnitConfig& config, std::string_view where, Problems& problems);

@@ -19,7 +19,7 @@
 namespace vsa::elastic {
 
 /// One more with each change of Transmission, of Law, or of what passes between them, that a law compiled before wouldn't survive.
-inline constexpr std::uint32_t kLawInterface = 1;
+inline constexpr std::uint32_t kLawInterface = 2;
 
 // Words and not variables: of a variable that several libraries have, a process may keep one for all.
 /// vsasim's version, as CMakeLists.txt has it.

@@ -7,8 +7,9 @@
 //   load_i = −∂H/∂x_i              torque on input i (driving pulley, pivot)   N·m
 //   σ      =  ∂²H/∂q²              stiffness, what a user means by it          N·m/rad
 //
-// q is the output shaft, x the motor-side inputs after their gearboxes (rad; metres for a prismatic input). Losses are
-// separate, passive terms and have no place here: a law that can be written as H can't create energy.
+// q is the output shaft, x the motor-side inputs after their gearboxes (rad; metres for a prismatic input). Where the shaft itself
+// slides (shaft_unit()), q is in m, τ in N and σ in N/m. Losses are separate, passive terms and have no place here: a law that can
+// be written as H can't create energy.
 #pragma once
 
 #include <array>
@@ -149,6 +150,8 @@ class Transmission {
   [[nodiscard]] virtual bool equals(const Transmission& other) const noexcept { return this == &other; }
   /// Of input i: "rad" or, where it is a travel, "m". Motors turn pulleys: a travel needs elastic/travel.hpp between.
   [[nodiscard]] virtual std::string_view input_unit(std::size_t /*input*/) const noexcept { return "rad"; }
+  /// Of q: "rad" or, for a linear actuator, "m"; torques are forces then.
+  [[nodiscard]] virtual std::string_view shaft_unit() const noexcept { return "rad"; }
   /// Adds what is wrong with the law's own parameters, by their keys in files; a law that was made of checked ones has nothing to say.
   virtual void validate(std::string_view /*where*/, Problems& /*problems*/) const {}
   /// "rad" for the qbmove's half difference; "" where the law has no preset.

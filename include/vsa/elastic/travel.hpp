@@ -1,16 +1,16 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// A law whose inputs are travels, behind what makes travels of pulleys' angles: a ball screw, a rack, a winch.
+// A law whose inputs, or whose shaft, are travels, behind what makes travels of angles: a ball screw, a rack on a pinion, a winch.
 //
-//   x_i = h_i φ_i                     φ pulley's angle, rad; x the law's own input; h_i lead, m/rad; 1 where the input is an angle
-//   H'(q, φ) = H(q, h φ)              J
-//   load'_i  = h_i load_i             N·m at the pulley, where the law's own load is a force, N
-//   ∂²H'/∂q∂φ_i = h_i ∂²H/∂q∂x_i,     ∂²H'/∂φ_i∂φ_j = h_i h_j ∂²H/∂x_i∂x_j
-//   φ_ref = x_ref / h
+//   q = ρ ψ,  x_i = h_i φ_i           ψ, φ angles, rad; q, x the law's own; ρ, h_i m/rad; 1 where nothing is between
+//   H'(ψ, φ) = H(ρ ψ, h φ)            J
+//   τ' = ρ τ,  load'_i = h_i load_i   N·m, where the law's own torque or load is a force, N
+//   ∂²H'/∂ψ² = ρ² σ,                  ∂²H'/∂ψ∂φ_i = ρ h_i ∂²H/∂q∂x_i,     ∂²H'/∂φ_i∂φ_j = h_i h_j ∂²H/∂x_i∂x_j
+//   φ_ref = x_ref / h,                equilibria: ψ = q / ρ
 //
-// Exact: a segment that is straight in φ is straight in x, so the law's own means hold. All else of an actuator stays at the pulley:
-// inertia, friction, encoder counts, references and readings are those of a turning motor. The preset's unit stays the law's.
-// Range: h > 0 and finite. What rubs in a screw is the gearbox's (drive/motor.hpp).
+// Exact: a segment that is straight in ψ and φ is straight in q and x, so the law's own means hold. All else of an actuator stays at
+// the pulley: inertia, friction, encoder counts, references and readings are those of a turning motor. The preset's unit stays the
+// law's. Range: h, ρ > 0 and finite. What rubs in a screw is the gearbox's (drive/motor.hpp).
 #pragma once
 
 #include <memory>
@@ -20,8 +20,12 @@
 
 namespace vsa::elastic {
 
-/// Lead of each input that is a travel, m/rad.
-using Leads = std::array<std::optional<double>, 2>;
+/// Lead of each input that is a travel, m/rad, and the radius of a pinion at a shaft that is one, m.
+struct Leads {
+  std::array<std::optional<double>, 2> input;
+  std::optional<double> shaft;
+  bool operator==(const Leads&) const = default;
+};
 
 class Travel final : public Transmission {
  public:
@@ -50,6 +54,7 @@ class Travel final : public Transmission {
   [[nodiscard]] bool equals(const Transmission& other) const noexcept override;
   [[nodiscard]] std::string_view preset_unit() const noexcept override { return law_->preset_unit(); }
   [[nodiscard]] std::string_view input_unit(std::size_t input) const noexcept override;
+  [[nodiscard]] std::string_view shaft_unit() const noexcept override { return leads_.shaft ? "rad" : law_->shaft_unit(); }
   void validate(std::string_view where, Problems& problems) const override;
 
  private:
@@ -62,11 +67,19 @@ class Travel final : public Transmission {
   std::shared_ptr<const Transmission> law_;
   Leads leads_;
   std::array<double, 2> h_;
+  double rho_;
 };
 
 /// The law with this lead at one of its inputs, and those that it had at the others.
 [[nodiscard]] std::shared_ptr<const Transmission> with_lead(const std::shared_ptr<const Transmission>& law, std::size_t input,
                                                             double lead_m_per_rad);
+
+/// The law, whose shaft slides, behind a rack on a pinion of this radius: a law of a turning shaft.
+[[nodiscard]] std::shared_ptr<const Transmission> with_pinion(const std::shared_ptr<const Transmission>& law, double radius_m);
+
+/// How far the law's shaft goes with a radian of this pulley where both are joined by a spring alone, as in a series elastic unit: its
+/// lead, over a pinion's radius; 1 where both turn.
+[[nodiscard]] double shaft_per_pulley(const Transmission& law, std::size_t input) noexcept;
 
 /// Of the law without any lead: "m" for a travel.
 [[nodiscard]] std::string_view own_input_unit(const Transmission& law, std::size_t input) noexcept;

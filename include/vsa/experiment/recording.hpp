@@ -60,7 +60,8 @@ void write_load_recording(const LoadRecording& recording, const std::filesystem:
 
 /// Places at rest, each reached for itself: load_torque_Nm,deflection_rad, in any order. As branches they are all "rising", upwards by
 /// torque, and there is no other. Throws InputError as read_load_recording, but for the file's name.
-[[nodiscard]] Branches read_points(const std::filesystem::path& csv, double limit_Nm = 1e4);
+/// Of a linear actuator: load_force_N,deflection_m.
+[[nodiscard]] Branches read_points(const std::filesystem::path& csv, bool linear = false, double limit_Nm = 1e4);
 
 /// a − b on the torques that both have; NaN where one has no value. Without scatter.
 [[nodiscard]] Branches subtract(const Branches& a, const Branches& b);

@@ -46,6 +46,7 @@ struct Joint {
   JointKey key{};                     ///< none: two robots that drive one joint go unnoticed
   std::string refusal{};              ///< why no actuator can drive it; empty: one can
   std::optional<double> start_rad{};  ///< where it begins, if not at 0
+  bool slides = false;                ///< its position is a travel in m, for a linear actuator
 };
 
 struct Model {

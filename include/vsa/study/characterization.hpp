@@ -81,6 +81,11 @@ struct Characterization {
   std::vector<SpeedResult> speed;
   std::vector<PresetStepResult> preset_step;
   /// "rad" …; empty: the law has no stiffness preset.
+  /// What the bench's 1 N·m is at the specimen's output: 1, or of a linear actuator 1/m, in N.
+  double load_scale = 1;
+  /// Of a linear actuator, whose results are in m and N (named as those of others, in rad and N·m): it turns the bench as a rack on a
+  /// pinion, and options of the plan are the bench's.
+  [[nodiscard]] bool linear() const { return load_scale != 1; }
   [[nodiscard]] std::string preset_unit() const { return std::string(actuator.unit.actuator.transmission->preset_unit()); }
 };
 
@@ -102,8 +107,8 @@ struct Characterization {
 /// results.json: every measure, units in the keys; what couldn't be measured is null. `command`: what made it.
 [[nodiscard]] std::string to_json(const Characterization& c, const std::string& command);
 
-/// The samples, one per line, units in the head.
-[[nodiscard]] std::string csv_text(const experiment::BenchRun& run);
+/// The samples, one per line, units in the head: of a linear actuator's, m and N.
+[[nodiscard]] std::string csv_text(const experiment::BenchRun& run, bool linear = false);
 /// "stiffness_preset_0.6903rad.csv", "speed_preset_0.1125rad.csv", "preset_step_loaded.csv"; an actuator without a preset has
 /// "stiffness.csv" and "speed.csv". results.json names them.
 [[nodiscard]] std::string csv_name(const Characterization& c, const StiffnessResult& r);

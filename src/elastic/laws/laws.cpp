@@ -9,9 +9,9 @@
 namespace vsa::elastic {
 
 std::span<const Law* const> laws() noexcept {
-  static constexpr std::array kAll{&kBiStiffness, &kCamRoller, &kLeverCardan,     &kLeverPivot,   &kLeverSpring,
-                                   &kMaccepa,     &kMaccepa2,  &kSeriesHardening, &kSeriesSpring, &kTable,
-                                   &kTwoCams,     &kTwoExp,    &kTwoQuadratic,    &kTwoSinh,      &kTwoSinhLinear};
+  static constexpr std::array kAll{&kBiStiffness, &kCamRoller,       &kLeverCardan,  &kLeverPivot,   &kLeverSpring, &kMaccepa,
+                                   &kMaccepa2,    &kSeriesHardening, &kSeriesSpring, &kSeriesTravel, &kTable,       &kTwoCams,
+                                   &kTwoExp,      &kTwoQuadratic,    &kTwoSinh,      &kTwoSinhLinear};
   return kAll;
 }
 

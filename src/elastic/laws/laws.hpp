@@ -16,6 +16,7 @@ extern const Law kMaccepa;
 extern const Law kMaccepa2;
 extern const Law kSeriesHardening;
 extern const Law kSeriesSpring;
+extern const Law kSeriesTravel;
 extern const Law kTable;
 extern const Law kTwoCams;
 extern const Law kTwoExp;

@@ -4,6 +4,8 @@
 //
 //   δ = q − x₀,   H = ½ k δ² + ¼ c δ⁴,   τ = −(k δ + c δ³),   load₀ = −τ,   σ = k + 3 c δ²
 //
+// In a linear actuator δ = q − x₀ is a travel, and so are both ends: series_travel, with c in N/m³.
+//
 // c = 0 is series_spring (vsa/elastic/series_spring.hpp), a class of its own as it is used most.
 #include <cmath>
 
@@ -19,7 +21,12 @@ constexpr LawParameter kCubic[] = {
     {"hardening_Nm_per_rad3", "N·m/rad³", 0, 1e9, "what the torque gains with the deflection's cube, c"},
 };
 
-class SeriesHardening final : public Transmission {
+constexpr LawParameter kTravel[] = {
+    {"stiffness_N_per_m", "N/m", 1e-3, 1e9, "stiffness at rest, k"},
+    {"hardening_N_per_m3", "N/m³", 0, 1e18, "what the force gains with the deflection's cube, c; 0: a linear spring"},
+};
+
+class SeriesHardening : public Transmission {
  public:
   SeriesHardening(double k, double c) noexcept : k_(k), c_(c) {}
 
@@ -46,12 +53,19 @@ class SeriesHardening final : public Transmission {
   }
   [[nodiscard]] bool equals(const Transmission& other) const noexcept override {
     const auto* same = dynamic_cast<const SeriesHardening*>(&other);
-    return same != nullptr && same->k_ == k_ && same->c_ == c_;
+    return same != nullptr && same->k_ == k_ && same->c_ == c_ && same->shaft_unit() == shaft_unit();
   }
   [[nodiscard]] std::string_view preset_unit() const noexcept override { return ""; }
 
  private:
   double k_, c_;
+};
+
+class SeriesTravel final : public SeriesHardening {
+ public:
+  using SeriesHardening::SeriesHardening;
+  [[nodiscard]] std::string_view input_unit(std::size_t input) const noexcept override { return input == 0 ? "m" : "rad"; }
+  [[nodiscard]] std::string_view shaft_unit() const noexcept override { return "m"; }
 };
 
 }  // namespace
@@ -73,6 +87,17 @@ const Law kSeriesHardening{
     .parameters = kCubic,
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
       return std::make_shared<SeriesHardening>(v[0], v[1]);
+    },
+};
+
+const Law kSeriesTravel{
+    .name = "series_travel",
+    .title = "series elastic, a linear actuator",
+    .equation = "H = k δ²/2 + c δ⁴/4,  δ = q − x₀ in m",
+    .source = "G. A. Pratt, M. M. Williamson, Series elastic actuators, IROS 1995: the spring behind a ball screw",
+    .parameters = kTravel,
+    .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> {
+      return std::make_shared<SeriesTravel>(v[0], v[1]);
     },
 };
 
