@@ -32,7 +32,7 @@ double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9
 void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept {
   plan.t_ns = t_ns;
   plan.dt_ns = dt_ns;
-  plan.whole = segment_ns(plan, 0) == dt_ns;
+  plan.whole = whole(t_ns, dt_ns);
   plan.in = in;
   plan.dy = seconds(dt_ns) * in.speed;
   // The actuator of a whole step sets out with the trials: no tick sees it on its way.
@@ -42,8 +42,8 @@ void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int6
   if (t_ns % kTickNs != 0) plan.held[plan.held_count++] = s.held;
 }
 
-std::int64_t Unit::segment_ns(const StepPlan& plan, std::int64_t walked) const noexcept {
-  return std::min({substep_ns_, kTickNs - (plan.t_ns + walked) % kTickNs, plan.dt_ns - walked});
+std::int64_t Unit::segment_ns(std::int64_t t_ns, std::int64_t dt_ns, std::int64_t walked) const noexcept {
+  return std::min({substep_ns_, kTickNs - (t_ns + walked) % kTickNs, dt_ns - walked});
 }
 
 /// Where the shaft is at the tick, as foreseen.
@@ -70,11 +70,13 @@ firmware::TickInputs Unit::sample(UnitState& s, StepPlan& plan, std::int64_t at_
 }
 
 double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept {
-  StepPlan plan;
+  StepPlan& plan = plan_;
   begin_step(s, plan, t_ns, dt_ns, in);
-  const JointInStep joint{this, &s, &plan};
-  alone_.set({&in.inverse_inertia, 1}, dt_ns);
-  if (first_tick_ns(t_ns + 1) < t_ns + dt_ns) alone_.predict({&joint, 1});
+  if (first_tick_ns(t_ns + 1) < t_ns + dt_ns) {
+    const JointInStep joint{this, &s, &plan};
+    alone_.set({&in.inverse_inertia, 1}, dt_ns);
+    alone_.predict({&joint, 1});
+  }
   for (std::int64_t at = first_tick_ns(t_ns); at < t_ns + dt_ns; at += kTickNs) {
     if (servo_) {
       run_servo(s, plan, at);
@@ -88,12 +90,7 @@ double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const Sha
   return end_step(s, plan);
 }
 
-bool Unit::whole(std::int64_t t_ns, std::int64_t dt_ns) const noexcept {
-  StepPlan plan;
-  plan.t_ns = t_ns;
-  plan.dt_ns = dt_ns;
-  return segment_ns(plan, 0) == dt_ns;
-}
+bool Unit::whole(std::int64_t t_ns, std::int64_t dt_ns) const noexcept { return segment_ns(t_ns, dt_ns, 0) == dt_ns; }
 
 void Unit::tick(UnitState& s, std::int64_t t_ns, double shaft_rad) noexcept {
   if (servo_) return tick_servo(s, shaft_rad);
@@ -104,7 +101,7 @@ void Unit::tick(UnitState& s, std::int64_t t_ns, double shaft_rad) noexcept {
 }
 
 double Unit::step_held(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept {
-  StepPlan plan;
+  StepPlan& plan = plan_;
   begin_step(s, plan, t_ns, dt_ns, in);
   plan.held_count = 0;
   plan.held[plan.held_count++] = s.held;
@@ -165,7 +162,7 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
   plan.path = {};
   std::size_t interval = 0;
   for (std::int64_t now = 0;;) {
-    const std::int64_t h = segment_ns(plan, now);
+    const std::int64_t h = segment_ns(plan.t_ns, plan.dt_ns, now);
     const double share = seconds(h) / seconds(plan.dt_ns);
     actuator::SegmentInput in{dy * share, plan.held[interval].voltage, plan.held[interval].terminal, plan.lead,
                               plan.held[interval].supply_V};

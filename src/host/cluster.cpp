@@ -111,7 +111,8 @@ void Cluster::begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span
       tree.scratch[i * n + i] = own ? *own : 1.0 / tree.joints[i].unit->config().actuator.shaft_inertia_kgm2;
     }
   }
-  tree.solver.set(matrix, dt_ns);
+  // A joint alone is solved by its unit.
+  if (n > 1 || has_ticks_inside(t_ns, dt_ns)) tree.solver.set(matrix, dt_ns);
   for (std::size_t i = 0; i < n; ++i) {
     const JointIn& joint = in[tree.actuators[i]];
     const device::JointInStep& j = tree.joints[i];

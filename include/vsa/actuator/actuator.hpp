@@ -141,6 +141,16 @@ class Actuator {
   [[nodiscard]] double pwm_current(const drive::MotorState& motor, int i, drive::Terminal terminal,
                                    const drive::PwmHold& hold) const noexcept;
 
+  /// Of a unit in lanes they are known, so that what goes for each is no loop and stays in registers.
+  template <class T>
+  [[nodiscard]] int motors() const noexcept {
+    return lanes::kScalar<T> ? motors_ : 2;
+  }
+  template <class T>
+  [[nodiscard]] int springs() const noexcept {
+    return lanes::kScalar<T> ? springs_ : 2;
+  }
+
   // Of a step, for one unit or several: vsa/actuator/actuator_lanes.hpp.
   template <class T>
   using TrialOf = typename SegmentOf<T>::Trial;

@@ -92,7 +92,7 @@ template <class T>
 void Actuator::book_motors(ActuatorStateOf<T>& s) const noexcept {
   LedgerOf<T>& l = s.ledger;
   l.kinetic = l.magnetic = l.bristle = 0.0;
-  for (int i = 0; i < motors_; ++i) {
+  for (int i = 0; i < motors<T>(); ++i) {
     const Side& side = sides_[i];
     l.kinetic += 0.5 * side.motor.inertia_kgm2 * s.motor[i].speed * s.motor[i].speed;
     if (side.motor.inductance_H) l.magnetic += 0.5 * *side.motor.inductance_H * s.motor[i].current * s.motor[i].current;
@@ -118,7 +118,7 @@ void Actuator::begin(ActuatorStateOf<T>& s, SegmentOf<T>& seg, double h_s, const
   seg.whole = own + 2.0 * in.lead.before;
   seg.per_share = 1.0 / in.lead.share;
   seg.per_own = own * seg.per_share;
-  for (int i = 0; i < motors_; ++i) {
+  for (int i = 0; i < motors<T>(); ++i) {
     const Side& side = sides_[i];
     bool pwm = false;
     if constexpr (lanes::kScalar<T>) {
@@ -157,7 +157,7 @@ template <class T>
 void Actuator::slopes(const SegmentOf<T>& seg, TrialOf<T>& t, const elastic::SegmentMeanOf<T>& mean,
                       const RubOf<T>& rub) const noexcept {
   t.slope = (mean.slope.qq - rub.dx[0] - rub.dx[1]) * seg.whole + rub.dy[0] + rub.dy[1];
-  for (int i = 0; i < motors_; ++i) {
+  for (int i = 0; i < motors<T>(); ++i) {
     const T give = t.gain[i], qx = mean.slope.qx[i], spring = qx + rub.dx[i];
     t.gain[i] = -give * (spring * seg.per_own - rub.dx[i]);
     t.slope -= give * qx * (spring * seg.whole - rub.dy[i]);
@@ -170,7 +170,7 @@ SegmentResultOf<T> Actuator::foresee(const ActuatorStateOf<T>& s, SegmentOf<T>& 
   TrialOf<T>& t = seg.found;
   const T shift = 2.0 * seg.shift(0.0);
   SegmentResultOf<T> r{s.end.torque - s.end.slope.qq * shift, 0.0};
-  for (int i = 0; i < motors_; ++i) {
+  for (int i = 0; i < motors<T>(); ++i) {
     const double c = seg.give[i];
     // load̄ ≈ end.load − qx·(dq + shift) − κ·dx, at dq = 0.
     const T qx = s.end.slope.qx[i];
@@ -191,7 +191,7 @@ SegmentResultOf<T> Actuator::foresee(const ActuatorStateOf<T>& s, SegmentOf<T>& 
 template <class T>
 lanes::Truth<T> Actuator::correction(SegmentOf<T>& seg, TrialOf<T>& t, std::array<T, 2>& step) const noexcept {
   auto accepted = lanes::truth<T>(true);
-  for (int i = 0; i < motors_; ++i) {
+  for (int i = 0; i < motors<T>(); ++i) {
     if constexpr (lanes::kScalar<T>) {
       if (seg.chopped(i)) follow(seg, i);
     }
@@ -205,7 +205,7 @@ lanes::Truth<T> Actuator::correction(SegmentOf<T>& seg, TrialOf<T>& t, std::arra
     step[i] = t.friction[i].displacement - t.dx[i];
     const T move = lanes::abs(step[i]);
     // Beyond an edge of a tendon's bristle the load may change by all that a tendon can hold.
-    const bool whose = springs_ == motors_;
+    const bool whose = springs<T>() == motors<T>();
     const auto crosses = lanes::truth<T>(!whose) | (move * t.tension[i] > t.straight_J[i]);
     const T beyond = lanes::where<T>(crosses, whose ? t.stick[i] : t.stick[0] + t.stick[1]);
     const T load = lanes::abs(t.mean.load[i]);
@@ -227,7 +227,7 @@ SegmentResultOf<T> Actuator::attempt(const ActuatorStateOf<T>& s, SegmentOf<T>& 
   const bool in_place = lanes::all(which);
   if (!in_place) apart = seg.found;
   Trial& t = in_place ? seg.found : apart;
-  for (int i = 0; i < motors_; ++i) t.dx[i] += t.gain[i] * (dq - t.dq);
+  for (int i = 0; i < motors<T>(); ++i) t.dx[i] += t.gain[i] * (dq - t.dq);
   t.dq = dq;
   const elastic::PositionsOf<T>& from = s.origin.at;
   const T ahead = seg.shift(dq);
@@ -268,7 +268,7 @@ template <class T>
 void Actuator::drive_motors(ActuatorStateOf<T>& s, const SegmentOf<T>& seg) const noexcept {
   LedgerOf<T>& l = s.ledger;
   const TrialOf<T>& t = seg.found;
-  for (int i = 0; i < motors_; ++i) {
+  for (int i = 0; i < motors<T>(); ++i) {
     const Side& side = sides_[i];
     drive::MotorStateOf<T>& m = s.motor[i];
     const T torque = t.mean.load[i] + t.friction[i].torque;
@@ -300,7 +300,7 @@ void Actuator::drive_motors(ActuatorStateOf<T>& s, const SegmentOf<T>& seg) cons
   }
   s.end = step::carried(t.mean, t.dq - 2.0 * seg.shift(t.dq), t.dx);
   s.end_rub = t.rub;
-  for (int i = 0; i < springs_; ++i) {
+  for (int i = 0; i < springs<T>(); ++i) {
     const T damped = 2.0 * t.rub.damping[i] * (t.dq - t.dx[i]);  // by the mean, and again by `carried`
     s.end.torque += damped;
     s.end.load[i] -= damped;
@@ -315,7 +315,7 @@ void Actuator::finish(ActuatorStateOf<T>& s, const SegmentOf<T>& seg) const noex
   s.shaft += seg.found.dq;
   const T elastic = energy_at(s, s.shaft);
   T work = seg.found.mean.torque * seg.found.dq;
-  for (int i = 0; i < motors_; ++i) work += seg.found.mean.load[i] * (s.motor[i].angle - before[i]);
+  for (int i = 0; i < motors<T>(); ++i) work += seg.found.mean.load[i] * (s.motor[i].angle - before[i]);
   if (tendon_.coulomb_Nm > 0) move_tendons(s, seg);
   s.ledger.elastic = elastic;
   s.ledger.integrator -= (elastic + s.ledger.tendon_bristle + s.ledger.tendon_friction - before_J) + work;

@@ -32,7 +32,7 @@ void Actuator::move_shaft(ActuatorStateOf<T>& s, T shaft) const noexcept {
   l.shaft_bristle = drive::bristle_energy(shaft_friction_, s.shaft - s.shaft_anchor);
   if (tendon_.coulomb_Nm <= 0) return;
   l.tendon_bristle = 0.0;
-  for (int i = 0; i < springs_; ++i) {
+  for (int i = 0; i < springs<T>(); ++i) {
     const T u = lanes::clamp(s.spring_w[i] - s.tendon_anchor[i], -most, most);
     s.tendon_anchor[i] = s.spring_w[i] - u;
     l.tendon_bristle += drive::bristle_energy(tendon_, u);

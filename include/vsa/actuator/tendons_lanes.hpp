@@ -54,7 +54,7 @@ void Actuator::add_tendon_friction(const SegmentOf<T>& seg, TrialOf<T>& t, const
   elastic::SegmentMeanOf<T>& mean = t.mean;
   const LeadOf<T>& lead = seg.in.lead;
   const T shift = seg.shift(t.dq), ahead_rad = t.dq * seg.per_share - lead.drift;  // q' − y' of the step
-  for (int i = 0; i < springs_; ++i) {
+  for (int i = 0; i < springs<T>(); ++i) {
     T& xx = i == 0 ? mean.slope.x0x0 : mean.slope.x1x1;
     const T deflection = t.dq - t.dx[i];
     // The mean tension times the deflection's change is the energy's change: w at the end costs no call of the law.
@@ -93,9 +93,9 @@ T Actuator::spring_slope(const TrialOf<T>& t, int i) noexcept {
 /// known which motor pulls at which spring.
 template <class T>
 T Actuator::straight(const TrialOf<T>& t, const std::array<T, 2>& step) const noexcept {
-  if (springs_ != motors_) return 0.0;
+  if (springs<T>() != motors<T>()) return 0.0;
   T least = step::kFar;
-  for (int i = 0; i < springs_; ++i) {
+  for (int i = 0; i < springs<T>(); ++i) {
     const T load = step::kStraight * lanes::abs(t.mean.load[i]);
     const T slope = lanes::max(lanes::abs(spring_slope<T>(t, i)), step::kNothing);
     const auto edge = t.straight_J[i] * slope < load * t.tension[i];
@@ -109,7 +109,7 @@ template <class T>
 void Actuator::move_tendons(ActuatorStateOf<T>& s, const SegmentOf<T>& seg) const noexcept {
   const std::array<T, 2>& w = s.spring_w;
   s.ledger.tendon_bristle = 0.0;
-  for (int i = 0; i < springs_; ++i) {
+  for (int i = 0; i < springs<T>(); ++i) {
     const T u = seg.w_u[i], dw = w[i] - seg.w[i], damper = seg.damping * dw, z = tendon_.presliding_rad;
     const drive::FrictionStepOf<T> step = drive::follow_friction(tendon_, u, dw);
     const T end = u + dw - step.anchor_travel;

@@ -231,7 +231,7 @@ class Unit {
   [[nodiscard]] double lead() const noexcept;  ///< of a torque servo: how far the shaft goes with a radian of the pulley
   void place_servo(UnitState& placed, const UnitPlace& at) const noexcept;
   void check_servo_place(const UnitPlace& at, std::string_view where, Problems& problems) const;
-  [[nodiscard]] std::int64_t segment_ns(const StepPlan& plan, std::int64_t walked_ns) const noexcept;
+  [[nodiscard]] std::int64_t segment_ns(std::int64_t t_ns, std::int64_t dt_ns, std::int64_t walked_ns) const noexcept;
 
   UnitConfig config_;
   std::int64_t substep_ns_;
@@ -241,6 +241,7 @@ class Unit {
   drive::Friction tendon_;
   actuator::Actuator actuator_;
   JointSolver alone_;
+  StepPlan plan_;  // scratch of step(): its thousand bytes are cleared once
   bool settled_ = true;
   firmware::Output out_;  // of a unit without a line: nobody hears it
 };

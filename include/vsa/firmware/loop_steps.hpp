@@ -21,17 +21,19 @@ inline constexpr std::int32_t kFarError = 131072;    // 2¹⁷: beyond it the P 
 inline constexpr std::int32_t kAdcOffset = 1638;
 inline constexpr std::int32_t kFilterAlpha = 3;  // of 1024 per tick: τ ≈ 341 ms
 
+/// cut_16 in an int32: a narrower type would keep a compiler from taking many at once.
+inline std::int32_t low_16(std::int32_t a) noexcept { return wrap_shl(a, 16) >> 16; }
+
 /// A new word of an encoder, its offset added: the turns it tells of, and whether it is believed.
 template <class Turns, class Rejected>
 inline bool follow_word(std::int32_t sample, bool whole_jump, std::int32_t& last, Turns& turns, Rejected& rejected) noexcept {
   const std::int32_t jump = sample - last;
-  const std::int32_t size = whole_jump ? (jump < 0 ? -jump : jump) : std::int32_t{abs_16(jump)};
+  const std::int32_t size = whole_jump ? (jump < 0 ? -jump : jump) : low_16(low_16(jump) < 0 ? -low_16(jump) : low_16(jump));
   const std::int32_t down = jump > kTurnJump ? 1 : 0, up = jump < -kTurnJump ? 1 : 0;
   const bool suspect = down + up == 0 && size > kSuspectJump;
   const std::int32_t refused = suspect ? rejected + 1 : 0;
   const bool believed = refused == 0 || refused >= kBelieveAfter;
-  const auto counted = static_cast<std::int8_t>(turns + up - down);  // it wraps as the firmware's own
-  turns = Turns{counted};
+  turns = static_cast<Turns>(wrap_shl(turns + up - down, 24) >> 24);  // it wraps as the firmware's own 8 bits
   rejected = static_cast<Rejected>(believed ? 0 : refused);
   last = believed ? sample : last;
   return believed;
@@ -63,7 +65,7 @@ inline std::int32_t signed_duty(bool forward, std::int32_t out) noexcept { retur
 
 /// The filter's memory, mA << 6, after one more reading.
 inline std::int32_t filtered(std::int32_t filter, std::int32_t sign, std::int32_t adc) noexcept {
-  const std::int32_t now_mA = sign * (wrap_mul(cut_16(adc - kAdcOffset), 25771) >> 13);
+  const std::int32_t now_mA = sign * (wrap_mul(low_16(adc - kAdcOffset), 25771) >> 13);
   return wrap_add(wrap_mul(filter, 1024 - kFilterAlpha), wrap_mul(wrap_shl(now_mA, 6), kFilterAlpha)) >> 10;
 }
 

@@ -87,7 +87,7 @@ struct Loop {
       // The shaft's zero is added as Unit::read_sensors does; a motor's angle plus 0 would lose the sign of −0 only.
       for (int l = 0; l < W; ++l) word[e][l] = sensor::encoder_sample(io.encoder[e], e == 2 ? angle[e][l] + zero : angle[e][l]);
       for (int l = 0; l < W; ++l) {
-        const std::int32_t sample = firmware::cut_16(firmware::wrap_add(word[e][l], offset[e][l]));
+        const std::int32_t sample = firmware::steps::low_16(firmware::wrap_add(word[e][l], offset[e][l]));
         const bool believed = firmware::steps::follow_word(sample, false, last_sample[e][l], turns[e][l], rejected[e][l]);
         meas[e][l] = believed ? firmware::steps::unwrapped(sample, turns[e][l]) : meas[e][l];
       }
