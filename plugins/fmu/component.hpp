@@ -138,37 +138,4 @@ inline Status set_logging(Instance& instance, const char* call, bool on, std::sp
   return Status::ok;
 }
 
-// Saved states are the importer's until it frees them. One that it hands in again is used again, as both standards have it.
-inline Status save_state(Instance& instance, const char* call, void** state) noexcept {
-  if (state == nullptr) return instance.refuse(call, "no place for the state");
-  std::unique_ptr<Instance::Saved> saved;
-  const Status status = instance.save(call, saved);
-  if (status != Status::ok) return status;
-  if (*state != nullptr) {
-    *static_cast<Instance::Saved*>(*state) = std::move(*saved);
-  } else {
-    *state = saved.release();
-  }
-  return status;
-}
-inline Status free_state(void** state) noexcept {
-  if (state == nullptr) return Status::ok;
-  delete static_cast<Instance::Saved*>(*state);
-  *state = nullptr;
-  return Status::ok;
-}
-inline Status size_of_state(Instance& instance, const char* call, const Instance::Saved* saved, std::size_t* size) noexcept {
-  if (saved == nullptr || size == nullptr) return instance.refuse(call, "no state, or no place for its size");
-  *size = instance.bytes_of(*saved);
-  return Status::ok;
-}
-inline Status state_of_bytes(Instance& instance, const char* call, std::span<const char> bytes, void** state) noexcept {
-  if (state == nullptr) return instance.refuse(call, "no place for the state");
-  std::unique_ptr<Instance::Saved> saved;
-  const Status status = instance.deserialize(call, bytes, saved);
-  if (status != Status::ok) return status;
-  *state = saved.release();
-  return status;
-}
-
 }  // namespace vsa::fmu

@@ -19,7 +19,6 @@ struct Component {
 
 Instance* instance_of(fmi2Component c) { return c == nullptr ? nullptr : static_cast<Component*>(c)->instance.get(); }
 fmi2Status word(Status status) { return static_cast<fmi2Status>(static_cast<int>(status)); }
-Instance::Saved* saved(fmi2FMUstate state) { return static_cast<Instance::Saved*>(state); }
 
 /// Runs `work` on the instance; without one there is nobody to tell.
 template <class Work>
@@ -111,25 +110,23 @@ fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference[], std::size_
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate* state) {
-  return with(c, [&](Instance& i) { return vsa::fmu::save_state(i, "fmi2GetFMUstate", state); });
+  return with(c, [&](Instance& i) { return i.save("fmi2GetFMUstate", state); });
 }
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
-  return with(c, [&](Instance& i) { return i.restore("fmi2SetFMUstate", saved(state)); });
+  return with(c, [&](Instance& i) { return i.restore("fmi2SetFMUstate", state); });
 }
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate* state) {
-  return with(c, [&](Instance&) { return vsa::fmu::free_state(state); });
+  return with(c, [&](Instance& i) { return i.free_state("fmi2FreeFMUstate", state); });
 }
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, std::size_t* size) {
-  return with(c, [&](Instance& i) { return vsa::fmu::size_of_state(i, "fmi2SerializedFMUstateSize", saved(state), size); });
+  return with(c, [&](Instance& i) { return i.size_of_state("fmi2SerializedFMUstateSize", state, size); });
 }
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], std::size_t size) {
-  return with(c, [&](Instance& i) {
-    return i.serialize("fmi2SerializeFMUstate", saved(state), {bytes, bytes == nullptr ? 0 : size});
-  });
+  return with(c, [&](Instance& i) { return i.serialize("fmi2SerializeFMUstate", state, {bytes, bytes == nullptr ? 0 : size}); });
 }
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], std::size_t size, fmi2FMUstate* state) {
   return with(c, [&](Instance& i) {
-    return vsa::fmu::state_of_bytes(i, "fmi2DeSerializeFMUstate", {bytes, bytes == nullptr ? 0 : size}, state);
+    return i.deserialize("fmi2DeSerializeFMUstate", {bytes, bytes == nullptr ? 0 : size}, state);
   });
 }
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[], std::size_t unknowns,

@@ -10,15 +10,8 @@
 using vsa::fmu::Component3;
 using vsa::fmu::Instance;
 using vsa::fmu::Kind;
-using vsa::fmu::Mode;
 using vsa::fmu::Status;
 using vsa::fmu::with3;
-
-namespace {
-
-Instance::Saved* saved(fmi3FMUState state) { return static_cast<Instance::Saved*>(state); }
-
-}  // namespace
 
 extern "C" {
 
@@ -134,26 +127,25 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance c, fmi3ValueReference depend
 }
 
 fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState* state) {
-  return with3(c, [&](Instance& i) { return vsa::fmu::save_state(i, "fmi3GetFMUState", state); });
+  return with3(c, [&](Instance& i) { return i.save("fmi3GetFMUState", state); });
 }
 fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state) {
-  return with3(c, [&](Instance& i) { return i.restore("fmi3SetFMUState", saved(state)); });
+  return with3(c, [&](Instance& i) { return i.restore("fmi3SetFMUState", state); });
 }
 fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState* state) {
-  return with3(c, [&](Instance&) { return vsa::fmu::free_state(state); });
+  return with3(c, [&](Instance& i) { return i.free_state("fmi3FreeFMUState", state); });
 }
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, std::size_t* size) {
-  return with3(c, [&](Instance& i) { return vsa::fmu::size_of_state(i, "fmi3SerializedFMUStateSize", saved(state), size); });
+  return with3(c, [&](Instance& i) { return i.size_of_state("fmi3SerializedFMUStateSize", state, size); });
 }
 fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], std::size_t size) {
   return with3(c, [&](Instance& i) {
-    return i.serialize("fmi3SerializeFMUState", saved(state), {reinterpret_cast<char*>(bytes), bytes == nullptr ? 0 : size});
+    return i.serialize("fmi3SerializeFMUState", state, {reinterpret_cast<char*>(bytes), bytes == nullptr ? 0 : size});
   });
 }
 fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], std::size_t size, fmi3FMUState* state) {
   return with3(c, [&](Instance& i) {
-    return vsa::fmu::state_of_bytes(i, "fmi3DeserializeFMUState",
-                                    {reinterpret_cast<const char*>(bytes), bytes == nullptr ? 0 : size}, state);
+    return i.deserialize("fmi3DeserializeFMUState", {reinterpret_cast<const char*>(bytes), bytes == nullptr ? 0 : size}, state);
   });
 }
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference unknowns[], std::size_t nu,

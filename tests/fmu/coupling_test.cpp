@@ -138,6 +138,29 @@ TEST(Bodies, TheSnakeWithEachJointAloneStaysNearTheEngineWhichSolvesThemTogether
   EXPECT_LT(d.rms(), 0.002);
 }
 
+TEST(Path, ThatTheShaftIsTakenToGoIsOfTheOrderThatIsSaid) {
+  const auto package = exported();
+  constexpr double kAmplitude = 0.3, kOmega = 6;
+  for (const double h : {1e-3, 4e-3, 10e-3, 20e-3}) {
+    for (const bool told : {false, true}) {
+      Instance2 u(*package);
+      u.start();
+      for (int k = 0; k < 20; ++k) {
+        const double t = k * h, phase = kOmega * t;
+        u.set("shaft_angle", kAmplitude * std::sin(phase));
+        u.set("shaft_speed", kAmplitude * kOmega * std::cos(phase));
+        u.set("shaft_acceleration", told ? -kAmplitude * kOmega * kOmega * std::sin(phase) : 0);
+        u.step(t, h);
+        const double shaft = u.get("deflection") + u.get("equilibrium_attained");
+        const double error = shaft - kAmplitude * std::sin(kOmega * (t + h));
+        const double second = 0.5 * kAmplitude * kOmega * kOmega * std::sin(phase) * h * h,
+                     third = kAmplitude * kOmega * kOmega * kOmega * h * h * h / 6;
+        EXPECT_NEAR(error, told ? 0 : second, 1.1 * third + 1e-12) << h << ", step " << k;
+      }
+    }
+  }
+}
+
 // What importers do with the torque of an FMU whose shaft they move.
 enum class Importer {
   late,   ///< FMU and body step side by side: the torque at a point, foreseen from the one before, is held over the next step

@@ -214,6 +214,16 @@ TEST(Sequence, SavedStatesOfOthersAreRefused) {
   EXPECT_EQ(FMI(*package, fmi2SetFMUstate)(a.c(), nullptr), fmi2Error);
   std::size_t size = 0;
   EXPECT_EQ(FMI(*package, fmi2SerializedFMUstateSize)(a.c(), nullptr, &size), fmi2Error);
+  // One of another instance, and one that was freed.
+  Instance2 c(*package, "c");
+  fmi2FMUstate state = nullptr, copy = nullptr;
+  ASSERT_EQ(FMI(*package, fmi2GetFMUstate)(a.c(), &state), fmi2OK);
+  EXPECT_EQ(FMI(*package, fmi2SetFMUstate)(c.c(), state), fmi2Error);
+  EXPECT_EQ(FMI(*package, fmi2FreeFMUstate)(c.c(), &state), fmi2Error);
+  copy = state;
+  EXPECT_EQ(FMI(*package, fmi2FreeFMUstate)(a.c(), &state), fmi2OK);
+  EXPECT_EQ(FMI(*package, fmi2SetFMUstate)(a.c(), copy), fmi2Error);
+  EXPECT_EQ(FMI(*package, fmi2FreeFMUstate)(a.c(), &copy), fmi2Error);
   EXPECT_EQ(a.bytes(), good);
 }
 

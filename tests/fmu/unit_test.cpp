@@ -6,9 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 
 #include "importer.hpp"
+#include "vsa/bits.hpp"
 #include "vsa/device/reading.hpp"
 
 namespace vsa::test {
@@ -16,7 +17,7 @@ namespace {
 
 constexpr std::int64_t kTick = 1'000'000;
 
-bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(double a, double b) { return bits_as<std::uint64_t>(a) == bits_as<std::uint64_t>(b); }
 
 /// The path of vsa/fmu/unit_model.hpp, written down once more.
 struct Direct {

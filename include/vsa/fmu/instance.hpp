@@ -33,13 +33,6 @@ inline constexpr const char* kLogError = "logStatusError";
 class Instance {
  public:
   using Logger = std::function<void(Status status, const char* category, const std::string& text)>;
-  /// Of values, time and mode; only this FMU's instances know it.
-  struct Saved {
-    Mode mode = Mode::instantiated;
-    double start_s = 0, stop_s = 0;
-    bool has_stop = false;
-    std::vector<double> numbers;
-  };
 
   Instance(std::unique_ptr<Model> model, std::uint64_t token, Logger logger);
 
@@ -68,12 +61,16 @@ class Instance {
   Status step(const char* call, double t_s, double h_s) noexcept;
   [[nodiscard]] double time_s() const noexcept { return start_s_ + static_cast<double>(model_->time_ns()) * 1e-9; }
 
-  Status save(const char* call, std::unique_ptr<Saved>& out) noexcept;
-  Status restore(const char* call, const Saved* saved) noexcept;
-  /// A saved state's bytes: the same on every machine. Head: "VSAFMU1\n", token, mode, times; then the numbers and a hash.
-  [[nodiscard]] std::size_t bytes_of(const Saved& saved) const noexcept;
-  Status serialize(const char* call, const Saved* saved, std::span<char> out) noexcept;
-  Status deserialize(const char* call, std::span<const char> in, std::unique_ptr<Saved>& out) noexcept;
+  // Saved states: values, time and mode. They are the instance's, and go with it at the latest; a pointer that is none of them is
+  // refused, whatever it points to.
+  /// `*state`: null, or one of them, which is used again.
+  Status save(const char* call, void** state) noexcept;
+  Status restore(const char* call, const void* state) noexcept;
+  Status free_state(const char* call, void** state) noexcept;  ///< null is content
+  /// A state's bytes are the same on every machine: "VSAFMU1\n", token, mode, times, numbers, a hash.
+  Status size_of_state(const char* call, const void* state, std::size_t* size) noexcept;
+  Status serialize(const char* call, const void* state, std::span<char> out) noexcept;
+  Status deserialize(const char* call, std::span<const char> in, void** state) noexcept;
 
   /// A call that the FMU doesn't have: an error with what it says.
   Status refuse(const char* call, const std::string& why) noexcept;
@@ -81,6 +78,13 @@ class Instance {
   bool allowed(const char* call, std::initializer_list<Mode> modes) noexcept;
 
  private:
+  struct Saved {
+    Mode mode = Mode::instantiated;
+    double start_s = 0, stop_s = 0;
+    bool has_stop = false;
+    std::vector<double> numbers;
+  };
+  [[nodiscard]] Saved* known(const void* state) const noexcept;
   Status guarded(const char* call, const std::function<void()>& work) noexcept;
   void tell(Status status, const char* category, const std::string& text) noexcept;
   /// Throws InputError where a reference is none of this kind.
@@ -98,6 +102,7 @@ class Instance {
   bool fresh_ = false;  ///< in the initialisation: the model has begun with the values as they are
   double start_s_ = 0, stop_s_ = 0;
   bool has_stop_ = false;
+  std::vector<std::unique_ptr<Saved>> states_;
   std::vector<double> first_;  ///< the model's numbers at instantiation
 };
 
