@@ -27,9 +27,13 @@ fmi2Status with(fmi2Component c, const Work& work) noexcept {
   return instance == nullptr ? fmi2Error : word(work(*instance));
 }
 
+/// The text stands in the place of the format: importers that take no further arguments show it as it is.
 Instance::Logger logger_of(const fmi2CallbackFunctions& f, const std::string& name) {
   return [log = f.logger, env = f.componentEnvironment, name](Status status, const char* category, const std::string& text) {
-    if (log != nullptr) log(env, name.c_str(), word(status), category, "%s", text.c_str());
+    if (log == nullptr) return;
+    std::string format;
+    for (const char c : text) format += c == '%' ? std::string("%%") : std::string(1, c);
+    log(env, name.c_str(), word(status), category, format.c_str());
   };
 }
 

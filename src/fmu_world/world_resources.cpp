@@ -110,6 +110,8 @@ Resources world_resources(const config::TypeLibrary& library, const WorldPlan& p
   Resources out = collector.take();
   for (std::size_t r = 0; r < world.robot_count(); ++r)
     for (const host::ActuatorConfig& a : world.robot(r).config().actuators) add_type_files(out, library, a.type);
+  out["actuators/readme.txt"] =
+      "The types of this world's actuators.\n";  // a data directory has that folder, also of a world without
   out[kPlan] = "written_by = \"vsasim " VSA_VERSION "\"\nworld = " + toml_text(name) + "\n\n[set]\n";
   for (const config::Override& o : plan.set) out[kPlan] += toml_text(o.key) + " = " + toml_text(o.value) + '\n';
   return out;

@@ -197,6 +197,11 @@ TEST(Unit, AStateComesBackBitForBitAndAsBytesInAnotherInstance) {
   b.restore(bytes);  // with the parameters, the time and the mode
   EXPECT_EQ(b.get("drive.supply_V"), 11.0);
   EXPECT_EQ(go_on(b), first);
+  Instance2 under_way(*package, "under way");  // with parameters of its own until then
+  under_way.start();
+  under_way.step(0, 1e-3);
+  under_way.restore(bytes);
+  EXPECT_EQ(go_on(under_way), first);
   ASSERT_EQ(FMI(*package, fmi2FreeFMUstate)(a.c(), &state), fmi2OK);
 }
 

@@ -81,6 +81,33 @@ TEST(World, ItsStateComesBackInAnotherInstance) {
   EXPECT_EQ(a.get("shaft.shaft_angle"), 0.0);
 }
 
+TEST(World, AfterAStateIsSetBackTheSameCommandActsAgain) {
+  const auto package = exported_world("bench_load");
+  Instance2 fmu(*package);
+  fmu.start();
+  const std::vector<char> begin = fmu.bytes();
+  std::vector<double> first;
+  for (const bool again : {false, true}) {
+    fmu.set("shaft.equilibrium", 0.7);
+    for (int k = 0; k < 100; ++k) fmu.step(k * 1e-3, 1e-3);
+    if (again) {
+      EXPECT_EQ(fmu.all(), first);
+    }
+    first = fmu.all();
+    fmu.restore(begin);
+  }
+  EXPECT_EQ(fmu.get("shaft.equilibrium"), 0.0);
+}
+
+TEST(World, OneWithoutActuatorsIsOneToo) {
+  const auto package = exported_world(VSA_SOURCE_DIR "/tests/sdf/robot_files/dummy_base_in_world.urdf");
+  Instance2 fmu(*package);
+  ASSERT_TRUE(fmu.made()) << fmu.log.at(0);
+  fmu.start();
+  for (int k = 0; k < 10; ++k) fmu.step(k * 1e-3, 1e-3);
+  EXPECT_EQ(fmu.get("energy_supply"), 0.0);
+}
+
 TEST(World, FilesThatOnlyThisMachineFindsAreRefused) {
   const fmu::TemporaryFolder folder;
   const auto resources = fmu::world_resources(config::TypeLibrary(), {"snake_hills", {}});
