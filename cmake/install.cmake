@@ -4,6 +4,7 @@ get_property(rooms GLOBAL PROPERTY VSA_ROOMS)
 install(TARGETS ${rooms} EXPORT vsasimTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/vsa DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY actuators models data DESTINATION ${CMAKE_INSTALL_DATADIR}/vsa)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/vsa)
 install(EXPORT vsasimTargets NAMESPACE vsa:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vsasim)
 configure_package_config_file(cmake/vsasimConfig.cmake.in ${PROJECT_BINARY_DIR}/vsasimConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vsasim PATH_VARS CMAKE_INSTALL_DATADIR)

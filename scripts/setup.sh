@@ -5,7 +5,7 @@ set -eu
 
 packages="
   build-essential cmake ninja-build pkg-config git ca-certificates
-  libmujoco-dev libqhull-dev libgl-dev libopengl-dev libsdformat-dev libassimp-dev libbullet-extras-dev liblodepng-dev libignition-transport-dev libignition-msgs-dev ignition-transport-cli
+  libmujoco-dev libqhull-dev libgl-dev libopengl-dev libsdformat-dev libassimp-dev libbullet-extras-dev liblodepng-dev libzip-dev libignition-transport-dev libignition-msgs-dev ignition-transport-cli
   libtomlplusplus-dev libtinyxml2-dev libcli11-dev libfmt-dev nlohmann-json3-dev libboost-dev libceres-dev libeigen3-dev libnlopt-cxx-dev libhdf5-dev libpagmo-dev
   libgtest-dev libbenchmark-dev python3-yaml
   python3-dev python3-numpy pybind11-dev

@@ -1,15 +1,26 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/device/reading.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "vsa/firmware/arithmetic.hpp"
 #include "vsa/firmware/exchange.hpp"
 
 namespace vsa::device {
+namespace {
+
+/// Springs and pulleys stand where the coupling has the shaft, at y = q − dt/2·q̇: here they come to where the shaft is.
+actuator::ActuatorState with_the_shaft(const UnitState& state) noexcept {
+  actuator::ActuatorState now = state.actuator;
+  for (drive::MotorState& motor : now.motor) motor.angle += 0.5 * state.last_dt * motor.speed;
+  return now;
+}
+
+}  // namespace
 
 UnitReading read(const Unit& unit, const UnitState& state) noexcept {
-  actuator::ActuatorState now = state.actuator;
-  // Springs and pulleys stand where the coupling has the shaft, at y = q − dt/2·q̇: here they come to where the shaft is.
-  for (drive::MotorState& motor : now.motor) motor.angle += 0.5 * state.last_dt * motor.speed;
+  const actuator::ActuatorState now = with_the_shaft(state);
   const actuator::Actuator& physics = unit.physics();
   UnitReading r;
   const auto attained = unit.config().actuator.transmission->attained({now.motor[0].angle, now.motor[1].angle});
@@ -28,6 +39,27 @@ UnitReading read(const Unit& unit, const UnitState& state) noexcept {
     r.current_A[m] = physics.motor_current(now, m, state.held.voltage[m], state.held.terminal[m], state.held.supply_V);
   }
   return r;
+}
+
+double torque_slope(const Unit& unit, const UnitState& state) noexcept {
+  const actuator::ActuatorState now = with_the_shaft(state);
+  const actuator::ActuatorParams& p = unit.config().actuator;
+  const elastic::Transmission& law = *p.transmission;
+  const elastic::Positions at{state.reached.angle, {now.motor[0].angle, now.motor[1].angle}};
+  const elastic::Response spring = law.evaluate(at);
+  double slope = -spring.curvature.qq;
+  const drive::Friction rub(p.shaft_friction);
+  if (std::abs(at.q - now.shaft_anchor) <= rub.presliding_rad) slope -= rub.stiffness;
+  if (p.tendon.friction <= 0 || p.tendon.presliding_J <= 0) return slope;
+  // −κ u_i |T_i| with u_i = clamp(w_i − z_i), ∂w_i/∂q = |T_i| and ∂T_i/∂q = −H_qi (vsa/actuator/actuator.hpp).
+  const double kappa = p.tendon.friction / p.tendon.presliding_J, most = p.tendon.presliding_J;
+  const std::array<double, 2> w = law.signed_energies(at);
+  for (int i = 0; i < law.spring_count(); ++i) {
+    const double bend = w[i] - now.tendon_anchor[i], tension = std::abs(spring.load[i]);
+    if (std::abs(bend) <= most) slope -= kappa * tension * tension;
+    slope -= kappa * std::clamp(bend, -most, most) * std::copysign(1.0, spring.load[i]) * -spring.curvature.qx[i];
+  }
+  return slope;
 }
 
 std::array<Ticks, 3> measured(const Unit& unit, const UnitState& state) noexcept {

@@ -42,6 +42,9 @@ expect "vsa run snake_flat --gait=side" sidewind sidewind_soft sidewind_stiff
 expect "vsa run --duration-s -1 snake_f" snake_flat
 expect "vsa emulate sea_e" sea_example
 expect "vsa actuators sea_e" sea_example
+expect "vsa export --fmu sea_e" sea_example
+expect "vsa export --fmu snake_" snake_flat snake_hills snake_rubble
+expect "vsa export --fmu sea_example --fmi " 2 3
 expect "vsa validate --type sea_e" sea_example
 expect "vsa emulate sea_example --dialect " 6 7
 expect "vsa characterize sea_example --experiment s" speed stiffness

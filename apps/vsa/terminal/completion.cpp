@@ -45,6 +45,12 @@ Words values(const CLI::Option& option) {
   const std::string name = option.get_name();
   if (name == "TYPE" || name == "--type") return config::TypeLibrary().names();
   if (name == "WORLD") return config::built_in_files("models/worlds", ".sdf");
+  if (name == "--fmu") {
+    Words out = config::TypeLibrary().names();
+    const Words worlds = config::built_in_files("models/worlds", ".sdf");
+    out.insert(out.end(), worlds.begin(), worlds.end());
+    return out;
+  }
   if (name == "--gait") return config::built_in_files("models/gaits", ".toml");
   if (name == "--speed") return {"max"};
   return listed(option.get_type_name());

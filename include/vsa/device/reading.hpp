@@ -23,6 +23,10 @@ struct UnitReading {
 /// Nothing of its program's, which a port's thread may be at.
 [[nodiscard]] UnitReading read(const Unit& unit, const UnitState& state) noexcept;
 
+/// ∂(UnitReading::torque_Nm)/∂shaft with the pulleys held, N·m/rad. A friction's bristle adds its slope while
+/// it only bends; at the edge where it begins to slide, the slope inside.
+[[nodiscard]] double torque_slope(const Unit& unit, const UnitState& state) noexcept;
+
 /// What the program would tell as the positions now: motor 1, motor 2, shaft.
 [[nodiscard]] std::array<Ticks, 3> measured(const Unit& unit, const UnitState& state) noexcept;
 

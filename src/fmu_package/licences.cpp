@@ -1,0 +1,34 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "fmu_package/licences.hpp"
+
+namespace vsa::fmu {
+namespace {
+
+constexpr const char* kWhose =
+    R"(What the library in binaries/ has compiled in beside vsasim itself:
+
+toml++    Copyright (c) Mark Gillard <mark.gillard@outlook.com.au>           MIT, below
+{fmt}     Copyright (c) 2012 - present, Victor Zverovich and contributors    MIT, below
+libstdc++ and libgcc of the GNU Compiler Collection    GPL-3.0-or-later with the GCC Runtime Library Exception
+
+)";
+
+constexpr const char* kMit =
+    R"(Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated documentation
+files (the "Software"), to deal in the Software without restriction, including without limitation the rights to use, copy, modify,
+merge, publish, distribute, sublicense, and/or sell copies of the Software, and to permit persons to whom the Software is furnished
+to do so, subject to the following conditions:
+
+The above copyright notice and this permission notice shall be included in all copies or substantial portions of the Software.
+
+THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF
+MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE
+FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION
+WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.
+)";
+
+}  // namespace
+
+std::string third_party_licences() { return std::string(kWhose) + kMit; }
+
+}  // namespace vsa::fmu

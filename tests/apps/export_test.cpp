@@ -1,0 +1,75 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// vsa export; what is in the files, and how they run, is tests/fmu's.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "subprocess.hpp"
+
+namespace vsa::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Export, WritesTypesAndWorldsInBothVersionsAndNothingElse) {
+  const Scratch scratch;
+  fs::create_directories(scratch / "out");
+  for (const char* what : {"sea_example", "bench_load"}) {
+    for (const char* fmi : {"2", "3"}) {
+      const fs::path file = scratch / "out" / (std::string(what) + fmi + ".fmu");
+      const Result r = run_vsa({"export", "--fmu", what, "--fmi", fmi, "--out", file.string()});
+      EXPECT_EQ(r.exit_code, 0) << r.err;
+      EXPECT_TRUE(has(r.out, "written: " + file.string())) << r.out;
+      EXPECT_EQ(read_file(file).substr(0, 2), "PK");
+    }
+  }
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(scratch / "out")) ++files;
+  EXPECT_EQ(files, 4U);
+}
+
+TEST(Export, BadInputIsOneLineAndExitCodeTwoAndLeavesNoFile) {
+  const Scratch scratch;
+  fs::create_directories(scratch / "out");
+  const std::string file = (scratch / "out/x.fmu").string();
+  struct Case {
+    std::vector<std::string> arguments;
+    const char* says;
+  };
+  for (const Case& c : {Case{{"--fmu", "sea_exampel"}, "did you mean sea_example"},
+                        Case{{"--fmu", "no_such_file.sdf"}, "neither an actuator type nor a world"},
+                        Case{{"--fmu", "sea_example", "--set", "drive.wheels=4"}, "unknown key"},
+                        Case{{"--fmu", "sea_example", "--set", "drive.supply_V=1e9"}, "drive.supply_V"},
+                        Case{{"--fmu", "sea_example", "--coupling", "implicit"}, "--load-inertia-kgm2"},
+                        Case{{"--fmu", "sea_example", "--load-inertia-kgm2", "-1"}, "out of range"},
+                        Case{{"--fmu", "bench_load", "--names", "gazebo_fmi"}, "for one actuator"}}) {
+    std::vector<std::string> arguments{"export", "--out", file};
+    arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+    const Result r = run_vsa(arguments);
+    EXPECT_EQ(r.exit_code, 2) << c.says;
+    EXPECT_TRUE(has(r.err, c.says)) << r.err;
+    EXPECT_TRUE(fs::is_empty(scratch / "out")) << c.says;
+  }
+  EXPECT_EQ(run_vsa({"export"}).exit_code, 2);
+  EXPECT_EQ(run_vsa({"export", "--fmu", "sea_example", "--fmi", "1", "--out", file}).exit_code, 2);
+  const Result nowhere = run_vsa({"export", "--fmu", "sea_example", "--out", (scratch / "nowhere/x.fmu").string()});
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_TRUE(has(nowhere.err, "its directory doesn't exist")) << nowhere.err;
+}
+
+TEST(Export, AFullDiskIsToldAndNoHalfFileStays) {
+  const Scratch scratch;
+  fs::create_directories(scratch / "out");
+  Surroundings small;
+  small.largest_file = 100'000;
+  const Result r = run_vsa({"export", "--fmu", "sea_example", "--out", (scratch / "out/x.fmu").string()}, small);
+  EXPECT_EQ(r.exit_code, 1) << r.err;
+  EXPECT_TRUE(has(r.err, "x.fmu")) << r.err;
+  EXPECT_TRUE(fs::is_empty(scratch / "out"));
+}
+
+}  // namespace
+}  // namespace vsa::test
