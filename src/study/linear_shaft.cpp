@@ -80,6 +80,9 @@ void mount(Characterization& plan) {
 
 void tell_of_output(Characterization& c) {
   if (!c.linear()) return;
+  auto own = c.specimen.overrides;
+  own.pop_back();  // mount()'s
+  c.actuator = c.specimen.library.load(c.specimen.type, own);
   const Scale s{kBenchPinion_m, 1 / kBenchPinion_m, 1 / (kBenchPinion_m * kBenchPinion_m)};
   for (StiffnessResult& r : c.stiffness) tell(r, s);
   for (SpeedResult& r : c.speed) {

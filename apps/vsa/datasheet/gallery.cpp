@@ -20,7 +20,8 @@ constexpr double kLeastLoad = 0.01;  // of the peak torque: where a picture's lo
 
 /// On the benches' pinion, where a linear actuator is one among others.
 study::DataSheet turning(study::DataSheet d) {
-  if (d.simulated.linear()) d.computed = experiment::data_sheet(d.simulated.actuator);
+  const experiment::Specimen& mounted = d.simulated.specimen;
+  if (d.simulated.linear()) d.computed = experiment::data_sheet(mounted.library.load(mounted.type, mounted.overrides));
   return d;
 }
 
