@@ -15,6 +15,7 @@
 #include "datasheet/datasheet.hpp"
 #include "doctor/doctor.hpp"
 #include "experiments/experiments.hpp"
+#include "export/export.hpp"
 #include "identify/identify.hpp"
 #include "linearize/linearize.hpp"
 #include "run/run.hpp"
@@ -77,6 +78,7 @@ void set_up(CLI::App& app, int& exit_code) {
   vsa::app::setup_validate(app, exit_code);
   vsa::app::setup_datasheet(app, exit_code);
   vsa::app::setup_experiments(app, exit_code);
+  vsa::app::setup_export(app, exit_code);
   vsa::app::setup_doctor(app, exit_code);
 }
 
