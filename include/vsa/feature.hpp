@@ -9,13 +9,13 @@
 namespace vsa {
 
 struct Feature {
-  std::string_view name;      ///< "SDF and URDF files", "topics"
+  std::string_view name;      ///< "reader of SDF and URDF", "topics"
   std::string_view found_as;  ///< the library with its version; empty: the feature is left out
   std::string_view remedy;    ///< what would bring it, a line
 
   [[nodiscard]] bool is_in() const { return !found_as.empty(); }
-  /// "this build has no topics (Debian 12: …)"
-  [[nodiscard]] std::string missing() const { return "this build has no " + std::string(name) + " (" + std::string(remedy) + ")"; }
+  /// "this build has no topics: install …"
+  [[nodiscard]] std::string missing() const { return "this build has no " + std::string(name) + ": " + std::string(remedy); }
 };
 
 }  // namespace vsa

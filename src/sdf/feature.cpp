@@ -3,6 +3,6 @@
 
 namespace vsa::reader {
 
-Feature sdf_feature() { return {"SDF and URDF files", VSA_SDF_FOUND_AS, VSA_SDF_REMEDY}; }
+Feature sdf_feature() { return {"reader of SDF and URDF", VSA_SDF_FOUND_AS, VSA_SDF_REMEDY}; }
 
 }  // namespace vsa::reader

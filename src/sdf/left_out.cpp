@@ -9,7 +9,7 @@ namespace vsa::reader {
 description::World read_sdf(const SdfSource& source, const ReadOptions&, const Finder&, SeenFiles&, std::vector<std::string>&,
                             Problems& problems) {
   problems.add({source.label(), "", "", sdf_feature().missing(),
-                "MJCF: a file NAME.xml, or one beside NAME.sdf that vsa export --mjcf wrote on a machine with SDF"});
+                "MJCF, NAME.xml or, beside NAME.sdf, what vsa export --mjcf wrote of it elsewhere"});
   return {};
 }
 
