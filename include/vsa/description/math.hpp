@@ -32,6 +32,7 @@ concept HasPlace = requires(const T& t) {
 
 inline constexpr double kNoLength = 1e-6;  ///< a length, or of a quaternion its square, that counts as none
 
+// NOLINTBEGIN(readability-identifier-naming): named as the Gazebo libraries name them, so that a reader may work with either
 class Vec3 {
  public:
   constexpr Vec3() = default;
@@ -139,6 +140,8 @@ class Mat3 {
  private:
   std::array<double, 9> m_{};
 };
+
+// NOLINTEND(readability-identifier-naming)
 
 /// The same but for what files round: numbers to 1e-3, inertias to 1e-6.
 [[nodiscard]] bool alike(const Vec3& a, const Vec3& b);

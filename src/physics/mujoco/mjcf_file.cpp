@@ -23,7 +23,7 @@ constexpr std::string_view kNameless = "MuJoCo Model";  // what MuJoCo calls a f
 fs::path beside_of(fs::path file) { return file.replace_extension(".vsa.xml"); }
 
 std::string name_of(const mjModel& m, const fs::path& path) {
-  const std::string own = m.names;  // the first of the names
+  std::string own = m.names;  // the first of the names
   if (!own.empty() && own != kNameless) return own;
   return path.empty() ? "model" : path.stem().string();
 }
