@@ -1,10 +1,18 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #
-# vsa_room(NAME [PUBLIC target…] [PRIVATE target…]): the library of src/NAME with its headers in include/vsa/NAME.
+# vsa_room(NAME [ONLY file…] [EXCEPT file…] [PUBLIC target…] [PRIVATE target…]): the library of src/NAME with its headers in include/vsa/NAME.
+# ONLY, EXCEPT: of its sources, where a feature is left out or in (cmake/features.cmake).
 # A room links only the rooms that it may know; a wrong include still compiles, a wrong call doesn't link.
 function(vsa_room name)
-  cmake_parse_arguments(ROOM "" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "ONLY;EXCEPT;PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  list(TRANSFORM ROOM_ONLY PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/${name}/)
+  list(TRANSFORM ROOM_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/${name}/)
+  if(ROOM_ONLY)
+    set(sources ${ROOM_ONLY})
+  elseif(ROOM_EXCEPT)
+    list(REMOVE_ITEM sources ${ROOM_EXCEPT})
+  endif()
   add_library(vsa_${name} STATIC ${sources})
   add_library(vsa::${name} ALIAS vsa_${name})
   set_target_properties(vsa_${name} PROPERTIES EXPORT_NAME ${name})

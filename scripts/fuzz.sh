@@ -10,9 +10,11 @@ case "$seconds" in
   '' | *[!0-9]* | 0*) echo "fuzz.sh: FUZZ_S = '$seconds': not a number of seconds (allowed: 1, 2, …)" >&2; exit 2 ;;
 esac
 sh scripts/setup.sh fuzz
+clang=clang++-14  # as setup.sh has it; Debian 13 has a later one
+command -v $clang >/dev/null 2>&1 || clang=clang++-19
 
 cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DVSA_FUZZ=ON -DVSA_SIMULATOR=OFF -DVSA_BENCH=OFF -DVSA_TESTS=OFF \
-  -DCMAKE_CXX_COMPILER=clang++-14 -Wno-dev >/dev/null
+  -DCMAKE_CXX_COMPILER=$clang -Wno-dev >/dev/null
 cmake --build build/fuzz --target fuzz_frame fuzz_unit -- --quiet
 
 run() {

@@ -1,27 +1,46 @@
 #!/bin/sh
-# Installs what building, testing and running vsasim needs on Debian 12.
+# Installs what building, testing and running vsasim needs on Debian 12, Debian 13, Ubuntu 22.04 and 24.04.
 # Idempotent: when every package is present it touches neither the network nor the package manager.
 set -eu
 
+codename=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME:-}")
+
 packages="
   build-essential cmake ninja-build pkg-config git ca-certificates
-  libmujoco-dev libqhull-dev libgl-dev libopengl-dev libsdformat-dev libassimp-dev libbullet-extras-dev liblodepng-dev libzip-dev libignition-transport-dev libignition-msgs-dev ignition-transport-cli
+  libqhull-dev libgl-dev libopengl-dev liblodepng-dev libzip-dev
   libtomlplusplus-dev libtinyxml2-dev libcli11-dev libfmt-dev nlohmann-json3-dev libboost-dev libceres-dev libeigen3-dev libnlopt-cxx-dev libhdf5-dev libpagmo-dev
   libgtest-dev libbenchmark-dev python3-yaml
   python3-dev python3-numpy pybind11-dev
 "
+browser=chromium
+tried=yes
+clang=14
+# What SDF and topics need, where the system packages it; MuJoCo, where it does. docs/reference/systems.md
+case "$codename" in
+  bookworm)
+    packages="$packages libmujoco-dev libsdformat-dev libassimp-dev libbullet-extras-dev libignition-transport-dev libignition-msgs-dev ignition-transport-cli"
+    ;;
+  trixie)
+    packages="$packages libmujoco-dev"
+    clang=19
+    ;;
+  # Never tried. Without MuJoCo, which Ubuntu doesn't package: a release of it belongs where CMake looks. Gazebo's archive has SDF and topics.
+  jammy) packages="$packages libassimp-dev libbullet-extras-dev" browser="" tried=no ;;
+  noble) packages="$packages libassimp-dev libbullet-extras-dev" browser="" clang=18 tried=no ;;
+  *) tried=no ;;
+esac
+
 # The page tests drive Debian's Chromium, the man page's groff; a developer's tools are asked for by name: setup.sh test tidy
 for group in "$@"; do
   case "$group" in
-    test) packages="$packages chromium groff-base libopenmpi-dev openmpi-bin iproute2" ;;
+    test) packages="$packages $browser groff-base libopenmpi-dev openmpi-bin iproute2" ;;
     mpi) packages="$packages libopenmpi-dev openmpi-bin" ;;
     tidy) packages="$packages clang-format clang-tidy" ;;
-    fuzz) packages="$packages clang-14 libclang-rt-14-dev" ;;
+    fuzz) packages="$packages clang-$clang libclang-rt-$clang-dev" ;;
     classic) packages="$packages debootstrap" ;;
     *) echo "setup.sh: unknown group '$group' (allowed: test, mpi, tidy, fuzz, classic)" >&2; exit 2 ;;
   esac
 done
-
 missing=""
 for p in $packages; do
   dpkg-query -W -f='${Status}' "$p" 2>/dev/null | grep -q 'install ok installed' || missing="$missing $p"
@@ -36,6 +55,7 @@ if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null 2>&1 || { echo "setup.sh: needs root or sudo to install:$missing" >&2; exit 1; }
   sudo="sudo"
 fi
+[ "$tried" = yes ] || echo "setup.sh: the list of packages was never tried on this system (${codename:-unknown}; tried: bookworm, trixie)" >&2
 echo "setup: installing$missing"
 export DEBIAN_FRONTEND=noninteractive
 $sudo apt-get update -qq

@@ -6,7 +6,9 @@
 #include <mutex>
 
 #include "vsa/description/capabilities.hpp"
+#include "vsa/physics/mjcf.hpp"
 #include "vsa/physics/mujoco.hpp"
+#include "vsa/sdf/feature.hpp"
 #include "vsa/sdf/finder.hpp"
 
 namespace vsa::engine {
@@ -75,6 +77,30 @@ Cache cache;
 // libsdformat keeps global state while it reads: two threads in sdf::Root::Load crash.
 std::mutex reading;
 
+/// The MJCF that is read: the file itself or, in a build without SDF, the one that stands beside the SDF. Empty: none.
+std::filesystem::path mjcf_of(const reader::SdfSource& source) {
+  if (source.path.empty() || physics::is_mjcf(source.path, {})) return source.path;
+  std::filesystem::path beside = source.path;
+  beside.replace_extension(".xml");
+  std::error_code none;
+  const bool stands_in = !reader::sdf_feature().is_in() && std::filesystem::is_regular_file(beside, none);
+  return stands_in ? beside : std::filesystem::path{};
+}
+
+description::World read_description(const reader::SdfSource& source, const WorldOptions& options, Entry& entry,
+                                    Problems& problems) {
+  ReadWorld& file = *entry.file;
+  const std::filesystem::path mjcf = mjcf_of(source);
+  if (mjcf.empty() && !physics::is_mjcf({}, source.text)) {
+    return reader::read_sdf(source, {file.engine->capabilities(), options.concave}, reader::Finder(entry.key.search, entry.seen),
+                            entry.seen, file.warnings, problems);
+  }
+  for (const std::filesystem::path& read : physics::files_of_mjcf(mjcf)) entry.seen.reads(read);
+  physics::MjcfRead read = physics::read_mjcf(mjcf, source.text, file.warnings, problems);
+  if (read.names_others) entry.seen.lost();
+  return std::move(read.world);
+}
+
 }  // namespace
 
 std::shared_ptr<const physics::CompiledWorld> ReadWorld::compiled(double step_s, std::string_view file, Problems& problems) {
@@ -93,9 +119,7 @@ std::shared_ptr<ReadWorld> read_world(const reader::SdfSource& source, const Wor
   if (const auto known = cache.find(key)) return known->file;  // read while this thread waited
   const auto entry = std::make_shared<Entry>(Entry{std::move(key), std::make_shared<ReadWorld>(), {}});
   entry->file->engine = entry->key.engine;
-  entry->file->world = std::make_shared<const description::World>(
-      reader::read_sdf(source, {entry->key.engine->capabilities(), options.concave}, reader::Finder(entry->key.search, entry->seen),
-                       entry->seen, entry->file->warnings, problems));
+  entry->file->world = std::make_shared<const description::World>(read_description(source, options, *entry, problems));
   if (problems.empty() && entry->seen.settled()) cache.keep(entry);
   return entry->file;
 }

@@ -88,13 +88,18 @@ std::string text(const Joint& j) {
 }
 
 bool same(const Link& a, const Link& b) {
-  return a.name == b.name && a.is_static == b.is_static && a.mass == b.mass && a.com == b.com && a.inertia == b.inertia &&
-         a.pose == b.pose && a.collisions.size() == b.collisions.size();
+  const bool same_mass = a.mass == b.mass && alike(a.com, b.com) && alike(a.inertia, b.inertia);
+  return a.name == b.name && a.is_static == b.is_static && (a.is_static || same_mass) && alike(a.pose, b.pose) &&
+         a.collisions.size() == b.collisions.size();
 }
+/// Where a joint moves something: its own frame's rotation is a matter of the file.
 bool same(const Joint& a, const Joint& b) {
-  const auto alike = [](const Axis& x, const Axis& y) { return x.xyz == y.xyz && x.range == y.range && x.rest == y.rest; };
-  return a.name == b.name && a.kind == b.kind && a.parent == b.parent && a.child == b.child && a.pose == b.pose &&
-         std::equal(a.axes.begin(), a.axes.end(), b.axes.begin(), b.axes.end(), alike);
+  const auto same_axis = [](const Axis& x, const Axis& y) {
+    return description::alike(x.xyz, y.xyz) && x.range == y.range && x.rest == y.rest;
+  };
+  const bool same_place = a.kind == Joint::Kind::fixed || alike(a.pose.Pos(), b.pose.Pos());
+  return a.name == b.name && a.kind == b.kind && a.parent == b.parent && a.child == b.child && same_place &&
+         std::equal(a.axes.begin(), a.axes.end(), b.axes.begin(), b.axes.end(), same_axis);
 }
 
 template <class Part>

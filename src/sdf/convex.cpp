@@ -14,8 +14,8 @@ constexpr double kClosure = 1e-3;   // of area, of volume
 
 struct Sums {
   Vec3 low, high;
-  Vec3 area_vector;         // Σ n A
-  Mat3 moment{Mat3::Zero};  // Σ ∫ x nᵀ dA
+  Vec3 area_vector;  // Σ n A
+  Mat3 moment;       // Σ ∫ x nᵀ dA
   double area = 0;
 };
 

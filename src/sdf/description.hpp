@@ -8,6 +8,7 @@
 
 namespace vsa::reader {
 
+using description::alike;
 using description::Axis;
 using description::Capabilities;
 using description::Collision;
@@ -19,6 +20,7 @@ using description::Link;
 using description::Mat3;
 using description::Mesh;
 using description::Pose3;
+using description::Quat;
 using description::Surface;
 using description::Vec3;
 

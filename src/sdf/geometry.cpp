@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <ignition/math/Quaternion.hh>
 #include <sdf/Box.hh>
 #include <sdf/Capsule.hh>
 #include <sdf/Cylinder.hh>
@@ -92,7 +91,9 @@ std::optional<Geometry> read_plane(Where& w, const sdf::Plane& plane) {
   const Vec3 normal = plane.Normal();
   if (!normal.IsFinite() || normal.Length() < 1e-9)
     return w.refuse("plane/normal", "", "has no direction", "a vector other than zero");
-  g.offset.Rot().From2Axes(Vec3::UnitZ, normal);
+  SdfPose3 turned;
+  turned.Rot().From2Axes(SdfVec3::UnitZ, plane.Normal());
+  g.offset.Rot() = turned.Rot();
   return g;
 }
 

@@ -119,8 +119,9 @@ void read_axis(ReadContext& c, const sdf::Joint& joint, unsigned int index, cons
     return;
   }
   Axis a;
-  Vec3 local;
-  const sdf::Errors errors = axis->ResolveXyz(local);
+  SdfVec3 resolved;
+  const sdf::Errors errors = axis->ResolveXyz(resolved);
+  const Vec3 local = resolved;
   if (!errors.empty() && c.parsed_clean) c.problem(joint.Element(), key + "/" + name + "/xyz", "", errors.front().Message());
   if (errors.empty() && (!local.IsFinite() || local.Length() < 1e-9)) {
     c.problem(joint.Element(), key + "/" + name + "/xyz", "", "has no direction", "a finite vector other than zero");

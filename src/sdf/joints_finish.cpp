@@ -43,8 +43,7 @@ void pose_beyond(description::World& world, std::size_t j, double position) {
   const std::vector<bool> moved = beyond(world, j);
   const Joint& joint = world.joints[j];
   const Vec3 axis = joint.axes[0].xyz, at = joint.pose.Pos();
-  const ignition::math::Quaterniond turn =
-      joint.kind == Joint::Kind::hinge ? ignition::math::Quaterniond(axis, position) : ignition::math::Quaterniond::Identity;
+  const Quat turn = joint.kind == Joint::Kind::hinge ? Quat::about(axis, position) : Quat();
   const Pose3 move(joint.kind == Joint::Kind::hinge ? at - turn * at : axis * position, turn);
   for (std::size_t l = 0; l < world.links.size(); ++l) {
     if (moved[l]) world.links[l].pose = move * world.links[l].pose;

@@ -6,6 +6,8 @@
 #include <sdf/Collision.hh>
 #include <sdf/Geometry.hh>
 #include <sdf/Link.hh>
+#include <type_traits>
+#include <utility>
 
 #include "sdf/read_context.hpp"
 #include "vsa/scoped_name.hpp"
@@ -15,16 +17,17 @@ namespace {
 
 constexpr double kTriangleTolerance = 1e-6;  // relative; engines get the nearest inertia that satisfies it
 
+using SdfMass = std::decay_t<decltype(std::declval<sdf::Link>().Inertial().MassMatrix())>;
+
 constexpr double kLight_kg = 1e-5, kLight_kgm2 = 1e-9;  // told, for a gram weighed in tonnes
 
-void check_inertia(ReadContext& c, const sdf::ElementPtr& element, const ignition::math::MassMatrix3d& mass,
-                   const std::string& key) {
+void check_inertia(ReadContext& c, const sdf::ElementPtr& element, const SdfMass& mass, const std::string& key) {
   if (!std::isfinite(mass.Mass()) || mass.Mass() <= 0) {
     c.problem(element, key + "/inertial/mass", fmt::format("{}", mass.Mass()), "isn't a positive mass", "> 0 kg, finite");
   }
   const Vec3 d = mass.DiagonalMoments(), o = mass.OffDiagonalMoments();
   const std::string shown = fmt::format("ixx {} iyy {} izz {} ixy {} ixz {} iyz {}", d.X(), d.Y(), d.Z(), o.X(), o.Y(), o.Z());
-  const Vec3 p = d.IsFinite() && o.IsFinite() ? mass.PrincipalMoments() : Vec3::Zero;
+  const SdfVec3 p = d.IsFinite() && o.IsFinite() ? mass.PrincipalMoments() : SdfVec3();
   const double low = p.Min(), high = p.Max(), middle = p.X() + p.Y() + p.Z() - low - high;
   if (!(low > 0)) {
     c.problem(element, key + "/inertial/inertia", shown, "isn't positive definite", "principal moments > 0, finite");
@@ -36,7 +39,7 @@ void check_inertia(ReadContext& c, const sdf::ElementPtr& element, const ignitio
 }
 
 void read_inertia(ReadContext& c, const sdf::Link& link, const std::string& key, Link& out) {
-  const ignition::math::Inertiald& inertial = link.Inertial();
+  const auto& inertial = link.Inertial();
   out.mass = inertial.MassMatrix().Mass();
   out.com = inertial.Pose().Pos();
   out.inertia = inertial.Moi();

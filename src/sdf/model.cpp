@@ -38,7 +38,7 @@ void read_plugins(ReadContext& c, const sdf::ElementPtr& element, const ModelSco
 }
 
 Pose3 model_pose(ReadContext& c, const sdf::Model& model, const ModelScope* outer, const std::string& name) {
-  Pose3 pose;
+  SdfPose3 pose;
   // A model outside a world has no frame to resolve in.
   if (outer == nullptr && !model.SemanticPose().Resolve(pose).empty()) return model.RawPose();
   return (outer == nullptr ? Pose3() : outer->pose) * c.resolve(model.SemanticPose(), "", model.Element(), name);

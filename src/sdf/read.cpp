@@ -30,7 +30,7 @@ void read_physics(ReadContext& c, const sdf::World& world) {
 void read_world_extras(ReadContext& c, const sdf::World& world) {
   const sdf::ElementPtr e = world.Element();
   if (world.ActorCount() > 0) c.notes.add("actors are left out", "world");
-  if (world.WindLinearVelocity() != Vec3::Zero) c.notes.add("wind is left out", "world");
+  if (!alike(world.WindLinearVelocity(), Vec3::Zero)) c.notes.add("wind is left out", "world");
   for (const char* name : {"population", "road"}) {
     if (child(e, name)) c.problem(child(e, name), std::string("world/") + name, "", "isn't supported");
   }

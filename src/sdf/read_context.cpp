@@ -30,7 +30,7 @@ void ReadContext::cannot(const sdf::ElementPtr& element, std::string key, std::s
 
 Pose3 ReadContext::resolve(const sdf::SemanticPose& pose, const std::string& to, const sdf::ElementPtr& element,
                            const std::string& key) {
-  Pose3 resolved;
+  SdfPose3 resolved;
   const sdf::Errors errors = pose.Resolve(resolved, to);
   if (!errors.empty()) {
     // A graph that libsdformat couldn't build has its cause among the parser's errors.

@@ -4,10 +4,13 @@
 // libsdformat.
 #pragma once
 
-#include <ignition/math/Pose3.hh>
+#include <sdf/sdf_config.h>
+
 #include <map>
 #include <sdf/Element.hh>
 #include <sdf/SemanticPose.hh>
+#include <type_traits>
+#include <utility>
 
 #include "sdf/description.hpp"
 #include "sdf/input_files.hpp"
@@ -16,17 +19,21 @@
 #include "vsa/sdf/read.hpp"
 
 namespace sdf {
-inline namespace v12 {
+inline namespace SDF_VERSION_NAMESPACE {
 class Joint;
 class Link;
 class Model;
 class Geometry;
 class Visual;
 class World;
-}  // namespace v12
+}  // namespace SDF_VERSION_NAMESPACE
 }  // namespace sdf
 
 namespace vsa::reader {
+
+/// What libsdformat gives and takes: ignition::math's or gz::math's, by its version.
+using SdfPose3 = std::decay_t<decltype(std::declval<sdf::SemanticPose>().RawPose())>;
+using SdfVec3 = std::decay_t<decltype(std::declval<SdfPose3>().Pos())>;
 
 /// What a file says of a joint that follows another, before the joints are all known.
 struct Mimic {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sdf/World.hh>
 
 #include "sdf/read_context.hpp"
@@ -30,9 +31,9 @@ class ModelState {
     if (known == c_.model_poses.end()) return problem(element_, "", "", "no such model", "a model of the world");
     if (child(element_, "model"))
       problem(element_, "/model", "", "states of nested models aren't supported", "joints of the model itself");
-    if (const sdf::ElementPtr scale = child(element_, "scale"); scale && scale->Get<Vec3>() != Vec3::One)
+    if (const sdf::ElementPtr scale = child(element_, "scale"); scale && !alike(scale->Get<SdfVec3>(), Vec3::One))
       problem(scale, "/scale", scale->Get<std::string>(), "isn't supported", "1 1 1");
-    if (const sdf::ElementPtr pose = child(element_, "pose")) move(pose->Get<Pose3>() * known->second.Inverse());
+    if (const sdf::ElementPtr pose = child(element_, "pose")) move(Pose3(pose->Get<SdfPose3>()) * known->second.Inverse());
     for (sdf::ElementPtr e = child(element_, "joint"); e; e = e->GetNextElement("joint")) joint(e);
     for (sdf::ElementPtr e = child(element_, "link"); e; e = e->GetNextElement("link")) link(e);
     solve();
@@ -72,7 +73,7 @@ class ModelState {
       if (child(e, left)) c_.notes.add("speeds, accelerations and forces of a <state> are left out", key_);
     }
     if (const sdf::ElementPtr pose = child(e, "pose"))
-      poses_[static_cast<std::size_t>(it - c_.out.links.begin())] = pose->Get<Pose3>();
+      poses_[static_cast<std::size_t>(it - c_.out.links.begin())] = Pose3(pose->Get<SdfPose3>());
   }
 
   [[nodiscard]] std::optional<Pose3> pose_of(std::optional<std::size_t> link) const {
@@ -112,12 +113,13 @@ class ModelState {
     if (j.one_axis()) {
       const Vec3 axis = j.pose.Rot().Inverse() * j.axes[0].xyz;
       const auto& q = turn.Rot();
-      start = j.kind == Joint::Kind::slide ? turn.Pos().Dot(axis)
-                                           : std::remainder(2 * std::atan2(axis.Dot({q.X(), q.Y(), q.Z()}), q.W()), 2 * IGN_PI);
+      start = j.kind == Joint::Kind::slide
+                  ? turn.Pos().Dot(axis)
+                  : std::remainder(2 * std::atan2(axis.Dot(Vec3(q.X(), q.Y(), q.Z())), q.W()), 2 * std::numbers::pi);
       if (j.kind == Joint::Kind::slide) {
         reached.Pos() = axis * start;
       } else {
-        reached.Rot() = ignition::math::Quaterniond(axis, start);
+        reached.Rot() = Quat::about(axis, start);
       }
     }
     if (distance(reached.Inverse() * turn) > kPoseTolerance)

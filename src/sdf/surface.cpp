@@ -31,7 +31,7 @@ void read_friction(ReadContext& c, const sdf::ElementPtr& e, const char* first, 
   if (mu2 == mu) return;
   if (c.engine.directional_friction) {
     out.mu2 = std::min(mu2, kMuMax);
-    if (const sdf::ElementPtr direction = child(e, "fdir1")) out.first = direction->Get<Vec3>();
+    if (const sdf::ElementPtr direction = child(e, "fdir1")) out.first = direction->Get<SdfVec3>();
   } else if (std::min(mu, mu2) >= kNeverSlips) {
     c.notes.add("of two coefficients of friction that both never slip the smaller is taken", key);
     out.mu = std::min({mu, mu2, kMuMax});

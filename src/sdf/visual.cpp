@@ -108,7 +108,7 @@ scene::Shape to_shape(const Geometry& g, const Pose3& at) {
 void colour(ReadContext& c, const sdf::Visual& visual, const std::string& key, scene::Shape& shape) {
   const sdf::Material* material = visual.Material();
   if (material != nullptr && child(material->Element(), "diffuse")) {
-    const ignition::math::Color d = material->Diffuse();
+    const auto d = material->Diffuse();
     shape.rgba = {d.R(), d.G(), d.B(), d.A()};
   }
   shape.rgba[3] *= 1 - visual.Transparency();

@@ -83,6 +83,14 @@ std::vector<DrivenJoints::Joint> driven(const host::Robot& robot, const Model& m
 
 }  // namespace
 
+// Not as one expression in the constructor, of which GCC 14 warns wrongly (maybe-uninitialized).
+Seat::Own Seat::Own::of(std::size_t joints) {
+  Own own;
+  own.now.in.resize(joints);
+  own.watch = host::MobilityWatch(joints);
+  return own;
+}
+
 Seat::Seat(const Model& model, const Options& options)
     : model_(model.name),
       robot_(make_robot(model, options)),
@@ -90,7 +98,7 @@ Seat::Seat(const Model& model, const Options& options)
       driven_(model.where, driven(robot_, model, joints_)),
       report_(options.report),
       watches_pace_(options.watches_pace),
-      own_{{0, false, std::vector<host::JointIn>(robot_.size())}, {}, host::MobilityWatch(robot_.size())},
+      own_(Own::of(robot_.size())),
       kept_(own_),
       loaded_(own_),
       torques_(robot_.size(), 0.0),

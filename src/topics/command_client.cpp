@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <ignition/transport/Node.hh>
 #include <mutex>
 #include <string_view>
 
@@ -27,8 +26,8 @@ struct Inbox {
 }  // namespace
 
 struct CommandClient::Impl {
-  ignition::transport::Node node;
-  ignition::transport::Node::Publisher publisher;
+  transport::Node node;
+  transport::Node::Publisher publisher;
   std::shared_ptr<Inbox> inbox = std::make_shared<Inbox>();
 };
 

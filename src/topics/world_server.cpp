@@ -1,15 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/topics/world_server.hpp"
 
-#include <ignition/msgs/boolean.pb.h>
-#include <ignition/msgs/clock.pb.h>
-#include <ignition/msgs/world_control.pb.h>
-#include <ignition/msgs/world_stats.pb.h>
-
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <ignition/transport/Node.hh>
 #include <mutex>
 #include <set>
 #include <vector>
@@ -18,13 +12,13 @@
 #include "vsa/seat/seat.hpp"
 #include "vsa/topics/ignition_transport.hpp"
 #include "vsa/topics/transport.hpp"
+#include "world_messages.hpp"
 
 namespace vsa::topics {
 namespace {
 
-namespace msgs = ignition::msgs;
-using ignition::transport::Node;
 using std::chrono::steady_clock;
+using transport::Node;
 using namespace std::chrono_literals;
 
 constexpr auto kListenersEvery = 20ms;

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/experiment/recording.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,8 @@ class UnitBench {
   }
 
   /// Bytes as they come, 5 µs each; all that the unit sends while they do.
-  Bytes send(const Bytes& bytes) {
+  Bytes send(const Bytes& bytes) { return send_all(bytes); }
+  Bytes send_all(std::span<const std::uint8_t> bytes) {
     Bytes replies;
     for (const std::uint8_t byte : bytes) {
       out.clear();
@@ -61,7 +63,7 @@ class UnitBench {
     now_ns += 10 * kTickNs;
     const auto to = static_cast<std::uint8_t>(id.value_or(state.memory.current.id));
     const bus::FrameBytes frame = bus::encode_request(program.wire(), to, bus::Request{r});
-    return send({frame.view().begin(), frame.view().end()});
+    return send_all(frame.view());
   }
 
   /// The reply as its type; none: nothing, or something else.

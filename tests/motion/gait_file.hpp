@@ -54,11 +54,11 @@ inline std::string problems_of(const std::filesystem::path& file) {
   return "";
 }
 
-inline const GaitGroup& group(const Gait& gait, const std::string& name) {
+inline const GaitGroup& group(const Gait& gait, const char* name) {
   for (const GaitGroup& g : gait.params().groups) {
     if (g.name == name) return g;
   }
-  throw std::runtime_error("no group " + name);
+  throw std::runtime_error(std::string("no group ") + name);
 }
 
 }  // namespace vsa::motion

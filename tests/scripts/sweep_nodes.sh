@@ -4,7 +4,7 @@
 # sweep_nodes.sh BIN: a sweep of 1,000 points on two nodes that have nothing in common but the disk: network namespaces with hostnames
 # of their own and TCP between them. Its table must be that of this machine's threads, byte for byte; then once more over a slow link
 # (50 ms each way), and with a rank killed half-way and --resume.
-# Ends with 77 (left out) where it isn't root, namespaces can't be made, or there is no Open MPI.
+# Ends with 77 (left out) where it isn't root, namespaces can't be made, or there is no Open MPI 4.
 set -eu
 export ASAN_OPTIONS="${ASAN_OPTIONS:-}"
 bin=$1
@@ -12,7 +12,8 @@ left_out() { echo "left out: $1"; exit 77; }
 [ -x "$bin/vsa-mpi" ] || left_out "this build has no vsa-mpi"
 [ "$(id -u)" -eq 0 ] || left_out "namespaces need root"
 for tool in mpirun ip unshare nsenter; do command -v $tool > /dev/null || left_out "no $tool"; done
-mpirun --version 2> /dev/null | grep -q 'Open MPI' || left_out "mpirun isn't Open MPI's"
+# Open MPI 5's launcher has other words for agents and interfaces.
+mpirun --version 2> /dev/null | grep -q 'Open MPI) 4' || left_out "mpirun isn't Open MPI 4's"
 
 work=$(mktemp -d)
 nodes=""

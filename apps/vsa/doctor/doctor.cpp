@@ -109,8 +109,16 @@ void check_data(Findings& findings) {
   }
 }
 
-int run_doctor(const DoctorOptions& options, LoadingCheck check_loading) {
+int run_doctor(const DoctorOptions& options, LoadingCheck check_loading, const std::vector<Feature>& features) {
   Findings findings, of_world;
+  for (const Feature& feature : features) {
+    const std::string name(feature.name);
+    if (feature.is_in()) {
+      findings.ok(name, "by " + std::string(feature.found_as));
+    } else {
+      findings.note(name, "left out of this build, which found no library", std::string(feature.remedy));
+    }
+  }
   check_data(findings);
   const std::vector<Host> hosts = check_hosts(findings);
   check_plugins(findings, hosts);

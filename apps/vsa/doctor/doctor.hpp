@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "doctor/checks.hpp"
+#include "vsa/feature.hpp"
 
 namespace CLI {
 class App;
@@ -18,7 +20,8 @@ struct DoctorOptions {
 
 /// `vsa doctor [WORLD]`. Sets the exit code when it was the subcommand.
 void setup_doctor(CLI::App& app, int& exit_code);
-int run_doctor(const DoctorOptions& options, LoadingCheck check_loading);
+/// `features`: that the program may have been built without.
+int run_doctor(const DoctorOptions& options, LoadingCheck check_loading, const std::vector<Feature>& features = {});
 
 /// With the embedded engine.
 void load_world(Findings& findings, const std::filesystem::path& file);

@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "doctor/doctor.hpp"
+#include "vsa/sdf/feature.hpp"
+#include "vsa/topics/feature.hpp"
 
 namespace vsa::app {
 namespace {
@@ -22,12 +24,14 @@ Examples:
 void setup_doctor(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DoctorOptions>();
   CLI::App* sub = app.add_subcommand("doctor", "What is missing for Gazebo, topics and serial ports, or wrong with a world");
-  sub->add_option("WORLD", options->world, "An SDF file, or the name of a built-in world");
+  sub->add_option("WORLD", options->world, "An SDF, URDF or MJCF file, or the name of a built-in world");
   sub->add_option("--devices", options->devices, "Where the machine's devices are")
       ->capture_default_str()
       ->check(CLI::ExistingDirectory);
   sub->footer(kNotes);
-  sub->callback([options, &exit_code] { exit_code = run_doctor(*options, load_world); });
+  sub->callback([options, &exit_code] {
+    exit_code = run_doctor(*options, load_world, {reader::sdf_feature(), topics::topics_feature()});
+  });
 }
 
 }  // namespace vsa::app

@@ -1,26 +1,13 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/App.hpp>
-#include <optional>
-#include <string>
-#include <vector>
+namespace CLI {
+class App;
+}
 
 namespace vsa::app {
 
-struct ExportOptions {
-  std::string fmu;  ///< an actuator type or a world
-  std::string out;  ///< empty: NAME.fmu
-  int fmi = 2;
-  std::string names = "vsasim";
-  std::string coupling = "prescribed";
-  std::optional<double> load_inertia_kgm2;
-  std::vector<std::string> set;
-};
-
-/// `vsa export`. Sets the exit code when it was the subcommand.
+/// `vsa export`, --mjcf or --fmu. Sets the exit code when it was the subcommand.
 void setup_export(CLI::App& app, int& exit_code);
-/// Throws InputError: an unknown type or world, flags that don't go together, a file that can't be written there.
-int run_export(const ExportOptions& options);
 
 }  // namespace vsa::app

@@ -40,6 +40,8 @@ Examples:
 )";
 
 void check(const RunOptions& options) {
+  if (options.paused && !options.view && !(options.no_topics || topics::topics_feature().is_in()))
+    throw InputError({"", "--paused", "", topics::topics_feature().missing(), "--view, by which it can be let run"});
   if (options.paused && options.no_topics && !options.view) {
     throw InputError({"", "--paused", "", "with --no-topics nobody could let it run", "--view, or topics"});
   }

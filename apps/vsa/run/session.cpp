@@ -42,7 +42,8 @@ RunSession::RunSession(const RunOptions& options, Console& console)
   scenario::break_robots(world_, options_.faults);
   const auto report = [&console](const std::string& line) { console.line(line); };
   for (std::size_t i = 0; i < world_.robot_count(); ++i) world_.seat(i).report_to(report);
-  if (!options.no_topics) server_.emplace(world_, control_, report);
+  if (!options.no_topics && topics::topics_feature().is_in()) server_.emplace(world_, control_, report);
+  if (!options.no_topics && !server_) console_.line("note: " + topics::topics_feature().missing());
   open_ports();
   if (options.view) open_view(options);
   // Last, so that a run that is refused has not touched an earlier record.

@@ -17,6 +17,7 @@
 #include "vsa/scenario/player.hpp"
 #include "vsa/seat/run_control.hpp"
 #include "vsa/study/travel.hpp"
+#include "vsa/topics/feature.hpp"
 #include "vsa/topics/world_server.hpp"
 #include "vsa/view/live_view.hpp"
 

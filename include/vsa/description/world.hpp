@@ -8,21 +8,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <ignition/math/Matrix3.hh>
-#include <ignition/math/Pose3.hh>
-#include <ignition/math/Vector3.hh>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "vsa/description/math.hpp"
 #include "vsa/scene/link.hpp"
 
 namespace vsa::description {
-
-using Pose3 = ignition::math::Pose3d;
-using Vec3 = ignition::math::Vector3d;
-using Mat3 = ignition::math::Matrix3d;
 
 /// Triangles in the frame of the collision or visual, already scaled.
 struct Mesh {
@@ -117,6 +111,15 @@ struct Plugin {
   std::string xml;
 };
 
+/// What an engine has made of a file in its own format. It steps that; links, joints and couplings tell of it.
+class Native {
+ public:
+  Native() = default;
+  virtual ~Native() = default;
+  Native(const Native&) = delete;
+  Native& operator=(const Native&) = delete;
+};
+
 struct World {
   std::string name;
   Vec3 gravity{0, 0, -9.8};
@@ -125,7 +128,8 @@ struct World {
   std::vector<Joint> joints;
   std::vector<Coupling> couplings;
   std::vector<Plugin> plugins;
-  std::vector<scene::LinkInfo> infos;  ///< one a link, with its visuals
+  std::vector<scene::LinkInfo> infos;    ///< one a link, with its visuals
+  std::shared_ptr<const Native> native;  ///< none: all that an engine needs stands here
 };
 
 }  // namespace vsa::description

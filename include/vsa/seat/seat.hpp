@@ -158,6 +158,7 @@ class Seat {
     Moment now;
     std::vector<double> mobility;
     host::MobilityWatch watch;
+    [[nodiscard]] static Own of(std::size_t joints);  ///< at the first sample
     static auto fields(auto& s, auto&& visit) {
       return visit("now", "", s.now, "mobility", "1/(kg·m²)", s.mobility, "mobility_watch", "", s.watch);
     }

@@ -9,6 +9,7 @@
 // Nothing else that mj_setConst derives (lengths, centres, extent, cameras) follows from masses.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -19,9 +20,11 @@ namespace vsa::physics {
 
 /// Which of MuJoCo's objects are a link's.
 struct LinkObjects {
-  std::vector<int> body;           ///< of a link
-  std::vector<bool> is_static;     ///< of a link
-  std::vector<std::size_t> geoms;  ///< the link of each geom
+  std::vector<int> body;                   ///< of a link
+  std::vector<bool> is_static;             ///< of a link
+  std::vector<std::size_t> geoms;          ///< the link of each geom
+  std::vector<std::array<int, 2>> joints;  ///< of a joint's axes; −1: hasn't one
+  std::vector<int> free;                   ///< of a link: the joint by which it flies free; −1: it doesn't
 };
 
 class MujocoBodies final : public Bodies {

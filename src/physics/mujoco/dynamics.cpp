@@ -3,7 +3,6 @@
 // Forces from outside, what a controller asks of the bodies, and clones.
 #include <algorithm>
 
-#include "physics/mujoco/mjcf.hpp"
 #include "physics/mujoco/physics.hpp"
 
 namespace vsa::physics {
@@ -47,13 +46,13 @@ void MujocoPhysics::push(std::size_t link, const scene::Wrench& wrench) {
 std::size_t MujocoPhysics::dofs() const { return static_cast<std::size_t>(model_->nv); }
 
 std::optional<std::size_t> MujocoPhysics::joint_dof(std::size_t joint) const {
-  const int id = mj_name2id(model_.get(), mjOBJ_JOINT, joint_name(joint, 0).c_str());
+  const int id = objects_.joints[joint][0];
   if (id < 0) return std::nullopt;
   return static_cast<std::size_t>(model_->jnt_dofadr[id]);
 }
 
 std::optional<std::size_t> MujocoPhysics::free_dof(std::size_t link) const {
-  const int id = mj_name2id(model_.get(), mjOBJ_JOINT, free_joint_name(link).c_str());
+  const int id = objects_.free[link];
   if (id < 0) return std::nullopt;
   return static_cast<std::size_t>(model_->jnt_dofadr[id]);
 }

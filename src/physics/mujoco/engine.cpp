@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "physics/mujoco/mjcf.hpp"
+#include "physics/mujoco/mjcf_file.hpp"
 #include "physics/mujoco/physics.hpp"
 #include "vsa/description/capabilities.hpp"
 #include "vsa/physics/mujoco.hpp"
@@ -13,15 +14,35 @@ namespace {
 
 class CompiledMujoco final : public CompiledWorld {
  public:
-  CompiledMujoco(ModelPtr model, std::shared_ptr<const description::World> world, std::vector<TreeNode> tree)
-      : model_(std::move(model)), world_(std::move(world)), tree_(std::move(tree)) {}
-  std::unique_ptr<Physics> start() const override { return std::make_unique<MujocoPhysics>(model_, *world_, tree_); }
+  CompiledMujoco(ModelPtr model, std::shared_ptr<const description::World> world, LinkObjects objects)
+      : model_(std::move(model)), world_(std::move(world)), objects_(std::move(objects)) {}
+  std::unique_ptr<Physics> start() const override { return std::make_unique<MujocoPhysics>(model_, *world_, objects_); }
 
  private:
   std::shared_ptr<mjModel> model_;
   std::shared_ptr<const description::World> world_;
-  std::vector<TreeNode> tree_;
+  LinkObjects objects_;
 };
+
+LinkObjects objects_of(const mjModel& m, const description::World& world) {
+  const MjcfNames names{world};
+  LinkObjects out;
+  out.geoms.resize(static_cast<std::size_t>(m.ngeom));
+  for (std::size_t l = 0; l < world.links.size(); ++l) {
+    out.body.push_back(mj_name2id(&m, mjOBJ_BODY, names.body(l).c_str()));
+    out.is_static.push_back(world.links[l].is_static);
+    out.free.push_back(mj_name2id(&m, mjOBJ_JOINT, names.free_joint(l).c_str()));
+    for (std::size_t k = 0; k < world.links[l].collisions.size(); ++k) {
+      const int geom = mj_name2id(&m, mjOBJ_GEOM, names.geom(l, k).c_str());
+      if (geom >= 0) out.geoms[static_cast<std::size_t>(geom)] = l;
+    }
+  }
+  for (std::size_t j = 0; j < world.joints.size(); ++j) {
+    out.joints.push_back(
+        {mj_name2id(&m, mjOBJ_JOINT, names.joint(j, 0).c_str()), mj_name2id(&m, mjOBJ_JOINT, names.joint(j, 1).c_str())});
+  }
+  return out;
+}
 
 description::Capabilities what_it_can() {
   using enum Geometry::Kind;
@@ -35,14 +56,6 @@ description::Capabilities what_it_can() {
   return can;
 }
 
-/// Room to begin with: it grows where it must, and a world that needs little is made and cloned in little time.
-Capacity capacity_for(const description::World& world) {
-  int moving = 0;
-  for (const Link& l : world.links) moving += l.is_static ? 0 : static_cast<int>(l.collisions.size());
-  const int contacts = 16 + 2 * std::min(moving, 100);
-  return {contacts, 3 * contacts + 100};
-}
-
 class Mujoco final : public Engine {
  public:
   const description::Capabilities& capabilities() const override { return can_; }
@@ -50,7 +63,12 @@ class Mujoco final : public Engine {
   std::shared_ptr<const CompiledWorld> compile(const std::shared_ptr<const description::World>& description, double step_s,
                                                std::string_view file, Problems& problems) const override {
     const description::World& world = *description;
-    std::vector<TreeNode> tree = build_tree(world, file, problems);
+    if (const auto* own = dynamic_cast<const MjcfFile*>(world.native.get())) {
+      ModelPtr model(mj_copyModel(nullptr, own->model.get()));
+      model->opt.timestep = step_s;
+      return std::make_shared<CompiledMujoco>(std::move(model), description, own->objects);
+    }
+    const std::vector<TreeNode> tree = build_tree(world, file, problems);
     if (!problems.empty()) return nullptr;
     const Mjcf mjcf = write_mjcf(world, tree, step_s, capacity_for(world));
     std::string reason;
@@ -65,7 +83,8 @@ class Mujoco final : public Engine {
       const double scale = heightmap_scale(map);
       for (const double height : map.heights) *to++ = static_cast<float>(height / scale);
     }
-    return std::make_shared<CompiledMujoco>(std::move(model), description, std::move(tree));
+    LinkObjects objects = objects_of(*model, world);
+    return std::make_shared<CompiledMujoco>(std::move(model), description, std::move(objects));
   }
 
  private:

@@ -33,8 +33,14 @@ std::vector<std::array<double, 2>> surfaces(const description::World& world) {
 
 class Writer {
  public:
-  Writer(const description::World& world, const std::vector<TreeNode>& tree)
-      : world_(world), tree_(tree), children_(world.links.size()), kinds_(surfaces(world)) {
+  /// file: NAME of NAME.xml; empty: in memory.
+  Writer(const description::World& world, const std::vector<TreeNode>& tree, std::string file)
+      : world_(world),
+        tree_(tree),
+        file_(std::move(file)),
+        names_{world, !file_.empty()},
+        children_(world.links.size()),
+        kinds_(surfaces(world)) {
     for (std::size_t i = 0; i < tree.size(); ++i)
       (tree[i].parent && !tree[i].free ? children_[*tree[i].parent] : roots_).push_back(i);
   }
@@ -42,7 +48,8 @@ class Writer {
   Mjcf write(double step_s, Capacity capacity) {
     std::string bodies;
     for (const std::size_t i : roots_) body(tree_[i], 1, bodies);
-    fmt::format_to(out(), "<mujoco model=\"vsa\">\n<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n");
+    fmt::format_to(out(), "<mujoco model=\"{}\">\n<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n",
+                   file_.empty() ? "vsa" : escaped(world_.name));
     fmt::format_to(out(), "<size njmax=\"{}\" nconmax=\"{}\"/>\n", capacity.rows, capacity.contacts);
     fmt::format_to(out(), "<option timestep=\"{}\" gravity=\"{}\" integrator=\"Euler\" cone=\"elliptic\" solver=\"Newton\">",
                    step_s, text(world_.gravity));
@@ -54,7 +61,7 @@ class Writer {
     result_.xml += "</contact>\n<equality>\n";
     for (const Coupling& k : world_.couplings) {
       fmt::format_to(out(), "<joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} 0 0 0\" solref=\"0.004 1\"/>\n",
-                     joint_name(k.follower), joint_name(k.leader), k.offset, k.multiplier);
+                     escaped(names_.joint(k.follower)), escaped(names_.joint(k.leader)), k.offset, k.multiplier);
     }
     result_.xml += "</equality>\n</mujoco>\n";
     return std::move(result_);
@@ -62,34 +69,35 @@ class Writer {
 
  private:
   Back out() { return std::back_inserter(result_.xml); }
+  [[nodiscard]] std::string prefix() const { return file_.empty() ? "" : file_ + "."; }
 
   /// Far out on a chain bodies go into a file of their own.
   void child(const TreeNode& node, std::size_t depth, std::string& to) {
     if (depth % kBodiesDeep != 0) return body(node, depth + 1, to);
     const std::size_t index = result_.parts.size();
-    result_.parts.push_back({fmt::format("part{}.xml", index), ""});
+    result_.parts.push_back({fmt::format("{}part{}.xml", prefix(), index), ""});
     std::string text = "<mujoco>\n";
     body(node, depth + 1, text);
     result_.parts[index].bytes = text + "</mujoco>\n";
-    to += fmt::format("<include file=\"part{}.xml\"/>\n", index);
+    to += fmt::format("<include file=\"{}\"/>\n", escaped(result_.parts[index].name));
   }
 
   void body(const TreeNode& node, std::size_t depth, std::string& to) {
     const Link& link = world_.links[node.link];
     const Pose3 pose = node.parent ? world_.links[*node.parent].pose.Inverse() * link.pose : link.pose;
-    to += fmt::format("<body name=\"{}\" {}>\n", body_name(node.link), place(pose));
+    to += fmt::format("<body name=\"{}\" {}>\n", escaped(names_.body(node.link)), place(pose));
     inertial(link, to);
-    if (node.free) to += fmt::format("<freejoint name=\"{}\"/>\n", free_joint_name(node.link));
+    if (node.free) to += fmt::format("<freejoint name=\"{}\"/>\n", escaped(names_.free_joint(node.link)));
     if (node.joint) joint(node, to);
     for (std::size_t k = 0; k < link.collisions.size(); ++k) {
       const Collision& c = link.collisions[k];
       if (endless(c)) {
-        geom(c, geom_name(node.link, k), link.pose, ground_);
+        geom(c, names_.geom(node.link, k), link.pose, ground_);
         continue;
       }
       const bool apart = parts(node.link) > 1;
-      if (apart) to += fmt::format("<body name=\"{}\">\n", part_name(node.link, k));
-      geom(c, geom_name(node.link, k), Pose3(), to);
+      if (apart) to += fmt::format("<body name=\"{}\">\n", escaped(part_name(node.link, k)));
+      geom(c, names_.geom(node.link, k), Pose3(), to);
       if (apart) to += "</body>\n";
     }
     for (const std::size_t i : children_[node.link]) child(tree_[i], depth, to);
@@ -113,7 +121,7 @@ class Writer {
     const Pose3 to_body = world_.links[node.link].pose.Inverse();
     const std::string anchor = text((to_body * joint.pose).Pos());
     if (joint.kind == Joint::Kind::ball) {
-      to += fmt::format("<joint name=\"{}\" type=\"ball\" pos=\"{}\"/>\n", joint_name(*node.joint), anchor);
+      to += fmt::format("<joint name=\"{}\" type=\"ball\" pos=\"{}\"/>\n", escaped(names_.joint(*node.joint)), anchor);
       return;
     }
     const std::size_t n = joint.axes.size();
@@ -123,8 +131,8 @@ class Writer {
       const Axis& axis = joint.axes[i];
       const Vec3 direction = to_body.Rot() * (node.reversed ? -axis.xyz : axis.xyz);
       to += fmt::format("<joint name=\"{}\" type=\"{}\" pos=\"{}\" axis=\"{}\" damping=\"{}\" frictionloss=\"{}\"",
-                        joint_name(*node.joint, i), joint.kind == Joint::Kind::slide ? "slide" : "hinge", anchor, text(direction),
-                        axis.damping, axis.friction);
+                        escaped(names_.joint(*node.joint, i)), joint.kind == Joint::Kind::slide ? "slide" : "hinge", anchor,
+                        text(direction), axis.damping, axis.friction);
       if (axis.stiffness > 0) to += fmt::format(" stiffness=\"{}\" springref=\"{}\"", axis.stiffness, axis.rest);
       if (axis.range) to += fmt::format(" limited=\"true\" range=\"{} {}\"", (*axis.range)[0], (*axis.range)[1]);
       to += "/>\n";
@@ -163,20 +171,22 @@ class Writer {
 
   std::size_t add_heightmap(const std::shared_ptr<const Heightmap>& map) {
     const std::size_t index = result_.heightmaps.size();
-    assets_ += fmt::format("<hfield name=\"h{}\" nrow=\"{}\" ncol=\"{}\" size=\"{} {} {} {}\"/>\n", index, map->rows, map->columns,
-                           map->extent_x / 2, map->extent_y / 2, heightmap_scale(*map), kHeightmapBase);
+    const std::string data = file_.empty() ? fmt::format("nrow=\"{}\" ncol=\"{}\"", map->rows, map->columns)
+                                           : fmt::format("file=\"{}\"", escaped(fmt::format("{}h{}.bin", prefix(), index)));
+    assets_ += fmt::format("<hfield name=\"h{}\" {} size=\"{} {} {} {}\"/>\n", index, data, map->extent_x / 2, map->extent_y / 2,
+                           heightmap_scale(*map), kHeightmapBase);
     result_.heightmaps.push_back(map);
     return index;
   }
 
   void geom(const Collision& c, const std::string& name, const Pose3& at, std::string& to) {
     Pose3 pose = at * c.pose * c.geometry.offset;
-    if (c.geometry.heightmap) pose = pose * Pose3(c.geometry.heightmap->centre, ignition::math::Quaterniond::Identity);
+    if (c.geometry.heightmap) pose = pose * Pose3(c.geometry.heightmap->centre, description::Quat());
     const ContactKind kind = kinds_.of(c.surface.mu, c.surface.torsional_m);
     to += fmt::format(
-        "<geom name=\"{}\" {} {} friction=\"{} {} 0\" condim=\"{}\" priority=\"{}\" contype=\"{}\" conaffinity=\"{}\"/>\n", name,
-        shape(c.geometry), place(pose), c.surface.mu, c.surface.torsional_m, kind.condim, kind.priority, c.surface.mask,
-        c.surface.mask);
+        "<geom name=\"{}\" {} {} friction=\"{} {} 0\" condim=\"{}\" priority=\"{}\" contype=\"{}\" conaffinity=\"{}\"/>\n",
+        escaped(name), shape(c.geometry), place(pose), c.surface.mu, c.surface.torsional_m, kind.condim, kind.priority,
+        c.surface.mask, c.surface.mask);
   }
 
   // MuJoCo 2.2.2's broad phase
@@ -192,7 +202,7 @@ class Writer {
   [[nodiscard]] std::string part_name(std::size_t link, std::size_t k) const {
     const Link& l = world_.links[link];
     if (k < l.collisions.size() && endless(l.collisions[k])) return "world";
-    return parts(link) > 1 ? fmt::format("b{}_{}", link, k) : body_name(link);
+    return parts(link) > 1 ? names_.part(link, k) : names_.body(link);
   }
 
   void excludes() {
@@ -211,7 +221,7 @@ class Writer {
     for (const auto& [a, b] : pairs) {
       for (std::size_t i = 0; i < parts(a); ++i) {
         for (std::size_t k = 0; k < parts(b); ++k) {
-          lines.insert(fmt::format("<exclude body1=\"{}\" body2=\"{}\"/>\n", part_name(a, i), part_name(b, k)));
+          lines.insert(fmt::format("<exclude body1=\"{}\" body2=\"{}\"/>\n", escaped(part_name(a, i)), escaped(part_name(b, k))));
         }
       }
     }
@@ -220,6 +230,8 @@ class Writer {
 
   const description::World& world_;
   const std::vector<TreeNode>& tree_;
+  std::string file_;
+  MjcfNames names_;
   std::vector<std::vector<std::size_t>> children_;  // of a link, into tree_
   std::vector<std::size_t> roots_;
   ContactKinds kinds_;
@@ -241,15 +253,22 @@ ContactKind ContactKinds::of(double mu, double torsional_m) const {
   return {mu < kSmallestMu ? 1 : torsional_m > 0 ? 4 : 3, static_cast<int>(classes_.end() - at)};
 }
 
-std::string body_name(std::size_t link) { return fmt::format("b{}", link); }
-std::string joint_name(std::size_t joint, std::size_t axis) { return fmt::format("j{}_{}", joint, axis); }
-std::string free_joint_name(std::size_t link) { return fmt::format("f{}", link); }
-std::string geom_name(std::size_t link, std::size_t collision) { return fmt::format("g{}_{}", link, collision); }
-
 double heightmap_scale(const Heightmap& map) { return std::max(map.highest(), 1e-6); }
 
+Capacity capacity_for(const description::World& world) {
+  int moving = 0;
+  for (const Link& l : world.links) moving += l.is_static ? 0 : static_cast<int>(l.collisions.size());
+  const int contacts = 16 + 2 * std::min(moving, 100);
+  return {contacts, 3 * contacts + 100};
+}
+
 Mjcf write_mjcf(const description::World& world, const std::vector<TreeNode>& tree, double step_s, Capacity capacity) {
-  return Writer(world, tree).write(step_s, capacity);
+  return Writer(world, tree, {}).write(step_s, capacity);
+}
+
+Mjcf write_mjcf_file(const description::World& world, const std::vector<TreeNode>& tree, double step_s, Capacity capacity,
+                     const std::string& name) {
+  return Writer(world, tree, name).write(step_s, capacity);
 }
 
 }  // namespace vsa::physics

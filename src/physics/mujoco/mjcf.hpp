@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// description::World → MuJoCo's XML, in memory. Names are generated (b3, j5, h0): users' names may hold anything. Numbers are written
-// so that they read back the same.
+// description::World → MuJoCo's XML, in memory. Names are generated (b3, j5, h0), or the description's own, for files that people
+// read. Numbers are written so that they read back the same.
 //
 // Choices
 //   contact        elliptic cones; solref 0.004 s (MuJoCo keeps it ≥ 2 dt), critically damped
@@ -33,7 +33,14 @@ struct Mjcf {
   std::vector<std::shared_ptr<const Heightmap>> heightmaps;  ///< h0, h1 …: their data are filled in after compiling
 };
 
+/// Room to begin with: it grows where it must, and a world that needs little is made and cloned in little time.
+[[nodiscard]] Capacity capacity_for(const description::World& world);
+
 [[nodiscard]] Mjcf write_mjcf(const description::World& world, const std::vector<TreeNode>& tree, double step_s, Capacity capacity);
+
+/// The same with the description's names, for a file NAME.xml: parts and heightmaps are files beside it, NAME.part0.xml, NAME.h0.bin.
+[[nodiscard]] Mjcf write_mjcf_file(const description::World& world, const std::vector<TreeNode>& tree, double step_s,
+                                   Capacity capacity, const std::string& name);
 
 /// How MuJoCo is told of the shapes' frictions, see above.
 struct ContactKind {
@@ -52,10 +59,18 @@ class ContactKinds {
 /// Heights are stored as fractions of this.
 [[nodiscard]] double heightmap_scale(const Heightmap& map);
 
-/// MuJoCo's names.
-[[nodiscard]] std::string body_name(std::size_t link);
-[[nodiscard]] std::string joint_name(std::size_t joint, std::size_t axis = 0);
-[[nodiscard]] std::string free_joint_name(std::size_t link);
-[[nodiscard]] std::string geom_name(std::size_t link, std::size_t collision);
+/// MuJoCo's names, the generated ones or, with `own`, the description's.
+struct MjcfNames {
+  const description::World& world;
+  bool own = false;
+  [[nodiscard]] std::string body(std::size_t link) const;
+  [[nodiscard]] std::string joint(std::size_t joint, std::size_t axis = 0) const;
+  [[nodiscard]] std::string free_joint(std::size_t link) const;
+  [[nodiscard]] std::string geom(std::size_t link, std::size_t collision) const;
+  [[nodiscard]] std::string part(std::size_t link, std::size_t collision) const;  ///< a body of a static link's shape
+};
+
+/// `text` as it stands in an attribute.
+[[nodiscard]] std::string escaped(const std::string& text);
 
 }  // namespace vsa::physics

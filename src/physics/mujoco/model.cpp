@@ -30,12 +30,24 @@ bool add(mjVFS& vfs, const VirtualFile& file) {
   return true;
 }
 
+void take_hooks() {
+  mju_user_warning = on_warning;
+  mju_user_error = on_error;
+}
+
+ModelPtr load(const std::string& path, const mjVFS* files, std::string& reason) {
+  std::array<char, 1000> error{};
+  ModelPtr model(mj_loadXML(path.c_str(), files, error.data(), static_cast<int>(error.size())));
+  mj_freeLastXML();
+  if (!model) reason = error.data();
+  return model;
+}
+
 }  // namespace
 
 ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, std::string& reason) {
   const std::lock_guard lock(compiling);
-  mju_user_warning = on_warning;
-  mju_user_error = on_error;
+  take_hooks();
   const std::unique_ptr<mjVFS, VfsDeleter> vfs(new mjVFS);
   mj_defaultVFS(vfs.get());
   bool all = add(*vfs, {"world.xml", xml});
@@ -44,11 +56,13 @@ ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, 
     reason = "the world is too large for MuJoCo's virtual files";
     return nullptr;
   }
-  std::array<char, 1000> error{};
-  ModelPtr model(mj_loadXML("world.xml", vfs.get(), error.data(), static_cast<int>(error.size())));
-  mj_freeLastXML();
-  if (!model) reason = error.data();
-  return model;
+  return load("world.xml", vfs.get(), reason);
+}
+
+ModelPtr load_file(const std::string& path, std::string& reason) {
+  const std::lock_guard lock(compiling);
+  take_hooks();
+  return load(path, nullptr, reason);
 }
 
 }  // namespace vsa::physics

@@ -27,5 +27,7 @@ struct VirtualFile {
 
 /// Compiles XML from memory, with the files that it names. Null and a reason where MuJoCo refuses it.
 [[nodiscard]] ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, std::string& reason);
+/// The same of a file on the disk, with those that it names.
+[[nodiscard]] ModelPtr load_file(const std::string& path, std::string& reason);
 
 }  // namespace vsa::physics

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/mujoco/mjcf.hpp"
-
 namespace vsa::physics {
 namespace {
 
@@ -34,37 +32,27 @@ const char* warning_text(int kind) {
 
 }  // namespace
 
-MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, const std::vector<TreeNode>& tree)
-    : model_(std::move(model)), joint_(world.joints.size()), root_(world.links.size(), -1) {
+MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, LinkObjects objects)
+    : model_(std::move(model)), objects_(std::move(objects)), joint_(world.joints.size()), root_(world.links.size(), -1) {
   const mjModel* m = model_.get();
   q_owner_.resize(static_cast<std::size_t>(m->nq));
   v_owner_.resize(static_cast<std::size_t>(m->nv));
-  objects_.geoms.resize(static_cast<std::size_t>(m->ngeom));
   const auto own = [&](int id, const std::string& name) {
     const int q_end = id + 1 < m->njnt ? m->jnt_qposadr[id + 1] : m->nq, v_end = id + 1 < m->njnt ? m->jnt_dofadr[id + 1] : m->nv;
     std::fill(q_owner_.begin() + m->jnt_qposadr[id], q_owner_.begin() + q_end, name);
     std::fill(v_owner_.begin() + m->jnt_dofadr[id], v_owner_.begin() + v_end, name);
   };
-  for (std::size_t l = 0; l < world.links.size(); ++l) {
-    objects_.body.push_back(mj_name2id(m, mjOBJ_BODY, body_name(l).c_str()));
-    objects_.is_static.push_back(world.links[l].is_static);
-    for (std::size_t k = 0; k < world.links[l].collisions.size(); ++k) {
-      const int geom = mj_name2id(m, mjOBJ_GEOM, geom_name(l, k).c_str());
-      if (geom >= 0) objects_.geoms[static_cast<std::size_t>(geom)] = l;
-    }
-  }
   for (std::size_t j = 0; j < world.joints.size(); ++j) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      const int id = mj_name2id(m, mjOBJ_JOINT, joint_name(j, k).c_str());
+    for (const int id : objects_.joints[j]) {
       if (id < 0) continue;
       own(id, "joint " + world.joints[j].name);
       if (world.joints[j].one_axis()) joint_[j] = {m->jnt_qposadr[id], m->jnt_dofadr[id]};
     }
   }
-  for (const TreeNode& node : tree) {
-    const int id = node.free ? mj_name2id(m, mjOBJ_JOINT, free_joint_name(node.link).c_str()) : -1;
-    if (id >= 0) own(id, "link " + world.links[node.link].name);
-    root_[node.link] = node.free ? id : node.parent ? root_[*node.parent] : -1;
+  for (std::size_t l = 0; l < world.links.size(); ++l) {
+    if (objects_.free[l] >= 0) own(objects_.free[l], "link " + world.links[l].name);
+    const int root = m->body_rootid[objects_.body[l]], first = m->body_jntadr[root];
+    if (first >= 0 && m->jnt_type[first] == mjJNT_FREE) root_[l] = first;
   }
   unit_.resize(static_cast<std::size_t>(m->nv));
   column_.resize(unit_.size());

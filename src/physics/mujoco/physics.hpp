@@ -14,16 +14,16 @@
 #include <string>
 #include <vector>
 
+#include "physics/description.hpp"
 #include "physics/mujoco/bodies.hpp"
 #include "physics/mujoco/model.hpp"
-#include "physics/tree.hpp"
 #include "vsa/physics/physics.hpp"
 
 namespace vsa::physics {
 
 class MujocoPhysics final : public Physics {
  public:
-  MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, const std::vector<TreeNode>& tree);
+  MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, LinkObjects objects);
 
   void prepare() override;
   std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const override;

@@ -49,12 +49,14 @@ bool MujocoPhysics::displace(std::span<const std::size_t> links, double yaw, con
     if (root_[i] < 0) return false;
     if (std::find(roots.begin(), roots.end(), root_[i]) == roots.end()) roots.push_back(root_[i]);
   }
-  const ignition::math::Quaterniond turn(0, 0, yaw);
+  const double half_cos = std::cos(yaw / 2), half_sin = std::sin(yaw / 2),
+               length = std::sqrt(half_cos * half_cos + half_sin * half_sin);
+  const description::Quat turn(half_cos / length, 0, 0, half_sin / length);
   for (const int id : roots) {
     mjtNum* q = data_->qpos + model_->jnt_qposadr[id];
     mjtNum* v = data_->qvel + model_->jnt_dofadr[id];
     const Vec3 position = turn * Vec3(q[0], q[1], q[2]) + Vec3(shift[0], shift[1], shift[2]);
-    const ignition::math::Quaterniond rotation = turn * ignition::math::Quaterniond(q[3], q[4], q[5], q[6]);
+    const description::Quat rotation = turn * description::Quat(q[3], q[4], q[5], q[6]);
     const Vec3 velocity = turn * Vec3(v[0], v[1], v[2]);  // the angular one is in the body's own axes
     for (std::size_t k = 0; k < 3; ++k) {
       q[k] = position[k];

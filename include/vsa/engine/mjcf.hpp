@@ -1,0 +1,20 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vsa/engine/world.hpp"
+
+namespace vsa::engine {
+
+struct ExportedFile {
+  std::string name, bytes;
+};
+
+/// A world in MuJoCo's format, with what else a World needs in a file beside it (vsa/physics/mjcf.hpp): loaded again it moves bit for
+/// bit as this one. NAME is the stem of the file, or "world" for a text. Throws InputError with all problems.
+[[nodiscard]] std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const WorldOptions& options = {});
+
+}  // namespace vsa::engine

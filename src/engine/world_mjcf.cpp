@@ -1,0 +1,21 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "engine/world_cache.hpp"
+#include "vsa/config/find_file.hpp"
+#include "vsa/engine/mjcf.hpp"
+#include "vsa/physics/mjcf.hpp"
+
+namespace vsa::engine {
+
+std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const WorldOptions& options) {
+  const std::filesystem::path path = config::find_file(world.string(), "world", "models/worlds", ".sdf");
+  Problems problems;
+  const std::shared_ptr<ReadWorld> file = read_world({path, {}}, options, problems);
+  problems.throw_if_any();
+  std::vector<ExportedFile> out;
+  for (physics::WrittenFile& one : physics::write_mjcf_files(*file->world, path.stem().string(), path.string(), problems))
+    out.push_back({std::move(one.name), std::move(one.bytes)});
+  problems.throw_if_any();
+  return out;
+}
+
+}  // namespace vsa::engine

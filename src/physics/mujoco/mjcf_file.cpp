@@ -1,0 +1,133 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "physics/mujoco/mjcf_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "physics/mujoco/mjcf.hpp"
+#include "physics/tree.hpp"
+#include "vsa/files.hpp"
+#include "vsa/physics/mjcf.hpp"
+#include "vsa/scoped_name.hpp"
+
+namespace vsa::physics {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kRobot = "vsa::Robot";       // of a <text>: this, or this, a blank and the model
+constexpr std::string_view kNameless = "MuJoCo Model";  // what MuJoCo calls a file's model that has no name
+
+fs::path beside_of(fs::path file) { return file.replace_extension(".vsa.xml"); }
+
+std::string name_of(const mjModel& m, const fs::path& path) {
+  std::string own = m.names;  // the first of the names
+  if (!own.empty() && own != kNameless) return own;
+  return path.empty() ? "model" : path.stem().string();
+}
+
+void read_texts(const mjModel& m, description::World& out) {
+  for (int i = 0; i < m.ntext; ++i) {
+    const std::string_view name = m.names + m.name_textadr[i];
+    if (name.substr(0, kRobot.size()) != kRobot) continue;
+    const bool says = name.size() > kRobot.size() + 1;
+    const std::string model(says ? name.substr(kRobot.size() + 1) : std::string_view(out.name));
+    out.plugins.push_back({model, std::string(outermost(model)), m.text_data + m.text_adr[i]});
+  }
+}
+
+/// What MuJoCo has and this simulator leaves out or can't.
+void look_for_limits(const mjModel& m, const std::string& file, std::vector<std::string>& warnings, Problems& problems) {
+  const auto warn = [&](const std::string& text) { warnings.push_back(text + " (" + file + ")"); };
+  if (m.na > 0)
+    problems.add({file, "actuator", fmt::format("{}", m.na), "have states of their own", "actuators without activation"});
+  if (m.nu > 0) warn("MuJoCo's own actuators stay at control 0");
+  if (m.opt.integrator != mjINT_EULER) warn("the integrator is semi-implicit Euler, whatever <option> says");
+  if (m.nkey > 0) warn("keyframes are left out");
+  if (m.nsensor > 0) warn("sensors are left out");
+}
+
+}  // namespace
+
+std::vector<fs::path> files_of_mjcf(const fs::path& path) { return {path, beside_of(path)}; }
+
+bool is_mjcf(const fs::path& path, std::string_view text) {
+  if (!path.empty()) return path.extension() == ".xml" || path.extension() == ".mjcf";
+  const std::size_t root = text.find("<mujoco");
+  return root != std::string_view::npos && text.substr(0, root).find("<sdf") == std::string_view::npos;
+}
+
+MjcfRead read_mjcf(const fs::path& path, std::string_view given, std::vector<std::string>& warnings, Problems& problems) {
+  MjcfRead out;
+  const std::string file = path.empty() ? "MJCF text" : path.string();
+  std::string text(given);
+  if (!path.empty()) {
+    const std::optional<std::string> bytes = read_file(path);
+    if (!bytes) {
+      problems.add({file, "", "", "can't be read", "an MJCF file"});
+      return out;
+    }
+    text = *bytes;
+  }
+  out.names_others = text.find("file=") != std::string::npos;
+  auto native = std::make_shared<MjcfFile>();
+  std::string reason;
+  native->model = path.empty() ? compile(text, {}, reason) : load_file(path.string(), reason);
+  if (!native->model) {
+    problems.add({file, "", "", "MuJoCo refuses it: " + reason, "MJCF of MuJoCo " + std::string(mj_versionString())});
+    return out;
+  }
+  const mjModel& model = *native->model;
+  look_for_limits(model, file, warnings, problems);
+  out.world.name = name_of(model, path);
+  out.world.step_s = model.opt.timestep;
+  out.world.gravity = {model.opt.gravity[0], model.opt.gravity[1], model.opt.gravity[2]};
+  read_texts(model, out.world);
+  Beside beside;
+  const std::optional<std::string> more = path.empty() ? std::nullopt : read_file(beside_of(path));
+  if (more) beside = read_beside(*more, beside_of(path).string(), out.world.name, problems);
+  if (!problems.empty()) return out;
+  describe(model, more ? beside_of(path).string() : file, beside, out.world, native->objects, problems);
+  if (!beside.world_name.empty()) out.world.name = beside.world_name;
+  out.world.plugins.insert(out.world.plugins.end(), beside.plugins.begin(), beside.plugins.end());
+  if (out.world.links.empty() && problems.empty()) problems.add({file, "", "", "holds no body", "a <worldbody> with one"});
+  out.world.native = std::move(native);
+  return out;
+}
+
+std::vector<WrittenFile> write_mjcf_files(const description::World& world, const std::string& name, std::string_view file,
+                                          Problems& problems) {
+  std::vector<WrittenFile> out;
+  if (world.native) {
+    problems.add({std::string(file), "", "", "is MJCF already", "an SDF or URDF file"});
+    return out;
+  }
+  const std::vector<TreeNode> tree = build_tree(world, file, problems);
+  if (!problems.empty()) return out;
+  Mjcf mjcf = write_mjcf_file(world, tree, world.step_s, capacity_for(world), name);
+  out.push_back({name + ".xml", std::move(mjcf.xml)});
+  for (VirtualFile& part : mjcf.parts) out.push_back({part.name, std::move(part.bytes)});
+  for (std::size_t h = 0; h < mjcf.heightmaps.size(); ++h) {
+    const Heightmap& map = *mjcf.heightmaps[h];
+    // MuJoCo spreads what it reads over 0 … 1, so that only a map that has both keeps its heights.
+    const auto lowest = std::min_element(map.heights.begin(), map.heights.end());
+    if (lowest == map.heights.end() || *lowest != 0 || map.highest() <= 0)
+      problems.add({std::string(file), "heightmap", "", "doesn't begin at height 0, which MJCF's would", "a lowest point at 0"});
+    std::string bytes;
+    const auto put = [&](const auto& value) {
+      char raw[sizeof value];
+      std::memcpy(raw, &value, sizeof value);
+      bytes.append(raw, sizeof value);
+    };
+    put(static_cast<std::int32_t>(map.rows));
+    put(static_cast<std::int32_t>(map.columns));
+    for (const double height : map.heights) put(static_cast<float>(height / heightmap_scale(map)));
+    out.push_back({fmt::format("{}.h{}.bin", name, h), std::move(bytes)});
+  }
+  out.push_back({name + ".vsa.xml", write_beside(world)});
+  return out;
+}
+
+}  // namespace vsa::physics

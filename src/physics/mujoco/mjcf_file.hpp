@@ -1,0 +1,54 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A world from MJCF: MuJoCo's model of it, and what the file beside it says.
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "physics/description.hpp"
+#include "physics/mujoco/bodies.hpp"
+#include "physics/mujoco/model.hpp"
+
+namespace tinyxml2 {
+class XMLElement;
+}
+
+namespace vsa::physics {
+
+struct MjcfFile final : description::Native {
+  ModelPtr model;
+  LinkObjects objects;
+};
+
+/// NAME.vsa.xml, not yet compared with the MJCF.
+struct Beside {
+  struct Link {
+    scene::LinkInfo info;
+    std::vector<std::string> geoms;  ///< of each visual: the heightmap that it shows, or empty
+  };
+  struct Joint {
+    std::string name, parent, child;  ///< parent, child: empty: the world
+    description::Joint::Kind kind = description::Joint::Kind::fixed;
+    std::optional<double> start;
+  };
+  std::string world_name;
+  std::vector<Link> links;
+  std::vector<Joint> joints;
+  std::vector<description::Plugin> plugins;
+};
+
+/// `model`: the MJCF's, for plugins that say none.
+[[nodiscard]] Beside read_beside(const std::string& text, const std::string& file, const std::string& model, Problems& problems);
+[[nodiscard]] std::string write_beside(const description::World& world);
+
+/// The bodies of a model as links, and the joints; objects of both. Without what `beside` says its own words stand for themselves.
+void describe(const mjModel& model, const std::string& file, const Beside& beside, description::World& out, LinkObjects& objects,
+              Problems& problems);
+
+/// What geoms of a body look like.
+[[nodiscard]] std::vector<scene::Shape> visuals_of(const mjModel& model, int body);
+/// A geom's triangles, or its form. False where it can't be shown.
+[[nodiscard]] bool show(const mjModel& model, int geom, scene::Shape& shape);
+
+}  // namespace vsa::physics

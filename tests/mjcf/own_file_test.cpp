@@ -1,0 +1,155 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Robots that come as MJCF, from elsewhere: no SDF is needed for them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../record/scratch.hpp"
+#include "vsa/engine/world.hpp"
+#include "vsa/sdf/feature.hpp"
+
+namespace vsa::engine {
+namespace {
+
+namespace fs = std::filesystem;
+using record::message_of;
+using record::Scratch;
+
+const std::string kArm = R"(<mujoco model="arm">
+  <option timestep="0.001"/>
+  <custom><text name="vsa::Robot" data="PLUGIN"/></custom>
+  <worldbody>
+    <geom name="floor" type="plane" size="2 3 1" pos="0 0 -1"/>
+    <body name="base"><geom name="stand" type="box" size="0.1 0.1 0.02"/>
+      <body name="upper" pos="0 0 0.1">
+        <joint name="shoulder" axis="0 0 1" range="-2 2" limited="true" damping="0.01"/>
+        <geom type="capsule" size="0.02 0.1" rgba="1 0 0 1"/>
+        <inertial pos="0.05 0 0" mass="0.3" diaginertia="1e-3 1e-3 1e-3"/>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>
+)";
+const std::string kPlugin =
+    "&lt;plugin name='vsa::Robot'&gt;&lt;actuator name='shoulder'&gt;&lt;joint&gt;shoulder&lt;/joint&gt;&lt;type&gt;"
+    "qbmove_maker_pro&lt;/type&gt;&lt;bus id='1'&gt;arm&lt;/bus&gt;&lt;/actuator&gt;&lt;bus name='arm'/&gt;&lt;/plugin&gt;";
+const std::string kCompiler = "<compiler angle=\"radian\"/>";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+std::string arm() { return with(with(kArm, "PLUGIN", kPlugin), "<option", kCompiler + "<option"); }
+
+TEST(OwnMjcf, MovesByTheActuatorInItsCustomText) {
+  World world = World::load_string(arm());
+  ASSERT_EQ(world.actuators().size(), 1u);
+  EXPECT_EQ(world.actuators().front().model, "arm");
+  world.command("shoulder", 0.5, 0.2);
+  world.run(1.5);
+  EXPECT_NEAR(world.joint_angle("arm::shoulder"), 0.5, 0.06);
+}
+
+TEST(OwnMjcf, HasItsBodiesJointsAndLooks) {
+  const World world = World::load_string(arm());
+  EXPECT_EQ(world.name(), "arm");
+  ASSERT_EQ(world.links().size(), 3u);
+  EXPECT_EQ(world.links()[0].name, "arm::world");
+  EXPECT_TRUE(world.links()[0].is_static);
+  EXPECT_EQ(world.links()[2].name, "arm::upper");
+  EXPECT_EQ(world.links()[2].mass_kg, 0.3);
+  ASSERT_EQ(world.links()[2].visuals.size(), 1u);
+  EXPECT_EQ(world.links()[2].visuals[0].kind, scene::Shape::Kind::capsule);
+  EXPECT_EQ(world.links()[2].visuals[0].size[1], 0.2);
+  EXPECT_EQ(world.links()[2].visuals[0].rgba[0], 1.0f);
+  ASSERT_EQ(world.joints().size(), 1u);
+  ASSERT_TRUE(world.joints()[0].range);
+  EXPECT_EQ((*world.joints()[0].range)[1], 2);
+  EXPECT_EQ(world.joints()[0].damping, 0.01);
+}
+
+TEST(OwnMjcf, StartsWhereItsRefSays) {
+  const World world = World::load_string(with(arm(), "range=", "ref=\"0.4\" range="));
+  EXPECT_DOUBLE_EQ(world.joint_angle("arm::shoulder"), 0.4);
+}
+
+TEST(OwnMjcf, HasItsActuatorsInTheFileBesideIt) {
+  const Scratch scratch;
+  const std::string without = with(arm(), "<custom><text name=\"vsa::Robot\" data=\"" + kPlugin + "\"/></custom>", "");
+  record::spew(scratch.path() / "arm.xml", without);
+  EXPECT_TRUE(World::load(scratch.path() / "arm.xml").actuators().empty());
+  record::spew(scratch.path() / "arm.vsa.xml", R"(<vsa><plugin name="vsa::Robot"><actuator name="shoulder"><joint>shoulder</joint>
+    <type>qbmove_maker_pro</type><bus id="1">arm</bus></actuator><bus name="arm"/></plugin></vsa>)");
+  EXPECT_EQ(World::load(scratch.path() / "arm.xml").actuators().size(), 1u);
+}
+
+TEST(OwnMjcf, ThatMujocoRefusesIsToldInItsWords) {
+  const std::string told =
+      message_of<InputError>([] { (void)World::load_string(with(arm(), "<worldbody>", "<worldbody><bdy/>")); });
+  EXPECT_NE(told.find("MuJoCo refuses it"), std::string::npos) << told;
+  EXPECT_NE(told.find("bdy"), std::string::npos) << told;
+}
+
+TEST(OwnMjcf, TellsWhatItLeavesOut) {
+  const std::string text = with(with(arm(), "timestep", "integrator=\"RK4\" timestep"), "</worldbody>",
+                                "</worldbody><actuator><motor joint=\"shoulder\"/></actuator>");
+  const World world = World::load_string(text);
+  ASSERT_EQ(world.warnings().size(), 2u);
+  EXPECT_NE(world.warnings()[0].find("control 0"), std::string::npos);
+  EXPECT_NE(world.warnings()[1].find("semi-implicit Euler"), std::string::npos);
+}
+
+TEST(OwnMjcf, WithActuatorsThatHaveStatesIsRefused) {
+  const std::string text =
+      with(arm(), "</worldbody>", "</worldbody><actuator><general joint=\"shoulder\" dyntype=\"integrator\"/></actuator>");
+  EXPECT_NE(message_of<InputError>([&] { (void)World::load_string(text); }).find("states of their own"), std::string::npos);
+}
+
+struct Wrong {
+  const char *name, *text, *says;
+};
+class WrongBeside : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongBeside, IsRefusedWithFileKeyAndWhatIsAllowed) {
+  const Scratch scratch;
+  record::spew(scratch.path() / "arm.xml", arm());
+  record::spew(scratch.path() / "arm.vsa.xml", GetParam().text);
+  const std::string told = message_of<InputError>([&] { (void)World::load(scratch.path() / "arm.xml"); });
+  EXPECT_NE(told.find("arm.vsa.xml"), std::string::npos) << told;
+  EXPECT_NE(told.find(GetParam().says), std::string::npos) << told;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongBeside,
+    testing::Values(Wrong{"broken", "<vsa", "an XML file"}, Wrong{"root", "<other/>", "<vsa>"},
+                    Wrong{"element", "<vsa><bone/></vsa>", "world, link, joint"},
+                    Wrong{"link", "<vsa><link name=\"forearm\"/></vsa>", "no such body in the MJCF"},
+                    Wrong{"unlisted", "<vsa><link name=\"base\"/></vsa>", "isn't among the links"},
+                    Wrong{"moves", "<vsa><link name=\"base\"/><link name=\"upper\" static=\"true\"/></vsa>", "can move"},
+                    Wrong{"joint", "<vsa><joint name=\"elbow\" kind=\"hinge\"/></vsa>", "no such joint of that kind"},
+                    Wrong{"kind", "<vsa><joint name=\"shoulder\" kind=\"screw\"/></vsa>", "fixed, hinge, slide, ball, universal"},
+                    Wrong{"end", "<vsa><joint name=\"shoulder\" kind=\"hinge\" parent=\"hand\"/></vsa>", "no such link"},
+                    Wrong{"shape", "<vsa><link name=\"base\"><visual shape=\"cone\"/></link></vsa>", "box, sphere, cylinder"},
+                    Wrong{"numbers", "<vsa><link name=\"base\"><visual shape=\"box\" pose=\"0 0 zero\"/></link></vsa>",
+                          "7 numbers"},
+                    Wrong{"start", "<vsa><joint name=\"shoulder\" kind=\"hinge\" start=\"up\"/></vsa>", "1 number"},
+                    Wrong{"robot", "<vsa><robot model=\"arm\"/></vsa>", "<plugin>"}),
+    [](const auto& of) { return std::string(of.param.name); });
+
+TEST(BuiltInWorlds, AreThereWithAndWithoutSdf) {
+  World world = World::load("bench_load");
+  world.command(world.actuators().front(), 0.3, 0.2);
+  world.run(0.5);
+  EXPECT_GT(world.read(world.actuators().front()).shaft_rad, 0.05);
+}
+
+TEST(WithoutSdf, AnSdfSaysWhatWouldBringIt) {
+  if (reader::sdf_feature().is_in()) GTEST_SKIP() << "this build reads SDF";
+  const std::string told = message_of<InputError>([] { (void)World::load_string("<sdf version='1.7'/>"); });
+  EXPECT_NE(told.find(reader::sdf_feature().missing()), std::string::npos) << told;
+}
+
+}  // namespace
+}  // namespace vsa::engine

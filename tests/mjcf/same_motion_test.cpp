@@ -1,0 +1,148 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// A world from SDF and the same from the MJCF that was written of it: the same to the last bit, in motion and in what is recorded.
+#include <gtest/gtest.h>
+
+#include "../record/scratch.hpp"
+#include "vsa/config/find_file.hpp"
+#include "vsa/engine/mjcf.hpp"
+#include "vsa/engine/world.hpp"
+#include "vsa/motion/gait.hpp"
+#include "vsa/record/recorder.hpp"
+
+namespace vsa::engine {
+namespace {
+
+namespace fs = std::filesystem;
+using record::Scratch;
+using record::slurp;
+
+const fs::path kWorlds = fs::path(VSA_SOURCE_DIR) / "models/worlds";
+
+void write(const std::vector<ExportedFile>& files, const fs::path& to) {
+  for (const ExportedFile& file : files) record::spew(to / file.name, file.bytes);
+}
+
+/// Moves it and records; the state at the end.
+std::vector<double> recorded(World& world, const std::string& gait_name, double duration_s, const fs::path& to) {
+  record::Recorder recorder(world, to);
+  std::optional<motion::Gait> gait;
+  if (!gait_name.empty()) gait = motion::Gait::load(config::find_file(gait_name, "gait", "models/gaits", ".toml"));
+  if (!gait) world.command(world.actuators().front(), 0.4, 0.2);
+  while (world.time_s() < duration_s) {
+    if (gait) gait->apply(world);
+    world.step();
+    recorder.sample(world);
+  }
+  (void)recorder.finish();
+  std::vector<double> state(world.state_size());
+  world.save(state);
+  return state;
+}
+
+void expect_same_scene(const World& a, const World& b) {
+  ASSERT_EQ(a.links().size(), b.links().size());
+  for (std::size_t l = 0; l < a.links().size(); ++l) {
+    const LinkInfo &x = a.links()[l], &y = b.links()[l];
+    EXPECT_EQ(x.name, y.name);
+    EXPECT_EQ(x.model, y.model);
+    EXPECT_EQ(x.mass_kg, y.mass_kg) << x.name;
+    EXPECT_EQ(x.is_static, y.is_static) << x.name;
+    ASSERT_EQ(x.visuals.size(), y.visuals.size()) << x.name;
+    for (std::size_t v = 0; v < x.visuals.size(); ++v) {
+      EXPECT_EQ(x.visuals[v].kind, y.visuals[v].kind) << x.name;
+      EXPECT_EQ(x.visuals[v].pose.position, y.visuals[v].pose.position) << x.name;
+      EXPECT_EQ(x.visuals[v].rgba, y.visuals[v].rgba) << x.name;
+      EXPECT_EQ(x.visuals[v].vertices.size(), y.visuals[v].vertices.size()) << x.name;
+      EXPECT_EQ(x.visuals[v].indices, y.visuals[v].indices) << x.name;
+    }
+  }
+}
+
+void expect_same_joints(const World& a, const World& b) {
+  ASSERT_EQ(a.joints().size(), b.joints().size());
+  for (std::size_t j = 0; j < a.joints().size(); ++j) {
+    const JointInfo &x = a.joints()[j], &y = b.joints()[j];
+    EXPECT_EQ(x.name, y.name);
+    EXPECT_EQ(x.type, y.type) << x.name;
+    EXPECT_EQ(x.range, y.range) << x.name;
+    EXPECT_EQ(x.damping, y.damping) << x.name;
+    EXPECT_EQ(x.dof, y.dof) << x.name;
+    EXPECT_EQ(x.actuator, y.actuator) << x.name;
+  }
+}
+
+struct Case {
+  const char *world, *gait;
+  double duration_s;
+};
+
+class FromSdfAndFromMjcf : public testing::TestWithParam<Case> {};
+
+TEST_P(FromSdfAndFromMjcf, IsTheSameToTheLastBit) {
+  const auto& [name, gait, duration_s] = GetParam();
+  const Scratch scratch;
+  write(export_mjcf(kWorlds / (std::string(name) + ".sdf")), scratch.path());
+  World sdf = World::load(kWorlds / (std::string(name) + ".sdf"));
+  World mjcf = World::load(scratch.path() / (std::string(name) + ".xml"));
+  EXPECT_TRUE(mjcf.warnings().empty());
+  EXPECT_EQ(sdf.name(), mjcf.name());
+  EXPECT_EQ(sdf.step_s(), mjcf.step_s());
+  expect_same_scene(sdf, mjcf);
+  expect_same_joints(sdf, mjcf);
+  EXPECT_EQ(recorded(sdf, gait, duration_s, scratch.path() / "sdf"), recorded(mjcf, gait, duration_s, scratch.path() / "mjcf"));
+  std::size_t tables = 0;
+  for (const auto& entry : fs::directory_iterator(scratch.path() / "sdf")) {
+    if (entry.path().extension() != ".csv") continue;
+    ++tables;
+    EXPECT_TRUE(slurp(entry.path()) == slurp(scratch.path() / "mjcf" / entry.path().filename())) << entry.path().filename();
+  }
+  EXPECT_GT(tables, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, FromSdfAndFromMjcf,
+                         testing::Values(Case{"bench_load", "", 0.5}, Case{"snake_rubble", "climb", 1.0},
+                                         Case{"snake_hills", "sidewind", 0.5}, Case{"frank", "frank_wave", 1.0},
+                                         Case{"frank_table", "frank_grasp", 0.5}, Case{"manipulator_3r", "manipulator_3r", 1.0},
+                                         Case{"gripper_soft", "", 0.5}, Case{"bench_throw", "", 0.3}),
+                         [](const auto& of) { return std::string(of.param.world); });
+
+TEST(CommittedMjcf, IsWhatTheCommandWrites) {
+  for (const std::string& name : config::built_in_files("models/worlds", ".sdf")) {
+    for (const ExportedFile& file : export_mjcf(kWorlds / (name + ".sdf"))) {
+      EXPECT_TRUE(slurp(kWorlds / file.name) == file.bytes)
+          << file.name << " differs: run vsa export --mjcf " << name << " --out models/worlds";
+    }
+  }
+}
+
+TEST(Export, GoesBetweenSnapshots) {
+  const Scratch scratch;
+  write(export_mjcf(kWorlds / "frank.sdf"), scratch.path());
+  World sdf = World::load(kWorlds / "frank.sdf"), mjcf = World::load(scratch.path() / "frank.xml");
+  sdf.run(0.1);
+  mjcf.restore(*sdf.snapshot());
+  sdf.run(0.1);
+  mjcf.run(0.1);
+  EXPECT_EQ(sdf.state_hash(), mjcf.state_hash());
+}
+
+TEST(Export, WritesNamesThatXmlWouldTakeForItsOwn) {
+  const Scratch scratch;
+  record::spew(scratch.path() / "odd.sdf", R"(<sdf version="1.7"><world name="a &amp; b"><model name="m &lt;1&gt;">
+    <link name="base &quot;x&quot;"/><link name="arm"/><joint name="j &amp; k" type="revolute"><parent>base &quot;x&quot;</parent><child>arm</child>
+    <axis><xyz>0 0 1</xyz></axis></joint></model></world></sdf>)");
+  write(export_mjcf(scratch.path() / "odd.sdf"), scratch.path());
+  const World world = World::load(scratch.path() / "odd.xml");
+  EXPECT_EQ(world.name(), "a & b");
+  EXPECT_EQ(world.links().front().name, "m <1>::base \"x\"");
+  EXPECT_EQ(world.joints().front().name, "m <1>::j & k");
+}
+
+TEST(Export, OfAnMjcfIsRefused) {
+  EXPECT_NE(record::message_of<InputError>([] { (void)export_mjcf(kWorlds / "frank.xml"); }).find("is MJCF already"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace vsa::engine

@@ -1,0 +1,113 @@
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#
+# Tests of worlds written in SDF, and of topics, by folder, as gtest's filter has them: a build without the one or the other leaves
+# them out, and says so.
+set(VSA_NEEDS_SDF_mjcf
+  CommittedMjcf.*
+  Export.GoesBetweenSnapshots
+  Export.WritesNamesThatXmlWouldTakeForItsOwn
+  Worlds/FromSdfAndFromMjcf.*
+)
+set(VSA_NEEDS_SDF_engine
+  Actuated.ACommandedShaftGoesWhereItIsSent
+  Actuated.WithoutActuatorsNoTorqueActs
+  Actuated.AnotherActuatorCanBePutOnAWorld
+  Actuated.SnapshotsHoldTheRobotsToo
+  Actuated.SomebodysHandThatPutsAShaftElsewhereIsNoWorkOfTheStep
+  Actuated.AFaultLeavesTheRobotsWhereTheyWere
+  Actuated.JointsThatArentThereOrTwiceOrOfTheWrongTypeAreNamed
+  Allocation.AStepOfSeveralSubstepsWithHandsAtWorkTakesNothingFromTheHeap
+  Clone.*
+  Placed.*
+  Followers.*
+  Hostile.RunWantsATime
+  Hostile.SpansOfTheWrongSizeAreRefused
+  Hostile.NumbersThatAreNoneAreRefusedAndTheWorldGoesOn
+  Hostile.HugeNumbersEndInABlowUpThatIsTold
+  Hostile.NamesThatNobodyHasAreRefused
+  Hostile.ObjectsOfAnotherWorldAreRefused
+  Hostile.SnapshotsOfAnotherWorldAreRefusedAndNothingChanged
+  Hostile.AWorldThatWasMovedFromSaysSo
+  Hostile.GaitsThatCannotBePlayedAreRefused
+  Run.*
+  SecondLoad.GivesTheSameBitsAndTheSameWarnings
+  SecondLoad.HasTheStepThatWasAskedFor
+  SecondLoad.OfOneTextWithOtherWishesForConcaveMeshesIsReadAnew
+  SecondLoad.AnEditedWorldIsReadAnewEvenWhereSizeAndTimeAreTheSame
+  SecondLoad.AFileWithTheOthersNameAndTimesIsReadAnew
+  SecondLoad.AnEditedIncludeIsReadAnew
+  SecondLoad.AModelThatIsFoundEarlierNowIsReadInstead
+  SecondLoad.APackageThatAppearsIsFound
+  SecondLoad.AnEditedMeshIsReadAnew
+  SecondLoad.AnEditedPresetIsReadAnewThoughTheWorldIsKept
+  SecondLoad.WhatWasWrittenAMomentAgoIsntTakenForUnchanged
+  SecondLoad.WhatWasRefusedIsReadAnew
+  SecondLoad.RelativeNamesAreOfTheWorkingDirectory
+  SecondLoad.OnlyTheFilesUsedLastAreKept
+  SecondLoad.ThreadsMayLoadTheSameFileAtOnce
+  WorldAsNumbers.AreTheSameAsASnapshotACloneAndAReset
+  WorldAsNumbers.NamesBodiesAndRobots
+  WorldAsNumbers.ThatNoWorldHasAreRefusedAndNothingChanges
+  StateFile.*
+  State.*
+  Substeps.*
+)
+set(VSA_NEEDS_SDF_batch
+  LinkParameters.MakeTheWorldThatAFileWithThemMakes
+  LinkParameters.AreThoseOfTheFileAgainWhenTheyAreGivenBackAndClonesHaveTheirOwn
+  LinkParameters.APairHasTheSmallerOfItsTwoFrictions
+  LinkParameters.ThatNoBodyHasAreRefusedAndNothingChanges
+)
+set(VSA_NEEDS_SDF_linear_world
+  Point.HasTheArmsMassMatrixAndGravitysStiffness
+  Point.OfAPassivePendulumSwingsAsTheTextbookTells
+  Point.OfOneJointIsTheUnitsOwn
+  Point.IsWhereTheWorldIsUnlessTold
+  Point.TellsWhatIsLeftOut
+  Point.RefusesWhatCantBe
+  Release.OfHangingArmsWithoutSupplyRingsAsThePolesTell
+  Release.OfProgrammedArmsRingsAsTheSampledPolesTell
+)
+set(VSA_NEEDS_SDF_chain
+  SignalChain.SpringMassFrequencyOfTheUnpoweredUnitAtSeveralPresets
+  SignalChain.MeetsTheCouplingCriterionInTheEmbeddedEngine
+  SignalChain.ABareFlangeKickedFarStaysBoundedAtEveryStep
+  SignalChain.KeepsItsEnergyOverTenPeriodsAtHalfAMillisecond
+  SignalChain.StaticDeflectionUnderALoadFollowsTheClosedForm
+  SignalChain.EquilibriumDoesNotDependOnThePreset
+  SignalChain.MotorReachesItsSteadySpeed
+  SignalChain.WithTheSupplyCutTheWholeEnergyNeverGrows
+  Rest.ChainsAtTheLargestPresetAreQuietAtEveryStep
+  Rest.GravityAxesAndPresetsDoNotMatter
+  Rest.EveryShippedTypeIsAsQuietAsItIsInStepsATenthAsLong
+  Rest.LightLinksAndABareFingerAtTheEndAreQuiet
+  Rest.OneCountOfTheEncoderKeepsTheFirmwareBusyAtSomePresetsAndThatIsTheUnitsOwn
+  Accuracy.OfAKickedJointAndOfTwoAgainstStepsAHundredTimesShorter
+  Accuracy.IsOfSecondOrderWhereNoFrictionSticks
+  Accuracy.OfAnArmThatFoldsWhileItsMobilityChangesTenfold
+  Snapshots.TellOfJointsThatWerePutElsewhereAndForgetThoseOfLater
+  SerialChain.OfModulesKickedHardAtTheLargestPresetNeverGainsEnergy
+  SerialChain.OfBareFlangesGainsNoMoreThanTheStepsInWhichItFolds
+)
+set(VSA_NEEDS_SDF_apps
+  Run.ABlowUpIsAFailureThatTellsTimeAndLinkAndKeepsTheRecord
+  Doctor.AWorldsOwnSystemsNeedPhysicsAmongThem
+  Doctor.AWorldWithoutARobotOrThatDoesNotLoadIsAProblem
+  RunWithAPort.AClientMovesTheRobotInTheSimulator
+  RunFiles.AClampedPresetIsToldOnceWithAndWithoutTopics
+  RunFiles.CommandsRefusedForASerialPortAreToldWithoutTopics
+  RunFiles.AWorldWithoutActuatorsIsToldAndAMistakenNameAskedAbout
+  RunFiles.ConcaveMeshesRunAsAsked
+  RunFiles.WhatARefusedFileHasIsToldByTheDoctorToo
+  Scenario.FilesAreFoundBesideItFromAnyDirectoryAndItsRecordToo
+  Scenario.FlagsOverrideIt
+  Scenario.AMotionsChangesAndCommandsAreCheckedAgainstTheirs
+)
+set(VSA_NEEDS_TOPICS_apps
+  Command.MovesTheOnlyRobotThatRuns
+  Command.NamesTheJointsThereAreWhereOneIsUnknown
+  Command.SaysThatNobodyRuns
+  Command.SaysWhichRobotsRunWhereTheWantedOneDoesNot
+  Command.SaysThatAPausedWorldDoesNotFollow
+  Scenario.CommandsFromTopicsAreOwnedUpTo
+)
