@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "vsa/elastic/transmission.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::fmu {
 namespace {
@@ -48,6 +49,11 @@ class List {
   std::vector<Variable> variables_;
 };
 
+/// A unit of the shaft's, as the actuator has it.
+std::string shaft(const config::ActuatorType& type, std::string_view unit) {
+  return type.unit.actuator.linear() ? sliding(unit) : std::string(unit);
+}
+
 void add_commands(const config::ActuatorType& type, List& list, UnitPlaces& p) {
   const device::UnitConfig& unit = type.unit;
   if (unit.is(control::ServoKind::motor_voltages)) {
@@ -56,19 +62,22 @@ void add_commands(const config::ActuatorType& type, List& list, UnitPlaces& p) {
                                "voltage of motor " + std::to_string(m + 1) + ", within the supply");
     return;
   }
-  p.equilibrium = list.input("equilibrium", "actuatorInput", "rad", "commanded equilibrium position of the shaft");
+  p.equilibrium = list.input("equilibrium", "actuatorInput", shaft(type, "rad"), "commanded equilibrium position of the shaft");
   if (!unit.preset_unit().empty())
     p.preset = list.input("preset", nullptr, std::string(unit.preset_unit()), "commanded stiffness preset");
   if (unit.is(control::ServoKind::torque_servo))
-    p.direct[0] = list.input("feedforward_torque", nullptr, "N·m", "torque on the shaft beside what the commanded stiffness gives");
+    p.direct[0] = list.input("feedforward_torque", nullptr, shaft(type, "N·m"),
+                             "torque on the shaft beside what the commanded stiffness gives");
 }
 
 void add_outputs(const config::ActuatorType& type, List& list, UnitPlaces& p) {
-  p.torque = list.output("torque", "N·m", "on the shaft by springs and frictions, at the communication point", {p.angle});
-  p.mean_torque = list.output("mean_torque", "N·m", "the same, mean over the last communication step", {}, "jointTorque");
-  p.stiffness = list.output("stiffness", "N·m/rad", "of the springs about the shaft, pulleys held", {p.angle});
-  p.deflection = list.output("deflection", "rad", "shaft less attained equilibrium", {p.angle});
-  p.equilibrium_attained = list.output("equilibrium_attained", "rad", "where the pulleys put the equilibrium");
+  p.torque =
+      list.output("torque", shaft(type, "N·m"), "on the shaft by springs and frictions, at the communication point", {p.angle});
+  p.mean_torque =
+      list.output("mean_torque", shaft(type, "N·m"), "the same, mean over the last communication step", {}, "jointTorque");
+  p.stiffness = list.output("stiffness", shaft(type, "N·m/rad"), "of the springs about the shaft, pulleys held", {p.angle});
+  p.deflection = list.output("deflection", shaft(type, "rad"), "shaft less attained equilibrium", {p.angle});
+  p.equilibrium_attained = list.output("equilibrium_attained", shaft(type, "rad"), "where the pulleys put the equilibrium");
   if (const std::string unit(type.unit.actuator.transmission->preset_unit()); !unit.empty())
     p.preset_attained = list.output("preset_attained", unit, "where the pulleys put the preset");
   for (std::size_t m = 0; m < p.motors; ++m) {
@@ -98,9 +107,11 @@ void add_coupling(const config::ActuatorType& type, List& list, UnitPlaces& p) {
   p.coupling = list.add(std::move(coupling));
   Variable inertia;
   inertia.name = std::string(kLoadInertia);
-  inertia.unit = unit_name("kg·m²");
+  inertia.unit = unit_name(shaft(type, "kg·m²"));
   inertia.description =
-      "behind the shaft; 0: unknown, and no warning of steps that are too long. What turns in the bare unit: shaft.inertia_kgm2";
+      "behind the shaft; 0: unknown, and no warning of steps that are too long. In the bare unit: shaft.inertia_kgm2, or of a "
+      "linear "
+      "actuator the mass shaft.mass_kg";
   inertia.causality = Causality::parameter;
   inertia.variability = Variability::tunable;
   inertia.min = 0;
@@ -123,9 +134,9 @@ std::vector<Variable> unit_variables(const config::ActuatorType& type, Names nam
   time.description = "simulation time";
   time.causality = Causality::independent;
   list.add(std::move(time));
-  p.angle = list.input("shaft_angle", "jointPosition", "rad", "of the shaft at the communication point");
-  p.speed = list.input("shaft_speed", "jointVelocity", "rad/s", "of the shaft at the communication point");
-  p.acceleration = list.input("shaft_acceleration", "jointAcceleration", "rad/s²",
+  p.angle = list.input("shaft_angle", "jointPosition", shaft(type, "rad"), "of the shaft at the communication point");
+  p.speed = list.input("shaft_speed", "jointVelocity", shaft(type, "rad/s"), "of the shaft at the communication point");
+  p.acceleration = list.input("shaft_acceleration", "jointAcceleration", shaft(type, "rad/s²"),
                               "until the next communication point; 0: the speed stays. Of no effect where coupling is implicit");
   add_commands(type, list, p);
   add_outputs(type, list, p);

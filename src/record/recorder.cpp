@@ -9,7 +9,7 @@ namespace vsa::record {
 namespace {
 
 ActuatorInfo describe(const host::ActuatorConfig& config) {
-  ActuatorInfo info{config.name, config.joint, config.type, "", 2, config.unit.actuator.linear(), {}};
+  ActuatorInfo info{config.name, config.joint, config.type, "", 2, {}, config.unit.actuator.linear()};
   if (const auto& law = config.unit.actuator.transmission) {
     info.preset_unit = law->preset_unit();
     info.motors = law->motor_count();

@@ -31,6 +31,19 @@ TEST(Export, WritesTypesAndWorldsInBothVersionsAndNothingElse) {
   EXPECT_EQ(files, 4U);
 }
 
+TEST(Export, WritesAWorldAsMjcfWhichRunsWhereItStands) {
+  const Scratch scratch;
+  const Result r = run_vsa({"export", "--mjcf", "bench_load", "--out", (scratch / "out").string()});
+  if (has(r.err, "SDF")) GTEST_SKIP() << r.err;
+  EXPECT_EQ(r.exit_code, 0) << r.err;
+  const Result run = run_vsa({"run", (scratch / "out/bench_load.xml").string(), "--duration-s", "0.1", "--no-topics"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run_vsa({"export", "--mjcf", "bench_load"}).exit_code, 2) << "without --out";
+  EXPECT_NE(run_vsa({"export", "--mjcf", "bench_load", "--fmu", "sea_example"}).exit_code, 0);
+  EXPECT_NE(run_vsa({"export", "--mjcf", "bench_load", "--out", (scratch / "x").string(), "--fmi", "2"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(scratch / "x"));
+}
+
 TEST(Export, BadInputIsOneLineAndExitCodeTwoAndLeavesNoFile) {
   const Scratch scratch;
   fs::create_directories(scratch / "out");

@@ -73,6 +73,35 @@ TEST(Identify, RefusesPresetsRecordingsAndNumbersThatArentFine) {
   expect_refused(with({"--retry-failed"}), "--resume");
 }
 
+TEST(Identify, RefusesAsManyParametersAsPoints) {
+  const Scratch scratch;
+  const std::string points = scratch / "two_points.csv";
+  write_file(points, "load_torque_Nm,deflection_rad\n-1,-0.1\n1,0.1\n");
+  const std::vector<std::string> two{"--type", "sea_example",  "--parameters", "elastic.stiffness_Nm_per_rad,sensor.shaft_zero_rad",
+                                     "--out",  scratch / "out"};
+  expect_refused(identify(two, points), "2 points");
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
+TEST(Identify, FindsTheSpringOfALinearActuator) {
+  const Scratch scratch;
+  const std::string points = scratch / "ram_points.csv";
+  std::string rows = "load_force_N,deflection_m\n";
+  for (int i = -10; i <= 10; ++i) rows += std::to_string(40 * i) + ',' + std::to_string(40 * i / 8e4 + (i % 2) * 1e-6) + '\n';
+  write_file(points, rows);
+  const std::vector<std::string> asked{"--type", "linear_sea_example", "--parameters", "elastic.stiffness_N_per_m",
+                                       "--out",  scratch / "out"};
+  const Result r = identify(asked, points);
+  EXPECT_EQ(r.exit_code, 0) << r.err;
+  const std::string json = read_file(std::filesystem::path(std::string(scratch / "out")) / "results.json");
+  const std::size_t at = json.find("\"value\"");
+  ASSERT_NE(at, std::string::npos) << json;
+  EXPECT_NE(r.out.find("N/m"), std::string::npos) << r.out;
+  // In an angle's units they are another actuator's.
+  write_file(scratch / "arm_points.csv", "load_torque_Nm,deflection_rad\n-1,-0.1\n0,0.001\n1,0.1\n");
+  expect_refused(identify(asked, scratch / "arm_points.csv"), "load_force_N");
+}
+
 TEST(Identify, FindsTheSpringOfAJointThatWasSweptWithALighterLever) {
   const Scratch scratch;
   const Result swept = run_vsa({"characterize", "maccepa_example", "--experiment", "stiffness", "--preset-rad", "1", "--period-s",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <utility>
 
@@ -21,6 +22,19 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kDigits = 5;  // of the estimates: more than any interval is narrow
+
+/// As many numbers as there are to be found fit them all and tell nothing of their scatter.
+void check_enough(const identify::Task& task) {
+  std::size_t points = 0;
+  for (const identify::Observation& o : task.observations) {
+    for (const auto* branch : {&o.data.rising_rad, &o.data.falling_rad})
+      points += static_cast<std::size_t>(std::count_if(branch->begin(), branch->end(), [](double v) { return std::isfinite(v); }));
+  }
+  if (points > task.parameters.size()) return;
+  throw InputError({"", "--parameters", fmt::format("{} of them", task.parameters.size()),
+                    fmt::format("the recordings have {} points, which say nothing of the values' scatter", points),
+                    "more points than parameters"});
+}
 
 identify::Task read_task(const IdentifyOptions& o, const config::ActuatorType& type) {
   Problems problems;
@@ -41,6 +55,7 @@ identify::Task read_task(const IdentifyOptions& o, const config::ActuatorType& t
     });
   }
   problems.throw_if_any();
+  check_enough(task);
   return task;
 }
 

@@ -24,8 +24,8 @@ struct ActuatorInfo {
   std::string type;                 ///< the actuator type's name
   std::string preset_unit = "rad";  ///< the law's; "" where it has no preset
   int motors = 2;                   ///< 1 or 2: columns of a missing motor stay empty
-  bool linear = false;              ///< its shaft slides: readings in m and N
   std::vector<std::size_t> links;   ///< into RunInfo::links: the bodies to highlight for it
+  bool linear = false;              ///< its shaft slides: readings in m and N
 };
 
 struct RobotInfo {
