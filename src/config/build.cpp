@@ -155,7 +155,8 @@ void read_parameter(const Parameter& p, const Law& law, Resolver& resolver, devi
   }
   if (const auto value = resolver.resolve(spec)) {
     p.apply(unit, *value);
-  } else if (p.need == Need::required && spec.unit != "?") {  // without its law nobody knows whether it has a preset
+  } else if (p.need == Need::required && spec.unit != "?" && (law || p.shaft != "m")) {
+    // Without its law nobody knows whether it has a preset, or slides.
     resolver.report_missing(spec);
   } else if (p.need == Need::defaulted && !resolver.has(p.key)) {
     p.apply(unit, resolver.use_default(spec, p.default_value, p.default_source));

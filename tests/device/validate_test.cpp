@@ -165,7 +165,7 @@ TEST(Validate, ReportsEveryNumberThatIsNoneOrOutOfRangeOnceUnderItsKey) {
       EXPECT_THROW(device::Unit{c}, InputError) << see.key;
     }
   }
-  EXPECT_EQ(keys.size(), 48U);
+  EXPECT_EQ(keys.size(), 49U);
 }
 
 TEST(Validate, ReportsEveryNumberOfAServoToo) {

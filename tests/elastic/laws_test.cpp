@@ -114,7 +114,9 @@ TEST(ElasticLaws, SignedEnergiesSumToTheEnergyAndTheirSlopesAreTheTensions) {
       const auto up = l.law->signed_energies({at.q + h, at.x}), down = l.law->signed_energies({at.q - h, at.x});
       for (std::size_t i = 0; i < static_cast<std::size_t>(l.law->spring_count()); ++i) {
         const double slope = (up[i] - down[i]) / (2 * h);
-        EXPECT_NEAR(slope, std::abs(r.load[i]), 1e-6 * (1 + slope)) << l.name << " spring " << i;
+        // Across a slack spring the difference sees both signs.
+        const double kink = std::abs(r.load[i]) < h * r.curvature.qq ? h * r.curvature.qq : 0;
+        EXPECT_NEAR(slope, std::abs(r.load[i]), 1e-6 * (1 + slope) + kink) << l.name << " spring " << i;
       }
     }
   }

@@ -103,7 +103,9 @@ TEST(Placed, EveryShippedActuatorStaysWhereItIsPutWithoutGravity) {
   ASSERT_GE(types.names().size(), 6U);
   for (const std::string& name : types.names()) {
     const double preset = std::min(0.6, 0.75 * types.load(name).unit.preset_max);
-    World w = World::load_string(arm(name, "0 0 0"));
+    WorldOptions options;
+    if (types.load(name).unit.actuator.linear()) options.actuator.overrides = {{"shaft.pinion_m", "0.05"}};
+    World w = World::load_string(arm(name, "0 0 0"), options);
     w.run(0.02);
     w.place("shoulder", 1.0, preset);
     EXPECT_EQ(w.joint_angle("arm::shoulder"), 1.0) << name;

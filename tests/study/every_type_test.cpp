@@ -35,7 +35,8 @@ TEST_P(EveryType, GivesWayUnderTheBenchsLoadAsItsLawSays) {
   const elastic::Transmission& law = *unit.actuator.transmission;
   // Two counts, and what the shaft goes on while the motors' words are half a step old.
   const double count_rad = 2 * kPi / std::pow(2.0, unit.actuator.side[0].encoder.bits);
-  const double off_rad = 2 * count_rad / c.load_scale + 0.5e-3 * c.stiffness.front().run.amplitude_rad * 2 * kPi / *options.period_s;
+  const double off_rad =
+      2 * count_rad / c.load_scale + 0.5e-3 * c.stiffness.front().run.amplitude_rad * 2 * kPi / *options.period_s;
   EXPECT_TRUE(c.fit.carries);
   for (const StiffnessResult& r : c.stiffness) {
     // While the load swings, so does the preset: motors give way.
