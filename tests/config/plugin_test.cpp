@@ -374,7 +374,7 @@ INSTANTIATE_TEST_SUITE_P(
                   {"this actuator has no preset"}},
         BadPlugin{"equilibrium_far", plugin(maker_pro("a", "<initial equilibrium_rad='3'/>")), {"beyond the firmware's limits"}, 2},
         BadPlugin{"equilibrium_text", plugin(maker_pro("a", "<initial equilibrium_rad='1e'/>")), {"must be a finite number"}},
-        BadPlugin{"initial_unknown", plugin(maker_pro("a", "<initial equilibrium='1'/>")), {"did you mean equilibrium_rad?"}},
+        BadPlugin{"initial_unknown", plugin(maker_pro("a", "<initial equilibrium='1'/>")), {"did you mean equilibrium_", "equilibrium_rad, equilibrium_m"}},
         BadPlugin{"override_range",
                   plugin(maker_pro("a", "<override key='drive.friction_Nm' value='-1'/>")),
                   {"actuator[1]/override[drive.friction_Nm] = \"-1\"", "outside"}},

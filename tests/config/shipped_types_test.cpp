@@ -159,7 +159,8 @@ TEST(ShippedTypes, TheSeriesElasticExampleHasOneMotorAndNoPreset) {
 TEST(ShippedTypes, EveryUnitTurnsAnUnloadedShaftToTheCommandAndStaysThere) {
   // Wrong signs of gains and polarity run away; the band is what dead band and gear friction leave of 0.5 rad.
   for (const std::string& name : shipped().names()) {
-    const device::UnitConfig unit = shipped().load(name).unit;
+    device::UnitConfig unit = shipped().load(name).unit;
+    if (unit.actuator.linear()) unit = device::at_pinion(unit, 0.05);
     OneJoint joint(unit, 0.0, 0.5 * unit.preset_max, 1e-3, 1'000'000);
     joint.load = [&joint](double) { return -0.01 * joint.v; };
     joint.unit.command(joint.state, 0.5, 0.5 * unit.preset_max);

@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadType{"unknown_law",
                 "\"two_sinh\"",
                 "\"three_sinh\"",
-                {"elastic.law = \"three_sinh\": unknown law", "series_spring, table, two_cams", "two_sinh, two_sinh_linear"}},
+                {"elastic.law = \"three_sinh\": unknown law", "series_travel, table, two_cams", "two_sinh, two_sinh_linear"}},
         BadType{"no_law", "law = \"two_sinh\"", "", {"elastic.law: is missing"}},
         BadType{"law_key_missing", "k1_Nm =", "k3_Nm =", {"elastic.k1_Nm: is missing", "elastic.k3_Nm: unknown key"}, 2},
         BadType{"law_unit", "bounds = [1e-6, 1.0]", "bounds = [1e-6, 1.0], units = 1", {"elastic.k1_Nm.units"}},
