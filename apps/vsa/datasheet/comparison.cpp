@@ -36,7 +36,7 @@ std::string amount_held(const experiment::Holding& h) {
 template <class Cells>
 void add_rows(const Sheets& sheets, report::Table& out, Cells cells) {
   for (const study::DataSheet& d : sheets) {
-    std::vector<std::string> row{d.computed.type.name + (d.simulated.linear() ? ", on a pinion" : "")};
+    std::vector<std::string> row{d.computed.type.name + (d.simulated.linear() ? " (pinion)" : "")};
     for (std::string& cell : cells(d)) row.push_back(std::move(cell));
     out.rows.push_back(std::move(row));
     out.links.push_back(sheet_file(d));
