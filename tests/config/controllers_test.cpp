@@ -10,7 +10,6 @@ namespace vsa::test {
 namespace {
 
 using config::ActuatorType;
-using config::Override;
 using control::ServoKind;
 
 std::string type_of(const std::string& base, const std::string& rest) {
