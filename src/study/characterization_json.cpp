@@ -146,7 +146,7 @@ std::string to_json(const Characterization& c, const std::string& command) {
   Json out = page::results_head(command);
   out["actuator"] = actuator_json(c);
   out["engine_step_s"] = step_of(c);
-  const auto told = [&](Json result) { return c.linear() ? sliding_keys(result) : result; };
+  const auto told = [&](const Json& result) { return c.linear() ? sliding_keys(result) : result; };
   for (const StiffnessResult& r : c.stiffness) out["stiffness"].push_back(told(stiffness_json(c, r)));
   for (const SpeedResult& r : c.speed) out["speed"].push_back(told(speed_json(c, r)));
   for (const PresetStepResult& r : c.preset_step) out["preset_step"].push_back(told(preset_step_json(c, r)));
