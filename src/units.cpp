@@ -8,7 +8,7 @@ namespace vsa {
 
 std::string sliding(std::string_view words) {
   // The longest first: what is changed once isn't looked at again.
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 17> kWords{{{"N·m·rad", "N·m"},
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kWords{{{"N·m·rad", "N·m"},
                                                                                          {"Nm_rad", "Nm"},
                                                                                          {"N·m·s/rad", "N·s/m"},
                                                                                          {"N·m/rad", "N/m"},
@@ -18,6 +18,7 @@ std::string sliding(std::string_view words) {
                                                                                          {"load_torque_Nm", "load_force_N"},
                                                                                          {"torque_Nm", "force_N"},
                                                                                          {"kg·m²", "kg"},
+                                                                                         {"_kgm2", "_kg"},
                                                                                          {"torque", "force"},
                                                                                          {"Torque", "Force"},
                                                                                          {"N·m", "N"},

@@ -18,6 +18,7 @@ set(VSA_NEEDS_SDF_engine
   Actuated.JointsThatArentThereOrTwiceOrOfTheWrongTypeAreNamed
   Allocation.AStepOfSeveralSubstepsWithHandsAtWorkTakesNothingFromTheHeap
   Clone.*
+  Linear.*
   Placed.*
   Followers.*
   Hostile.RunWantsATime
@@ -90,6 +91,7 @@ set(VSA_NEEDS_SDF_chain
   SerialChain.OfBareFlangesGainsNoMoreThanTheStepsInWhichItFolds
 )
 set(VSA_NEEDS_SDF_apps
+  Export.WritesAWorldAsMjcfWhichRunsWhereItStands
   Run.ABlowUpIsAFailureThatTellsTimeAndLinkAndKeepsTheRecord
   Doctor.AWorldsOwnSystemsNeedPhysicsAmongThem
   Doctor.AWorldWithoutARobotOrThatDoesNotLoadIsAProblem

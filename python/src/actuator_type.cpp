@@ -114,6 +114,9 @@ void bind_texts(Class& c) {
           "preset_unit", [](const PyActuatorType& t) { return std::string(t.type.unit.preset_unit()); },
           "Unit of the stiffness preset: str; empty where there is none.")
       .def_property_readonly(
+          "shaft_unit", [](const PyActuatorType& t) { return std::string(t.type.unit.actuator.transmission->shaft_unit()); },
+          "\"rad\", or of a linear actuator \"m\", whose readings are in m and N then: str.")
+      .def_property_readonly(
           "controller", [](const PyActuatorType& t) { return t.type.controller; },
           "\"qbmove\", \"position_servo\", \"torque_servo\" or \"motor_voltages\": str.")
       .def_property_readonly(

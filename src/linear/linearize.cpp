@@ -7,7 +7,7 @@
 namespace vsa::linear {
 namespace {
 
-void name_signals(Model& m, const Plant& plant) {
+void name_signals(Model& m, const Plant& plant, bool slides) {
   m.states = {{"shaft angle", "rad"}, {"shaft speed", "rad/s"}};
   m.inputs = {{"load torque", "N·m"}};
   m.outputs = {{"shaft angle", "rad"}, {"shaft speed", "rad/s"}, {"spring torque", "N·m"}};
@@ -19,6 +19,8 @@ void name_signals(Model& m, const Plant& plant) {
                                                       : Signal{motor_signal(i, "reference"), "rad"});
     m.outputs.push_back({motor_signal(i, "angle"), "rad"});
   }
+  if (slides)
+    for (auto* signals : {&m.states, &m.inputs, &m.outputs}) slide(*signals);
 }
 
 }  // namespace
@@ -33,7 +35,7 @@ Model linearize(const device::UnitConfig& unit, const OperatingPoint& point, Fir
   m.damping_Nms_per_rad = plant.damping;
   m.a = state_matrix(plant);
   m.b = input_matrix(plant);
-  name_signals(m, plant);
+  name_signals(m, plant, unit.actuator.linear());
   Loops loops;
   if (firmware != Firmware::frozen) loops = find_loops(unit, plant, m.notices);
   if (firmware == Firmware::averaged) average(m, loops);

@@ -6,6 +6,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "vsa/firmware/controller.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::linear {
 namespace {
@@ -98,6 +99,11 @@ double static_stiffness(const Plant& plant, const Loops& loops) {
   }
   const double left = shaft - across.dot(own.completeOrthogonalDecomposition().solve(across));
   return std::abs(left) <= 1e-12 * shaft ? 0.0 : left;
+}
+
+void slide(std::vector<Signal>& signals) {
+  for (Signal& s : signals)
+    if (s.name.rfind("motor", 0) != 0) s = {sliding(s.name), sliding(s.unit)};
 }
 
 }  // namespace vsa::linear

@@ -33,4 +33,7 @@ void sample(System& system, const Loops& loops);
 /// the shaft. No loops: frozen.
 [[nodiscard]] double static_stiffness(const Plant& plant, const Loops& loops);
 
+/// Signals of a linear actuator's shaft in m and N; its motors' stay.
+void slide(std::vector<Signal>& signals);
+
 }  // namespace vsa::linear

@@ -127,7 +127,9 @@ ServoLoop no_loop(const device::UnitConfig& unit, const Plant& plant) {
 
 }  // namespace
 
-ServoLoop servo_loop(const device::UnitConfig& unit, const Plant& plant, double preset, Firmware firmware) {
+namespace {
+
+ServoLoop loop_of(const device::UnitConfig& unit, const Plant& plant, double preset, Firmware firmware) {
   const bool sampled = firmware == Firmware::sampled;
   switch (unit.servo->kind) {
     case control::ServoKind::position_servo:
@@ -138,6 +140,15 @@ ServoLoop servo_loop(const device::UnitConfig& unit, const Plant& plant, double 
       break;
   }
   return no_loop(unit, plant);
+}
+
+}  // namespace
+
+ServoLoop servo_loop(const device::UnitConfig& unit, const Plant& plant, double preset, Firmware firmware) {
+  ServoLoop out = loop_of(unit, plant, preset, firmware);
+  if (unit.actuator.linear())
+    for (auto* signals : {&out.states, &out.inputs}) slide(*signals);
+  return out;
 }
 
 PlacedServo alone(ServoLoop loop, const Plant& plant) {

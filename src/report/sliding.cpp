@@ -15,6 +15,7 @@ void all(std::vector<std::string>& words) {
 Table sliding(Table table) {
   all(table.head);
   for (std::vector<std::string>& row : table.rows) all(row);
+  table.title = vsa::sliding(table.title);
   table.caption = vsa::sliding(table.caption);
   return table;
 }

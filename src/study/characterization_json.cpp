@@ -1,5 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/page/json.hpp"
+#include "vsa/page/sliding_keys.hpp"
 #include "vsa/study/characterization.hpp"
 #include "vsa/units.hpp"
 
@@ -122,19 +123,6 @@ Json actuator_json(const Characterization& c) {
   return out;
 }
 
-/// A linear actuator's.
-Json sliding_keys(const Json& from) {
-  if (from.is_array()) {
-    Json out = Json::array();
-    for (const Json& one : from) out.push_back(sliding_keys(one));
-    return out;
-  }
-  if (!from.is_object()) return from;
-  Json out = Json::object();
-  for (const auto& [key, value] : from.items()) out[sliding(key)] = sliding_keys(value);
-  return out;
-}
-
 double step_of(const Characterization& c) {
   if (!c.stiffness.empty()) return c.stiffness.front().run.step_s;
   return c.speed.empty() ? c.preset_step.front().run.step_s : c.speed.front().run.step_s;
@@ -146,7 +134,7 @@ std::string to_json(const Characterization& c, const std::string& command) {
   Json out = page::results_head(command);
   out["actuator"] = actuator_json(c);
   out["engine_step_s"] = step_of(c);
-  const auto told = [&](const Json& result) { return c.linear() ? sliding_keys(result) : result; };
+  const auto told = [&](const Json& result) { return c.linear() ? page::sliding_keys(result) : result; };
   for (const StiffnessResult& r : c.stiffness) out["stiffness"].push_back(told(stiffness_json(c, r)));
   for (const SpeedResult& r : c.speed) out["speed"].push_back(told(speed_json(c, r)));
   for (const PresetStepResult& r : c.preset_step) out["preset_step"].push_back(told(preset_step_json(c, r)));

@@ -8,8 +8,6 @@
 
 namespace vsa::study {
 
-inline constexpr double kBenchPinion_m = 0.05;
-
 /// Puts the plan's specimen on the benches: with a pinion where its output slides.
 void mount(Characterization& plan);
 

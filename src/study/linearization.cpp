@@ -2,6 +2,7 @@
 #include "vsa/study/linearization.hpp"
 
 #include "vsa/page/json.hpp"
+#include "vsa/page/sliding_keys.hpp"
 
 namespace vsa::study {
 namespace {
@@ -185,14 +186,17 @@ WorldLinearization linearize(const engine::World& world, const linear_world::Wor
 std::string to_json(const Linearization& l, const std::string& command) {
   const linear::Model& m = l.model;
   Json out = head(m, command, "type", l.actuator.name, word(l.firmware), word(l.friction));
-  out["point"] = point_json(l);
+  const bool slides = l.actuator.unit.actuator.linear();
+  const auto told = [slides](Json values) { return slides ? page::sliding_keys(values) : values; };
+  const auto key = [slides](const char* name) { return slides ? sliding(name) : std::string(name); };
+  out["point"] = told(point_json(l));
   out["notices"] = m.notices;
-  out["held_stiffness_Nm_per_rad"] = real(m.held_stiffness_Nm_per_rad);
-  out["static_stiffness_Nm_per_rad"] = real(m.static_stiffness_Nm_per_rad);
+  out[key("held_stiffness_Nm_per_rad")] = real(m.held_stiffness_Nm_per_rad);
+  out[key("static_stiffness_Nm_per_rad")] = real(m.static_stiffness_Nm_per_rad);
   put_system(out, m);
   Json& poles = out["poles"] = Json::array();
   for (const linear::Pole& p : l.poles) poles.push_back(pole_json(p));
-  out["response"] = responses_json(l.responses);
+  out["response"] = told(responses_json(l.responses));
   return page::results_text(out);
 }
 

@@ -3,7 +3,10 @@
 // One joint, two plug-ins: the second is refused.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "classic_world.hpp"
+#include "support/press.hpp"
 
 namespace vsa::test {
 namespace {
@@ -38,6 +41,21 @@ TEST(DrivenJoints, OfAPluginGivenTwiceTheSecondIsNamedAndStaysWithoutTorques) {
   EXPECT_EQ(run_bench(world_sdf("doubled", twice), "qbmove_bench_load", log), once);
   EXPECT_NE(log.find("actuator[shaft]/joint = \"shaft\": another vsa::Robot drives it already"), std::string::npos) << log;
   EXPECT_NE(log.find("stays without torques"), std::string::npos) << log;
+}
+
+TEST(LinearActuators, HoldAPlateOnASlideAndAreNamedOnAHinge) {
+  RobotWorld w("slide", press_model("prismatic", "linear_sea_example"));
+  w.run(5000);
+  EXPECT_NEAR(w.angle("press", "slide"), -kPressSag_m, kPressSlack_m);
+  EXPECT_NEAR(w.torques()[0], 98, 3);
+  for (const auto& [joint, type, says] : {std::array<std::string, 3>{"revolute", "linear_sea_example", "is a linear actuator"},
+                                          {"prismatic", "sea_example", "is prismatic: sea_example turns its joint"}}) {
+    testing::internal::CaptureStderr();
+    ClassicWorld other(world_sdf("other_" + joint, press_model(joint, type)));
+    other.run(1);
+    const std::string log = testing::internal::GetCapturedStderr();
+    EXPECT_NE(log.find(says), std::string::npos) << log;
+  }
 }
 
 TEST(DrivenJoints, OfANestedModelDrivenFromInsideAndOutsideAreNoticed) {

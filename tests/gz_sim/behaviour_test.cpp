@@ -8,6 +8,7 @@
 
 #include "gz_messages.hpp"
 #include "gz_world.hpp"
+#include "support/press.hpp"
 
 namespace vsa::test {
 namespace {
@@ -39,6 +40,16 @@ TEST(GzSim, TheSameRunTwiceGivesTheSameBits) {
   const auto second = SimWorld(sdf).record("bench", 500);
   EXPECT_GT(std::abs(first.back()), 0.01);
   EXPECT_EQ(first, second);
+}
+
+TEST(GzSim, ALinearActuatorHoldsAPlateOnASlide) {
+  SimWorld w(sdf_text(world_text(press_model("prismatic", "linear_sea_example"))));
+  w.run(5000);
+  EXPECT_NEAR(w.angle("press", "slide"), -kPressSag_m, kPressSlack_m);
+  testing::internal::CaptureStderr();
+  SimWorld(sdf_text(world_text(press_model("prismatic", "sea_example")))).run(1);
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_NE(log.find("is prismatic: sea_example turns its joint"), std::string::npos) << log;
 }
 
 TEST(GzSim, TwoModelsOfAWorldDontKnowOfEachOther) {

@@ -28,9 +28,9 @@ double stiffness_at_rest(const elastic::Transmission& law, double preset) {
 std::string stiffness_text(const device::UnitConfig& unit) {
   const elastic::Transmission& law = *unit.actuator.transmission;
   const double soft = stiffness_at_rest(law, 0.0);
-  if (law.preset_unit().empty()) return fmt::format("{:.3g} N·m/rad", soft);
+  if (law.preset_unit().empty()) return fmt::format("{:.3g} {}", soft, unit.actuator.linear() ? "N/m" : "N·m/rad");
   const double stiff = stiffness_at_rest(law, unit.preset_max);
-  return fmt::format("{:.3g} … {:.3g} N·m/rad", soft, stiff);
+  return fmt::format("{:.3g} … {:.3g} {}", soft, stiff, unit.actuator.linear() ? "N/m" : "N·m/rad");
 }
 
 std::string preset_text(const device::UnitConfig& unit) {

@@ -15,6 +15,7 @@
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/hash.hpp"
+#include "vsa/study/characterization.hpp"
 
 namespace vsa::app {
 namespace {
@@ -142,6 +143,10 @@ identify::IdentificationOptions Asked::settings() const {
   out.fit.iterations = options_.iterations;
   out.fit.global = !options_.no_global;
   out.fit.seed = static_cast<unsigned>(options_.seed);
+  if (type_.unit.actuator.linear()) {  // travels of a size that turns the benches' pinion by those angles
+    out.fit.effect_rad *= study::kBenchPinion_m;
+    out.fit.interval_effect_rad *= study::kBenchPinion_m;
+  }
   out.digits = kDigits;
   out.cross_validation = !options_.no_cross_validation;
   out.profile = options_.profile;

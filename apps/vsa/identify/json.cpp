@@ -3,6 +3,7 @@
 
 #include "identify/output.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/page/sliding_keys.hpp"
 
 namespace vsa::app {
 namespace {
@@ -129,10 +130,12 @@ Json values_json(const Identification& r) {
 
 std::string results_json(const Identification& r) {
   const identify::Uncertainty& u = r.found.uncertainty;
+  const bool linear = r.type.unit.actuator.linear();
+  const auto told = [linear](Json values) { return linear ? page::sliding_keys(values) : values; };
   Json out = page::results_head(r.command);
   out["type"] = r.type.name;
   out["sweep_period_s"] = r.period_s;
-  out["rms_rad"] = {{"before", identify::rms(r.found.residuals_before)}, {"after", r.found.fit.rms_rad}};
+  out[linear ? "rms_m" : "rms_rad"] = {{"before", identify::rms(r.found.residuals_before)}, {"after", r.found.fit.rms_rad}};
   out["determined"] = !u.deficient();
   out["warnings"] = warnings(r);
   out["parameters"] = parameters_json(r);
@@ -143,12 +146,12 @@ std::string results_json(const Identification& r) {
   out["unseparated"] = groups_json(r);
   out["effective_samples"] = u.effective_samples;
   out["degrees_of_freedom"] = u.degrees_of_freedom;
-  out["recordings"] = recordings_json(r);
-  out["starts"] = starts_json(r);
-  out["leave_one_preset_out"] = left_out_json(r);
-  out["profiles"] = profiles_json(r);
+  out["recordings"] = told(recordings_json(r));
+  out["starts"] = told(starts_json(r));
+  out["leave_one_preset_out"] = told(left_out_json(r));
+  out["profiles"] = told(profiles_json(r));
   out["bootstrap"] = bootstrap_json(r);
-  out["residuals"] = residuals_json(r);
+  out["residuals"] = told(residuals_json(r));
   out["simulations"] = r.found.evaluations;
   return page::results_text(out);
 }

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "identify/output.hpp"
 #include "terminal/table.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/identify/type_file.hpp"
+#include "vsa/report/sliding.hpp"
 
 namespace vsa::app {
 namespace {
@@ -18,6 +20,29 @@ using report::Table;
 constexpr double kWeak = 0.95;  // correlation beyond which two estimates are best read together
 
 std::string short_number(double v) { return std::isfinite(v) ? fmt::format("{:.4g}", v) : "–"; }
+
+bool linear(const Identification& r) { return r.type.unit.actuator.linear(); }
+
+/// What is told in rad and N·m, as the actuator has it.
+template <class T>
+T told(const Identification& r, T words) {
+  return linear(r) ? report::sliding(std::move(words)) : words;
+}
+
+std::string preset_unit(const Identification& r) { return std::string(r.type.unit.actuator.transmission->preset_unit()); }
+std::string preset_head(const Identification& r) {
+  const std::string unit = preset_unit(r);
+  return unit.empty() ? "preset" : "preset [" + unit + "]";
+}
+std::string recorded_at(const Identification& r, double preset) {
+  const std::string unit = preset_unit(r);
+  return unit.empty() ? "Recording" : fmt::format("Preset {:.4g} {}", preset, unit);
+}
+
+/// A deflection: a travel in m has its own size.
+std::string deflection(const Identification& r, double value) {
+  return !std::isfinite(value) ? "–" : linear(r) ? fmt::format("{:.3g}", value) : fmt::format("{:.5f}", value);
+}
 
 std::string interval_text(const Identification& r, std::size_t k) {
   const identify::Uncertainty& u = r.found.uncertainty;
@@ -53,7 +78,7 @@ Branch branch(const Identification& r, std::size_t observation, bool rising) {
 
 Chart loop_chart(const Identification& r, std::size_t observation) {
   Chart out;
-  out.title = fmt::format("Preset {:.4g} rad", r.found.task.observations[observation].preset);
+  out.title = recorded_at(r, r.found.task.observations[observation].preset);
   out.x_label = "deflection [rad]";
   out.y_label = "load torque [N·m]";
   const bool points = r.found.task.observations[observation].points;
@@ -78,7 +103,7 @@ Chart residual_chart(const Identification& r) {
       const Branch b = branch(r, o, rising);
       if (b.torque.empty()) continue;
       const char* way = r.found.task.observations[o].points ? "at rest" : rising ? "rising" : "falling";
-      out.curves.push_back(report::curve(fmt::format("{:.4g} rad, {}", r.found.task.observations[o].preset, way), b.torque,
+      out.curves.push_back(report::curve(fmt::format("{}, {}", recorded_at(r, r.found.task.observations[o].preset), way), b.torque,
                                          b.residual, rising ? Curve::Style::line : Curve::Style::dashed, static_cast<int>(o)));
     }
   }
@@ -106,7 +131,7 @@ Table starts_table(const Identification& r) {
   };
   for (const identify::StartResult& s : r.found.fit.starts) {
     out.rows.push_back(
-        {fmt::format("{:.5f}", s.rms_rad), std::to_string(s.iterations), s.converged ? "yes" : "no", list(s.from), list(s.to)});
+        {deflection(r, s.rms_rad), std::to_string(s.iterations), s.converged ? "yes" : "no", list(s.from), list(s.to)});
   }
   return out;
 }
@@ -122,7 +147,7 @@ report::Section profiles_section(const Identification& r) {
     Chart chart;
     chart.title = r.found.task.parameters[k].name;
     chart.x_label = fmt::format("{} [{}]", r.found.task.parameters[k].name, r.found.task.parameters[k].unit);
-    chart.y_label = "RMS [rad]";
+    chart.y_label = linear(r) ? "RMS [m]" : "RMS [rad]";
     chart.curves.push_back(report::curve("the others fitted again", x, y, Curve::Style::line, 0));
     out.blocks.emplace_back(std::move(chart));
   }
@@ -153,25 +178,23 @@ Table estimates_table(const Identification& r) {
 
 Table misfit_table(const Identification& r) {
   Table out{"Root mean square of simulated − recorded deflection [rad]",
-            {"preset [rad]", "before", "both branches", "rising", "falling", "ρ", "recording"},
+            {preset_head(r), "before", "both branches", "rising", "falling", "ρ", "recording"},
             {},
             "ρ: correlation of neighbouring residuals, corrected for the fit."};
   for (std::size_t o = 0; o < r.found.misfits.size(); ++o) {
     const experiment::Difference& d = r.found.misfits[o].rms;
-    out.rows.push_back({fmt::format("{:.4f}", r.found.misfits[o].preset),
-                        fmt::format("{:.5f}", r.found.misfits_before[o].rms.both_rad), fmt::format("{:.5f}", d.both_rad),
-                        fmt::format("{:.5f}", d.rising_rad), fmt::format("{:.5f}", d.falling_rad),
+    out.rows.push_back({fmt::format("{:.4f}", r.found.misfits[o].preset), deflection(r, r.found.misfits_before[o].rms.both_rad),
+                        deflection(r, d.both_rad), deflection(r, d.rising_rad), deflection(r, d.falling_rad),
                         fmt::format("{:.2f}", r.found.uncertainty.autocorrelation[o]), r.found.misfits[o].name});
   }
   return out;
 }
 
 Table cross_validation_table(const Identification& r) {
-  Table out{"Leave one preset out", {"preset [rad]", "RMS predicted [rad]", "RMS fitted [rad]"}, {}, ""};
+  Table out{"Leave one preset out", {preset_head(r), "RMS predicted [rad]", "RMS fitted [rad]"}, {}, ""};
   for (const identify::Parameter& p : r.found.task.parameters) out.head.push_back(p.name);
   for (const identify::LeftOut& l : r.found.left_out) {
-    out.rows.push_back(
-        {fmt::format("{:.4f}", l.preset), fmt::format("{:.5f}", l.rms_rad), fmt::format("{:.5f}", l.rms_rad_of_all)});
+    out.rows.push_back({fmt::format("{:.4f}", l.preset), deflection(r, l.rms_rad), deflection(r, l.rms_rad_of_all)});
     for (double v : l.values) out.rows.back().push_back(short_number(v));
   }
   return out;
@@ -222,16 +245,16 @@ report::Report identification_report(const Identification& r) {
   report::Section estimates{"Estimates", {}};
   for (const std::string& w : warnings(r)) estimates.blocks.emplace_back(report::Text{"Warning: " + w + "."});
   estimates.blocks.emplace_back(estimates_table(r));
-  estimates.blocks.emplace_back(misfit_table(r));
+  estimates.blocks.emplace_back(told(r, misfit_table(r)));
   estimates.blocks.emplace_back(correlation_table(r));
   report::Section curves{"Recorded and simulated", {}};
-  for (std::size_t o = 0; o < r.found.task.observations.size(); ++o) curves.blocks.emplace_back(loop_chart(r, o));
-  report::Section residuals{"Residuals", {residual_chart(r)}};
-  report::Section checks{"Checks", {starts_table(r)}};
+  for (std::size_t o = 0; o < r.found.task.observations.size(); ++o) curves.blocks.emplace_back(told(r, loop_chart(r, o)));
+  report::Section residuals{"Residuals", {told(r, residual_chart(r))}};
+  report::Section checks{"Checks", {told(r, starts_table(r))}};
   if (r.found.left_out.empty()) {
     checks.blocks.emplace_back(report::Text{"No cross-validation: it was turned off, or there is only one preset."});
   } else {
-    checks.blocks.emplace_back(cross_validation_table(r));
+    checks.blocks.emplace_back(told(r, cross_validation_table(r)));
   }
   if (r.found.bootstrap) checks.blocks.emplace_back(bootstrap_table(r));
   out.sections = {std::move(estimates), std::move(curves), std::move(residuals), std::move(checks)};
@@ -241,8 +264,8 @@ report::Report identification_report(const Identification& r) {
 }
 
 std::string identification_text(const Identification& r) {
-  std::string out = table_of(estimates_table(r)) + table_of(misfit_table(r));
-  if (!r.found.left_out.empty()) out += table_of(cross_validation_table(r));
+  std::string out = table_of(estimates_table(r)) + table_of(told(r, misfit_table(r)));
+  if (!r.found.left_out.empty()) out += table_of(told(r, cross_validation_table(r)));
   if (r.found.bootstrap) out += table_of(bootstrap_table(r));
   return out;
 }

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "linearize/tables.hpp"
+#include "vsa/report/sliding.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::app {
@@ -27,7 +29,9 @@ Curve over_frequency(const study::Linearization& l, const char* name, int color,
   return out;
 }
 
-std::vector<report::Block> charts(const study::Linearization& l) {
+bool linear_shaft(const study::Linearization& l) { return l.actuator.unit.actuator.linear(); }
+
+std::vector<report::Chart> charts(const study::Linearization& l) {
   const auto magnitude = [](const Response& r) { return std::abs(r.impedance); };
   const double m = l.model.inertia_kgm2;
   Curve inertia = over_frequency(l, "inertia alone", -1, [m](const Response& r) { return 2 * kPi * r.frequency_Hz * m; });
@@ -62,6 +66,7 @@ Table point_table(const study::Linearization& l) {
   for (int i = 0; i < law.motor_count(); ++i) row(fmt::format("motor {} voltage", i + 1), m.rest.motor_V[i], "V");
   row("stiffness, pulleys held", m.held_stiffness_Nm_per_rad, "N·m/rad");
   row("stiffness at rest", m.static_stiffness_Nm_per_rad, "N·m/rad");
+  if (linear_shaft(l)) out = report::sliding(std::move(out));
   out.caption = "At rest the motors yield as the firmware lets them; frozen and without dry friction they hold nothing.";
   return out;
 }
@@ -76,7 +81,9 @@ report::Report linearization_report(const study::Linearization& l, const std::st
   for (const std::string& notice : l.model.notices) point.blocks.emplace_back(report::Text{notice});
   point.blocks.emplace_back(point_table(l));
   point.blocks.emplace_back(pole_table(l.poles, l.model.period_s, {}));
-  out.sections = {std::move(point), {"Frequency response", charts(l)}, {"Matrices", matrix_tables(l.model)}};
+  std::vector<report::Block> response;
+  for (Chart& chart : charts(l)) response.emplace_back(linear_shaft(l) ? report::sliding(std::move(chart)) : std::move(chart));
+  out.sections = {std::move(point), {"Frequency response", std::move(response)}, {"Matrices", matrix_tables(l.model)}};
   out.footer = command + " · vsa " VSA_VERSION;
   return out;
 }

@@ -72,6 +72,9 @@ struct PresetStepResult {
   Range load_Nm;                      ///< measured
 };
 
+/// Of the pinion that a linear actuator's output turns as a rack on the benches.
+inline constexpr double kBenchPinion_m = 0.05;
+
 /// A plan where the results' runs are empty: their options say what is to be run.
 struct Characterization {
   experiment::Specimen specimen;
