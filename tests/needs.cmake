@@ -8,6 +8,10 @@ set(VSA_NEEDS_SDF_mjcf
   Export.WritesNamesThatXmlWouldTakeForItsOwn
   Worlds/FromSdfAndFromMjcf.*
 )
+set(VSA_NEEDS_SDF_fmu
+  World.FilesThatOnlyThisMachineFindsAreRefused
+  World.OneWithoutActuatorsIsOneToo
+)
 set(VSA_NEEDS_SDF_engine
   Actuated.ACommandedShaftGoesWhereItIsSent
   Actuated.WithoutActuatorsNoTorqueActs

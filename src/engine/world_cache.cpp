@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "vsa/description/capabilities.hpp"
+#include "vsa/engine/mjcf.hpp"
 #include "vsa/physics/mjcf.hpp"
 #include "vsa/physics/mujoco.hpp"
 #include "vsa/sdf/feature.hpp"
@@ -77,20 +78,10 @@ Cache cache;
 // libsdformat keeps global state while it reads: two threads in sdf::Root::Load crash.
 std::mutex reading;
 
-/// The MJCF that is read: the file itself or, in a build without SDF, the one that stands beside the SDF. Empty: none.
-std::filesystem::path mjcf_of(const reader::SdfSource& source) {
-  if (source.path.empty() || physics::is_mjcf(source.path, {})) return source.path;
-  std::filesystem::path beside = source.path;
-  beside.replace_extension(".xml");
-  std::error_code none;
-  const bool stands_in = !reader::sdf_feature().is_in() && std::filesystem::is_regular_file(beside, none);
-  return stands_in ? beside : std::filesystem::path{};
-}
-
 description::World read_description(const reader::SdfSource& source, const WorldOptions& options, Entry& entry,
                                     Problems& problems) {
   ReadWorld& file = *entry.file;
-  const std::filesystem::path mjcf = mjcf_of(source);
+  const std::filesystem::path mjcf = mjcf_of(source.path);
   if (mjcf.empty() && !physics::is_mjcf({}, source.text)) {
     return reader::read_sdf(source, {file.engine->capabilities(), options.concave}, reader::Finder(entry.key.search, entry.seen),
                             entry.seen, file.warnings, problems);

@@ -3,6 +3,7 @@
 #include "vsa/config/find_file.hpp"
 #include "vsa/engine/mjcf.hpp"
 #include "vsa/physics/mjcf.hpp"
+#include "vsa/sdf/feature.hpp"
 
 namespace vsa::engine {
 
@@ -16,6 +17,15 @@ std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const 
     out.push_back({std::move(one.name), std::move(one.bytes)});
   problems.throw_if_any();
   return out;
+}
+
+std::filesystem::path mjcf_of(const std::filesystem::path& world) {
+  if (world.empty() || physics::is_mjcf(world, {})) return world;
+  std::filesystem::path beside = world;
+  beside.replace_extension(".xml");
+  std::error_code none;
+  const bool stands_in = !reader::sdf_feature().is_in() && std::filesystem::is_regular_file(beside, none);
+  return stands_in ? beside : std::filesystem::path{};
 }
 
 }  // namespace vsa::engine

@@ -6,9 +6,11 @@
 #include "vsa/config/find_file.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/config/toml_section.hpp"
+#include "vsa/engine/mjcf.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/files.hpp"
 #include "vsa/fmu_world/world_model.hpp"
+#include "vsa/physics/mjcf.hpp"
 #include "vsa/sdf/finder.hpp"
 
 namespace vsa::fmu {
@@ -45,6 +47,7 @@ void refuse_other_uris(const fs::path& file, const std::string& text) {
 class Collector {
  public:
   void world(const fs::path& file) {
+    if (const fs::path mjcf = engine::mjcf_of(file); !mjcf.empty()) return mjcf_world(mjcf);
     std::string text = bytes_of(file);
     refuse_other_uris(file, text);
     name_ = "world" + file.extension().string();
@@ -55,6 +58,32 @@ class Collector {
   [[nodiscard]] Resources take() { return std::move(out_); }
 
  private:
+  /// The file, its companion and all that they name, under their own names.
+  void mjcf_world(const fs::path& file) {
+    name_ = file.filename().string();
+    std::error_code error;
+    for (const fs::path& each : physics::files_of_mjcf(file))
+      if (each == file || fs::is_regular_file(each, error)) add_mjcf(each);
+  }
+
+  void add_mjcf(const fs::path& file) {
+    constexpr std::string_view kFile = " file=";
+    if (!seen_.insert(file.string()).second) return;
+    std::string text = bytes_of(file);
+    for (const char* elsewhere : {"meshdir=", "texturedir=", "assetdir="})
+      if (file.extension() == ".xml" && text.find(elsewhere) != std::string::npos)
+        throw InputError(
+            {file.string(), elsewhere, "", "names a folder, which an FMU doesn't take along", "files beside the MJCF"});
+    for (std::size_t at = text.find(kFile); file.extension() == ".xml" && at != std::string::npos; at = text.find(kFile, at + 1)) {
+      const std::size_t begin = at + kFile.size() + 1, end = text.find(text[begin - 1], begin);
+      const fs::path named = text.substr(begin, end - begin);
+      if (named != named.filename() || !fs::is_regular_file(file.parent_path() / named))
+        throw InputError({file.string(), "file", named.string(), "can't go into an FMU", "the name of a file beside the MJCF"});
+      add_mjcf(file.parent_path() / named);
+    }
+    out_[file.filename().string()] = std::move(text);
+  }
+
   static std::string bytes_of(const fs::path& file) {
     auto text = read_file(file);
     if (!text) throw InputError({file.string(), "", "", "can't be read", ""});

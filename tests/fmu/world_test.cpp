@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "importer.hpp"
 #include "vsa/errors.hpp"
@@ -106,6 +108,38 @@ TEST(World, OneWithoutActuatorsIsOneToo) {
   fmu.start();
   for (int k = 0; k < 10; ++k) fmu.step(k * 1e-3, 1e-3);
   EXPECT_EQ(fmu.get("energy_supply"), 0.0);
+}
+
+TEST(World, OneInMjcfTakesItsActuatorsAndTerrainAlong) {
+  for (const char* name : {"snake_hills", "bench_load"}) {
+    const std::filesystem::path mjcf = std::filesystem::path(VSA_SOURCE_DIR) / "models/worlds" / (std::string(name) + ".xml");
+    const auto package = exported_world(mjcf.string());
+    Instance2 fmu(*package);
+    ASSERT_TRUE(fmu.made()) << fmu.log.at(0);
+    auto world = engine::World::load(mjcf);
+    const std::string first = world.actuators().at(0).name;
+    fmu.set(first + ".equilibrium", 0.3);
+    fmu.start();
+    world.command(world.actuators()[0], 0.3, world.read(world.actuators()[0]).preset_command);
+    for (int k = 0; k < 100; ++k) {
+      fmu.step(k * 1e-3, 1e-3);
+      world.step();
+    }
+    for (const auto& a : world.actuators()) EXPECT_EQ(fmu.get(a.name + ".shaft_angle"), world.read(a).shaft_rad) << a.name;
+  }
+}
+
+TEST(World, AnMjcfWhoseFilesCantGoAlongIsRefused) {
+  const fmu::TemporaryFolder folder;
+  const auto refused = [&](const std::string& inside) {
+    const auto file = folder.path() / "w.xml";
+    std::ofstream(file) << "<mujoco>" << inside << "<worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>";
+    EXPECT_THROW(static_cast<void>(fmu::world_resources(config::TypeLibrary(), {file.string(), {}})), InputError) << inside;
+  };
+  refused("<compiler meshdir='.'/>");
+  refused("<include file='nowhere.xml'/>");
+  std::ofstream(folder.path() / "o.xml") << "<mujoco/>";
+  refused("<include file='../" + folder.path().filename().string() + "/o.xml'/>");
 }
 
 TEST(World, FilesThatOnlyThisMachineFindsAreRefused) {

@@ -173,7 +173,9 @@ std::string sweep_text(const study::Characterization& c) {
 
 std::string overrides_text(const study::Characterization& c) {
   std::string out;
-  for (const config::Override& o : c.specimen.overrides) out += (out.empty() ? " with " : ", ") + o.key + " = " + o.value;
+  std::vector<config::Override> given = c.specimen.overrides;
+  if (c.linear()) given.pop_back();  // the bench's pinion, of which fit_notes() tell
+  for (const config::Override& o : given) out += (out.empty() ? " with " : ", ") + o.key + " = " + o.value;
   return out;
 }
 

@@ -15,7 +15,9 @@ namespace {
 
 std::string overridden(const study::DataSheet& d) {
   std::string out;
-  for (const config::Override& o : d.simulated.specimen.overrides) out += (out.empty() ? " with " : ", ") + o.key + " = " + o.value;
+  std::vector<config::Override> given = d.simulated.specimen.overrides;
+  if (d.simulated.linear()) given.pop_back();  // the bench's pinion
+  for (const config::Override& o : given) out += (out.empty() ? " with " : ", ") + o.key + " = " + o.value;
   return out;
 }
 
@@ -52,10 +54,11 @@ T told(const study::DataSheet& d, T words) {
 }
 
 std::string how_text(const study::DataSheet& d) {
+  const std::string pinion = d.simulated.linear() ? fmt::format(", where it turns a pinion of {:g} m", study::kBenchPinion_m) : "";
   return fmt::format(
       "law: from the spring's equation; drive: from the motors' parameters at {} V; simulation: from runs on the benches, as vsa "
-      "characterize does them. Steady values at full voltage: no parameter tells what the motors may give for long, nor size.",
-      number(d.computed.type.unit.actuator.supply_V));
+      "characterize does them{}. Steady values at full voltage: no parameter tells what the motors may give for long, nor size.",
+      number(d.computed.type.unit.actuator.supply_V), pinion);
 }
 
 }  // namespace

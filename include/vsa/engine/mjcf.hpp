@@ -17,4 +17,8 @@ struct ExportedFile {
 /// bit as this one. NAME is the stem of the file, or "world" for a text. Throws InputError with all problems.
 [[nodiscard]] std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const WorldOptions& options = {});
 
+/// The MJCF that World::load() reads of this path: the file itself or, in a build without SDF, the one that stands beside the SDF.
+/// Empty: it reads SDF or URDF.
+[[nodiscard]] std::filesystem::path mjcf_of(const std::filesystem::path& world);
+
 }  // namespace vsa::engine
