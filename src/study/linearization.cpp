@@ -187,7 +187,7 @@ std::string to_json(const Linearization& l, const std::string& command) {
   const linear::Model& m = l.model;
   Json out = head(m, command, "type", l.actuator.name, word(l.firmware), word(l.friction));
   const bool slides = l.actuator.unit.actuator.linear();
-  const auto told = [slides](Json values) { return slides ? page::sliding_keys(values) : values; };
+  const auto told = [slides](const Json& values) { return slides ? page::sliding_keys(values) : values; };
   const auto key = [slides](const char* name) { return slides ? sliding(name) : std::string(name); };
   out["point"] = told(point_json(l));
   out["notices"] = m.notices;

@@ -131,7 +131,7 @@ Json values_json(const Identification& r) {
 std::string results_json(const Identification& r) {
   const identify::Uncertainty& u = r.found.uncertainty;
   const bool linear = r.type.unit.actuator.linear();
-  const auto told = [linear](Json values) { return linear ? page::sliding_keys(values) : values; };
+  const auto told = [linear](const Json& values) { return linear ? page::sliding_keys(values) : values; };
   Json out = page::results_head(r.command);
   out["type"] = r.type.name;
   out["sweep_period_s"] = r.period_s;
