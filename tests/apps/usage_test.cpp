@@ -3,6 +3,8 @@
 // Bad usage and bad input end with exit code 2 and lines that say what would be right.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "subprocess.hpp"
 
 namespace {
@@ -27,6 +29,31 @@ TEST(Usage, HelpAndVersionAreNoErrors) {
   EXPECT_EQ(version.exit_code, 0);
   EXPECT_EQ(version.out.rfind("vsa ", 0), 0U) << version.out;
   EXPECT_EQ(run_vsa({"run", "--help"}).exit_code, 0);
+}
+
+/// The tables of the reference are the command's; whoever adds a law writes them anew.
+TEST(Usage, TheLawsInTheDocumentationAreThoseThatTheCommandWrites) {
+  const Scratch scratch;
+  const auto page = std::filesystem::path(VSA_SOURCE_DIR) / "docs" / "reference" / "config.md";
+  const std::string before = vsa::test::read_file(page);
+  std::string without = before;
+  const std::size_t row = without.find("| `two_exp` |");
+  ASSERT_NE(row, std::string::npos);
+  without.erase(row, without.find('\n', row) + 1 - row);
+  write_file(scratch / "config.md", without);
+  const auto written = run_vsa({"actuators", "--laws", "--markdown", (scratch / "config.md").string()});
+  EXPECT_EQ(written.exit_code, 0) << written.err;
+  EXPECT_EQ(vsa::test::read_file(scratch / "config.md"), before) << "vsa actuators --laws --markdown docs/reference/config.md";
+  const auto printed = run_vsa({"actuators", "--laws"});
+  for (const char* part : {"two_exp", "elastic.slack_ratio", "torque scale of the spring to motor 2"})
+    EXPECT_NE(printed.out.find(part), std::string::npos) << part;
+
+  write_file(scratch / "plain.md", "# Nothing\n");
+  expect_bad_input(run_vsa({"actuators", "--laws", "--markdown", (scratch / "plain.md").string()}),
+                   {"plain.md", "vsa actuators --laws: tables"});
+  EXPECT_EQ(vsa::test::read_file(scratch / "plain.md"), "# Nothing\n");
+  EXPECT_EQ(run_vsa({"actuators", "--laws", "sea_example"}).exit_code, 2);
+  EXPECT_EQ(run_vsa({"actuators", "--markdown", (scratch / "plain.md").string()}).exit_code, 2);
 }
 
 TEST(Usage, WrongArgumentsAreBadUsage) {

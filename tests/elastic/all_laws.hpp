@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Every law of the library with values that something real could have: what tests go over. A new law adds its row.
+// Every law of the library with values that something real could have: what tests go over. A new law adds its row, and all of them are tried on it.
 #pragma once
 
 #include <algorithm>
@@ -26,28 +26,35 @@ inline std::vector<double> typical_grid() {
 }
 
 struct Typical {
-  std::vector<double> values;  ///< in the order of the law's parameters, then its file's rows
-  double deflection_rad;       ///< tried up to here: |q − x₀|, or of two springs |q − (x₀ + x₁)/2|
-  double preset;               ///< and here
+  std::vector<double> values;     ///< in the order of the law's parameters, then its file's rows
+  double deflection_rad;          ///< tried up to here: |q − x₀|, or of two springs |q − (x₀ + x₁)/2|
+  double preset;                  ///< and here
+  double rest_preset, stiffness;  ///< σ at rest at this preset, by hand from the equation
 };
 inline const std::map<std::string_view, Typical>& typical() {
   static const std::map<std::string_view, Typical> all{
-      {"bi_stiffness", {{5, 15, 2.5}, 0.5, 2.5}},
-      {"cam_roller", {{20000, 0.02, 0.002, 0.001}, 0.4, 2}},
-      {"lever_cardan", {{8000, 0.03, 0.6, 0.5, 2.2}, 0.4, 2.5}},
-      {"lever_pivot", {{10, 0.05, 0.015, 0.005, 0.01, 0.025}, 0.4, 2}},
-      {"lever_spring", {{8000, 0.005, 0.02}, 0.4, 2.5}},
-      {"maccepa", {{323, 0.03, 0.18, 0.010}, 1.5, 2.5}},
-      {"maccepa_2", {{323, 0.03, 0.18, 0.010, 0.05}, 1.2, 2.5}},
-      {"series_hardening", {{10, 50}, 0.5, 0}},
-      {"series_spring", {{10}, 0.5, 0}},
-      {"series_travel", {{10, 50}, 0.5, 0}},
-      {"table", {typical_grid(), 0.5, 1.2}},
-      {"two_cams", {{20000, 0.03}, 0.4, 0.5}},
-      {"two_exp", {{0.38, 0.38, 8.71, 0.508}, 0.25, 0.25}},
-      {"two_quadratic", {{10, 10, 0.05}, 0.5, 0.8}},
-      {"two_sinh", {{0.022, 6.85, 0.022, 6.85}, 0.5, 0.5}},
-      {"two_sinh_linear", {{8e-4, 12.3, 0.27, 9e-4, 12.1, 0.25, 0.6}, 0.5, 0.5}},
+      {"bi_stiffness", {{5, 15, 2.5}, 0.5, 2.5, 1, 5 + 15 * 0.289792}},
+      {"cam_roller", {{20000, 0.02, 0.002, 0.001}, 0.4, 2, 1, 2 * 20000 * 0.02 * (0.002 + 0.001)}},
+      {"lever_cardan", {{8000, 0.03, 0.6, 0.5, 2.2}, 0.4, 2.5, 1, 2 * 8000 * 0.03 * 0.03 * std::pow(std::tan(0.5 * 1.1), 4)}},
+      {"lever_pivot", {{10, 0.05, 0.015, 0.005, 0.01, 0.025}, 0.4, 2, 1, 2 * 10 * std::pow(0.05 / 0.015 * 0.015 / 0.035, 2)}},
+      {"lever_spring", {{8000, 0.005, 0.02}, 0.4, 2.5, 1, 2 * 8000 * 0.025 * 0.025}},
+      {"maccepa", {{323, 0.03, 0.18, 0.010}, 1.5, 2.5, 2, 323 * 0.010 * 2 * 0.03 * 0.18 / 0.15}},
+      {"maccepa_2", {{323, 0.03, 0.18, 0.010, 0.05}, 1.2, 2.5, 2, 323 * 0.010 * 2 * 0.03 * 0.18 / 0.15}},
+      {"series_hardening", {{10, 50}, 0.5, 0, 0, 10}},
+      {"series_spring", {{10}, 0.5, 0, 0, 10}},
+      {"series_travel", {{10, 50}, 0.5, 0, 0, 10}},
+      {"table", {typical_grid(), 0.5, 1.2, 0.4, 2 + 8 * 0.4 * 0.4 + 30 * 1.4 * 0.15 * 0.15}},
+      {"two_cams", {{20000, 0.03}, 0.4, 0.5, 0.3, 8 * 20000 * 0.03 * 0.03 * 0.3 * 0.3}},
+      {"two_exp",
+       {{0.38, 0.38, 8.71, 0.508}, 0.25, 0.25, 0.2, 2 * 8.71 * 0.38 * (std::exp(8.71 * 0.2) + 0.508 * std::exp(-8.71 * 0.2))}},
+      {"two_quadratic", {{10, 10, 0.05}, 0.5, 0.8, 0.3, 4 * 10 * (0.3 + 0.05)}},
+      {"two_sinh", {{0.022, 6.85, 0.022, 6.85}, 0.5, 0.5, 0.3, 2 * 6.85 * 0.022 * std::cosh(6.85 * 0.3)}},
+      {"two_sinh_linear",
+       {{8e-4, 12.3, 0.27, 9e-4, 12.1, 0.25, 0.6},
+        0.5,
+        0.5,
+        0.3,
+        8e-4 * 12.3 * std::cosh(12.3 * 0.3) + 0.27 + 9e-4 * 12.1 * std::cosh(12.1 * 0.3) + 0.25}},
   };
   return all;
 }
@@ -65,7 +72,7 @@ inline std::vector<SomeLaw> all_laws(int more) {
   for (const auto& [name, values] : typical()) {
     const auto has = [&name = name](const elastic::Law* law) { return law->name == name; };
     if (std::none_of(elastic::laws().begin(), elastic::laws().end(), has))
-      throw std::runtime_error(std::string(name) + ": not in the list of laws.cpp");
+      throw std::runtime_error(std::string(name) + ": no such law in src/elastic/laws");
   }
   for (const elastic::Law* law : elastic::laws()) {
     std::string seed(law->name);  // of its own, so that a new law changes no other's numbers

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 
+#include "actuators/laws.hpp"
 #include "terminal/exit_codes.hpp"
 #include "terminal/table.hpp"
 #include "vsa/config/actuator_type.hpp"
@@ -118,10 +119,16 @@ void setup_actuators(CLI::App& app, int& exit_code) {
   CLI::App* sub = app.add_subcommand("actuators", "list the actuator types, or print one with units, bounds and sources");
   sub->add_option("TYPE", options->name, "type to print");
   sub->add_flag("--all", options->all, "With the repairs of the firmware that are off");
+  CLI::Option* laws = sub->add_flag("--laws", options->laws, "The elastic laws that types may name, with their keys, instead");
+  sub->add_option("--markdown", options->markdown, "Write these tables between their two marker lines of this file")
+      ->type_name("FILE")
+      ->needs(laws);
+  laws->excludes("TYPE")->excludes("--all");
   sub->callback([options, &exit_code] { exit_code = run_actuators(*options); });
 }
 
 int run_actuators(const ActuatorsOptions& options) {
+  if (options.laws) return run_laws(options.markdown);
   const config::TypeLibrary library;
   return options.name.empty() ? list(library) : show(library.load(options.name), options.all);
 }

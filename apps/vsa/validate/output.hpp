@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "terminal/markdown.hpp"
 #include "vsa/report/report.hpp"
 #include "vsa/study/validation.hpp"
 
@@ -34,8 +35,7 @@ struct ValidationTables {
 [[nodiscard]] report::Report validation_report(const study::Validation& v, const std::string& command);
 
 /// The tables stand between these lines of the Markdown file.
-inline constexpr const char* kMarkdownBegin = "<!-- vsa validate: tables -->";
-inline constexpr const char* kMarkdownEnd = "<!-- vsa validate: end of tables -->";
+inline constexpr Markers kMarkers{"<!-- vsa validate: tables -->", "<!-- vsa validate: end of tables -->"};
 
 /// A chart in a file of its own; `file` as the Markdown file links to it.
 struct Picture {
@@ -44,9 +44,6 @@ struct Picture {
 /// Two a recording: figures/STEM-stiffness-P.PPPP.svg and …-residuals-… beside a Markdown file STEM.md.
 [[nodiscard]] std::vector<Picture> pictures(const study::Validation& v, const std::filesystem::path& markdown);
 
-/// The file's text with new tables; a file that isn't there yet has nothing else. Throws InputError where the markers aren't there,
-/// each once, in order, or the file can't be read.
-[[nodiscard]] std::string with_tables(const std::filesystem::path& file, const std::string& tables);
 [[nodiscard]] std::string markdown_tables(const study::Validation& v, const std::vector<Picture>& pictures,
                                           const std::string& command);
 

@@ -55,7 +55,7 @@ void write_markdown(const study::Validation& v, const std::filesystem::path& fil
     make_directory(to.parent_path(), "--markdown");
     write_whole(to, p.svg);
   }
-  write_whole(file, with_tables(file, markdown_tables(v, all, command)));
+  write_whole(file, with_tables(file, kMarkers, markdown_tables(v, all, command)));
 }
 
 /// "speed.0.7500.mean_pulley_rad_per_s = 4.9 (3.375 … 4.125), …".
@@ -72,7 +72,7 @@ std::string broken_text(const study::Validation& v) {
 
 int run_validate(const ValidateOptions& o) {
   study::ValidationPlan plan = study::plan_validation(study_of(o));
-  if (!o.markdown.empty()) (void)with_tables(o.markdown, "");  // told before the work, not after it
+  if (!o.markdown.empty()) (void)with_tables(o.markdown, kMarkers, "");  // told before the work, not after it
   (void)report::page_template();
   const std::filesystem::path out = o.out.empty() ? "validate_" + o.type : o.out;
   catch_interrupts();

@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // A law that actuator types may name: src/elastic/laws/NAME.cpp has its equation, its parameters and what makes it, and nothing else
-// has to know it but the list in laws.cpp. Documentation, files' checks and the property tests go over that list.
+// has to know it: the build lists what is there. Documentation, files' checks and the property tests go over that list.
 #pragma once
 
 #include <cstddef>

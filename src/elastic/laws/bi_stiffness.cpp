@@ -18,8 +18,8 @@
 // E. P. Fortunić and others, Optimally controlling the timing of energy transfer in elastic joints, RA-L 8 (2023) 8106, for the idea; this law and its smooth clutch: ours.
 #include <algorithm>
 
-#include "elastic/laws/laws.hpp"
 #include "elastic/laws/shapes.hpp"
+#include "vsa/elastic/law.hpp"
 
 namespace vsa::elastic {
 namespace {
@@ -44,7 +44,7 @@ struct Clutched {
 
 }  // namespace
 
-const Law kBiStiffness{
+extern const Law kBiStiffness{
     .name = "bi_stiffness",
     .title = "series elastic with a second spring on a clutch",
     .equation = "H = (k + k₂ s(x₁/w)) δ²/2,  s = u⁴ (35 − 84u + 70u² − 20u³), 0 … 1",

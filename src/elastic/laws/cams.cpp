@@ -10,8 +10,8 @@
 //
 // Sources: S. Wolf, G. Hirzinger, A new variable stiffness design, ICRA 2008; S. Wolf, O. Eiberger, G. Hirzinger, The DLR FSJ, ICRA 2011:
 // the mechanisms. The parabola stands for profiles that aren't published.
-#include "elastic/laws/laws.hpp"
 #include "elastic/laws/shapes.hpp"
+#include "vsa/elastic/law.hpp"
 
 namespace vsa::elastic {
 namespace {
@@ -44,7 +44,7 @@ struct TwoCams {
 
 }  // namespace
 
-const Law kCamRoller{
+extern const Law kCamRoller{
     .name = "cam_roller",
     .title = "roller on a cam, its spring pressed by motor 2",
     .equation = "H = κ/2 max(c δ² + h x₁ + e₀, 0)²",
@@ -55,7 +55,7 @@ const Law kCamRoller{
     },
 };
 
-const Law kTwoCams{
+extern const Law kTwoCams{
     .name = "two_cams",
     .title = "two cams turned apart, a spring between",
     .equation = "H = κ/2 (2c (δ² + x₁²))²",

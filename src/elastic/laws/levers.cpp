@@ -24,8 +24,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elastic/laws/laws.hpp"
 #include "elastic/laws/shapes.hpp"
+#include "vsa/elastic/law.hpp"
 
 namespace vsa::elastic {
 namespace {
@@ -97,7 +97,7 @@ struct Cardan {
 
 }  // namespace
 
-const Law kLeverCardan{
+extern const Law kLeverCardan{
     .name = "lever_cardan",
     .title = "lever whose pivot is moved by Cardan gears",
     .equation = "H = k d² tan⁴(φ/2) sin² δ,  φ = φ₀ + g x₁",
@@ -112,7 +112,7 @@ const Law kLeverCardan{
     },
 };
 
-const Law kLeverPivot{
+extern const Law kLeverPivot{
     .name = "lever_pivot",
     .title = "lever whose pivot moves",
     .equation = "H = K ((L/r) p/(L − p))² sin² δ,  p = p₀ + h x₁",
@@ -128,7 +128,7 @@ const Law kLeverPivot{
     },
 };
 
-const Law kLeverSpring{
+extern const Law kLeverSpring{
     .name = "lever_spring",
     .title = "lever along which the springs move",
     .equation = "H = k p² sin² δ,  p = p₀ + h x₁",

@@ -13,8 +13,8 @@
 // Robotics and Autonomous Systems 55 (2007) 761.
 #include <cmath>
 
-#include "elastic/laws/laws.hpp"
 #include "elastic/laws/shapes.hpp"
+#include "vsa/elastic/law.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::elastic {
@@ -39,7 +39,7 @@ struct Cable {
 
 }  // namespace
 
-const Law kMaccepa{
+extern const Law kMaccepa{
     .name = "maccepa",
     .title = "MACCEPA: cable over a lever",
     .equation = "H = κ/2 max(ℓ(δ) − (C − B) + r x₁, 0)²,  ℓ² = B² + C² − 2BC cos δ",

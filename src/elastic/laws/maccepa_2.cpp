@@ -21,8 +21,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "elastic/laws/laws.hpp"
 #include "elastic/laws/shapes.hpp"
+#include "vsa/elastic/law.hpp"
 
 namespace vsa::elastic {
 namespace {
@@ -60,7 +60,7 @@ struct CableOverProfile {
 
 }  // namespace
 
-const Law kMaccepa2{
+extern const Law kMaccepa2{
     .name = "maccepa_2",
     .title = "MACCEPA 2.0: cable over a lever with a profile",
     .equation = "H = κ/2 max(E + R λ − (C − B) + r x₁, 0)²,  E: straight part of the cable, λ: angle of its wrapped part",

@@ -9,7 +9,7 @@
 // c = 0 is series_spring (vsa/elastic/series_spring.hpp), a class of its own as it is used most.
 #include <cmath>
 
-#include "elastic/laws/laws.hpp"
+#include "vsa/elastic/law.hpp"
 #include "vsa/elastic/series_spring.hpp"
 
 namespace vsa::elastic {
@@ -70,7 +70,7 @@ class SeriesTravel final : public SeriesHardening {
 
 }  // namespace
 
-const Law kSeriesSpring{
+extern const Law kSeriesSpring{
     .name = "series_spring",
     .title = "series elastic, linear",
     .equation = "H = k δ²/2,  δ = q − x₀",
@@ -79,7 +79,7 @@ const Law kSeriesSpring{
     .make = [](std::span<const double> v) -> std::shared_ptr<const Transmission> { return std::make_shared<SeriesSpring>(v[0]); },
 };
 
-const Law kSeriesHardening{
+extern const Law kSeriesHardening{
     .name = "series_hardening",
     .title = "series elastic, hardening",
     .equation = "H = k δ²/2 + c δ⁴/4,  δ = q − x₀",
@@ -90,7 +90,7 @@ const Law kSeriesHardening{
     },
 };
 
-const Law kSeriesTravel{
+extern const Law kSeriesTravel{
     .name = "series_travel",
     .title = "series elastic, a linear actuator",
     .equation = "H = k δ²/2 + c δ⁴/4,  δ = q − x₀ in m",

@@ -15,9 +15,9 @@
 #include <optional>
 #include <utility>
 
-#include "elastic/laws/laws.hpp"
 #include "elastic/laws/shapes.hpp"
 #include "elastic/laws/torque_grid.hpp"
+#include "vsa/elastic/law.hpp"
 
 namespace vsa::elastic {
 namespace {
@@ -258,7 +258,7 @@ SegmentMean Table::mean_over(const Positions& from, const Positions& to) const n
 
 }  // namespace
 
-const Law kTable{
+extern const Law kTable{
     .name = "table",
     .title = "a measured grid of torques",
     .equation = "H = s ∫ T(δ, p) dδ,  p = x₁;  T: cubics through the points of a file",

@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elastic/laws/laws.hpp"
 #include "elastic/laws/shapes.hpp"
+#include "vsa/elastic/law.hpp"
 
 namespace vsa::elastic {
 namespace {
@@ -61,7 +61,7 @@ struct Exponential {
 
 }  // namespace
 
-const Law kTwoExp{
+extern const Law kTwoExp{
     .name = "two_exp",
     .title = "two exponential springs against each other",
     .equation = "H = Σ k/a (eᵃᵉ + r e⁻ᵃᵉ − 2√r),  e₁ = x₀ − q, e₂ = q − x₁",

@@ -11,8 +11,8 @@
 // 2004, for the idea; σ = 4Kp in every review; the potential: ours.
 #include <algorithm>
 
-#include "elastic/laws/laws.hpp"
 #include "elastic/laws/shapes.hpp"
+#include "vsa/elastic/law.hpp"
 
 namespace vsa::elastic {
 namespace {
@@ -50,7 +50,7 @@ struct Quadratic {
 
 }  // namespace
 
-const Law kTwoQuadratic{
+extern const Law kTwoQuadratic{
     .name = "two_quadratic",
     .title = "two quadratic springs against each other, which only pull",
     .equation = "H = Σ K/3 max(e, 0)³,  e₁ = x₀ − q + e₀, e₂ = q − x₁ + e₀",

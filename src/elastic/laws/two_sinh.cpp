@@ -3,7 +3,7 @@
 // vsa/elastic/two_sinh.hpp has the equations; these are its two sets of parameters.
 #include "vsa/elastic/two_sinh.hpp"
 
-#include "elastic/laws/laws.hpp"
+#include "vsa/elastic/law.hpp"
 
 namespace vsa::elastic {
 namespace {
@@ -26,7 +26,7 @@ constexpr LawParameter kWithLinear[] = {
 
 }  // namespace
 
-const Law kTwoSinh{
+extern const Law kTwoSinh{
     .name = "two_sinh",
     .title = "two hardening springs against each other",
     .equation = "H = Σ k/a (cosh(a δ) − 1),  δ = q − x",
@@ -37,7 +37,7 @@ const Law kTwoSinh{
     },
 };
 
-const Law kTwoSinhLinear{
+extern const Law kTwoSinhLinear{
     .name = "two_sinh_linear",
     .title = "the same with linear parts, straight beyond an edge",
     .equation = "H = Σ k/a (cosh(a δ) − 1) + c δ²/2,  along the tangent beyond δ = ±d",
