@@ -1,8 +1,8 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 """Checks that arrows between rooms point only downward: python3 rooms.py ROOT LINKS
 
-The list of rooms is README.md's, the first code block below its heading "Rooms": a line "  ROOM  ← ROOM ROOM" each, under lines
-that don't begin with a blank; where such a line begins with "core", its rooms know nothing but the standard library and rooms.
+The list of rooms is that of docs/explanation/rooms.md, the first code block below its heading "Rooms": a line "  ROOM  ← ROOM ROOM"
+each, under lines that don't begin with a blank; where such a line begins with "core", its rooms know nothing but the standard library and rooms.
 LINKS is what CMake wrote at configure time (cmake/rooms.cmake): a line "ROOM: TARGET TARGET" each.
 
 rooms     every folder of src and include/vsa is in the list, and every room of the list is there
@@ -19,6 +19,7 @@ import pathlib
 import re
 import sys
 
+LIST = "docs/explanation/rooms.md"
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 ROOM = re.compile(r"^\s+([a-z_]+)(?:\s+←((?:\s+[a-z_]+)+))?\s*$")
 STANDARD = set(
@@ -148,9 +149,9 @@ def links_of(path):
 def check_folders(root, house, complain):
     folders = {p.name for top in (root / "src", root / "include" / "vsa") for p in top.iterdir() if p.is_dir()} | {"base"}
     for room in sorted(folders - set(house.below)):
-        complain(root / "README.md", 1, f"room {room} isn't in the list")
+        complain(root / LIST, 1, f"room {room} isn't in the list")
     for room in sorted(set(house.below) - folders):
-        complain(root / "README.md", 1, f"no such room: {room}")
+        complain(root / LIST, 1, f"no such room: {room}")
 
 
 def check_includes(tree, house, links, complain):
@@ -182,7 +183,7 @@ def check_includes(tree, house, links, complain):
 
 
 def check_links(root, house, links, complain):
-    readme = root / "README.md"
+    readme = root / LIST
     for room, others in links.items():
         for other in others:
             if other not in reach(house.below, room):
@@ -210,7 +211,7 @@ def check(root, links_file):
     def complain(path, number, what):
         problems.append(f"{path.relative_to(root)}:{number}: {what}")
 
-    house = House(root / "README.md", complain)
+    house = House(root / LIST, complain)
     if not house.below:
         return problems
     links = links_of(links_file)
@@ -223,8 +224,8 @@ def check(root, links_file):
 
 if __name__ == "__main__":
     arguments = [pathlib.Path(a) for a in sys.argv[1:]]
-    if len(arguments) != 2 or not (arguments[0] / "README.md").is_file() or not arguments[1].is_file():
-        print(f"rooms.py: {' '.join(sys.argv[1:]) or 'nothing'}: not a checkout with a README.md and CMake's list of links; usage: "
+    if len(arguments) != 2 or not (arguments[0] / LIST).is_file() or not arguments[1].is_file():
+        print(f"rooms.py: {' '.join(sys.argv[1:]) or 'nothing'}: not a checkout with docs/explanation/rooms.md and CMake's list of links; usage: "
               "rooms.py ROOT LINKS", file=sys.stderr)
         sys.exit(2)
     found = check(*arguments)

@@ -6,7 +6,7 @@ import unittest
 
 import rooms
 
-README = """# House
+HOUSE = """# House
 
 ## Rooms
 
@@ -34,10 +34,11 @@ FILES = {
 
 
 class Rooms(unittest.TestCase):
-    def problems(self, files=None, readme=README, links=LINKS):
+    def problems(self, files=None, readme=HOUSE, links=LINKS):
         with tempfile.TemporaryDirectory() as directory:
             root = pathlib.Path(directory)
-            (root / "README.md").write_text(readme, encoding="utf-8")
+            (root / rooms.LIST).parent.mkdir(parents=True)
+            (root / rooms.LIST).write_text(readme, encoding="utf-8")
             (root / "links.txt").write_text(links)
             for name, text in {**FILES, **(files or {})}.items():
                 path = root / name
@@ -62,11 +63,11 @@ class Rooms(unittest.TestCase):
         self.finds("room attic isn't in the list", files={"src/attic/a.cpp": ""})
 
     def test_a_room_that_isnt_there(self):
-        self.finds("no such room: cellar", readme=README.replace("above it", "  cellar\nabove it"))
+        self.finds("no such room: cellar", readme=HOUSE.replace("above it", "  cellar\nabove it"))
 
     def test_a_line_of_the_list_that_cant_be_read(self):
-        found = self.problems(readme=README.replace("bus      ← base", "bus -> base"))
-        self.assertIn("README.md:8: isn't \"ROOM  ← ROOM ROOM\": bus -> base", found)
+        found = self.problems(readme=HOUSE.replace("bus      ← base", "bus -> base"))
+        self.assertIn(f"{rooms.LIST}:8: isn't \"ROOM  ← ROOM ROOM\": bus -> base", found)
 
     def test_an_include_that_points_up(self):
         self.finds("src/bus/frame.cpp:2: bus doesn't stand on engine",
@@ -81,11 +82,11 @@ class Rooms(unittest.TestCase):
 
     def test_a_room_that_is_said_to_stand_on_what_it_doesnt_link(self):
         self.finds("sensor is said to stand on bus", files={"src/sensor/a.cpp": ""},
-                   readme=README.replace("above it", "above it\n  sensor  ← bus"))
+                   readme=HOUSE.replace("above it", "above it\n  sensor  ← bus"))
 
     def test_rooms_in_a_circle(self):
-        self.finds("README.md:3: rooms in a circle: bus → engine → bus", "bus is said to stand on engine",
-                   readme=README.replace("bus      ← base", "bus      ← base engine"))
+        self.finds(f"{rooms.LIST}:3: rooms in a circle: bus → engine → bus", "bus is said to stand on engine",
+                   readme=HOUSE.replace("bus      ← base", "bus      ← base engine"))
 
     def test_files_in_a_circle(self):
         self.finds("files in a circle: src/bus/bytes.hpp → src/bus/words.hpp → src/bus/bytes.hpp",
