@@ -7,6 +7,7 @@
 # make flakes      every test FLAKES_N times (50), beside 0, 2 and 6 busy processes: which fail now and then; hours. FLAKES_FILTER chooses (ctest -R)
 # make mutants     138 one-line mistakes, one at a time, in a copy: which test notices (scripts/mutants.toml); half an hour. MUTANTS_FILTER chooses, MUTANTS_JOBS builds
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
+# make docs    the manual with the C++ and Python names as a site that needs no network, in build/release/docs/site; checks its links
 # make bench   run the benchmarks and print their table
 # make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   those of the rooms without engine
 # make check-tsan   what has threads under the thread sanitizer; make tidy   clang-tidy, TIDY_S bounds its seconds
@@ -22,7 +23,7 @@ FUZZ_S ?= 300
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo demo-python test test-long flakes mutants validate bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan check-asan check-tsan tidy check-all format \
+.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan check-asan check-tsan tidy check-all format \
   check-format stiffness-uses snake-travel clean
 
 all: build
@@ -93,6 +94,13 @@ validate: setup
 	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa -- --quiet
 	@$(VSA) validate --out out/validate
+
+docs:
+	@sh scripts/setup.sh test docs
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa vsasim_python vsa_web -- --quiet
+	@python3 scripts/docs.py $(BUILD)
+	@node tests/scripts/site.test.mjs $(BUILD)/docs/site $(BUILD)/web/npm || test $$? -eq 77
 
 bench: setup
 	@cmake --preset release $(CMAKE_FLAGS) > /dev/null

@@ -35,7 +35,7 @@ export async function visit(browser, url, allowed, context = {}, before = () => 
   await tab.addInitScript(before);
   const wrong = [];
   tab.on('console', (m) => m.type() === 'error' && wrong.push(`console: ${m.text()}`));
-  tab.on('pageerror', (e) => wrong.push(`exception: ${e.stack}`));
+  tab.on('pageerror', (e) => wrong.push(`exception: ${e.stack || e}`));
   tab.on('request', (r) => !allowed(r.url()) && !/^(data|blob):/.test(r.url()) && wrong.push(`request: ${r.url()}`));
   await tab.goto(url, { ...kPatience, waitUntil: 'domcontentloaded' });
   return { tab, wrong, close: () => tab.context().close() };

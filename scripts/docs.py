@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+"""Builds the manual as a site that needs no network: python3 scripts/docs.py BUILD
+
+BUILD is a build tree with `vsa` and the Python module. Into BUILD/docs/site go docs/ by Sphinx, with search; the C++ names by
+Doxygen, the Python names by autodoc; a replay page, made anew; sources and folders that pages link to. A page of the repository
+outside docs/ is there as repository/NAME.
+
+Ends with code 1, and a line each, where Sphinx or Doxygen has a complaint, a public C++ name isn't documented that must be
+(`missing`), or a link or picture of a page leads nowhere.
+"""
+import html.parser
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import urllib.parse
+import xml.etree.ElementTree
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FENCE = re.compile(r"^(?:```|~~~).*?^(?:```|~~~)\s*$", re.MULTILINE | re.DOTALL)
+LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^)\s]+)\)")
+PAGE_DIRECTORIES = {".git", "build", "out", "node_modules"}
+
+
+def run(*command, **options):
+    """The command's output; ends the program where it fails."""
+    done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(str(c) for c in command)}: exit code {done.returncode}\n{done.stdout}")
+    return done.stdout
+
+
+class Doxygen:
+    """The C++ pages: where each header's is, and what Doxygen complains about."""
+
+    # What says nothing beyond its signature: defaulted operators, and the walk over a state's fields (vsa/state_walk.hpp).
+    SILENT = re.compile(r"Member (operator\W|fields\(|~)")
+    UNDOCUMENTED = re.compile(r"(Compound|Member) .* is not documented\.")
+    MUST = re.compile(r"Compound |\((enumeration|typedef)\)")
+
+    def __init__(self, into, version):
+        into.mkdir(parents=True)
+        self.log, self.tags = into.parent.parent / "doxygen.txt", into.parent.parent / "tags.xml"
+        settings = (ROOT / "docs/site/Doxyfile").read_text(encoding="utf-8")
+        settings += (f"INPUT = {ROOT}/include/vsa\nSTRIP_FROM_PATH = {ROOT}/include\nOUTPUT_DIRECTORY = {into}\n"
+                     f"PROJECT_NUMBER = {version}\nWARN_LOGFILE = {self.log}\nGENERATE_TAGFILE = {self.tags}\n")
+        run("doxygen", "-", input=settings)
+        self.pages = {}
+        for compound in xml.etree.ElementTree.parse(self.tags).getroot().iter("compound"):
+            if compound.get("kind") == "file":
+                path = compound.findtext("path", "") + compound.findtext("name", "")
+                page = compound.findtext("filename", "")
+                self.pages["include/" + path] = page if page.endswith(".html") else page + ".html"
+
+    def warnings(self):
+        return [line for line in self.log.read_text(encoding="utf-8").splitlines() if ": warning: " in line]
+
+    def complaints(self):
+        """What must be mended; and how many members are left without a docstring of their own."""
+        wrong, open_members = [], 0
+        for line in self.warnings():
+            what = line.split(": warning: ", 1)[1]
+            if not self.UNDOCUMENTED.search(what) or self.MUST.search(what):
+                wrong.append(line)
+            elif not self.SILENT.match(what):
+                open_members += 1
+        return wrong, open_members
+
+
+class Stage:
+    """A copy of the pages for Sphinx, with links that lead to where things are on the site."""
+
+    def __init__(self, into, headers):
+        self.into, self.extra, self.headers = into, into.parent / "extra", headers
+        self.extra.mkdir(parents=True, exist_ok=True)
+        self.wanted = []  # pages outside docs/ that a page links to
+        self.done = set()
+
+    def place(self, path):
+        """Where a page of the repository is in the copy."""
+        if path == ROOT / "docs/README.md":
+            return self.into / "index.md"
+        inside = path.is_relative_to(ROOT / "docs")
+        return self.into / (path.relative_to(ROOT / "docs") if inside else pathlib.Path("repository") / path.relative_to(ROOT))
+
+    def source(self, path):
+        """A file or folder as something that a browser shows; its place below the site's root."""
+        name = path.relative_to(ROOT)
+        if path.is_dir():
+            place = pathlib.Path("source") / name / "index.html"
+            if place not in self.done:
+                self.done.add(place)
+                rows = [f'<li><a href="{self.up(place, self.source(p))}">{p.name}{"/" if p.is_dir() else ""}</a></li>'
+                        for p in sorted(path.iterdir()) if p.name[0] != "." and p.name not in PAGE_DIRECTORIES | {"__pycache__"}]
+                self.write(place, f'<!DOCTYPE html><meta charset="utf-8"><title>{name}</title><h1>{name}</h1><ul>{"".join(rows)}</ul>')
+            return place
+        if str(name) in self.headers:
+            return pathlib.Path("cpp") / self.headers[str(name)]
+        shown = name.suffix in {".png", ".svg", ".html", ".txt", ".json", ".csv"}
+        place = pathlib.Path("source") / (name if shown else name.with_name(name.name + ".txt"))
+        if place not in self.done:
+            self.done.add(place)
+            target = self.extra / place
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, target)
+        return place
+
+    def write(self, place, text):
+        target = self.extra / place
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(text, encoding="utf-8")
+
+    @staticmethod
+    def up(page, place):
+        return urllib.parse.quote(os.path.relpath(place, page.parent))
+
+    def link(self, page, match):
+        picture, text, target = match.groups()
+        if re.match(r"[a-z]+:|#", target):
+            return match.group(0)
+        target, _, anchor = target.partition("#")
+        path = (page.parent / urllib.parse.unquote(target)).resolve()
+        here = self.place(page)
+        if path.is_dir() and (path / "README.md").is_file():
+            path = path / "README.md"
+        if path.suffix == ".md":
+            self.wanted.append(path)
+            to = os.path.relpath(self.place(path), here.parent)
+            return f"{picture}[{text}]({to}{'#' + anchor if anchor else ''})"
+        if picture:
+            return f"![{text}]({os.path.relpath(self.picture(path), here.parent)})"
+        return f'<a href="{self.up(here.relative_to(self.into), self.source(path))}">{text}</a>'
+
+    def picture(self, path):
+        place = self.place(path)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(path, place)
+        return place
+
+    def add(self, page):
+        """The page and those outside docs/ that it leads to."""
+        place = self.place(page)
+        if place in self.done:
+            return
+        self.done.add(place)
+        text, out, at = page.read_text(encoding="utf-8"), "", 0
+        for fence in [*FENCE.finditer(text), None]:
+            prose = text[at:fence.start() if fence else len(text)]
+            out += LINK.sub(lambda m: self.link(page, m), prose) + (fence.group(0) if fence else "")
+            at = fence.end() if fence else 0
+        if page == ROOT / "docs/README.md":
+            out += contents(text)
+        elif not page.is_relative_to(ROOT / "docs"):
+            out = "---\norphan: true\n---\n\n" + out
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(out, encoding="utf-8")
+        while self.wanted:
+            self.add(self.wanted.pop())
+
+
+def contents(index):
+    """What the side bar has: the pages of docs/README.md under its headings, and the names of the libraries."""
+    chapters, caption = {}, "Begin"
+    for line in index.splitlines():
+        if line.startswith("## "):
+            caption = line[3:]
+        for target in re.findall(r"\]\(([^)#]+\.md)\)", line):
+            if not target.startswith(".."):
+                chapters.setdefault(caption, []).append(target[:-3])
+    chapters["Names"] = ["cpp", "python", "replay"]
+    out = ""
+    for caption, pages in chapters.items():
+        out += f"\n```{{toctree}}\n:hidden:\n:caption: {caption}\n\n" + "\n".join(dict.fromkeys(pages)) + "\n```\n"
+    return out
+
+
+class Links(html.parser.HTMLParser):
+    """What a page loads and leads to, and the anchors that it has."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.targets, self.loads, self.anchors = [], [], set()
+        self.feed(page.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attributes):
+        for key, value in attributes:
+            if key in ("id", "name") and value:
+                self.anchors.add(value)
+            if value and ((key == "href" and tag == "a") or (key == "src" and tag == "iframe")):
+                self.targets.append(value)
+            elif value and ((key == "src") or (key == "href" and tag == "link")):
+                self.loads.append(value)
+
+
+def dead_links(site):
+    """Of Sphinx's pages: links and pictures that lead nowhere, and whatever is loaded from the net."""
+    pages = {p: Links(p) for p in site.rglob("*.html") if not p.is_relative_to(site / "cpp") and not p.is_relative_to(site / "replay")}
+    wrong = []
+    for page, links in pages.items():
+        name = page.relative_to(site)
+        wrong += [f"{name}: loads {url}" for url in links.loads if re.match(r"(https?:)?//", url)]
+        for url in links.targets + links.loads:
+            if re.match(r"[a-z]+:|//", url):
+                continue
+            target, _, anchor = url.partition("#")
+            path = (page.parent / urllib.parse.unquote(target.split("?")[0])).resolve() if target else page
+            if not path.is_file():
+                wrong.append(f"{name}: {url} leads nowhere")
+            elif anchor and path in pages and urllib.parse.unquote(anchor) not in pages[path].anchors:
+                wrong.append(f"{name}: {url}: no such place on that page")
+    return wrong
+
+
+def record_replay(build, stage):
+    """The page of a short run; the other files of the recording stay outside."""
+    out = stage.into.parent / "recorded"
+    run(build / "bin/vsa", "run", "snake_flat", "--gait", "sidewind", "--duration-s", "6", "--record", out, "--no-topics")
+    (stage.extra / "replay").mkdir()
+    shutil.copyfile(out / "replay.html", stage.extra / "replay/snake.html")
+
+
+def sphinx(build, stage, site, version):
+    """Its complaints, a line each."""
+    log = stage.into.parent / "sphinx.txt"
+    python = build / "python"
+    environment = dict(os.environ, VSA_VERSION=version, VSA_SITE_EXTRA=str(stage.extra), PYTHONPATH=str(python), PYTHONDONTWRITEBYTECODE="1")
+    run("/usr/bin/python3", "-m", "sphinx", "-q", "-b", "html", "-c", ROOT / "docs/site", "-w", log, stage.into, site, env=environment)
+    return [line.replace(str(stage.into) + "/", "") for line in log.read_text(encoding="utf-8").splitlines() if line]
+
+
+def main(build):
+    out = build / "docs"
+    site = out / "site"
+    shutil.rmtree(out, ignore_errors=True)
+    version = run(build / "bin/vsa", "--version").split()[1]
+    doxygen = Doxygen(out / "extra/cpp", version)
+    wrong, open_members = doxygen.complaints()
+    stage = Stage(out / "stage", doxygen.pages)
+    for page in sorted((ROOT / "docs").rglob("*.md")):
+        if not page.is_relative_to(ROOT / "docs/site"):
+            stage.add(page)
+    for page in sorted((ROOT / "docs/site").glob("*.md")):
+        shutil.copyfile(page, stage.into / page.name)
+    record_replay(build, stage)
+    wrong += sphinx(build, stage, site, version) + dead_links(site)
+    for line in wrong:
+        print(line, file=sys.stderr)
+    print(f"{site}/index.html; {open_members} members of the C++ pages have no docstring of their own")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2 or not (pathlib.Path(sys.argv[1]) / "bin/vsa").is_file():
+        print(f"docs.py: {' '.join(sys.argv[1:]) or 'nothing'}: not a build tree with bin/vsa; usage: docs.py BUILD", file=sys.stderr)
+        sys.exit(2)
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve()))
