@@ -44,7 +44,7 @@ class Doxygen:
     def __init__(self, into, version):
         into.mkdir(parents=True)
         self.log, self.tags = into.parent.parent / "doxygen.txt", into.parent.parent / "tags.xml"
-        settings = (ROOT / "docs/site/Doxyfile").read_text(encoding="utf-8")
+        settings = (ROOT / "scripts/site/Doxyfile").read_text(encoding="utf-8")
         settings += (f"INPUT = {ROOT}/include/vsa\nSTRIP_FROM_PATH = {ROOT}/include\nOUTPUT_DIRECTORY = {into}\n"
                      f"PROJECT_NUMBER = {version}\nWARN_LOGFILE = {self.log}\nGENERATE_TAGFILE = {self.tags}\n")
         run("doxygen", "-", input=settings)
@@ -227,7 +227,7 @@ def sphinx(build, stage, site, version):
     log = stage.into.parent / "sphinx.txt"
     python = build / "python"
     environment = dict(os.environ, VSA_VERSION=version, VSA_SITE_EXTRA=str(stage.extra), PYTHONPATH=str(python), PYTHONDONTWRITEBYTECODE="1")
-    run("/usr/bin/python3", "-m", "sphinx", "-q", "-b", "html", "-c", ROOT / "docs/site", "-w", log, stage.into, site, env=environment)
+    run("/usr/bin/python3", "-m", "sphinx", "-q", "-b", "html", "-c", ROOT / "scripts/site", "-w", log, stage.into, site, env=environment)
     return [line.replace(str(stage.into) + "/", "") for line in log.read_text(encoding="utf-8").splitlines() if line]
 
 
@@ -240,9 +240,8 @@ def main(build):
     wrong, open_members = doxygen.complaints()
     stage = Stage(out / "stage", doxygen.pages)
     for page in sorted((ROOT / "docs").rglob("*.md")):
-        if not page.is_relative_to(ROOT / "docs/site"):
-            stage.add(page)
-    for page in sorted((ROOT / "docs/site").glob("*.md")):
+        stage.add(page)
+    for page in sorted((ROOT / "scripts/site").glob("*.md")):
         shutil.copyfile(page, stage.into / page.name)
     record_replay(build, stage)
     wrong += sphinx(build, stage, site, version) + dead_links(site)
