@@ -11,6 +11,7 @@
 # make bench   run the benchmarks and print their table
 # make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   those of the rooms without engine
 # make check-tsan   what has threads under the thread sanitizer; make tidy   clang-tidy, TIDY_S bounds its seconds
+# make coverage   what of include and src the tests run, by rooms; an error below 90 % of the lines; half an hour
 # make check-all    the last three whole: CI has time for a part of them
 # make fuzz    any bytes into the frame parser and into whole units, with clang's libFuzzer and sanitizers; FUZZ_S seconds each (300)
 # make test-gazebo   the plug-in in a real Gazebo Classic 11; where the system has none, in a private Debian 11 (0.5 GB, made once)
@@ -23,7 +24,7 @@ FUZZ_S ?= 300
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan check-asan check-tsan tidy check-all format \
+.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage check-asan check-tsan tidy check-all format \
   check-format stiffness-uses snake-travel clean
 
 all: build
@@ -108,7 +109,15 @@ bench: setup
 	@sh scripts/bench.sh $(BUILD)
 
 # The rooms that need no engine, in a debug build.
-check-asan:
+check-# What of include and src the tests run, by rooms; fails below 90 % of the lines.
+coverage:
+	@sh scripts/setup.sh test coverage
+	@cmake --preset coverage > /dev/null
+	@cmake --build build/coverage -j $(JOBS) -- --quiet
+	@ctest --test-dir build/coverage --output-on-failure -j 1 -LE 'long|browser'
+	@python3 scripts/coverage.py build/coverage 90
+
+asan:
 	@sh scripts/setup.sh test
 	@cmake --preset asan > /dev/null
 	@cmake --build build/asan -j $(JOBS) --target core-tests -- --quiet
@@ -120,6 +129,14 @@ check-tsan:
 	@cmake --build build/tsan -j $(JOBS) --target thread-tests -- --quiet
 	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/support/tsan.txt halt_on_error=1" \
 	  ctest --test-dir build/tsan --output-on-failure -j 1 -L threads
+
+# What of include and src the tests run, by rooms; fails below 90 % of the lines.
+coverage:
+	@sh scripts/setup.sh test coverage
+	@cmake --preset coverage > /dev/null
+	@cmake --build build/coverage -j $(JOBS) -- --quiet
+	@ctest --test-dir build/coverage --output-on-failure -j 1 -LE 'long|browser'
+	@python3 scripts/coverage.py build/coverage 90
 
 asan:
 	@sh scripts/setup.sh test

@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+"""What of include and src the tests ran: python3 scripts/coverage.py BUILD PERCENT
+
+BUILD is a tree of the preset coverage whose tests have run. Prints lines and part of them by room, and the files that the tests see
+least of; ends with code 1 where fewer than PERCENT of all lines ran. Lines are gcov's, by gcovr.
+"""
+import collections
+import json
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+WORST = 10
+
+
+def lines_by_file(build):
+    """FILE: (lines that ran, lines)."""
+    out = build / "coverage.json"
+    subprocess.run(["gcovr", "--root", ROOT, "--object-directory", build, "--filter", f"{ROOT}/src/", "--filter", f"{ROOT}/include/",
+                    "--gcov-ignore-parse-errors", "--json", out], check=True, stdout=subprocess.DEVNULL)
+    found = {}
+    for file in json.loads(out.read_text(encoding="utf-8"))["files"]:
+        counts = [line["count"] for line in file["lines"] if not line.get("gcovr/noncode")]
+        if counts:
+            found[file["file"]] = (sum(count > 0 for count in counts), len(counts))
+    return found
+
+
+def room(file):
+    parts = pathlib.PurePath(file).parts
+    inside = parts[2:] if parts[0] == "include" else parts[1:]
+    return inside[0] if len(inside) > 1 else "base"
+
+
+def main(build, least):
+    files = lines_by_file(build)
+    rooms = collections.defaultdict(lambda: [0, 0])
+    for file, (ran, of) in files.items():
+        rooms[room(file)][0] += ran
+        rooms[room(file)][1] += of
+    print(f"{'room':16}{'lines':>8}{'ran':>9}")
+    for name, (ran, of) in sorted(rooms.items(), key=lambda item: item[1][0] / item[1][1]):
+        print(f"{name:16}{of:8}{100 * ran / of:8.1f} %")
+    ran, of = (sum(counts[i] for counts in files.values()) for i in (0, 1))
+    part = 100 * ran / of if of else 0.0
+    print(f"{'all':16}{of:8}{part:8.1f} %\n\nleast of:")
+    for file, (ran, of) in sorted(files.items(), key=lambda item: item[1][0] - item[1][1])[:WORST]:
+        print(f"  {file}: {of - ran} of {of} lines didn't run")
+    if part < least:
+        print(f"coverage.py: {part:.1f} % of the lines ran, at least {least:g} % are asked for", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        tree, percent = pathlib.Path(sys.argv[1]).resolve(strict=True), float(sys.argv[2])
+    except (IndexError, ValueError, OSError) as error:
+        print(f"coverage.py: {error}; usage: coverage.py BUILD PERCENT", file=sys.stderr)
+        sys.exit(2)
+    sys.exit(main(tree, percent))
