@@ -11,6 +11,7 @@
 # make bench   run the benchmarks and print their table
 # make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   those of the rooms without engine
 # make check-tsan   what has threads under the thread sanitizer; make tidy   clang-tidy, TIDY_S bounds its seconds
+# make soak HOURS=6   port, page, topics, faults, batch and short runs at once for so long: memory, descriptors, threads, equal bytes; a page
 # make coverage   what of include and src the tests run, by rooms; an error below 90 % of the lines; half an hour
 # make check-all    the last three whole: CI has time for a part of them
 # make fuzz    any bytes into the frame parser and into whole units, with clang's libFuzzer and sanitizers; FUZZ_S seconds each (300)
@@ -21,10 +22,11 @@
 # make snake-travel   how far the snake gets over its terrains (docs/explanation/snake.md), a sweep; about 15 minutes
 JOBS ?= $(shell nproc)
 FUZZ_S ?= 300
+HOURS ?= 6
 BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage check-asan check-tsan tidy check-all format \
+.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage soak check-asan check-tsan tidy check-all format \
   check-format stiffness-uses snake-travel clean
 
 all: build
@@ -117,6 +119,12 @@ coverage:
 	@ctest --test-dir build/coverage --output-on-failure -j 1 -LE 'long|browser'
 	@python3 scripts/coverage.py build/coverage 90
 
+soak:
+	@sh scripts/setup.sh test soak
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa vsasim_python vsa_web -- --quiet
+	@/usr/bin/python3 scripts/soak.py $(BUILD) $(HOURS) out/soak
+
 asan:
 	@sh scripts/setup.sh test
 	@cmake --preset asan > /dev/null
@@ -137,6 +145,12 @@ coverage:
 	@cmake --build build/coverage -j $(JOBS) -- --quiet
 	@ctest --test-dir build/coverage --output-on-failure -j 1 -LE 'long|browser'
 	@python3 scripts/coverage.py build/coverage 90
+
+soak:
+	@sh scripts/setup.sh test soak
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa vsasim_python vsa_web -- --quiet
+	@/usr/bin/python3 scripts/soak.py $(BUILD) $(HOURS) out/soak
 
 asan:
 	@sh scripts/setup.sh test

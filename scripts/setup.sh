@@ -35,12 +35,13 @@ for group in "$@"; do
   case "$group" in
     test) packages="$packages $browser groff-base libopenmpi-dev openmpi-bin iproute2" ;;
     mpi) packages="$packages libopenmpi-dev openmpi-bin" ;;
+    soak) packages="$packages python3-matplotlib" ;;
     coverage) packages="$packages gcovr" ;;
     docs) packages="$packages doxygen python3-sphinx python3-myst-parser python3-sphinx-rtd-theme" ;;
     tidy) packages="$packages clang-format clang-tidy" ;;
     fuzz) packages="$packages clang-$clang libclang-rt-$clang-dev" ;;
     classic) packages="$packages debootstrap" ;;
-    *) echo "setup.sh: unknown group '$group' (allowed: test, mpi, coverage, docs, tidy, fuzz, classic)" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown group '$group' (allowed: test, mpi, soak, coverage, docs, tidy, fuzz, classic)" >&2; exit 2 ;;
   esac
 done
 missing=""

@@ -1,0 +1,365 @@
+#!/usr/bin/env python3
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+"""Hours of everything at once: python3 scripts/soak.py BUILD HOURS OUT [SEED]
+
+Three programs run all the time: twelve emulated units on a serial port (with lost and flipped bytes), the crawling snake in real time
+with topics and live view, a batch in Python. Around them, at random but from SEED: clients of the port that come, go and are killed;
+viewers of the page that come, vanish and send garbage; commands by topics; faults of joints by the service; short recorded runs.
+
+Looks at memory, descriptors and threads of the three, at the round trips of the port's clients, and at whether equal runs gave equal
+bytes. Writes OUT/soak.html and OUT/soak.json; prints the verdicts; exit code 1 where one is broken, 2 for wrong use.
+"""
+import base64
+import hashlib
+import html
+import io
+import json
+import os
+import pathlib
+import random
+import re
+import signal
+import socket
+import statistics
+import struct
+import subprocess
+import sys
+import termios
+import threading
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SERVICE = "/usr/libexec/ignition/transport11/ign-transport-service"  # Debian's client of ignition-transport
+UNITS = 12
+WORLD_MODEL = "qbmove_snake"
+FAULTS = ["off", "lost_byte=0.02", "flipped_byte=0.02", "late_s=0.0005", "stuck=motor_1", "noise_rad=0.01", "supply_V=18", "unplugged=2"]
+GROWTH = 1.05  # of resident memory, last quarter over second: what a program may gain
+
+
+# ---- a client of the serial port, a process of its own that may be killed -------------------------------------------------------
+
+
+def frame(unit, command, payload=b""):
+    body = bytes([command]) + payload
+    check = 0
+    for byte in body:
+        check ^= byte
+    return b"::" + bytes([unit, len(body) + 1]) + body + bytes([check])
+
+
+def open_port(path):
+    port = os.open(path, os.O_RDWR | os.O_NOCTTY)
+    settings = termios.tcgetattr(port)
+    settings[0] = settings[1] = settings[3] = 0
+    settings[2] = termios.CS8 | termios.CREAD | termios.CLOCAL
+    settings[4] = settings[5] = termios.B2000000
+    settings[6][termios.VMIN], settings[6][termios.VTIME] = 0, 1
+    termios.tcsetattr(port, termios.TCSANOW, settings)
+    return port
+
+
+def client(path, seed):
+    """Commands and asks units at random; a line per exchange: microseconds, or - where no answer came."""
+    chance, port = random.Random(seed), open_port(path)
+    for _ in range(chance.randint(20, 400)):
+        unit = chance.randint(1, UNITS)
+        os.write(port, frame(unit, 130, struct.pack(">hh", chance.randint(-4000, 4000), chance.randint(-4000, 4000))))
+        begin = time.perf_counter()
+        os.write(port, frame(unit, 132))
+        answer = b""
+        while len(answer) < 12:
+            more = os.read(port, 12 - len(answer))
+            if not more:
+                break
+            answer += more
+        print(f"{1e6 * (time.perf_counter() - begin):.0f}" if len(answer) == 12 else "-", flush=True)
+        time.sleep(chance.uniform(0, 0.02))
+
+
+def batch(seed):
+    """The same eight randomised copies again and again; a line per round: what they came to."""
+    import vsasim  # of the build tree; the parent has no need of it
+
+    signal.signal(signal.SIGINT, lambda *_: sys.exit(0))
+    world = vsasim.World.load("bench_load")
+    while True:
+        copies = vsasim.Batch(world, 8, threads=2)
+        copies.equilibrium = [[0.1 * i] for i in range(8)]
+        copies.step(1000)
+        print(hashlib.sha256(b"".join(copies.state(i).tobytes() for i in range(8))).hexdigest(), flush=True)
+        time.sleep(0.5)
+
+
+# ---- what is looked at ----------------------------------------------------------------------------------------------------------
+
+
+def usage(pid):
+    """Resident memory in MB, descriptors, threads; None once the process has gone."""
+    try:
+        status = pathlib.Path(f"/proc/{pid}/status").read_text(encoding="utf-8")
+        descriptors = len(os.listdir(f"/proc/{pid}/fd"))
+    except OSError:
+        return None
+    number = {k: int(v) for k, v in re.findall(r"^(VmRSS|Threads):\s+(\d+)", status, re.MULTILINE)}
+    return (number["VmRSS"] / 1024, descriptors, number["Threads"]) if "VmRSS" in number else None
+
+
+class Subject:
+    """A program that must live through it."""
+
+    def __init__(self, name, command, out, environment=None):
+        self.name, self.samples = name, []
+        self.log = open(out / f"{name}.log", "w+b")
+        self.process = subprocess.Popen(command, stdout=self.log, stderr=subprocess.STDOUT, env=environment)
+
+    def said(self):
+        return pathlib.Path(self.log.name).read_text(encoding="utf-8", errors="replace")
+
+    def wait_for(self, pattern, seconds=60):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end and self.process.poll() is None:
+            found = re.search(pattern, self.said())
+            if found:
+                return found
+            time.sleep(0.1)
+        sys.exit(f"soak.py: {self.name} never said {pattern}; it said:\n{self.said()}")
+
+    def sample(self, at):
+        now = usage(self.process.pid)
+        if now:
+            self.samples.append((at, *now))
+
+    def stop(self):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        try:
+            return self.process.wait(60)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            return "killed"
+
+
+class Soak:
+    def __init__(self, build, out, seed, end):
+        self.build, self.out, self.seed, self.end = build, out, seed, end
+        self.counts, self.wrong, self.trips, self.digests, self.lock = {}, [], [], set(), threading.Lock()
+        self.view_port = 0
+        self.vsa = str(build / "bin/vsa")
+        self.port = str(out / "port")
+
+    def count(self, what, by=1):
+        with self.lock:
+            self.counts[what] = self.counts.get(what, 0) + by
+
+    def complain(self, what):
+        with self.lock:
+            self.wrong.append(what)
+
+    def until_the_end(self, number, visit, pause):
+        """A thread: visits with pauses, from a seed of its own."""
+
+        def loop():
+            chance = random.Random(self.seed * 1000 + number)
+            while time.monotonic() < self.end:
+                try:
+                    visit(chance)
+                except Exception as error:  # a visitor's own mistake ends the soak's claim, not the soak
+                    self.complain(f"{visit.__name__}: {error!r}")
+                time.sleep(min(chance.uniform(*pause), max(0.0, self.end - time.monotonic())))
+
+        thread = threading.Thread(target=loop, name=visit.__name__)
+        thread.start()
+        return thread
+
+    def port_client(self, chance):
+        process = subprocess.Popen([sys.executable, __file__, "client", self.port, str(chance.getrandbits(32))],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        killed = chance.random() < 0.5
+        try:
+            said, error = process.communicate(timeout=chance.uniform(0.2, 3) if killed else 120)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            said, error = process.communicate()
+            self.count("port clients killed")
+            if not killed:
+                self.complain("a client of the port wasn't through after 120 s")
+        else:
+            self.count("port clients that left")
+            if process.returncode != 0:
+                self.complain(f"a client of the port: {error.strip().splitlines()[-1:]}")
+        lines = [line for line in said.split("\n")[:-1] if line]
+        self.count("exchanges", len(lines))
+        self.count("exchanges without an answer", lines.count("-"))
+        at = time.monotonic()
+        with self.lock:
+            self.trips += [(at, float(line)) for line in lines if line != "-"]
+
+    def viewer(self, chance):
+        with socket.create_connection(("127.0.0.1", self.view_port), timeout=30) as page:
+            if chance.random() < 0.1:
+                page.sendall(chance.randbytes(chance.randint(1, 4000)))
+                self.count("viewers that sent garbage")
+                return
+            page.sendall(f"GET /live HTTP/1.1\r\nHost: 127.0.0.1:{self.view_port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                         "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n".encode())
+            ask, got = b"\x81\x8d\0\0\0\0" + b'{"do":"next"}', 0
+            for _ in range(chance.randint(1, 200)):
+                page.sendall(ask)
+                got += len(page.recv(1 << 16))
+                time.sleep(0.02)
+            if got == 0:
+                self.complain("a viewer got nothing")
+            if chance.random() < 0.5:  # gone without a word: the system sends a reset
+                page.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            self.count("viewers")
+
+    def commander(self, chance):
+        angle, preset = chance.uniform(-20, 20), chance.uniform(5, 30)
+        done = subprocess.run([self.vsa, "command", f"{angle:.1f}", f"{preset:.1f}", "--joint", f"joint_{chance.randint(0, 11)}",
+                               "--timeout-s", "60"], capture_output=True, text=True, timeout=180, check=False)
+        self.count("commands by topics")
+        if done.returncode != 0:
+            self.complain(f"vsa command: {done.stderr.strip()}")
+
+    def saboteur(self, chance):
+        text = "all none" if chance.random() < 0.3 else f"joint_{chance.randint(0, 11)} {chance.choice(FAULTS)} seed={chance.getrandbits(20)}"
+        done = subprocess.run([SERVICE, "-s", f"/model/{WORLD_MODEL}/vsa/faults", "--reqtype", "ignition.msgs.StringMsg", "--reptype",
+                               "ignition.msgs.StringMsg", "--timeout", "20000", "-r", f'data: "{text}"'],
+                              capture_output=True, text=True, timeout=180, check=False)
+        self.count("faults by the service")
+        if "timed out" in done.stdout.lower() + done.stderr.lower():
+            self.count("faults whose call timed out")
+
+    def recorded_run(self, chance):
+        out = self.out / "recorded"
+        subprocess.run([self.vsa, "run", "bench_load", "--duration-s", "2", "--record", str(out), "--no-topics"], capture_output=True,
+                       check=True, timeout=300)
+        digest = hashlib.sha256()
+        for file in sorted(out.glob("*.csv")):
+            digest.update(file.read_bytes())
+        with self.lock:
+            self.digests.add(digest.hexdigest())
+        self.count("recorded runs")
+
+
+def start(soak, out):
+    mine = dict(os.environ, PYTHONPATH=str(soak.build / "python"), IGN_IP="127.0.0.1")
+    units = Subject("emulate", [soak.vsa, "emulate", "qbmove_maker_pro_6_1", "--units", str(UNITS), "--port", soak.port, "--active",
+                                "--fault", f"all lost_byte=0.0003 flipped_byte=0.0003 seed={soak.seed}"], out)
+    world = Subject("run", [soak.vsa, "run", "snake_flat", "--gait", "sidewind", "--realtime", "--view"], out, mine)
+    rounds = Subject("batch", ["/usr/bin/python3", __file__, "batch", str(soak.seed)], out, mine)
+    soak.view_port = int(world.wait_for(r"127\.0\.0\.1:(\d+)").group(1))
+    units.wait_for(re.escape(soak.port))
+    rounds.wait_for(r"[0-9a-f]{64}")
+    return [units, world, rounds]
+
+
+def quarter(values, which):
+    n = len(values)
+    return values[n * which // 4 : n * (which + 1) // 4]
+
+
+def verdicts(soak, subjects, idle, ends):
+    """(what, held, figure) each."""
+    out = []
+    for s in subjects:
+        out.append((f"{s.name} lives to the end and ends well by Ctrl-C", ends[s.name] == 0, f"exit code {ends[s.name]}"))
+        before, after = (statistics.median([m for _, m, _, _ in quarter(s.samples, k)] or [0]) for k in (1, 3))
+        out.append((f"{s.name}: memory, last quarter over second, at most {GROWTH}", after <= GROWTH * before, f"{before:.1f} → {after:.1f} MB"))
+        for k, what in ((1, "descriptors"), (2, "threads")):
+            out.append((f"{s.name}: {what} once the visitors have gone, as before they came", idle[1][s.name][k] <= idle[0][s.name][k],
+                        f"{idle[0][s.name][k]} → {idle[1][s.name][k]}"))
+    digests = len(soak.digests)
+    out.append(("recorded runs have the same bytes", digests == 1, f"{soak.counts.get('recorded runs', 0)} runs, {digests} contents"))
+    rounds = set(re.findall(r"[0-9a-f]{64}", subjects[2].said()))
+    out.append(("rounds of the batch come to the same", len(rounds) == 1, f"{len(rounds)} results"))
+    out.append(("visitors had nothing to complain of", not soak.wrong, "; ".join(soak.wrong[:5]) or "nothing"))
+    trips = [t for _, t in sorted(soak.trips)]
+    early, late = (statistics.median(quarter(trips, k) or [0]) for k in (1, 3))
+    out.append(("round trips, median of the last quarter at most twice the second's", late <= 2 * early, f"{early:.0f} → {late:.0f} µs"))
+    return out
+
+
+def chart(subjects, column, label):
+    import matplotlib
+
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(8, 2.6))
+    for s in subjects:
+        axes.plot([row[0] / 60 for row in s.samples], [row[column] for row in s.samples], label=s.name)
+    axes.set_xlabel("time [min]")
+    axes.set_ylabel(label)
+    axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    axes.set_ylim(bottom=0)
+    text = io.BytesIO()
+    figure.savefig(text, format="svg", bbox_inches="tight")
+    pyplot.close(figure)
+    return "data:image/svg+xml;base64," + base64.b64encode(text.getvalue()).decode()
+
+
+def write_page(soak, subjects, found, seconds, out):
+    rows = "".join(f"<tr class={'good' if held else 'bad'}><td>{html.escape(what)}<td>{'holds' if held else 'BROKEN'}<td>{html.escape(figure)}"
+                   for what, held, figure in found)
+    counts = "".join(f"<tr><td>{html.escape(k)}<td>{v}" for k, v in sorted(soak.counts.items()))
+    charts = "".join(f'<img alt="{label}" src="{chart(subjects, k, label)}">'
+                     for k, label in ((1, "resident memory [MB]"), (2, "descriptors"), (3, "threads")))
+    (out / "soak.html").write_text(f"""<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>vsasim soak</title>
+<style>body{{font:15px/1.5 sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem}}table{{border-collapse:collapse;margin:1rem 0}}
+td{{padding:.25rem .8rem;border-bottom:1px solid #ddd;vertical-align:top}}.good td:nth-child(2){{color:#0a7d33}}.bad td{{color:#b00020}}
+img{{max-width:100%;display:block}}</style>
+<h1>Everything at once, {seconds / 3600:.2f} hours</h1><p>Seed {soak.seed}; {time.strftime("%Y-%m-%d %H:%M", time.gmtime())} UTC;
+{os.cpu_count()} processors, load {os.getloadavg()[2]:.1f} in the last quarter of an hour.
+<table>{rows}</table>{charts}<h2>What came by</h2><table>{counts}</table></html>
+""", encoding="utf-8")
+
+
+def main(build, hours, out, seed):
+    out.mkdir(parents=True, exist_ok=True)
+    begin = time.monotonic()
+    soak = Soak(build, out, seed, begin + 3600 * hours)
+    subjects = start(soak, out)
+    time.sleep(5)
+    idle = [{s.name: usage(s.process.pid) for s in subjects}]
+    visits = [(soak.port_client, (0, 1)), (soak.viewer, (0, 2)), (soak.viewer, (0, 5)), (soak.viewer, (0, 5)), (soak.commander, (5, 15)),
+              (soak.recorded_run, (5, 20))]
+    if os.path.exists(SERVICE):
+        visits.append((soak.saboteur, (5, 15)))
+    threads = [soak.until_the_end(i, visit, pause) for i, (visit, pause) in enumerate(visits)]
+    period = max(1.0, 3600 * hours / 1000)
+    while time.monotonic() < soak.end:
+        for s in subjects:
+            s.sample(time.monotonic() - begin)
+        time.sleep(period)
+    for thread in threads:
+        thread.join()
+    time.sleep(15)
+    idle.append({s.name: usage(s.process.pid) or (0, 1 << 20, 1 << 20) for s in subjects})
+    ends = {s.name: s.stop() for s in subjects}
+    found = verdicts(soak, subjects, idle, ends)
+    write_page(soak, subjects, found, time.monotonic() - begin, out)
+    (out / "soak.json").write_text(json.dumps({"hours": hours, "seed": seed, "verdicts": found, "counts": soak.counts, "wrong": soak.wrong,
+                                               "samples": {s.name: s.samples for s in subjects}}, indent=1), encoding="utf-8")
+    for what, held, figure in found:
+        print(f"{'holds ' if held else 'BROKEN'}  {what}: {figure}")
+    print(f"{out}/soak.html")
+    return 0 if all(held for _, held, _ in found) else 1
+
+
+if __name__ == "__main__":
+    given = sys.argv[1:]
+    if given[:1] == ["client"] and len(given) == 3:
+        sys.exit(client(given[1], int(given[2])))
+    if given[:1] == ["batch"] and len(given) == 2:
+        sys.exit(batch(int(given[1])))
+    try:
+        if len(given) not in (3, 4) or not os.path.exists(given[0] + "/bin/vsa"):
+            raise ValueError("not BUILD HOURS OUT [SEED], BUILD with bin/vsa")
+        tree, long, where, number = pathlib.Path(given[0]).resolve(), float(given[1]), pathlib.Path(given[2]).resolve(), int((given[3:] or ["1"])[0])
+        if not 0 < long <= 1000:
+            raise ValueError(f"HOURS = {long:g} (allowed: up to 1000)")
+    except ValueError as problem:
+        print(f"soak.py: {problem}", file=sys.stderr)
+        sys.exit(2)
+    sys.exit(main(tree, long, where, number))
