@@ -242,16 +242,17 @@ class Soak:
         self.count("recorded runs")
 
 
-def start(soak, out):
+def start(soak, out, subjects):
+    """Adds the three to `subjects`, each once it is ready."""
     mine = dict(os.environ, PYTHONPATH=str(soak.build / "python"), IGN_IP="127.0.0.1")
-    units = Subject("emulate", [soak.vsa, "emulate", "qbmove_maker_pro_6_1", "--units", str(UNITS), "--port", soak.port, "--active",
-                                "--fault", f"all lost_byte=0.0003 flipped_byte=0.0003 seed={soak.seed}"], out)
-    world = Subject("run", [soak.vsa, "run", "snake_flat", "--gait", "sidewind", "--realtime", "--view"], out, mine)
-    rounds = Subject("batch", ["/usr/bin/python3", __file__, "batch", str(soak.seed)], out, mine)
-    soak.view_port = int(world.wait_for(r"127\.0\.0\.1:(\d+)").group(1))
+    subjects.append(Subject("emulate", [soak.vsa, "emulate", "qbmove_maker_pro_6_1", "--units", str(UNITS), "--port", soak.port, "--active",
+                                "--fault", f"all lost_byte=0.0003 flipped_byte=0.0003 seed={soak.seed}"], out))
+    subjects.append(Subject("run", [soak.vsa, "run", "snake_flat", "--gait", "sidewind", "--realtime", "--view"], out, mine))
+    subjects.append(Subject("batch", ["/usr/bin/python3", __file__, "batch", str(soak.seed)], out, mine))
+    units, world, rounds = subjects
     units.wait_for(re.escape(soak.port))
+    soak.view_port = int(world.wait_for(r"127\.0\.0\.1:(\d+)").group(1))
     rounds.wait_for(r"[0-9a-f]{64}")
-    return [units, world, rounds]
 
 
 def quarter(values, which):
@@ -319,7 +320,13 @@ def main(build, hours, out, seed):
     out.mkdir(parents=True, exist_ok=True)
     begin = time.monotonic()
     soak = Soak(build, out, seed, begin + 3600 * hours)
-    subjects = start(soak, out)
+    subjects = []
+    try:
+        start(soak, out, subjects)
+    except SystemExit:
+        for s in subjects:
+            s.stop()
+        raise
     time.sleep(5)
     idle = [{s.name: usage(s.process.pid) for s in subjects}]
     visits = [(soak.port_client, (0, 1)), (soak.viewer, (0, 2)), (soak.viewer, (0, 5)), (soak.viewer, (0, 5)), (soak.commander, (5, 15)),
