@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "vsa/config/preset_attribute.hpp"
+#include "vsa/config/plugin_draft.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 
@@ -14,6 +14,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kLongestName = 120;  // a line's gets a few letters more
+constexpr int kLeastBaud = 9600, kMostBaud = 10'000'000;
+constexpr double kLongestCycle_s = 10;
 
 bool is_file(std::string_view type) { return type.find('/') != std::string_view::npos || type.ends_with(".toml"); }
 
@@ -29,31 +31,8 @@ std::vector<config::Override> overrides_of(const UnitSpec& unit) {
   return config::parse_overrides(texts, where(unit) + ": override");
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
-/// A name that the element takes: instances may have any.
-std::string element_name(const UnitSpec& unit) {
+/// A name that a robot takes: instances may have any.
+std::string actuator_name(const UnitSpec& unit) {
   std::string out = unit.name.substr(0, kLongestName);
   const auto good = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' ||
@@ -64,70 +43,106 @@ std::string element_name(const UnitSpec& unit) {
   return out;
 }
 
-std::string attribute(const char* name, std::string_view value) { return std::string(" ") + name + "=\"" + escaped(value) + '"'; }
-
-std::string initial_of(const UnitSpec& unit, const config::ActuatorType& type, Problems& problems) {
-  std::string out;
-  if (!unit.get("equilibrium").empty())
-    out += attribute(type.unit.actuator.linear() ? "equilibrium_m" : "equilibrium_rad", unit.get("equilibrium"));
-  if (const std::string_view preset = unit.get("preset"); !preset.empty()) {
-    const std::string_view of = type.unit.preset_unit();
-    if (of.empty())
-      problems.add({where(unit), "preset", std::string(preset), type.name + " has no preset", "leave it out"});
-    else
-      out += attribute(config::preset_attribute(of).c_str(), preset);
-  }
-  return out.empty() ? out : "<initial" + out + "/>";
-}
-
-/// Lines by their names: what their units say of baud and cycle.
-struct Line {
-  std::string baud, cycle;
-};
-
-class Lines {
+class Reader {
  public:
-  /// The name of the unit's line.
-  std::string add(const UnitSpec& unit, Problems& problems) {
-    const std::string_view given = unit.get("bus");
-    const std::string name = given.empty() ? "line:" + element_name(unit) : std::string(given);
-    Line& line = lines_[name];
-    take(unit, "baud", line.baud, problems);
-    take(unit, "cycle_s", line.cycle, problems);
-    return name;
-  }
-  [[nodiscard]] std::string elements() const {
-    std::string out;
-    for (const auto& [name, line] : lines_) {
-      out += "<bus" + attribute("name", name);
-      if (!line.baud.empty()) out += attribute("baud", line.baud);
-      if (!line.cycle.empty()) out += attribute("cycle_s", line.cycle);
-      out += "/>";
+  explicit Reader(Problems& problems) : problems_(problems) {}
+
+  config::RobotDraft read(std::span<const UnitSpec> units, std::span<const std::string> joints,
+                          const config::TypeLibrary& library) {
+    config::RobotDraft out;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      try {
+        out.actuators.push_back(actuator(units[i], joints[i], type_of(units[i], library)));
+      } catch (const InputError& error) {
+        problems_.add_all(error);
+      }
     }
+    for (const auto& [name, line] : lines_) out.buses.push_back(line.draft);
     return out;
   }
 
  private:
-  static void take(const UnitSpec& unit, const char* key, std::string& of_line, Problems& problems) {
-    const std::string_view said = unit.get(key);
-    if (said.empty()) return;
-    if (!of_line.empty() && of_line != said)
-      problems.add({where(unit), key, std::string(said), "another unit of this line says otherwise", of_line});
-    of_line = said;
+  struct Line {
+    config::BusDraft draft;
+    std::string baud, cycle;  ///< as the first unit that says it does
+  };
+
+  config::ActuatorDraft actuator(const UnitSpec& unit, const std::string& joint, const config::ActuatorType& type) {
+    config::ActuatorDraft out;
+    out.path = unit.name;
+    out.name = actuator_name(unit);
+    out.name_ok = true;
+    out.joint = joint;
+    out.type = type_name(unit);
+    out.overrides = overrides_of(unit);
+    out.bus = line_of(unit);
+    if (!unit.get("id").empty()) {
+      out.id = whole(unit, "id", 1, config::kMaxId);
+      out.id_ok = out.id.has_value();
+    }
+    if (const auto q = number(unit, "equilibrium")) {
+      out.equilibrium_given = true;
+      out.equilibrium_key = type.unit.actuator.linear() ? "equilibrium_m" : "equilibrium_rad";
+      out.initial_equilibrium = *q;
+    }
+    if (const auto p = number(unit, "preset")) {
+      out.initial_preset_key = config::preset_attribute(type.unit.preset_unit());
+      out.initial_preset = *p;
+      if (out.initial_preset_key.empty()) refuse(unit, "preset", type.name + " has no preset", "leave it out");
+    }
+    return out;
   }
+
+  /// The name of its line, to which it adds what it says of it.
+  std::string line_of(const UnitSpec& unit) {
+    const std::string_view given = unit.get("bus");
+    const std::string name = given.empty() ? "line:" + actuator_name(unit) : std::string(given);
+    Line& line = lines_[name];
+    line.draft.name = name;
+    line.draft.path = "bus " + name;
+    if (says(unit, "baud", line.baud)) line.draft.baud_Hz = whole(unit, "baud", kLeastBaud, kMostBaud).value_or(2'000'000);
+    if (says(unit, "cycle_s", line.cycle) && line.cycle != "auto") {
+      line.draft.cycle_s = number(unit, "cycle_s");
+      if (line.draft.cycle_s && !(*line.draft.cycle_s > 0 && *line.draft.cycle_s <= kLongestCycle_s))
+        refuse(unit, "cycle_s", "is out of range", "auto, or up to 10 s");
+    }
+    return name;
+  }
+
+  /// Whether the unit is the first of its line that says this.
+  bool says(const UnitSpec& unit, const char* key, std::string& of_line) {
+    const std::string_view said = unit.get(key);
+    if (said.empty() || said == of_line) return false;
+    if (!of_line.empty()) {
+      refuse(unit, key, "another unit of this line says otherwise", of_line);
+      return false;
+    }
+    of_line = said;
+    return true;
+  }
+
+  std::optional<double> number(const UnitSpec& unit, const char* key) {
+    const std::string_view text = unit.get(key);
+    if (text.empty()) return std::nullopt;
+    const auto value = config::parse_number(text);
+    if (!value) refuse(unit, key, "isn't a number", "a number");
+    return value;
+  }
+
+  std::optional<int> whole(const UnitSpec& unit, const char* key, int min, int max) {
+    const auto value = config::parse_integer(unit.get(key));
+    if (value && *value >= min && *value <= max) return static_cast<int>(*value);
+    refuse(unit, key, "isn't a whole number of its range", config::range_text(min, max));
+    return std::nullopt;
+  }
+
+  void refuse(const UnitSpec& unit, const char* key, const std::string& message, const std::string& allowed) {
+    problems_.add({where(unit), key, std::string(unit.get(key)), message, allowed});
+  }
+
+  Problems& problems_;
   std::map<std::string, Line> lines_;
 };
-
-std::string actuator_of(const UnitSpec& unit, const std::string& joint, const std::string& line, const config::ActuatorType& type,
-                        Problems& problems) {
-  std::string out = "<actuator" + attribute("name", element_name(unit)) + "><joint>" + escaped(joint) + "</joint><type>" +
-                    escaped(type_name(unit)) + "</type><bus";
-  if (!unit.get("id").empty()) out += attribute("id", unit.get("id"));
-  out += ">" + escaped(line) + "</bus>" + initial_of(unit, type, problems);
-  for (const config::Override& o : overrides_of(unit))
-    out += "<override" + attribute("key", o.key) + attribute("value", o.value) + "/>";
-  return out + "</actuator>";
-}
 
 }  // namespace
 
@@ -178,20 +193,14 @@ std::size_t controls_of(const config::ActuatorType& type) {
   return type.unit.preset_unit().empty() ? 1 : 2;
 }
 
-std::string element_of(std::span<const UnitSpec> units, std::span<const std::string> joints, const config::TypeLibrary& library) {
+host::RobotConfig robot_of(std::span<const UnitSpec> units, std::span<const std::string> joints,
+                           const config::TypeLibrary& library) {
   Problems problems;
-  Lines lines;
-  std::string actuators;
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    const std::string line = lines.add(units[i], problems);
-    try {
-      actuators += actuator_of(units[i], joints[i], line, type_of(units[i], library), problems);
-    } catch (const InputError& error) {
-      problems.add_all(error);
-    }
-  }
+  const config::RobotDraft draft = Reader(problems).read(units, joints, library);
   problems.throw_if_any();
-  return "<plugin name=\"vsa::Robot\">" + actuators + lines.elements() + "</plugin>";
+  host::RobotConfig out = config::finish(draft, "vsasim.unit", library, problems);
+  problems.throw_if_any();
+  return out;
 }
 
 }  // namespace vsa::mujoco

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// What an MJCF says of a unit, and the <plugin name="vsa::Robot"> element that follows from all of a model. Nothing of MuJoCo's.
+// What an MJCF says of a unit, and the robot that all of a model make. Nothing of MuJoCo's, and no XML: a library of MuJoCo's may have
+// another tinyxml2 in it than the one that vsasim is compiled with, and the program takes whichever it met first.
 //
 //   type          actuator type: a name, or a TOML file (a path with "/" or ".toml", seen from where the program runs)      required
 //   override      "drive.friction_Nm=0.7 shaft.friction_Nm=0.1": values that replace the type's
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include "vsa/config/actuator_type.hpp"
+#include "vsa/host/robot_config.hpp"
 
 namespace vsa::mujoco {
 
@@ -46,12 +48,11 @@ struct UnitSpec {
 /// is one, a preset.
 [[nodiscard]] std::size_t controls_of(const config::ActuatorType& type);
 
-/// The element, with each unit on the joint at its place in `joints`. Throws InputError with every problem that is of the units' words
-/// alone; the element's reader finds the others.
-[[nodiscard]] std::string element_of(std::span<const UnitSpec> units, std::span<const std::string> joints,
-                                     const config::TypeLibrary& library);
+/// The robot, with each unit on the joint at its place in `joints`. Throws InputError with every problem.
+[[nodiscard]] host::RobotConfig robot_of(std::span<const UnitSpec> units, std::span<const std::string> joints,
+                                         const config::TypeLibrary& library);
 
-/// "vsasim.unit elbow", which leads the lines of what is wrong with it.
+/// "vsasim.unit elbow", which leads what is wrong with it.
 [[nodiscard]] std::string where(const UnitSpec& unit);
 
 }  // namespace vsa::mujoco

@@ -26,7 +26,7 @@ std::unique_ptr<seat::Seat> make_seat(std::span<const UnitSpec> specs, const std
                                       const config::TypeLibrary& library) {
   std::vector<std::string> names;
   for (const seat::Joint& j : joints) names.push_back(j.name);
-  return std::make_unique<seat::Seat>(seat::Model{element_of(specs, names, library), "vsasim.unit", "", joints},
+  return std::make_unique<seat::Seat>(seat::Model{"", "vsasim.unit", "", joints, robot_of(specs, names, library)},
                                       seat::Options{library, {}, {}, false, false});
 }
 

@@ -1,5 +1,5 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "config/plugin_draft.hpp"
+#include "vsa/config/plugin_draft.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <set>
 
 #include "config/build.hpp"
-#include "vsa/config/preset_attribute.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::config {
