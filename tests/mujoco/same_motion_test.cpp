@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "motion.hpp"
 #include "rig.hpp"
 #include "vsa/engine/mjcf.hpp"
 #include "vsa/engine/world.hpp"
@@ -15,16 +16,6 @@ namespace vsa::mujoco::test {
 namespace {
 
 constexpr double kTolerance = 1e-9;  // rad, of the issue
-
-struct Command {
-  double equilibrium, preset;
-};
-
-/// A load that is thrown about; a snake that crawls.
-Command command_at(std::size_t unit, double t_s) {
-  const double wave = std::sin(2 * M_PI * 0.7 * t_s - 0.5 * static_cast<double>(unit));
-  return {0.5 * wave, 0.25 + 0.15 * std::sin(3 * t_s)};
-}
 
 std::string plugin_mjcf(const char* world) {
   // The MJCF beside the SDF: what a build without SDF has.
@@ -48,7 +39,7 @@ TEST_P(SameAsOwnEngine, InDeflectionAndAngleAndWhatItsSensorsTell) {
   ASSERT_EQ(rig.units().size(), n);
   double worst = 0, moved = 0;
   for (int step = 0; world.time_s() < GetParam().duration_s; ++step) {
-    if (step % 10 == 0) {
+    if (step % kCommandEvery == 0) {
       for (std::size_t i = 0; i < n; ++i) {
         const Command c = command_at(i, world.time_s());
         world.command(world.actuators()[i], c.equilibrium, c.preset);
