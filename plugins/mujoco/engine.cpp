@@ -105,7 +105,8 @@ std::string find_engine() {
   std::vector<std::string> others;
   for (void* library : libraries()) {
     int (*version)() = nullptr;
-    if (!find(library, "mj_version", version)) continue;
+    // One without plug-ins isn't meant: vsasim's own engine, in a Python that has both.
+    if (dlsym(library, "mjp_registerPlugin") == nullptr || !find(library, "mj_version", version)) continue;
     if (const int found = version(); found != mjVERSION_HEADER) {
       if (const std::string text = version_text(found); std::find(others.begin(), others.end(), text) == others.end())
         others.push_back(text);
