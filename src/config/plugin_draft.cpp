@@ -1,5 +1,5 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "config/plugin_draft.hpp"
+#include "vsa/config/plugin_draft.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,6 @@ namespace {
 
 // Endings that topics add to an actuator's name: "J_preset" is a channel of J.
 constexpr std::string_view kReservedEndings[] = {"_preset", "_motor_1", "_motor_2"};
-
-/// A unit as an attribute's name can have it: "N·m/rad" → "Nm_per_rad".
-std::string attribute_unit(const std::string& unit) { return unit == "N·m/rad" ? "Nm_per_rad" : unit == "N/m" ? "N_per_m" : unit; }
 
 std::shared_ptr<const host::Settings> settings(const std::vector<Override>& overrides) {
   auto out = std::make_shared<host::Settings>();
@@ -136,8 +133,7 @@ class Finisher {
 
   void check_initial(const ActuatorDraft& a, host::ActuatorConfig& out) {
     const std::string path = a.path + "/initial@";
-    const std::string unit(out.unit.preset_unit());
-    const std::string right = unit.empty() ? "" : std::string(kPresetPrefix) + "_" + attribute_unit(unit);
+    const std::string unit(out.unit.preset_unit()), right = preset_attribute(unit);
     if (a.replaced) {
       const double limit = out.unit.preset_max;
       out.initial_preset = a.initial_preset_key == right ? std::clamp(a.initial_preset, -limit, limit) : 0.0;
@@ -243,6 +239,12 @@ class Finisher {
 };
 
 }  // namespace
+
+std::string preset_attribute(std::string_view unit) {
+  if (unit.empty()) return "";
+  const std::string_view word = unit == "N·m/rad" ? "Nm_per_rad" : unit == "N/m" ? "N_per_m" : unit;
+  return std::string(kPresetPrefix) + "_" + std::string(word);
+}
 
 host::RobotConfig finish(const RobotDraft& draft, std::string_view where, const TypeLibrary& types, Problems& problems) {
   return Finisher(draft, where, types, problems).finish();

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "config/older_plugins.hpp"
-#include "config/plugin_draft.hpp"
+#include "vsa/config/plugin_draft.hpp"
 #include "config/xml_reader.hpp"
 #include "vsa/config/text.hpp"
 

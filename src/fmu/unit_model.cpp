@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fmu/unit_variables.hpp"
+#include "vsa/actuator/heat.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/device/reading.hpp"
 #include "vsa/device/unit.hpp"
@@ -175,7 +176,7 @@ void UnitModel::evaluate(std::span<double> values) {
   values[p.energy_supply] = l.supply;
   values[p.energy_delivered] = l.delivered + l.pending;
   values[p.energy_stored] = l.stored() - l.stored_at_start;
-  values[p.energy_lost] = l.copper + l.bridge + l.conversion + l.viscous + l.motor_friction + l.shaft_friction + l.tendon_friction;
+  values[p.energy_lost] = actuator::heat(l);
 }
 
 double UnitModel::derivative(Reference output, Reference input) const {

@@ -56,7 +56,8 @@ void start_with_joints(host::RobotConfig& config, const Model& model, Problems& 
 }
 
 host::Robot make_robot(const Model& model, const Options& options) {
-  host::RobotConfig config = config::parse_plugin(model.xml, model.where, options.types, options.actuator);
+  host::RobotConfig config =
+      model.robot ? *model.robot : config::parse_plugin(model.xml, model.where, options.types, options.actuator);
   Problems problems;
   check_joints(config, model, problems);
   start_with_joints(config, model, problems);

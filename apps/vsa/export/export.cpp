@@ -27,21 +27,33 @@ is imported; an actuator's needs the C library only. docs/howto/fmu.md tells how
 --mjcf: A world as MuJoCo's own format, for machines without SDF: NAME.xml is what moves, which MuJoCo's own programs open, too;
 NAME.vsa.xml has the actuators, the bodies' looks and the joints' ends. `vsa run NAME.xml` moves bit for bit as the world that it
 was made of. Where no SDF can be read, NAME.xml beside NAME.sdf stands for it.
+  --plugin              writes NAME_plugin.xml, too: the same for a MuJoCo from 3.2 on with vsasim's plug-in, an instance of
+                        vsasim.unit, its actuators and a sensor for each actuator. docs/howto/mujoco.md
 
 Examples:
   vsa export --fmu qbmove_maker_pro_6_1
   vsa export --fmu sea_example --fmi 3 --out sea.fmu --set drive.supply_V=24
   vsa export --fmu qbmove_maker_pro --names gazebo_fmi --coupling implicit --load-inertia-kgm2 0.01
-  vsa export --mjcf my_arm.sdf --out .)";
+  vsa export --mjcf my_arm.sdf --out .
+  vsa export --mjcf snake_flat --plugin --out snake)";
 
 struct ExportOptions {
   std::string mjcf;
+  bool plugin = false;
   FmuOptions fmu;
 };
 
-int export_mjcf(const std::string& world, const std::string& directory) {
-  if (directory.empty()) throw InputError({"", "--out", "", "is missing", "a directory for the two files"});
-  const std::vector<engine::ExportedFile> files = engine::export_mjcf(world);
+int export_mjcf(const ExportOptions& o) {
+  const std::string& directory = o.fmu.out;
+  if (directory.empty()) throw InputError({"", "--out", "", "is missing", "a directory for the files"});
+  std::vector<engine::ExportedFile> files;
+  // An MJCF stays what it is: only the plug-in's is written.
+  if (!o.plugin || engine::mjcf_of(o.mjcf).empty()) files = engine::export_mjcf(o.mjcf);
+  if (o.plugin) {
+    engine::PluginMjcf more = engine::export_plugin_mjcf(o.mjcf);
+    for (const std::string& note : more.notes) std::cerr << "note: " << note << '\n';
+    files.push_back(std::move(more.file));
+  }
   make_directory(directory, "--out");
   for (const engine::ExportedFile& file : files) {
     const std::filesystem::path path = std::filesystem::path(directory) / file.name;
@@ -52,7 +64,7 @@ int export_mjcf(const std::string& world, const std::string& directory) {
 }
 
 int run_export(const ExportOptions& o) {
-  if (!o.mjcf.empty()) return export_mjcf(o.mjcf, o.fmu.out);
+  if (!o.mjcf.empty()) return export_mjcf(o);
   if (!o.fmu.fmu.empty()) return export_fmu(o.fmu);
   throw InputError({"", "--fmu, --mjcf", "", "neither is given", "one of them"});
 }
@@ -67,6 +79,8 @@ void setup_export(CLI::App& app, int& exit_code) {
   CLI::Option* mjcf = sub->add_option("--mjcf", options->mjcf, "World to write in MuJoCo's format, for machines that read no SDF");
   of_fmu->type_name("TYPE|WORLD")->excludes(mjcf);
   mjcf->type_name("WORLD");
+  sub->add_flag("--plugin", options->plugin, "Of an MJCF: write NAME_plugin.xml, too, for MuJoCo 3 with vsasim's plug-in")
+      ->needs(mjcf);
   sub->add_option("--out", fmu.out, "FMU: file to write; default: NAME.fmu. MJCF: directory, made where it is missing");
   sub->add_option("--fmi", fmu.fmi, "Version of the interface; default 2")->check(CLI::IsMember({2, 3}))->needs(of_fmu);
   sub->add_option("--names", fmu.names, "Of inputs and outputs: vsasim's, or those of gazebo-fmi's actuator plug-in")

@@ -17,6 +17,16 @@ struct ExportedFile {
 /// bit as this one. NAME is the stem of the file, or "world" for a text. Throws InputError with all problems.
 [[nodiscard]] std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const WorldOptions& options = {});
 
+struct PluginMjcf {
+  ExportedFile file;               ///< NAME_plugin.xml
+  std::vector<std::string> notes;  ///< what of the robots' elements MuJoCo can't be told
+};
+
+/// A world for a MuJoCo with vsasim's plug-in (docs/howto/mujoco.md): its MJCF, which names the same files as export_mjcf()'s, and for
+/// each actuator an instance of vsasim.unit, its actuators and a sensor; a key "start" with the joints and controls of the first
+/// sample. Of an SDF, a URDF or an MJCF. Throws InputError with all problems.
+[[nodiscard]] PluginMjcf export_plugin_mjcf(const std::filesystem::path& file, const WorldOptions& options = {});
+
 /// The MJCF that World::load() reads of this path: the file itself or, in a build without SDF, the one that stands beside the SDF.
 /// Empty: it reads SDF or URDF.
 [[nodiscard]] std::filesystem::path mjcf_of(const std::filesystem::path& world);

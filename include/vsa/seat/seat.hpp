@@ -50,10 +50,11 @@ struct Joint {
 };
 
 struct Model {
-  std::string xml;            ///< of the whole <plugin> element
-  std::string where;          ///< leads every line of a problem: "arm.sdf: arm"
-  std::string name;           ///< scoped
-  std::vector<Joint> joints;  ///< those that an element may name
+  std::string xml;                           ///< of the whole <plugin> element
+  std::string where;                         ///< leads every line of a problem: "arm.sdf: arm"
+  std::string name;                          ///< scoped
+  std::vector<Joint> joints;                 ///< those that an element may name
+  std::optional<host::RobotConfig> robot{};  ///< given: instead of `xml`, for a host whose models say it otherwise
 };
 
 struct Options {

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The plug-in element as written, form checked, and what makes a robot of it: types, names, buses, ids.
+// The plug-in element as written, form checked, and what makes a robot of it: types, names, buses, ids. For who has a robot's words
+// otherwise than in an element (plugins/mujoco).
 #pragma once
 
 #include <map>
@@ -55,6 +56,10 @@ struct RobotDraft {
   bool answered = false;  ///< the element is an older plug-in's, and the problem says so
 };
 
+/// How <initial> calls a preset of that unit: "preset_rad", of N·m/rad "preset_Nm_per_rad". Empty: there is no preset.
+[[nodiscard]] std::string preset_attribute(std::string_view unit);
+
+/// Adds every problem, each behind `where` and its draft's path; the robot is complete only where there was none.
 [[nodiscard]] host::RobotConfig finish(const RobotDraft& draft, std::string_view where, const TypeLibrary& types,
                                        Problems& problems);
 

@@ -1,0 +1,123 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "engine.hpp"
+
+#include <dlfcn.h>
+#include <link.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+// What the units call of MuJoCo, as it declares them.
+struct Called {
+  decltype(&::mj_id2name) id2name = nullptr;
+  decltype(&::mj_solveM) solveM = nullptr;
+  decltype(&::mj_fullM) fullM = nullptr;
+  decltype(&::mj_mulJacVec) mulJacVec = nullptr;
+  decltype(&::mj_mulJacTVec) mulJacTVec = nullptr;
+  decltype(&::mju_cholFactor) cholFactor = nullptr;
+  decltype(&::mju_cholSolve) cholSolve = nullptr;
+#if mjVERSION_HEADER >= 3005000
+  decltype(&::mj_readCtrl) readCtrl = nullptr;
+#endif
+};
+
+constinit Called called;
+constinit vsa::mujoco::Engine of_program;
+
+}  // namespace
+
+// Under MuJoCo's names, so that units.cpp is compiled as it is for a program that links MuJoCo; seen inside this library only.
+extern "C" {
+const char* mj_id2name(const mjModel* m, int type, int id) { return called.id2name(m, type, id); }
+void mj_solveM(const mjModel* m, mjData* d, mjtNum* x, const mjtNum* y, int n) { called.solveM(m, d, x, y, n); }
+#if mjVERSION_HEADER >= 3010000
+void mj_fullM(const mjModel* m, const mjData* d, mjtNum* dst) { called.fullM(m, d, dst); }
+#else
+void mj_fullM(const mjModel* m, mjtNum* dst, const mjtNum* M) { called.fullM(m, dst, M); }
+#endif
+void mj_mulJacVec(const mjModel* m, const mjData* d, mjtNum* res, const mjtNum* vec) { called.mulJacVec(m, d, res, vec); }
+void mj_mulJacTVec(const mjModel* m, const mjData* d, mjtNum* res, const mjtNum* vec) { called.mulJacTVec(m, d, res, vec); }
+int mju_cholFactor(mjtNum* mat, int n, mjtNum mindiag) { return called.cholFactor(mat, n, mindiag); }
+void mju_cholSolve(mjtNum* res, const mjtNum* mat, const mjtNum* vec, int n) { called.cholSolve(res, mat, vec, n); }
+#if mjVERSION_HEADER >= 3005000
+mjtNum mj_readCtrl(const mjModel* m, const mjData* d, int id, mjtNum time, int interp) {
+  return called.readCtrl(m, d, id, time, interp);
+}
+#endif
+}
+
+namespace vsa::mujoco {
+namespace {
+
+template <class Function>
+bool find(void* library, const char* name, Function& to) {
+  to = reinterpret_cast<Function>(dlsym(library, name));
+  return to != nullptr;
+}
+
+/// Loaded already; the program itself first, which may have MuJoCo in it.
+std::vector<void*> libraries() {
+  std::vector<std::string> names;
+  dl_iterate_phdr(
+      [](dl_phdr_info* info, std::size_t, void* to) {
+        const std::string_view path = info->dlpi_name == nullptr ? "" : info->dlpi_name;
+        const std::string_view name = path.substr(path.rfind('/') + 1);
+        if (name.starts_with("libmujoco")) static_cast<std::vector<std::string>*>(to)->emplace_back(path);
+        return 0;
+      },
+      &names);
+  std::vector<void*> out{dlopen(nullptr, RTLD_LAZY)};
+  for (const std::string& name : names) out.push_back(dlopen(name.c_str(), RTLD_LAZY | RTLD_NOLOAD));
+  std::erase(out, nullptr);
+  return out;  // never closed: they are the program's
+}
+
+bool take(void* library) {
+  Engine& e = of_program;
+  bool all = find(library, "mjp_registerPlugin", e.mjp_registerPlugin) && find(library, "mjp_getPlugin", e.mjp_getPlugin) &&
+             find(library, "mj_getPluginConfig", e.mj_getPluginConfig) && find(library, "mju_warning", e.mju_warning) &&
+             find(library, "mj_id2name", called.id2name) && find(library, "mj_solveM", called.solveM) &&
+             find(library, "mj_fullM", called.fullM) && find(library, "mj_mulJacVec", called.mulJacVec) &&
+             find(library, "mj_mulJacTVec", called.mulJacTVec) && find(library, "mju_cholFactor", called.cholFactor) &&
+             find(library, "mju_cholSolve", called.cholSolve);
+#if mjVERSION_HEADER >= 3005000
+  all = all && find(library, "mj_readCtrl", called.readCtrl);
+#endif
+  if (!all) e = {};
+  return all;
+}
+
+}  // namespace
+
+const Engine& engine() noexcept { return of_program; }
+
+std::string version_text(int version) {
+  const int base = version < 1000 ? 10 : 1000;
+  return std::to_string(version / (base * base)) + "." + std::to_string(version / base % base) + "." +
+         std::to_string(version % base);
+}
+
+std::string find_engine() {
+  const std::string own = version_text(mjVERSION_HEADER), us = "vsasim.unit: this library is for MuJoCo " + own + ", ";
+  std::vector<std::string> others;
+  for (void* library : libraries()) {
+    int (*version)() = nullptr;
+    // One without plug-ins isn't meant: vsasim's own engine, in a Python that has both.
+    if (dlsym(library, "mjp_registerPlugin") == nullptr || !find(library, "mj_version", version)) continue;
+    if (const int found = version(); found != mjVERSION_HEADER) {
+      if (const std::string text = version_text(found); std::find(others.begin(), others.end(), text) == others.end())
+        others.push_back(text);
+    } else if (take(library)) {
+      return {};
+    }
+  }
+  if (others.empty()) return us + "and the program has none loaded: load MuJoCo first";
+  std::string list;
+  for (const std::string& text : others) list += (list.empty() ? "" : " and ") + text;
+  return us + "the program has " + list + ": build vsasim against that one (docs/howto/mujoco.md)";
+}
+
+}  // namespace vsa::mujoco

@@ -1,0 +1,32 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// B of driven joints as MuJoCo's step has it (vsa/host/robot.hpp), from what mj_fwdPosition has worked out:
+//   B = (M⁻¹)_aa                      M: with armature
+//   B = ((M + dt·D)⁻¹)_aa             D: joint damping, where the integrator takes it implicitly
+//   B −= Xᵀ (J M⁻¹ Jᵀ + R)⁻¹ X        J, R: rows and softness of equalities (mimic joints, closed loops); X = J M⁻¹ of those columns
+// Contacts, limits, tendons' and fluids' damping aren't in it.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <span>
+#include <vector>
+
+namespace vsa::mujoco {
+
+class Mobility {
+ public:
+  /// Of the degrees of freedom `dofs`, by rows, 1/(kg·m²). Allocates where a model has more rows than before.
+  void of(const mjModel& m, mjData& d, std::span<const int> dofs, std::span<double> out);
+
+ private:
+  void solve(const mjModel& m, mjData& d);  ///< unit_ → column_
+  void factor_damped(const mjModel& m, const mjData& d);
+  void tie(const mjModel& m, mjData& d, std::span<const int> dofs, std::span<double> out);
+
+  bool damped_ = false;
+  std::vector<double> unit_, column_, factor_;
+  std::vector<double> row_, moved_, tied_, ties_, of_joint_;
+};
+
+}  // namespace vsa::mujoco

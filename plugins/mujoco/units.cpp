@@ -1,0 +1,221 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <utility>
+
+#include "bind.hpp"
+#include "versions.hpp"
+#include "vsa/actuator/heat.hpp"
+#include "vsa/config/faults_text.hpp"
+#include "vsa/errors.hpp"
+
+namespace vsa::mujoco {
+namespace {
+
+std::vector<UnitSpec> specs_of(const std::vector<Unit>& units) {
+  std::vector<UnitSpec> out;
+  for (const Unit& u : units) out.push_back(u.spec);
+  return out;
+}
+
+std::unique_ptr<seat::Seat> make_seat(std::span<const UnitSpec> specs, const std::vector<seat::Joint>& joints,
+                                      const config::TypeLibrary& library) {
+  std::vector<std::string> names;
+  for (const seat::Joint& j : joints) names.push_back(j.name);
+  return std::make_unique<seat::Seat>(seat::Model{"", "vsasim.unit", "", joints, robot_of(specs, names, library)},
+                                      seat::Options{library, {}, {}, false, false});
+}
+
+/// Checked when the model is loaded, given to the units at the first step.
+device::Faults faults_of(const UnitSpec& spec) { return config::read_faults(spec.get("faults"), where(spec) + ": faults"); }
+
+bool is_broken(const UnitSpec& spec) { return !spec.get("faults").empty(); }
+
+std::int64_t step_ns(const mjModel& m) { return std::llround(m.opt.timestep * 1e9); }
+
+}  // namespace
+
+Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units)) {
+  const std::vector<UnitSpec> specs = specs_of(units_);
+  const config::TypeLibrary library = library_for(specs);
+  Problems problems;
+  check_options(m, problems);
+  std::vector<int> ids;
+  std::vector<seat::Joint> joints;
+  for (const Unit& u : units_) {
+    try {
+      const config::ActuatorType type = type_of(u.spec, library);
+      volts_.push_back(type.unit.is(control::ServoKind::motor_voltages));
+      const int id = joint_of(m, u, controls_of(type), problems);
+      if (id < 0) continue;
+      ids.push_back(id);
+      joints_.push_back({id, m.jnt_qposadr[id], m.jnt_dofadr[id], m.qpos0[m.jnt_qposadr[id]]});
+      joints.push_back({joint_name(m, id), {}, {}, joints_.back().start, m.jnt_type[id] == mjJNT_SLIDE});
+    } catch (const InputError& error) {
+      problems.add_all(error);
+    }
+  }
+  problems.throw_if_any();
+  seat_ = make_seat(specs, joints, library);
+  size_ = state_size(specs);
+  const auto trees = trees_of(m, ids);
+  for (const auto& tree : trees) {
+    tree_dofs_.emplace_back();
+    for (const std::size_t i : tree) tree_dofs_.back().push_back(joints_[i].v);
+  }
+  seat_->join(trees);
+  for (std::size_t i = 0; i < units_.size(); ++i) {
+    if (is_broken(specs[i])) seat_->robot().set_faults(i, faults_of(specs[i]));  // throws here what no unit of that type can have
+  }
+  first_.assign(size_, 0);
+  seat_->save(std::span(first_).subspan(head()).first(seat_->state_size()));
+  go_to(first_);
+}
+
+Units::Units(const Units& other, std::unique_ptr<seat::Seat> seat)
+    : units_(other.units_),
+      joints_(other.joints_),
+      volts_(other.volts_),
+      tree_dofs_(other.tree_dofs_),
+      seat_(std::move(seat)),
+      size_(other.size_),
+      first_(other.first_) {
+  go_to(first_);
+}
+
+Units::~Units() = default;
+
+std::unique_ptr<Units> Units::clone() const { return std::unique_ptr<Units>(new Units(*this, seat_->clone())); }
+
+std::size_t Units::state_size(std::span<const UnitSpec> specs) {
+  const config::TypeLibrary library = library_for(specs);
+  Problems problems;
+  std::vector<seat::Joint> joints;
+  for (const UnitSpec& spec : specs) {
+    try {
+      joints.push_back({"joint of " + spec.name, {}, {}, {}, type_of(spec, library).unit.actuator.linear()});
+    } catch (const InputError& error) {
+      problems.add_all(error);
+    }
+  }
+  problems.throw_if_any();
+  const std::unique_ptr<seat::Seat> seat = make_seat(specs, joints, library);
+  std::vector<std::size_t> all(specs.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  seat->join({all});
+  return 1 + 2 * specs.size() + seat->state_size();
+}
+
+void Units::reset(std::span<double> state) const { std::copy(first_.begin(), first_.end(), state.begin()); }
+
+/// By bits: the seat is there, or is put there.
+void Units::go_to(std::span<const double> state) {
+  const std::span<const double> mine = state.first(used());
+  if (!here_.empty() && std::memcmp(here_.data(), mine.data(), mine.size_bytes()) == 0) return;
+  here_.clear();  // should restore() throw
+  seat_->restore(mine.subspan(head()));
+  here_.assign(mine.begin(), mine.end());
+}
+
+/// The first step: what is broken breaks, and where the model has a joint is neither work nor acceleration.
+void Units::begin() {
+  for (std::size_t i = 0; i < units_.size(); ++i) {
+    if (is_broken(units_[i].spec)) seat_->robot().set_faults(i, faults_of(units_[i].spec));
+    const host::JointIn& in = seat_->in()[i];
+    if (in.angle_rad != joints_[i].start || in.speed_rad_per_s != 0) seat_->moved(i);
+  }
+}
+
+void Units::command(const mjModel& m, const mjData& d) {
+  const bool first = here_[0] == 0;
+  for (std::size_t i = 0; i < units_.size(); ++i) {
+    const std::vector<int>& actuators = units_[i].actuators;
+    std::array<std::optional<double>, 2> said;
+    double* taken = &here_[1 + 2 * i];
+    for (std::size_t k = 0; k < actuators.size(); ++k) {
+      const double u = control(m, d, actuators[k]);
+      if (!std::isfinite(u) || (u == taken[k] && !first)) continue;
+      said[k] = taken[k] = u;
+    }
+    if (!said[0] && !said[1]) continue;
+    if (volts_[i]) {
+      seat_->robot().command_direct(i, {taken[0], taken[1]});
+    } else {
+      seat_->robot().command(i, said[0], said[1]);
+    }
+  }
+}
+
+/// A step of the seat, from here_ to here_.
+void Units::step(const mjModel& m, mjData& d) {
+  if (seat_->wants_mobility()) {
+    std::span<double> rest = seat_->mobility();
+    for (const std::vector<int>& dofs : tree_dofs_) {
+      const std::size_t n = dofs.size() * dofs.size();
+      mobility_.of(m, d, dofs, rest.first(n));
+      rest = rest.subspan(n);
+    }
+  }
+  seat_->step(step_ns(m));
+  here_[0] = 1;
+  seat_->save(std::span(here_).subspan(head()));
+}
+
+void Units::compute(const mjModel& m, mjData& d, std::span<const double> state) {
+  observe(d, state);
+  if (here_[0] == 0) begin();
+  command(m, d);
+  step(m, d);
+  computed_ = true;
+}
+
+void Units::advance(std::span<double> state) {
+  if (!computed_) return;
+  computed_ = false;
+  std::copy(here_.begin(), here_.end(), state.begin());
+  seat_->publish(0);
+}
+
+void Units::observe(const mjData& d, std::span<const double> state) {
+  computed_ = false;
+  go_to(state);
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    host::JointIn& in = seat_->in()[i];
+    in.angle_rad = d.qpos[joints_[i].q];
+    in.speed_rad_per_s = d.qvel[joints_[i].v];
+  }
+  seat_->observe();
+}
+
+void Units::copy_step(const Units& other) {
+  computed_ = false;
+  if (!other.computed_) return;
+  go_to(other.here_);
+  computed_ = true;
+}
+
+void Units::read(std::size_t unit, std::span<double> out) const {
+  const host::ActuatorReading now = seat_->robot().read(unit);
+  const actuator::Ledger l = seat_->robot().ledger(unit);
+  const auto put = [&](Reading which, double value) { out[static_cast<std::size_t>(which)] = value; };
+  put(Reading::ticks_1, now.measured[0].value);
+  put(Reading::ticks_2, now.measured[1].value);
+  put(Reading::ticks_shaft, now.measured[2].value);
+  put(Reading::current_1_A, now.current_A[0]);
+  put(Reading::current_2_A, now.current_A[1]);
+  put(Reading::stiffness, now.stiffness_Nm_per_rad);
+  put(Reading::preset, now.preset);
+  put(Reading::equilibrium, now.equilibrium_rad);
+  put(Reading::deflection, now.deflection_rad);
+  put(Reading::torque, now.mean_torque_Nm);
+  put(Reading::energy_supply, l.supply);
+  put(Reading::energy_delivered, l.delivered + l.pending);
+  put(Reading::energy_stored, l.stored() - l.stored_at_start);
+  put(Reading::energy_lost, actuator::heat(l));
+}
+
+}  // namespace vsa::mujoco

@@ -1,0 +1,119 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// The units of a MuJoCo model as one robot: those whose joints move each other are solved together (vsa/host/robot.hpp). What the
+// plug-in's functions do is done here; of MuJoCo's they need the model and its data only, so that any program can step units beside
+// a MuJoCo of its own (tests/mujoco does with 2.2.2, which has no plug-ins).
+//
+//   reset(state)               the first sample, into the plug-in's part of mjData
+//   observe(d, state)          for sensors: the units as they are, at the positions and speeds of d; then read(unit, …)
+//   compute(m, d, state)       torques of the step that comes, t … t + dt, from the present positions, speeds, M and controls
+//   advance(state)             the step has been made: state becomes that of t + dt
+//
+// PURE: compute() and observe() change nothing but this object's scratch: the same state and data give the same torques, however often
+// and whatever was computed between. What decides the future is `state`: numbers without pointers, which MuJoCo copies and sets as it
+// likes. So a MuJoCo that steps several mjData needs one object each, and none of them knows of another.
+//
+// STATE of n units: [begun, which controls were taken as commands (n × 2), the seat's (vsa/seat/seat.hpp, with room for one tree of
+// all), 0 …].
+//
+// CONTROLS say where a unit shall be, from the first step on: equilibrium (rad; m of a linear actuator) and preset (the type's unit);
+// or the voltages of its motors. A number that isn't finite leaves the command as it is. They become commands on the unit's line at
+// the step that first sees them; the line and the program take their time, as on hardware.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mobility.hpp"
+#include "unit_spec.hpp"
+#include "vsa/seat/seat.hpp"
+
+namespace vsa::mujoco {
+
+/// A unit and the model's actuators of that instance, in the model's order: equilibrium, preset; or its motors' voltages.
+struct Unit {
+  UnitSpec spec;
+  std::vector<int> actuators;
+};
+
+/// What a sensor tells, in this order. Of a linear actuator m and N instead of rad and N·m; 0 where a type has no such thing. All of
+/// it is of the end of the last step, with the shaft where the model has it now.
+enum class Reading : std::size_t {
+  ticks_1,           ///< motor 1, as its line's master read it last
+  ticks_2,           ///< motor 2
+  ticks_shaft,       ///< shaft
+  current_1_A,       ///< motor 1
+  current_2_A,       ///< motor 2
+  stiffness,         ///< −∂τ/∂q of the springs, N·m/rad
+  preset,            ///< attained, from the pulleys
+  equilibrium,       ///< attained
+  deflection,        ///< shaft less equilibrium
+  torque,            ///< on the shaft, mean over the last step
+  energy_supply,     ///< J drawn from the supply since the start
+  energy_delivered,  ///< J given to the joint
+  energy_stored,     ///< J in springs, motors and presliding, less that of the start
+  energy_lost        ///< J turned to heat
+};
+inline constexpr std::size_t kReadings = static_cast<std::size_t>(Reading::energy_lost) + 1;
+
+class Units {
+ public:
+  /// Throws InputError with every problem of the units, their actuators and the model's options.
+  Units(const mjModel& m, std::vector<Unit> units);
+  ~Units();
+  Units(const Units&) = delete;
+  Units& operator=(const Units&) = delete;
+  /// Another, at the first sample, without report. Safe from several threads at once.
+  [[nodiscard]] std::unique_ptr<Units> clone() const;
+
+  /// How many numbers the state of such units has, before there is a model. Throws InputError for what is wrong without one.
+  [[nodiscard]] static std::size_t state_size(std::span<const UnitSpec> specs);
+  [[nodiscard]] std::size_t state_size() const noexcept { return size_; }
+  [[nodiscard]] std::size_t size() const noexcept { return units_.size(); }
+  [[nodiscard]] const Unit& unit(std::size_t i) const { return units_[i]; }
+
+  void reset(std::span<double> state) const;
+  void compute(const mjModel& m, mjData& d, std::span<const double> state);
+  [[nodiscard]] double torque(std::size_t unit) const { return seat_->torques()[unit]; }  ///< of the last compute()
+  /// After a step of MuJoCo's that began with compute(); without one since the last time nothing moves.
+  void advance(std::span<double> state);
+  void observe(const mjData& d, std::span<const double> state);
+  void read(std::size_t unit, std::span<double> out) const;  ///< kReadings numbers, after observe()
+  /// Of another's mjData, which is being copied: what its last compute() foresaw, too.
+  void copy_step(const Units& other);
+
+  /// Gets a readable line: a unit's command beyond its range, a joint that is no longer finite.
+  void report_to(seat::Seat::Report report) { seat_->report_to(std::move(report)); }
+
+ private:
+  struct Joint {
+    int id = -1, q = -1, v = -1;
+    double start = 0;
+  };
+  Units(const Units& other, std::unique_ptr<seat::Seat> seat);
+  void go_to(std::span<const double> state);
+  void begin();
+  void command(const mjModel& m, const mjData& d);
+  void step(const mjModel& m, mjData& d);
+  [[nodiscard]] std::size_t used() const { return head() + seat_->state_size(); }
+  [[nodiscard]] std::size_t head() const { return 1 + 2 * units_.size(); }
+
+  std::vector<Unit> units_;
+  std::vector<Joint> joints_;
+  std::vector<bool> volts_;                  ///< the unit's controls are its motors' voltages
+  std::vector<std::vector<int>> tree_dofs_;  ///< as the seat joins them
+  std::unique_ptr<seat::Seat> seat_;
+  std::size_t size_ = 0;
+  std::vector<double> first_;  ///< the state of the first sample
+  Mobility mobility_;
+  std::vector<double> here_;  ///< the state at which the seat is; empty: unknown
+  bool computed_ = false;     ///< here_ is where the step that compute() foresaw leads
+};
+
+}  // namespace vsa::mujoco

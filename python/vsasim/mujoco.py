@@ -1,0 +1,206 @@
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+"""Variable stiffness actuators in MuJoCo from 3.2 on: vsasim's plug-in from Python. docs/howto/mujoco.md tells of it.
+
+    import mujoco
+    import vsasim.mujoco
+
+    vsasim.mujoco.load()                                        # the plug-in for this MuJoCo, or why there is none
+    spec = mujoco.MjSpec.from_file("arm.xml")
+    vsasim.mujoco.attach(spec, "elbow", "qbmove_maker_pro_6_1")
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.ctrl[:] = 0.5, 0.3                                     # equilibrium and stiffness preset, rad
+
+add() does the same to the text of an MJCF, and needs no MuJoCo.
+"""
+import ctypes
+import os
+import pathlib
+import xml.etree.ElementTree as ElementTree
+from typing import Any, Dict, List, Mapping, Optional, Union
+
+from . import ActuatorType
+
+__all__ = ["PLUGIN", "READINGS", "add", "attach", "library", "load"]
+
+#: As a model names the plug-in.
+PLUGIN = "vsasim.unit"
+
+#: What a unit's sensor tells, in this order. SI units; of a linear actuator m and N instead of rad and N·m.
+READINGS = (
+    "ticks_1",
+    "ticks_2",
+    "ticks_shaft",
+    "current_1_A",
+    "current_2_A",
+    "stiffness",
+    "preset",
+    "equilibrium",
+    "deflection",
+    "torque",
+    "energy_supply_J",
+    "energy_delivered_J",
+    "energy_stored_J",
+    "energy_lost_J",
+)
+
+_Number = Union[int, float]
+_loaded: Dict[str, Any] = {}
+
+
+def _folders() -> List[pathlib.Path]:
+    """Where a build tree and an installation have libraries for others."""
+    package = pathlib.Path(__file__).resolve().parent
+    out = [package / "lib"]
+    for up in package.parents[:4]:
+        out += [up / "lib" / "vsasim", up / "vsasim"]
+        out += sorted(up.glob("*-linux-gnu*/vsasim"))
+    given = os.environ.get("VSA_MUJOCO_PATH")
+    return ([pathlib.Path(p) for p in given.split(os.pathsep) if p] if given else []) + out
+
+
+def library(version: Optional[str] = None) -> str:
+    """The plug-in's library for that version of MuJoCo; None: the one that Python has. $VSA_MUJOCO_PATH names folders that are
+    searched first. ImportError: there is none, with the versions there are."""
+    version = version or _version_of_python()
+    name = f"libvsa-mujoco-{version}.so"
+    folders = _folders()
+    for folder in folders:
+        if (folder / name).is_file():
+            return str(folder / name)
+    others = sorted({p.name[len("libvsa-mujoco-") : -len(".so")] for f in folders for p in f.glob("libvsa-mujoco-*.so")})
+    raise ImportError(
+        f"no plug-in for MuJoCo {version} here ({name}): "
+        + (f"there is one for {', '.join(others)}: take that MuJoCo, or " if others else "")
+        + f"build vsasim with -DVSA_MUJOCO3 (docs/howto/mujoco.md); $VSA_MUJOCO_PATH says where else to look"
+    )
+
+
+def _version_of_python() -> str:
+    try:
+        import mujoco
+    except ImportError as error:
+        raise ImportError("there is no MuJoCo for this Python: pip install mujoco, from 3.2 on") from error
+    return mujoco.__version__
+
+
+def load(version: Optional[str] = None) -> str:
+    """Loads the plug-in for the MuJoCo that is loaded, so that models may name it; once is enough. Returns its file. `version`: of a
+    MuJoCo that the program has loaded otherwise; None: Python's. ImportError: there is none, or it doesn't fit."""
+    version = version or _version_of_python()
+    if version in _loaded:
+        return _loaded[version][0]
+    path = library(version)
+    try:
+        plugin = ctypes.CDLL(path)
+    except OSError as error:
+        raise ImportError(f"{path}: {error}") from error
+    plugin.vsa_mujoco_problem.restype = ctypes.c_char_p
+    problem = plugin.vsa_mujoco_problem().decode()
+    if problem:
+        raise ImportError(problem)
+    _loaded[version] = (path, plugin)
+    return path
+
+
+def _config(given: Mapping[str, Any], override: Optional[Mapping[str, Any]]) -> Dict[str, str]:
+    out = {key: value if isinstance(value, str) else repr(value) for key, value in given.items() if value is not None}
+    if override:
+        out["override"] = " ".join(f"{k}={v if isinstance(v, str) else repr(v)}" for k, v in override.items())
+    return out
+
+
+def _endings(type: str, override: Optional[Mapping[str, Any]], controls: Optional[int]) -> List[str]:
+    """Of the names of a unit's actuators, one a control."""
+    if controls is not None:
+        return ["", "_preset"][:controls]
+    if "/" in type or type.endswith(".toml"):
+        raise ValueError(f"{type!r} is a file: say how many controls it takes (controls=2: equilibrium and preset; 1: equilibrium)")
+    made = ActuatorType.load(type, dict(override or {}))
+    if made.controller == "motor_voltages":
+        return ["_motor_1", "_motor_2"][: len(made.references(0.0, 0.0))]
+    return ["", "_preset"] if made.preset_unit or made.controller == "torque_servo" else [""]
+
+
+def add(
+    mjcf: str,
+    joint: str,
+    type: str,
+    *,
+    name: Optional[str] = None,
+    override: Optional[Mapping[str, Union[bool, _Number, str]]] = None,
+    equilibrium: Optional[_Number] = None,
+    preset: Optional[_Number] = None,
+    bus: Optional[str] = None,
+    id: Optional[int] = None,
+    faults: Optional[str] = None,
+    controls: Optional[int] = None,
+    sensor: bool = True,
+) -> str:
+    """An MJCF's text with a unit of that actuator type on a joint: an instance of vsasim.unit, its actuators (`name`, and
+    `name`_preset where the type takes a preset; default: the joint's name) and a sensor `name`. `type` is a name, or with `controls`
+    (how many actuators) a file; the other arguments are the plug-in's (docs/howto/mujoco.md). ValueError: no such joint, or a unit
+    of this name; InputError: no such type."""
+    root = ElementTree.fromstring(mjcf)
+    if not any(j.get("name") == joint for j in root.iter("joint")):
+        names = sorted({j.get("name") for j in root.iter("joint")} - {None})
+        raise ValueError(f"no joint {joint!r} in the MJCF (there are {', '.join(names) or 'none with a name'})")
+    name = name or joint
+    if any(i.get("name") == name for i in root.iter("instance")):
+        raise ValueError(f"the MJCF has an instance {name!r} already")
+
+    def child(of: ElementTree.Element, tag: str, **attributes: str) -> ElementTree.Element:
+        for found in of.findall(tag):
+            if all(found.get(k) == v for k, v in attributes.items()):
+                return found
+        return ElementTree.SubElement(of, tag, attributes)
+
+    instances = child(child(root, "extension"), "plugin", plugin=PLUGIN)
+    instance = ElementTree.SubElement(instances, "instance", name=name)
+    given = dict(type=type, equilibrium=equilibrium, preset=preset, bus=bus, id=id, faults=faults)
+    for key, value in _config(given, override).items():
+        ElementTree.SubElement(instance, "config", key=key, value=value)
+    for ending in _endings(type, override, controls):
+        ElementTree.SubElement(child(root, "actuator"), "plugin", name=name + ending, joint=joint, plugin=PLUGIN, instance=name)
+    if sensor:
+        ElementTree.SubElement(child(root, "sensor"), "plugin", name=name, plugin=PLUGIN, instance=name)
+    return ElementTree.tostring(root, encoding="unicode")
+
+
+def attach(
+    spec: Any,
+    joint: str,
+    type: str,
+    *,
+    name: Optional[str] = None,
+    override: Optional[Mapping[str, Union[bool, _Number, str]]] = None,
+    equilibrium: Optional[_Number] = None,
+    preset: Optional[_Number] = None,
+    bus: Optional[str] = None,
+    id: Optional[int] = None,
+    faults: Optional[str] = None,
+    controls: Optional[int] = None,
+    sensor: bool = True,
+) -> Any:
+    """As add(), to a mujoco.MjSpec that isn't compiled yet; load() comes before. Returns the instance, whose `config` may be
+    changed. RuntimeError: a MuJoCo whose MjSpec can't activate plug-ins (before 3.3): use add() there."""
+    if not hasattr(spec, "activate_plugin"):
+        raise RuntimeError("this MuJoCo's MjSpec can't activate plug-ins: vsasim.mujoco.add() works on the MJCF's text")
+    import mujoco
+
+    name = name or joint
+    spec.activate_plugin(PLUGIN)
+    instance = spec.add_plugin(name=name, plugin_name=PLUGIN, active=True)
+    instance.config = _config(dict(type=type, equilibrium=equilibrium, preset=preset, bus=bus, id=id, faults=faults), override)
+
+    def of_instance(element: Any) -> None:
+        element.plugin.name = name
+        element.plugin.plugin_name = PLUGIN
+        element.plugin.active = True
+
+    for ending in _endings(type, override, controls):
+        actuator = spec.add_actuator(name=name + ending, trntype=mujoco.mjtTrn.mjTRN_JOINT, target=joint)
+        of_instance(actuator)
+    if sensor:
+        of_instance(spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_PLUGIN))
+    return instance

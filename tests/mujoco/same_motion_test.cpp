@@ -1,0 +1,80 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Worlds in the embedded engine and, as `vsa export --mjcf --plugin` writes them, in a MuJoCo of the same version that steps the
+// plug-in's units: the same arithmetic, so deflections within 1e-9 rad.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "motion.hpp"
+#include "rig.hpp"
+#include "vsa/engine/mjcf.hpp"
+#include "vsa/engine/world.hpp"
+
+namespace vsa::mujoco::test {
+namespace {
+
+constexpr double kTolerance = 1e-9;  // rad, of the issue
+
+std::string plugin_mjcf(const char* world) {
+  // The MJCF beside the SDF: what a build without SDF has.
+  const auto file = std::filesystem::path(VSA_SOURCE_DIR) / "models/worlds" / (std::string(world) + ".xml");
+  return engine::export_plugin_mjcf(file).file.bytes;
+}
+
+struct Case {
+  const char* world;
+  double duration_s;
+};
+
+class SameAsOwnEngine : public testing::TestWithParam<Case> {};
+
+TEST_P(SameAsOwnEngine, InDeflectionAndAngleAndWhatItsSensorsTell) {
+  const auto file = std::filesystem::path(VSA_SOURCE_DIR) / "models/worlds" / (std::string(GetParam().world) + ".xml");
+  engine::World world = engine::World::load(file);
+  const Rig rig(plugin_mjcf(GetParam().world));
+  Data data(rig);
+  const std::size_t n = world.actuators().size();
+  ASSERT_EQ(rig.units().size(), n);
+  double worst = 0, moved = 0;
+  for (int step = 0; world.time_s() < GetParam().duration_s; ++step) {
+    if (step % kCommandEvery == 0) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const Command c = command_at(i, world.time_s());
+        world.command(world.actuators()[i], c.equilibrium, c.preset);
+        data.d().ctrl[2 * i] = c.equilibrium;
+        data.d().ctrl[2 * i + 1] = c.preset;
+      }
+    }
+    world.step();
+    data.step();
+    if (step % 50 != 0) continue;
+    data.forward();  // sensors tell of the step before, as all of MuJoCo's
+    for (std::size_t i = 0; i < n; ++i) {
+      const host::ActuatorReading r = world.read(world.actuators()[i]);
+      const auto told = [&](Reading which) { return data.sensor(i)[static_cast<std::size_t>(which)]; };
+      worst = std::max(worst, std::abs(told(Reading::deflection) - r.deflection_rad));
+      moved = std::max(moved, std::abs(r.shaft_rad));
+      ASSERT_NEAR(told(Reading::deflection), r.deflection_rad, kTolerance) << GetParam().world << " unit " << i << " step " << step;
+      EXPECT_NEAR(told(Reading::equilibrium), r.equilibrium_rad, kTolerance);
+      EXPECT_NEAR(told(Reading::preset), r.preset, kTolerance);
+      EXPECT_NEAR(told(Reading::torque), r.mean_torque_Nm, 1e-6);
+      EXPECT_NEAR(told(Reading::stiffness), r.stiffness_Nm_per_rad, 1e-6);
+      EXPECT_EQ(told(Reading::ticks_1), r.measured[0].value);
+      EXPECT_EQ(told(Reading::ticks_2), r.measured[1].value);
+      EXPECT_EQ(told(Reading::ticks_shaft), r.measured[2].value);
+      EXPECT_NEAR(told(Reading::current_1_A), r.current_A[0], 1e-6);
+      EXPECT_NEAR(told(Reading::energy_supply), world.robot(0).ledger(i).supply, 1e-6);
+    }
+  }
+  EXPECT_GT(moved, 0.3) << "nothing moved";
+  RecordProperty("worst_deflection_rad", std::to_string(worst));
+  std::printf("%s: %zu units, %.1f s: deflections differ by at most %.3g rad\n", GetParam().world, n, GetParam().duration_s, worst);
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, SameAsOwnEngine, testing::Values(Case{"bench_load", 4}, Case{"snake_flat", 3}),
+                         [](const auto& of) { return std::string(of.param.world); });
+
+}  // namespace
+}  // namespace vsa::mujoco::test

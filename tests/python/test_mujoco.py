@@ -1,0 +1,160 @@
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+"""vsasim.mujoco: what it finds and writes; and, where the build has the plug-in, MuJoCo's C library by ctypes."""
+import ctypes
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+from unittest import mock
+
+import vsasim
+import vsasim.mujoco as vm
+
+ARM = """<mujoco model="arm"><compiler angle="radian"/><option timestep="0.001" gravity="0 0 0"/><worldbody><body>
+<joint name="elbow" axis="0 1 0"/><inertial pos="0 0 0" mass="0.2" diaginertia="0.002 0.002 0.002"/></body></worldbody></mujoco>"""
+MUJOCO = os.environ.get("VSA_MUJOCO3_LIBRARY", "")  # MuJoCo's C library that the plug-in was built for
+VERSION = os.environ.get("VSA_MUJOCO3_VERSION", "")
+
+
+class Finding(unittest.TestCase):
+    def test_without_mujoco_it_says_so(self):
+        with mock.patch.dict(sys.modules, {"mujoco": None}), self.assertRaisesRegex(ImportError, "no MuJoCo for this Python"):
+            vm.library()
+
+    def test_without_one_for_this_version_it_says_which_there_are(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(os.environ, {"VSA_MUJOCO_PATH": folder}):
+            pathlib.Path(folder, "libvsa-mujoco-3.2.9.so").touch()
+            with self.assertRaisesRegex(ImportError, r"no plug-in for MuJoCo 3\.77\.0 here.*3\.2\.9.*VSA_MUJOCO3"):
+                vm.library("3.77.0")
+            self.assertEqual(vm.library("3.2.9"), str(pathlib.Path(folder, "libvsa-mujoco-3.2.9.so")))
+            with self.assertRaisesRegex(ImportError, "libvsa-mujoco-3.2.9.so"):  # an empty file is no library
+                vm.load("3.2.9")
+
+
+class Adding(unittest.TestCase):
+    def test_a_unit_has_an_instance_two_actuators_and_a_sensor(self):
+        text = vm.add(ARM, "elbow", "qbmove_maker_pro_6_1", override={"drive.friction_Nm": 0.7}, preset=0.2, bus="arm", id=3)
+        root = ElementTree.fromstring(text)
+        instance = root.find("extension/plugin[@plugin='vsasim.unit']/instance[@name='elbow']")
+        config = {c.get("key"): c.get("value") for c in instance}
+        self.assertEqual(
+            config, {"type": "qbmove_maker_pro_6_1", "override": "drive.friction_Nm=0.7", "preset": "0.2", "bus": "arm", "id": "3"}
+        )
+        self.assertEqual([a.get("name") for a in root.findall("actuator/plugin")], ["elbow", "elbow_preset"])
+        self.assertTrue(all(a.get("joint") == "elbow" and a.get("instance") == "elbow" for a in root.findall("actuator/plugin")))
+        self.assertEqual(len(root.findall("sensor/plugin")), 1)
+
+    def test_a_type_without_preset_has_one_actuator(self):
+        kind = next(t for t in vsasim.ActuatorType.list() if self.controls(t) == 1)
+        self.assertEqual(len(ElementTree.fromstring(vm.add(ARM, "elbow", kind, sensor=False)).findall("actuator/plugin")), 1)
+
+    @staticmethod
+    def controls(name):
+        made = vsasim.ActuatorType.load(name)
+        return 1 if not made.preset_unit and made.controller in ("qbmove", "position_servo") else 2
+
+    def test_a_second_unit_goes_beside_the_first(self):
+        arm = ARM.replace("</body>", '<body><joint name="wrist"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/></body></body>')
+        root = ElementTree.fromstring(vm.add(vm.add(arm, "elbow", "qbmove_maker_pro"), "wrist", "qbmove_maker_pro"))
+        self.assertEqual(len(root.findall("extension/plugin/instance")), 2)
+        self.assertEqual(len(root.findall("actuator")), 1)
+        self.assertEqual(len(root.findall("actuator/plugin")), 4)
+
+    def test_bad_input_is_named(self):
+        with self.assertRaisesRegex(ValueError, "no joint 'knee'.*elbow"):
+            vm.add(ARM, "knee", "qbmove_maker_pro")
+        with self.assertRaisesRegex(vsasim.InputError, "did you mean"):
+            vm.add(ARM, "elbow", "qbmove_maker_por")
+        with self.assertRaisesRegex(ValueError, "controls=2"):
+            vm.add(ARM, "elbow", "mine/elbow.toml")
+        self.assertIn("elbow_preset", vm.add(ARM, "elbow", "mine/elbow.toml", controls=2))
+        with self.assertRaisesRegex(ValueError, "already"):
+            vm.add(vm.add(ARM, "elbow", "qbmove_maker_pro"), "elbow", "qbmove_maker_pro")
+
+
+class Attaching(unittest.TestCase):
+    """The calls that attach() makes, to a stand-in: a MuJoCo for Python isn't packaged, so its own MjSpec isn't tried here."""
+
+    def test_it_makes_the_same_elements(self):
+        made = []
+
+        class Element:
+            def __init__(self, what, **given):
+                self.what, self.given, self.plugin, self.config = what, given, mock.Mock(), None
+                made.append(self)
+
+        spec = mock.Mock(spec=["activate_plugin", "add_plugin", "add_actuator", "add_sensor"])
+        spec.add_plugin = lambda **given: Element("instance", **given)
+        spec.add_actuator = lambda **given: Element("actuator", **given)
+        spec.add_sensor = lambda **given: Element("sensor", **given)
+        with mock.patch.dict(sys.modules, {"mujoco": mock.Mock()}):
+            instance = vm.attach(spec, "elbow", "qbmove_maker_pro", preset=0.3)
+        spec.activate_plugin.assert_called_once_with("vsasim.unit")
+        self.assertEqual([e.what for e in made], ["instance", "actuator", "actuator", "sensor"])
+        self.assertEqual(instance.config, {"type": "qbmove_maker_pro", "preset": "0.3"})
+        for element in made[1:]:
+            self.assertEqual((element.plugin.name, element.plugin.plugin_name, element.plugin.active), ("elbow", "vsasim.unit", True))
+
+    def test_a_spec_that_cannot_is_told_of_add(self):
+        with self.assertRaisesRegex(RuntimeError, r"add\(\)"):
+            vm.attach(object(), "elbow", "qbmove_maker_pro")
+
+
+IN_C = """
+import ctypes, sys
+import vsasim.mujoco as vm
+c = ctypes.CDLL(sys.argv[1])
+print(vm.load(sys.argv[2]))
+assert vm.load(sys.argv[2])                     # once more does no harm
+P, D = ctypes.c_void_p, ctypes.c_double
+c.mj_loadXML.restype = c.mj_makeData.restype = P
+error = ctypes.create_string_buffer(1000)
+m = c.mj_loadXML(sys.argv[3].encode(), None, error, 1000)
+assert m, error.value
+m = P(m)
+d = P(c.mj_makeData(m))
+POSITIONS, CONTROLS, PLUGIN = 1 << 1, CTRL, 1 << PLUG
+assert c.mj_stateSize(m, PLUGIN) > 1000
+controls = (D * 2)(0.5, 0.3)
+assert c.mj_stateSize(m, CONTROLS) == 2
+c.mj_setState(m, d, controls, CONTROLS)
+for _ in range(2000):
+    c.mj_step(m, d)
+q = (D * 1)()
+c.mj_getState(m, d, q, POSITIONS)
+print("angle", q[0])
+"""
+
+
+@unittest.skipUnless(MUJOCO, "this build has no MuJoCo from 3.2 on (VSA_MUJOCO3)")
+class InMujocosLibrary(unittest.TestCase):
+    """In programs of their own: a plug-in can't be unloaded."""
+
+    def run_program(self, program, *arguments):
+        return subprocess.run([sys.executable, "-c", program, MUJOCO, VERSION, *arguments], capture_output=True, text=True)
+
+    def state_bits(self):
+        """mjSTATE_CTRL and mjSTATE_PLUGIN: where the versions have them."""
+        later = tuple(int(n) for n in VERSION.split(".")) >= (3, 5, 0)  # mjSTATE_HISTORY came in between
+        return ("1 << 6", "13") if later else ("1 << 5", "12")
+
+    def test_an_added_unit_goes_where_its_controls_say(self):
+        control, plugin = self.state_bits()
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "arm.xml")
+            file.write_text(vm.add(ARM, "elbow", "qbmove_maker_pro_6_1"), encoding="utf-8")
+            done = self.run_program(IN_C.replace("CTRL,", control + ",").replace("<< PLUG", "<< " + plugin), str(file))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertAlmostEqual(float(done.stdout.split()[-1]), 0.5, delta=0.05)
+
+    def test_before_mujoco_is_loaded_it_says_so(self):
+        done = self.run_program("import sys, vsasim.mujoco as vm; vm.load(sys.argv[2])")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("load MuJoCo first", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
