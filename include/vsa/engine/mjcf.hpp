@@ -9,6 +9,7 @@
 
 namespace vsa::engine {
 
+/// One of the files that a world becomes: a file name without a directory, and what is in it.
 struct ExportedFile {
   std::string name, bytes;
 };
