@@ -15,7 +15,7 @@ namespace step {
 /// here with the same answers.
 template <class T>
 struct BendOf {
-  T bend = 0, per_dx = 0, per_dy = 0, free = 0, straight = 0;
+  T bend = 0, per_dx = 0, per_dy = 0, free = 0, straight = 0;  ///< all but the first: parts, in 0 … 1; `bend` and `straight` in J
 };
 
 /// From u, w changes by dw; `damper` is what ẇ adds to the bend, `ahead` what w changes from the end to where the engine goes.

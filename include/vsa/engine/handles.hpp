@@ -37,8 +37,9 @@ using LinkHandle = Handle<struct LinkKind>;    ///< of a link, static ones too
 
 /// What a world knows of one of its joints, as its file has it: World::joints(), where a JointHandle's index leads.
 struct JointInfo {
-  enum class Type { fixed, revolute, prismatic, ball, universal };  ///< universal: two axes
-  std::string name;                                                 ///< scoped: "model::joint"
+  /// Universal: two axes.
+  enum class Type { fixed, revolute, prismatic, ball, universal };
+  std::string name;         ///< scoped: "model::joint"
   Type type = Type::fixed;  ///< only revolute and prismatic ones, with their one axis, have handles, angles and speeds
   std::optional<std::array<double, 2>> range;  ///< of its one axis, rad or m; none: without limits
   std::optional<std::size_t> actuator;         ///< that drives it: an index into World::actuators()

@@ -20,7 +20,8 @@ namespace vsa::host {
 
 /// A body and the joint that it hangs on. Positions in world coordinates, m.
 struct TreeBody {
-  enum class Joint { free, fixed, revolute, prismatic };                ///< of one degree of freedom, or of none; free: six
+  /// Of one degree of freedom, or of none; free: six.
+  enum class Joint { free, fixed, revolute, prismatic };
   static constexpr std::size_t kGround = static_cast<std::size_t>(-1);  ///< as a parent
 
   std::size_t parent = kGround;    ///< an earlier entry of the list, or the ground

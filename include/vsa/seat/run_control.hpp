@@ -32,7 +32,8 @@ struct ControlRequest {
 /// carries them out.
 class RunControl {
  public:
-  enum class Next { step, reset, wait };  ///< what the loop is to do
+  /// What the loop is to do.
+  enum class Next { step, reset, wait };
 
   explicit RunControl(bool paused = false) : mode_{paused, 0, std::nullopt} {}  ///< how it begins
 
