@@ -8,7 +8,8 @@
 //     U = I S,   D = Sᵀ U,   I_parent += I − U Uᵀ/D                                          from the leaves to the roots, once
 //     u = τ − Sᵀ p,   p_parent += p + U u/D                                                  from joint j to its root
 //     q̈ = (u − Uᵀ a_parent)/D,   a = a_parent + S q̈                                         from the roots to the leaves
-// With a = 0 for the ground and a = −I⁻¹ p for a body that flies free. Four columns at a time, and only as far out as their joints: || // B is symmetric. Contacts aren't in it. Reference: R. Featherstone, Rigid Body Dynamics Algorithms, ch. 7.
+// With a = 0 for the ground and a = −I⁻¹ p for a body that flies free. Four columns at a time, and only as far out as their joints:
+// B is symmetric. Contacts aren't in it. Reference: R. Featherstone, Rigid Body Dynamics Algorithms, ch. 7.
 #pragma once
 
 #include <array>
