@@ -21,12 +21,15 @@ namespace vsa::reader {
 
 /// The directories above, as the environment gives them now.
 struct SearchPath {
+  /// Read of the environment once, here; `more`: the caller's own.
   explicit SearchPath(const std::vector<std::filesystem::path>& more);
   [[nodiscard]] bool operator==(const SearchPath&) const = default;
 
+  /// In the order above, each empty where nothing names one.
   std::vector<std::filesystem::path> directories, prefixes, packages, resources, last;
 };
 
+/// Finds what a description names. One world's; it notes every look in `seen`, which tells later whether anything changed.
 class Finder {
  public:
   /// Where it looks is noted in `seen`.

@@ -10,8 +10,9 @@
 
 namespace vsa::study {
 
+/// How the paper's benches are set for an actuator: presets in its law's unit.
 struct BenchFit {
-  bool papers_law = false;
+  bool papers_law = false;  ///< two_sinh, or a law whose name begins so
   double full = 0;  ///< the preset that counts as stiff: the paper's for its own law, else the largest that the motors wind to
   double load_share = 1;             ///< of the load bench's mass: 1, 2, 5, 10 … or 0.5, 0.2 …
   bool carries = false;              ///< some preset carries that

@@ -20,12 +20,12 @@ struct Work {
 
 /// Where the processors' time went, from the first run's beginning to the last one's end.
 struct Account {
-  std::size_t runs = 0, failed = 0, threads = 0;
-  double span_s = 0;       ///< by the wall clock
-  double run_wall_s = 0;   ///< Σ over runs: span·threads, if nobody waited
-  double run_cpu_s = 0;    ///< Σ over runs
-  double all_cpu_s = 0;    ///< of the process
-  double most_waited = 0;  ///< waited() of the process that waited most; of one alone nobody asks
+  std::size_t runs = 0, failed = 0, threads = 0;  ///< made; of them with an error; of the pool
+  double span_s = 0;                              ///< by the wall clock
+  double run_wall_s = 0;                          ///< Σ over runs: span·threads, if nobody waited
+  double run_cpu_s = 0;                           ///< Σ over runs
+  double all_cpu_s = 0;                           ///< of the process
+  double most_waited = 0;                         ///< waited() of the process that waited most; of one alone nobody asks
   /// The share of the threads' time in which they had nothing to run.
   [[nodiscard]] double waited() const noexcept;
   Account& operator+=(const Account& other) noexcept;  ///< of another process beside this one
@@ -37,6 +37,6 @@ Account run_pool(const Series& series, unsigned threads, const Work& work);
 /// How many runs the next chunk has: a part of what is left, so that few questions are asked at first and all end together.
 ///   max(1, left/(kShare·takers))
 [[nodiscard]] std::size_t guided_chunk(std::size_t left, std::size_t takers) noexcept;
-inline constexpr std::size_t kShare = 3;
+inline constexpr std::size_t kShare = 3;  ///< of a chunk
 
 }  // namespace vsa::sweep

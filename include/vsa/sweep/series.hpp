@@ -15,7 +15,7 @@ namespace vsa::sweep {
 
 /// What came of a run.
 struct Outcome {
-  std::size_t run = 0;
+  std::size_t run = 0;           ///< its number
   std::vector<double> values;    ///< one a column; none where it failed
   std::string error;             ///< why it failed; empty: it didn't
   std::string notice;            ///< what the robots had to tell, a command that was clamped; the first of it
@@ -26,6 +26,7 @@ struct Outcome {
 /// ends it, and there is no outcome.
 using MakeRun = std::function<std::optional<Outcome>(std::size_t run, const std::function<bool()>& wanted)>;
 
+/// Runs that one process or many make, each by its number alone.
 struct Series {
   std::uint64_t fingerprint = 0;   ///< of all that its numbers follow from: equal ones give equal outcomes
   std::string text;                ///< for people: the plan; a folder has it as plan.toml
