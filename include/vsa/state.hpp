@@ -32,10 +32,11 @@ enum class StateKind : std::uint8_t { real, single, whole, wide, flag, choice, b
 
 /// One member's part of the array.
 struct StateEntry {
-  std::string name;                   ///< "robot[0]/elbow/unit.physics.motor[1].angle"
-  std::string unit;                   ///< "rad"; empty: a number
-  StateKind kind = StateKind::real;   ///< what it is
-  std::size_t offset = 0, count = 0;  ///< where in the array, and how many doubles
+  std::string name;                  ///< "robot[0]/elbow/unit.physics.motor[1].angle"
+  std::string unit;                  ///< "rad"; empty: a number
+  StateKind kind = StateKind::real;  ///< what it is
+  std::size_t offset = 0,            ///< where in the array
+      count = 0;                     ///< how many doubles
 };
 
 /// What each number of an array is, in order and without gaps.
@@ -69,7 +70,8 @@ struct StateFault {
   double value = 0;                                                              ///< what it was
   const char* message = "";                                                      ///< what is wrong
   const char* allowed = "";                                                      ///< in words; empty: low … high
-  double low = 0, high = 0;                                                      ///< of `allowed`, where it is empty
+  double low = 0,  ///< least that is allowed, where `allowed` is empty
+      high = 0;    ///< most
 
   [[nodiscard]] bool there() const noexcept { return offset != kNone; }  ///< whether there is one
 };

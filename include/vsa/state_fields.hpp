@@ -100,8 +100,9 @@ struct FieldBytes {
   }
 };
 
+/// Names its members by fields().
 template <class T>
-inline constexpr bool kDescribed = requires(T& t) {  ///< names its members by fields()
+inline constexpr bool kDescribed = requires(T& t) {
   T::fields(t, FieldCount{});
 };
 

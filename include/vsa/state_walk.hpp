@@ -95,6 +95,7 @@ void walk_optional(Sink& sink, const char* name, const char* unit, T& v) {
   sink.leave();
 }
 
+/// A member of any kind, by its type.
 template <class Sink, class T>
 void walk(Sink& sink, const char* name, const char* unit, T&& v) {
   using V = std::remove_cvref_t<T>;
@@ -125,12 +126,18 @@ void walk(Sink& sink, const char* name, const char* unit, T&& v) {
   }
 }
 
-/// What most of them don't care for.
+/// What a walk goes into: Sizer, Namer, Writer, Reader. Beside what is here, which most don't care for, a walk calls
+///   leaf(name, unit, v)           a number
+///   leaves(name, unit, v)         an array of numbers
+///   bytes(name, v, count, most)   `count` bytes, with room for `most`
+///   count(items, most)            how many items follow; a Reader resizes them
+///   blank(n)                      n numbers of room that nothing takes; only where kWantsRoom is false, else the walk goes on to `most`
 struct Sink {
-  void enter(const char*) noexcept {}
-  void enter(const char*, std::size_t) noexcept {}
-  void enter(std::size_t) noexcept {}
-  void leave() noexcept {}
+  void enter(const char*) noexcept {}               ///< a member that is a struct
+  void enter(const char*, std::size_t) noexcept {}  ///< element i of a member that is an array of structs
+  void enter(std::size_t) noexcept {}               ///< item i of a Capped
+  void leave() noexcept {}                          ///< what was entered last
+  /// A struct that has impossible() is complete.
   template <class S>
   void judge(const S&) noexcept {}
 };

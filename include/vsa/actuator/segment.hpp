@@ -18,7 +18,9 @@ class Actuator;
 /// How the tendons' frictions on the shaft answer: −dτ/d(x_i) and −dτ/d(Δy) of each, N·m/rad, and the dampers' part of the first.
 template <class T>
 struct RubOf {
-  std::array<T, 2> dx{}, dy{}, damping{};  ///< in that order, of each tendon
+  std::array<T, 2> dx{},  ///< by x_i, N·m/rad
+      dy{},               ///< by the step's Δy, N·m/rad
+      damping{};          ///< the dampers' part of `dx`, N·m/rad
   static auto fields(auto& s, auto&& visit) {
     return visit("dx", "N·m/rad", s.dx, "dy", "N·m/rad", s.dy, "damping", "N·m/rad", s.damping);
   }
@@ -30,10 +32,11 @@ using Rub = RubOf<double>;  ///< of one unit
 /// default is a segment by itself, taken in its middle.
 template <class T>
 struct LeadOf {
-  double before = 0, share = 1;  ///< parts of the step's displacement Δy: made before the segment, made in it
-  T drift = 0;                   ///< ½ dt v, rad
-  T spring = 0;                  ///< w of the springs, 0 … 1
-  std::array<T, 2> tendon{};     ///< w of each tendon's friction, 0 … 1
+  double before = 0,          ///< part of the step's displacement Δy that was made before the segment
+      share = 1;              ///< part that is made in it
+  T drift = 0;                ///< ½ dt v, rad
+  T spring = 0;               ///< w of the springs, 0 … 1
+  std::array<T, 2> tendon{};  ///< w of each tendon's friction, 0 … 1
 };
 using Lead = LeadOf<double>;  ///< of one unit
 
@@ -71,9 +74,12 @@ using SegmentResult = SegmentResultOf<double>;  ///< of one unit
 
 /// A motor on a bridge whose enable pin is modulated: its current as a straight line about the speed `aim`.
 struct PwmInSegment {
-  const drive::PwmCycle* cycle = nullptr;                 ///< none: terminals at a mean voltage, or open
-  drive::DroopStepper stepper;                            ///< at that line
-  double start = 0, aim = 0, current_at_rest = 0, h = 0;  ///< speed at the start and where the line touches, rad/s; A; s
+  const drive::PwmCycle* cycle = nullptr;  ///< none: terminals at a mean voltage, or open
+  drive::DroopStepper stepper;             ///< at that line
+  double start = 0,                        ///< speed at the segment's start, rad/s
+      aim = 0,                             ///< where the line touches, rad/s
+      current_at_rest = 0,                 ///< of the line, A
+      h = 0;                               ///< length of the segment, s
 };
 /// Several lanes have none.
 struct NoPwm {};

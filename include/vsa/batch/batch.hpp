@@ -67,7 +67,8 @@ class Batch {
   /// but of kLeastSlice of each at least. The bits are those of one piece, but of a copy whose state can't be saved: it stays where
   /// its slice began.
   void step(int steps, std::span<const std::size_t> which, const std::function<void()>& between);
-  static constexpr int kSlice = 4096, kLeastSlice = 10;  ///< World steps of a slice; of each copy at least
+  static constexpr int kSlice = 4096,  ///< World steps of a slice, of all copies together
+      kLeastSlice = 10;                ///< World steps of each copy in it, at least
   /// Back to where the Batch began, with the copy's parameters: as the World was then, after World::set_parameters().
   void reset();
   void reset(std::span<const std::size_t> which);  ///< of those copies

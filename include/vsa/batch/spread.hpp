@@ -23,11 +23,12 @@ struct Setting {
 struct Distribution {
   /// Of the draw.
   enum class Kind {
-    uniform,      ///< from a to b
-    log_uniform,  ///< from a to b, its logarithm uniform; 0 < a ≤ b
-    normal        ///< mean a, standard deviation b ≥ 0, cut off at three of these
-  } kind = Kind::uniform;
-  double a = 0, b = 0;         ///< of `kind`
+    uniform,                   ///< from a to b
+    log_uniform,               ///< from a to b, its logarithm uniform; 0 < a ≤ b
+    normal                     ///< mean a, standard deviation b ≥ 0, cut off at three of these
+  } kind = Kind::uniform;      ///< whose `a` and `b` the next two are
+  double a = 0,                ///< lower end, or mean
+      b = 0;                   ///< upper end, or standard deviation
   bool times_nominal = false;  ///< the value is the draw times what the Batch began with
   bool shared = false;         ///< one draw for all of a copy's; else each actuator or link has its own
 };

@@ -118,6 +118,7 @@ struct CurrentsAndMeasurementsReply {
   std::array<Ticks, 3> positions{};           ///< the shaft's isn't sent in firmware 6.1's layout: decoded as 0
   bool operator==(const CurrentsAndMeasurementsReply&) const = default;
 };
+/// Speeds of motor 1, motor 2 and shaft.
 struct VelocitiesReply {
   std::array<std::int16_t, 3> velocities{};  ///< as above; firmware 6.1 never computes them
   bool operator==(const VelocitiesReply&) const = default;

@@ -52,7 +52,8 @@ struct Entry {
   std::string source;        ///< where the value came from, as the file says
   Kind kind = Kind::number;  ///< how `value` is to be read
   double number = 0;         ///< the value: itself, 0 or 1 for a switch, a word's index
-  double min = 0, max = 0;   ///< number, integer: the bounds, ends included
+  double min = 0,            ///< number, integer: lower bound, included
+      max = 0;               ///< upper bound, included
 };
 
 /// A type as it was read: what a unit of it is made of, and what can be told of it.
@@ -116,7 +117,8 @@ class LawRegistry {
 
 /// A value that replaces a type's.
 struct Override {
-  std::string key, value;  ///< "drive.friction_Nm"; as a file would have it
+  std::string key,  ///< "drive.friction_Nm"
+      value;        ///< as a file would have it
 };
 /// "drive.friction_Nm=0.7" → an override. Throws InputError with every text that has no key or no value. `from`: "--set".
 [[nodiscard]] std::vector<Override> parse_overrides(const std::vector<std::string>& texts, const std::string& from);

@@ -34,7 +34,8 @@ struct Parameter {
   std::string_view key;             ///< "drive.friction_Nm"
   std::string_view unit;            ///< "N·m"; "1" where it has none; kPresetUnit: the law's; empty for words and switches
   Kind kind = Kind::number;         ///< of its value
-  double min = 0, max = 0;          ///< number, integer: allowed range, ends included
+  double min = 0,                   ///< number, integer: least that is allowed
+      max = 0;                      ///< most that is allowed
   std::string_view words;           ///< word: "brake|coast"
   std::string_view meaning;         ///< one line for listings
   Need need = Need::required;       ///< whether a file must have it

@@ -90,8 +90,9 @@ void validate(const ServoParams& params, std::string_view where, Problems& probl
 
 /// What a unit was told last.
 struct ServoCommand {
-  double equilibrium = 0, preset = 0;  ///< rad; added to k₀ of a torque servo, else in the law's unit
-  std::array<double, 2> direct{};      ///< torque servo: τ_c, N·m; motor voltages: V
+  double equilibrium = 0,          ///< rad
+      preset = 0;                  ///< in the law's unit; of a torque servo added to k₀, N·m/rad
+  std::array<double, 2> direct{};  ///< torque servo: τ_c, N·m; motor voltages: V
   static auto fields(auto& s, auto&& visit) {
     return visit("equilibrium", "rad", s.equilibrium, "preset", "", s.preset, "direct", "", s.direct);
   }
@@ -121,8 +122,9 @@ struct ServoReadings {
 
 /// Where motors and shaft are, and how fast, as encoders would have it that count turns.
 struct ServoPlace {
-  std::array<double, 3> angle{}, speed{};  ///< rad, rad/s; motor 1, motor 2, shaft
-  std::array<double, 2> held{};            ///< torque of each motor that holds its spring, N·m
+  std::array<double, 3> angle{},  ///< of motor 1, motor 2, shaft, rad
+      speed{};                    ///< likewise, rad/s
+  std::array<double, 2> held{};   ///< torque of each motor that holds its spring, N·m
 };
 
 /// A motor at its pulley, with all the resistance that its current meets, and a count of the encoder there.

@@ -80,7 +80,8 @@ class Vec3 {
     for (std::size_t i = 0; i < 3; ++i) v_[i] = o[i] > v_[i] ? o[i] : v_[i];
   }
 
-  static const Vec3 Zero, One;  ///< (0, 0, 0); (1, 1, 1)
+  static const Vec3 Zero,  ///< (0, 0, 0)
+      One;                 ///< (1, 1, 1)
 
  private:
   std::array<double, 3> v_{};

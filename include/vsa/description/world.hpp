@@ -27,9 +27,11 @@ struct Mesh {
 /// Heights above the geometry's origin, row 0 at the smallest y, column 0 at the smallest x. The grid spans
 /// [−extent/2, extent/2] about `centre`.
 struct Heightmap {
-  std::size_t rows = 0, columns = 0;     ///< of samples
+  std::size_t rows = 0,                  ///< of samples, along y
+      columns = 0;                       ///< of samples, along x
   std::vector<double> heights;           ///< ≥ 0, rows × columns
-  double extent_x = 0, extent_y = 0;     ///< m
+  double extent_x = 0,                   ///< along x, m
+      extent_y = 0;                      ///< along y, m
   Vec3 centre;                           ///< of the grid, in the geometry's frame
   [[nodiscard]] double highest() const;  ///< of the heights; 0 without any
 };
@@ -37,7 +39,7 @@ struct Heightmap {
 /// A shape, to collide or to be looked at.
 struct Geometry {
   /// As in SDF.
-  enum class Kind { box, sphere, cylinder, capsule, ellipsoid, plane, mesh, heightmap } kind = Kind::box;
+  enum class Kind { box, sphere, cylinder, capsule, ellipsoid, plane, mesh, heightmap } kind = Kind::box;  ///< which one
   Vec3 size;  ///< box: full lengths; sphere: r; cylinder, capsule: r, length of the straight part; ellipsoid: radii; plane: lengths
   Pose3 offset;                      ///< of the geometry in its collision or visual (a plane's normal is +z of this frame)
   std::shared_ptr<const Mesh> mesh;  ///< of a mesh
@@ -98,20 +100,22 @@ struct Axis {
 /// What ties two links together, or one to the world.
 struct Joint {
   /// As in SDF; fixed: moves nothing.
-  enum class Kind { fixed, hinge, slide, ball, universal } kind = Kind::fixed;
-  std::string name;                   ///< scoped
-  std::optional<std::size_t> parent;  ///< none: the world
-  std::optional<std::size_t> child;   ///< the link that it moves; none: the world
-  Pose3 pose;                         ///< in the world, at the start: where the axes meet
-  std::vector<Axis> axes;             ///< hinge, slide: 1; universal: 2, the first fixed in the parent
+  enum class Kind { fixed, hinge, slide, ball, universal } kind = Kind::fixed;  ///< how it moves
+  std::string name;                                                             ///< scoped
+  std::optional<std::size_t> parent;                                            ///< none: the world
+  std::optional<std::size_t> child;                                             ///< the link that it moves; none: the world
+  Pose3 pose;                                                                   ///< in the world, at the start: where the axes meet
+  std::vector<Axis> axes;  ///< hinge, slide: 1; universal: 2, the first fixed in the parent
   /// Hinge or slide: what an actuator can drive.
   [[nodiscard]] bool one_axis() const { return kind == Kind::hinge || kind == Kind::slide; }
 };
 
 /// One joint that follows another: q_follower = multiplier·q_leader + offset. Both have one axis.
 struct Coupling {
-  std::size_t follower = 0, leader = 0;  ///< into joints
-  double multiplier = 1, offset = 0;     ///< m per m or rad per rad; m or rad
+  std::size_t follower = 0,  ///< into World::joints
+      leader = 0;            ///< into World::joints
+  double multiplier = 1,     ///< rad or m of the follower per rad or m of the leader
+      offset = 0;            ///< rad or m
 };
 
 /// A `<plugin>` of ours, as text.

@@ -69,11 +69,13 @@ struct ChainState {
   [[nodiscard]] static constexpr std::size_t most_bytes(std::size_t stations) noexcept { return 64 * stations + 4096; }
   /// What somebody says: bytes back to back. It is dropped once all have heard it.
   struct Speech {
-    std::int64_t start_ps = 0, end_ps = 0;  ///< first bit; last bit
-    std::uint32_t begin = 0, size = 0;      ///< in `bytes`
-    std::uint32_t heard = 0;                ///< bytes handed over, while nobody else speaks
-    int speaker = kMaster;                  ///< a station, or kMaster
-    bus::LineRate rate{};                   ///< of the speaker
+    std::int64_t start_ps = 0,  ///< when its first bit begins
+        end_ps = 0;             ///< when its last bit ends
+    std::uint32_t begin = 0,    ///< in `bytes`
+        size = 0;               ///< of it, in `bytes`
+    std::uint32_t heard = 0;    ///< bytes handed over, while nobody else speaks
+    int speaker = kMaster;      ///< a station, or kMaster
+    bus::LineRate rate{};       ///< of the speaker
     static auto fields(auto& s, auto&& visit) {
       return visit("start", "ps", s.start_ps, "end", "ps", s.end_ps, "begin", "", s.begin, "size", "", s.size, "heard", "", s.heard,
                    "speaker", "", s.speaker, "rate", "", s.rate);
@@ -92,8 +94,8 @@ struct ChainState {
   /// How exactly the line is simulated now: whole frames handed over, byte by byte, or bit by bit (see above).
   enum class Mode : std::uint8_t { frames, bytes, bits };
 
-  std::int64_t now_ps = 0;  ///< the line's time
-  Mode mode = Mode::frames;
+  std::int64_t now_ps = 0;          ///< the line's time
+  Mode mode = Mode::frames;         ///< as of the last event
   bool someone_waits = false;       ///< a program has bytes that it couldn't look at yet
   bool rates_differ = false;        ///< bit by bit as long as they do
   bus::LineReceiver master_ear;     ///< at the rate of its serial port

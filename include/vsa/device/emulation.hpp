@@ -49,8 +49,9 @@ class Emulation {
   /// What a unit is doing.
   struct Reading {
     std::array<double, 2> motor_rad{};  ///< the pulleys
-    /// Of the shaft; the torque is the mean over the last step.
-    double shaft_rad = 0, shaft_speed_rad_per_s = 0, torque_Nm = 0;
+    double shaft_rad = 0,               ///< q
+        shaft_speed_rad_per_s = 0,      ///< q̇
+        torque_Nm = 0;                  ///< mean over the last step
   };
   /// By the thread that advances.
   [[nodiscard]] Reading read(std::size_t unit) const;

@@ -41,7 +41,8 @@ struct Faults {
   std::array<bool, 2> motor_unplugged{};  ///< of each motor
   std::uint64_t seed = 1;                 ///< of bytes and noise
   bool operator==(const Faults&) const = default;
-  static constexpr double kLatest_s = 60, kMostSupply_V = 100;  ///< of late_s; of supply_V
+  static constexpr double kLatest_s = 60,  ///< of late_s
+      kMostSupply_V = 100;                 ///< of supply_V
 
   [[nodiscard]] Wiring wiring() const noexcept;  ///< what of it concerns the line
   static auto fields(auto& s, auto&& visit) {

@@ -41,12 +41,15 @@ struct JointInStep {
 
 /// What is known of each joint of a tree for the Δy that was tried last: as many numbers as it has joints.
 struct TrialColumns {
-  explicit TrialColumns(std::size_t joints)  ///< so many numbers in each
+  /// So many numbers in each column.
+  explicit TrialColumns(std::size_t joints)
       : free(joints), last_torque(joints), dy(joints), torque(joints), slope(joints), carried(joints) {}
-  std::vector<double> free, last_torque;  ///< Δy without new torques, and the torques it goes with
-  std::vector<double> dy;                 ///< of each unit's last attempt
-  std::vector<double> torque, slope;      ///< there, or where the solver took `carried` for it
-  std::vector<ShaftTorque> carried;       ///< what the last attempt foretells of a move from there
+  std::vector<double> free,          ///< Δy without new torques
+      last_torque;                   ///< the torques that it goes with, N·m
+  std::vector<double> dy;            ///< of each unit's last attempt
+  std::vector<double> torque,        ///< there, or where the solver took `carried` for it, N·m
+      slope;                         ///< −dτ/d(Δy) there, N·m/rad
+  std::vector<ShaftTorque> carried;  ///< what the last attempt foretells of a move from there
 };
 
 /// Tries the units of joints in lanes and by themselves. Kept from step to step for its memory; one thread.

@@ -73,9 +73,10 @@ class PortLine final : public bus::SerialLine, private bus::LineMaster {
   [[nodiscard]] std::uint64_t lost() const;
   /// What was dropped because of its rate, and the rates when that happened last.
   struct WrongRate {
-    std::uint64_t bytes = 0;                   ///< so far
-    std::int64_t client_Hz = 0, units_Hz = 0;  ///< then
-    [[nodiscard]] std::string text() const;    ///< for a user
+    std::uint64_t bytes = 0;                 ///< so far
+    std::int64_t client_Hz = 0,              ///< of the client, then
+        units_Hz = 0;                        ///< of the units, then
+    [[nodiscard]] std::string text() const;  ///< for a user
   };
   [[nodiscard]] WrongRate wrong_rate() const;  ///< so far
 

@@ -52,7 +52,8 @@ struct Held {
 
 /// A shaft's angle (rad) and speed (rad/s).
 struct ShaftMotion {
-  double angle = 0, speed = 0;  ///< q, q̇
+  double angle = 0,  ///< q
+      speed = 0;     ///< q̇
   static auto fields(auto& s, auto&& visit) { return visit("angle", "rad", s.angle, "speed", "rad/s", s.speed); }
 };
 
@@ -96,7 +97,8 @@ struct ShaftIn {
 
 /// A host step under way: the owner's scratch, of no meaning between steps.
 struct StepPlan {
-  std::int64_t t_ns = 0, dt_ns = 0;             ///< the step [t, t + dt)
+  std::int64_t t_ns = 0,                        ///< when the step begins
+      dt_ns = 0;                                ///< how long it is
   bool whole = false;                           ///< one segment: no tick inside
   ShaftIn in;                                   ///< as it was told
   double y = 0;                                 ///< where the path begins

@@ -32,6 +32,7 @@ void validate(const FrictionParams& params, std::string_view where, Problems& pr
 
 /// The parameters with what every step needs of them, made once.
 struct Friction : FrictionParams {
+  /// Divides once for all steps.
   // NOLINTNEXTLINE(google-explicit-constructor): the same law, only prepared
   Friction(const FrictionParams& p) noexcept
       : FrictionParams(p), stiffness(p.presliding_rad > 0 && p.coulomb_Nm > 0 ? p.coulomb_Nm / p.presliding_rad : 0.0) {}
@@ -41,8 +42,9 @@ struct Friction : FrictionParams {
 /// The same where each lane has a limit of its own; the bristle's stiffness is common to all.
 template <class T>
 struct FrictionOf {
-  T coulomb_Nm = 0, presliding_rad = 0;  ///< τ_c and z_max
-  double stiffness = 0;                  ///< τ_c/z_max
+  T coulomb_Nm = 0,        ///< τ_c
+      presliding_rad = 0;  ///< z_max
+  double stiffness = 0;    ///< τ_c/z_max
 };
 
 /// The friction under a load: τ_c grows by ratio·|load|, the bristle's stiffness stays (z_max grows with τ_c); without a bristle it
@@ -66,7 +68,8 @@ using FrictionStep = FrictionStepOf<double>;  ///< of one part
 /// Torque and its slope −dτ/d(Δx).
 template <class T>
 struct FrictionTorqueOf {
-  T torque = 0, slope = 0;  ///< τ, N·m; −dτ/d(Δx), N·m/rad
+  T torque = 0,   ///< τ, N·m
+      slope = 0;  ///< −dτ/d(Δx), N·m/rad
 };
 using FrictionTorque = FrictionTorqueOf<double>;  ///< of one part
 

@@ -72,11 +72,13 @@ enum class Terminal { driven, open };
 /// Exact results of a step of length h with constant voltage and torque.
 template <class T>
 struct MotorStepOf {
-  T displacement = 0;                    ///< ∫ω
-  T speed = 0;                           ///< at the end
-  T current = 0;                         ///< at the end
-  T charge = 0;                          ///< ∫I
-  T int_II = 0, int_ww = 0, int_Iw = 0;  ///< ∫I² dt, A²·s; ∫ω² dt, rad²/s; ∫Iω dt, A·rad
+  T displacement = 0;  ///< ∫ω
+  T speed = 0;         ///< at the end
+  T current = 0;       ///< at the end
+  T charge = 0;        ///< ∫I
+  T int_II = 0,        ///< ∫I² dt, A²·s
+      int_ww = 0,      ///< ∫ω² dt, rad²/s
+      int_Iw = 0;      ///< ∫Iω dt, A·rad
 };
 using MotorStep = MotorStepOf<double>;  ///< of one motor
 

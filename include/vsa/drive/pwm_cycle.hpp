@@ -30,12 +30,15 @@ namespace vsa::drive {
 
 /// Mean current, A, and −∂ī/∂e, 1/Ω.
 struct PwmMean {
-  double current = 0, conductance = 0;  ///< ī, A; −∂ī/∂e, 1/Ω, ≥ 0
+  double current = 0,   ///< ī, A
+      conductance = 0;  ///< −∂ī/∂e, 1/Ω, ≥ 0
 };
 
 /// Mean powers, W: drawn from the supply (negative: fed back), heat of the winding, heat of switches and diodes.
 struct PwmPower {
-  double supply = 0, winding = 0, bridge = 0;  ///< mean over a period; winding and bridge ≥ 0
+  double supply = 0,  ///< drawn; negative: fed back
+      winding = 0,    ///< heat of the winding, ≥ 0
+      bridge = 0;     ///< heat of switches and diodes, ≥ 0
 };
 
 /// One duty, prepared: two exponentials. Evaluating it costs a logarithm at most. Ranges: R > 0; |d| ≤ 1; L ≤ 0 means T = 0.

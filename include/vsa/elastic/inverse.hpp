@@ -40,9 +40,10 @@ struct Command {
     torque_unreachable,  ///< no preset allowed reaches the torque within a turn
     not_a_number         ///< an argument isn't finite, or is negative where it can't be
   };
-  Outcome outcome = Outcome::not_a_number;      ///< whether `command` gives what was wanted
-  EquilibriumPreset command;                    ///< where found; else that of the nearest stiffness, if there is one
-  double stiffness_min = 0, stiffness_max = 0;  ///< what the presets 0 … preset_max reach at this torque, N·m/rad
+  Outcome outcome = Outcome::not_a_number;  ///< whether `command` gives what was wanted
+  EquilibriumPreset command;                ///< where found; else that of the nearest stiffness, if there is one
+  double stiffness_min = 0,                 ///< the least that the presets 0 … preset_max reach at this torque, N·m/rad
+      stiffness_max = 0;                    ///< the largest, N·m/rad
   [[nodiscard]] bool found() const noexcept { return outcome == Outcome::found; }  ///< `command` gives torque and stiffness, both
   [[nodiscard]] std::string text() const;                                          ///< the outcome in words, with the range
 };

@@ -18,29 +18,34 @@ namespace vsa::elastic {
 
 /// A number of the law's; a type's file has it as elastic.KEY.
 struct LawParameter {
-  std::string_view key, unit;  ///< of units: "rad", "N·m/rad"; empty for a plain number
-  double min, max;             ///< ends included
-  std::string_view meaning;    ///< one line for tables
+  std::string_view key,      ///< behind "elastic." in a file
+      unit;                  ///< "rad", "N·m/rad"; empty for a plain number
+  double min,                ///< least that is allowed
+      max;                   ///< most that is allowed
+  std::string_view meaning;  ///< one line for tables
 };
 
 /// A column of numbers in the file that a law is made of.
 struct LawColumn {
   std::string_view name;     ///< as the file's first line has it, with its unit: "deflection_rad"
-  double min, max;           ///< ends included
+  double min,                ///< least that is allowed
+      max;                   ///< most that is allowed
   bool needed;               ///< else 0 in every row of a file that hasn't the column
   std::string_view meaning;  ///< one line for tables
 };
 
 /// The file of a law that is made of one; a type's file names it as elastic.KEY.
 struct LawFile {
-  std::string_view key, meaning;       ///< behind "elastic."; one line for tables
+  std::string_view key,                ///< behind "elastic." in a file
+      meaning;                         ///< one line for tables
   std::span<const LawColumn> columns;  ///< that its first line must or may name
 };
 
 /// What is wrong between values that are fine one by one.
 struct LawFault {
   std::string_view key;                           ///< which one to change
-  std::string message, allowed;                   ///< what is wrong, and what would be right
+  std::string message,                            ///< what is wrong
+      allowed;                                    ///< what would be right
   std::optional<std::size_t> row = std::nullopt;  ///< of the law's file
 };
 

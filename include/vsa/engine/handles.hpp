@@ -46,11 +46,12 @@ struct JointInfo {
   /// Its first degree of freedom: where it stands in vectors and matrices of World::dof_count(). Revolute, prismatic: 1; universal:
   /// 2; ball: 3 (angular velocity in the child's axes). None where it has no motion.
   std::optional<std::size_t> dof;
-  /// Of its one axis, what the file gives the joint beside an actuator: the spring's N·m per rad, the damper's N·m·s per rad, and
-  /// where the spring rests, rad; of a prismatic one's: N/m, N·s/m, m.
-  double damping = 0, stiffness = 0, rest = 0;  ///< torque −stiffness (q − rest) − damping q̇
-  double dry_friction = 0;                      ///< N·m; N of a prismatic one
-  std::optional<std::size_t> follows;           ///< the joint that it follows (`<mimic>`): an index into World::joints()
+  /// Of its one axis, what the file gives the joint beside an actuator: torque −stiffness (q − rest) − damping q̇.
+  double damping = 0,                  ///< N·m·s/rad; N·s/m of a prismatic one
+      stiffness = 0,                   ///< N·m/rad; N/m of a prismatic one
+      rest = 0;                        ///< where its spring rests, rad or m
+  double dry_friction = 0;             ///< N·m; N of a prismatic one
+  std::optional<std::size_t> follows;  ///< the joint that it follows (`<mimic>`): an index into World::joints()
 };
 
 }  // namespace vsa::engine

@@ -64,9 +64,10 @@ using scene::Shape;
 /// An actuator by number instead of by name: one of World::actuators(). Good for every world of the same file; any other refuses
 /// it.
 struct ActuatorRef {
-  std::string model;                 ///< top-level model's name
-  std::string name;                  ///< the actuator's
-  std::size_t robot = 0, index = 0;  ///< into robots(), and the robot's own index
+  std::string model;      ///< top-level model's name
+  std::string name;       ///< the actuator's
+  std::size_t robot = 0,  ///< into robots()
+      index = 0;          ///< the robot's own index of it
 };
 
 /// Other parameters for some of a world's actuators and links; of an actuator `unit`, and `type` and `changed` that tell of it.

@@ -46,17 +46,21 @@ class Stopped : public std::runtime_error {
 
 /// One sample: what was asked, what is (simulated truth), what the unit itself reads.
 struct BenchSample {
-  double time_s = 0;                                       ///< simulated, since the run's start
-  double equilibrium_command_rad = 0, preset_command = 0;  ///< as they were given
-  double equilibrium_rad = 0, preset = 0;                  ///< attained, from the pulleys
-  double shaft_rad = 0, shaft_speed_rad_per_s = 0;         ///< q, q̇
-  double torque_Nm = 0;                                    ///< of the actuator on the shaft
-  double mean_torque_Nm = 0;                               ///< the same over the step that led here
-  double stiffness_Nm_per_rad = 0;                         ///< σ at the present deflection
-  double measured_shaft_rad = 0;                           ///< by the unit's encoders
+  double time_s = 0;                   ///< simulated, since the run's start
+  double equilibrium_command_rad = 0,  ///< as it was given
+      preset_command = 0;              ///< as it was given, in the law's unit
+  double equilibrium_rad = 0,          ///< attained, from the pulleys
+      preset = 0;                      ///< attained, from the pulleys, in the law's unit
+  double shaft_rad = 0,                ///< q
+      shaft_speed_rad_per_s = 0;       ///< q̇
+  double torque_Nm = 0;                ///< of the actuator on the shaft
+  double mean_torque_Nm = 0;           ///< the same over the step that led here
+  double stiffness_Nm_per_rad = 0;     ///< σ at the present deflection
+  double measured_shaft_rad = 0;       ///< by the unit's encoders
   double measured_deflection_rad = 0;  ///< shaft − equilibrium by the unit's encoders; qbmove: shaft − mean of the pulleys
   double measured_load_Nm = 0;         ///< external torque about +q: −M g r sin(measured shaft); 0 on bench_free
-  std::array<double, 2> motor_rad{}, current_A{};  ///< of each side
+  std::array<double, 2> motor_rad{},   ///< of each pulley
+      current_A{};                     ///< of each winding
 };
 
 /// What one experiment recorded, and what it was done with.
@@ -95,7 +99,9 @@ struct StiffnessOptions {
 /// rad; the parabola through them, its value at 0.6903 beyond), within 0.25°. A law without a preset counts as preset 0. Where the
 /// unit can't lift the lever so far, the amplitude is 1 rad more than the law alone asks for, and `reached_rad` tells.
 struct SweepAmplitude {
-  double amplitude_rad = 0, target_rad = 0, reached_rad = 0;  ///< of the sweep; of the shaft: what the rule asks for, and what came
+  double amplitude_rad = 0,  ///< of the sweep
+      target_rad = 0,        ///< of the shaft: what the rule asks for
+      reached_rad = 0;       ///< of the shaft: what came of it
 };
 /// That angle of the shaft, rad; `preset_unit` is the law's, "" where it has no preset.
 [[nodiscard]] double sweep_target_rad(double preset, std::string_view preset_unit);

@@ -24,19 +24,21 @@ enum class Kind { calibrated, predicted };
 
 /// What a quantity is held to.
 struct Bound {
-  std::string quantity;            ///< "stiffness.0.6903.rms_rad"
-  std::optional<double> min, max;  ///< a value within both is held
-  std::string why;                 ///< the reason, in a sentence
-  std::optional<Kind> kind;        ///< none: by the type's evidence
-  std::string place;               ///< "file:line"
+  std::string quantity;       ///< "stiffness.0.6903.rms_rad"
+  std::optional<double> min,  ///< none: whatever is small is held
+      max;                    ///< none: whatever is large is held
+  std::string why;            ///< the reason, in a sentence
+  std::optional<Kind> kind;   ///< none: by the type's evidence
+  std::string place;          ///< "file:line"
 };
 
 /// What others reach on a recording.
 struct Published {
-  double preset = 0;                                   ///< of the recording
-  double rms_2015_rad = 0, rms_2015_branches_rad = 0;  ///< the authors' simulation, point by point and as branch means
-  double repeatability_rad = 0;                        ///< of the hardware
-  std::string source;                                  ///< where it is from
+  double preset = 0;              ///< of the recording
+  double rms_2015_rad = 0,        ///< the authors' simulation, point by point
+      rms_2015_branches_rad = 0;  ///< as branch means
+  double repeatability_rad = 0;   ///< of the hardware
+  std::string source;             ///< where it is from
 };
 
 /// A file of bounds.
@@ -71,7 +73,8 @@ struct Verdict {
 
 /// How many bounds of a kind there are, and how many of them are held.
 struct Count {
-  std::size_t held = 0, all = 0;  ///< of that kind
+  std::size_t held = 0,  ///< of that kind
+      all = 0;           ///< of that kind, held or not
 };
 [[nodiscard]] Count count(const std::vector<Verdict>& verdicts, Kind kind);  ///< of one kind
 

@@ -30,7 +30,8 @@ struct PresetColumn {
   double energy_at_rest_J = 0;              ///< H with the shaft unloaded
   double half_load_Nm = 0;                  ///< half of what it moves at its peak
   double stiffness_at_half_Nm_per_rad = 0;  ///< σ there
-  Holding held_at_rest, held_at_half;       ///< unloaded; at half of what it moves
+  Holding held_at_rest,                     ///< unloaded
+      held_at_half;                         ///< at half of what it moves
   std::vector<WorkspacePoint> boundary;     ///< speeds at which it still moves something
   std::vector<LawPoint> curve;              ///< the law alone, under a load
 };

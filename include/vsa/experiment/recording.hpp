@@ -32,9 +32,11 @@ struct LoadRecording {
 /// fitted to the branch's samples within half a grid step (all cycles pooled); the scatter is that of the residuals, their root
 /// mean square. Samples on both sides of the grid point are needed: nothing is extrapolated.
 struct Branches {
-  std::vector<double> torque_Nm;                      ///< of the grid, growing
-  std::vector<double> rising_rad, falling_rad;        ///< NaN where a branch has no samples
-  std::vector<double> sd_rising_rad, sd_falling_rad;  ///< scatter about the line
+  std::vector<double> torque_Nm;      ///< of the grid, growing
+  std::vector<double> rising_rad,     ///< NaN where that branch has no samples
+      falling_rad;                    ///< NaN where that branch has no samples
+  std::vector<double> sd_rising_rad,  ///< scatter about the line
+      sd_falling_rad;                 ///< scatter about the line
 };
 
 /// Torque's direction is judged between turning points: a maximum counts as one when the torque has since fallen by
@@ -70,8 +72,10 @@ void write_load_recording(const LoadRecording& recording, const std::filesystem:
 
 /// Root mean square of (a − b) over both branches, on the points that both have. Throws InputError where the grids share none.
 struct Difference {
-  double both_rad = 0, rising_rad = 0, falling_rad = 0;  ///< NaN for a branch without a common point
-  std::size_t points = 0;                                ///< that both have, on both branches
+  double both_rad = 0,     ///< over both branches
+      rising_rad = 0,      ///< NaN without a common point
+      falling_rad = 0;     ///< NaN without a common point
+  std::size_t points = 0;  ///< that both have, on both branches
 };
 /// Throws InputError where the grids share no torque.
 [[nodiscard]] Difference difference(const Branches& a, const Branches& b);
@@ -83,8 +87,11 @@ struct Difference {
 /// to their means (isotonic regression), each pool one knot; τ(δ) is linear between the knots. A recorded deflection beyond the
 /// last knot is followed along the line through that knot and the farthest one within 0.5 N·m of it, and counted as `extrapolated`.
 struct TorqueDifference {
-  double both_Nm = 0, rising_Nm = 0, falling_Nm = 0;  ///< root mean squares; NaN for a branch without points
-  std::size_t points = 0, extrapolated = 0;           ///< recorded points compared
+  double both_Nm = 0,      ///< root mean square over both branches
+      rising_Nm = 0,       ///< NaN without points
+      falling_Nm = 0;      ///< NaN without points
+  std::size_t points = 0,  ///< recorded ones, compared
+      extrapolated = 0;    ///< of these, beyond the simulated branch's last knot
 };
 /// All NaN, no points, where neither simulated branch has two knots.
 [[nodiscard]] TorqueDifference torque_difference(const Branches& simulated, const Branches& recorded);
@@ -108,7 +115,8 @@ class BranchInverse {
 
 /// A quantity over time: columns time_s (strictly increasing) and `column`.
 struct TimeSeries {
-  std::vector<double> time_s, value;  ///< in order of time; of the column
+  std::vector<double> time_s,  ///< strictly increasing
+      value;                   ///< of the column
 };
 /// Throws InputError as read_load_recording() does.
 [[nodiscard]] TimeSeries read_series(const std::filesystem::path& csv, std::string_view column);

@@ -39,23 +39,27 @@ namespace vsa::experiment {
 
 /// A motor with its gearbox at full voltage, at the pulley.
 struct MotorLine {
-  double full_duty = 0;         ///< of the supply, at full output
-  double voltage_V = 0;         ///< V
-  double stall_Nm = 0;          ///< K_τ V/R, before friction; with a servo no more than its current gives
-  double stall_current_A = 0;   ///< V/R, or the servo's limit
-  double friction_Nm = 0;       ///< τ_c
-  double back_Nms_per_rad = 0;  ///< K_τ K_b/R + b
-  double torque_constant_Nm_per_A = 0, resistance_Ohm = 0;    ///< K_τ; R in the way of V
-  double full_Nm = 0;                                         ///< K_τ V/R whatever limits the current
+  double full_duty = 0;                 ///< of the supply, at full output
+  double voltage_V = 0;                 ///< V
+  double stall_Nm = 0;                  ///< K_τ V/R, before friction; with a servo no more than its current gives
+  double stall_current_A = 0;           ///< V/R, or the servo's limit
+  double friction_Nm = 0;               ///< τ_c
+  double back_Nms_per_rad = 0;          ///< K_τ K_b/R + b
+  double torque_constant_Nm_per_A = 0,  ///< K_τ
+      resistance_Ohm = 0;               ///< R in the way of V
+  double full_Nm = 0;                   ///< K_τ V/R whatever limits the current
   double limit_Nm = std::numeric_limits<double>::infinity();  ///< K_τ I_max of a servo
   double viscous_Nms_per_rad = 0;                             ///< b
   double load_loss = 0;                                       ///< λ
   double back_loss = 0;                                       ///< λ where the load drives the motor back
   /// The enable pin is modulated: the motor at full duty, both ways.
   struct Chopped {
-    drive::PwmCycle along, against;  ///< drives the motor; brakes it
+    drive::PwmCycle along,  ///< full duty, driving the motor
+        against;            ///< full duty, braking it
     /// K_τ, K_b, b at the pulley.
-    double torque_constant_Nm_per_A = 0, back_emf_Vs_per_rad = 0, viscous_Nms_per_rad = 0;
+    double torque_constant_Nm_per_A = 0,  ///< K_τ
+        back_emf_Vs_per_rad = 0,          ///< K_b
+        viscous_Nms_per_rad = 0;          ///< b
     /// M of a cycle at a speed.
     [[nodiscard]] double torque_Nm(const drive::PwmCycle& cycle, double speed_rad_per_s) const noexcept {
       return torque_constant_Nm_per_A * cycle.mean(back_emf_Vs_per_rad * speed_rad_per_s).current -
@@ -97,7 +101,9 @@ struct WorkspacePoint {
 
 /// Output power at its largest along a boundary.
 struct BestPower {
-  double power_W = 0, torque_Nm = 0, speed_rad_per_s = 0;  ///< P = τω there
+  double power_W = 0,       ///< P = τω
+      torque_Nm = 0,        ///< τ there
+      speed_rad_per_s = 0;  ///< ω there
 };
 /// The point of the boundary with the most power.
 [[nodiscard]] BestPower best_power(const std::vector<WorkspacePoint>& boundary);
@@ -110,7 +116,9 @@ struct Holding {
 
 /// The law under an external load at a preset, pulleys held: what a torque–deflection curve shows.
 struct LawPoint {
-  double deflection_rad = 0, load_Nm = 0, stiffness_Nm_per_rad = 0;  ///< δ, external load, σ
+  double deflection_rad = 0,     ///< δ
+      load_Nm = 0,               ///< external
+      stiffness_Nm_per_rad = 0;  ///< σ
 };
 
 /// What an actuator can do at constant speed (see above), worked out from its parameters alone.

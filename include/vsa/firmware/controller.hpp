@@ -72,16 +72,23 @@ struct Orders {
 
 /// As at power-up.
 struct ControllerState {
-  std::array<std::int32_t, 3> meas{}, meas_old{};  ///< multi-turn raw positions: motor 1, motor 2, shaft
-  std::array<std::int32_t, 3> last_sample{};       ///< the last that was believed, offset added
-  std::array<std::int8_t, 3> turns{};              ///< whole turns since power-up
-  std::array<std::uint8_t, 3> rejected{};          ///< consecutive jumps discarded
+  std::array<std::int32_t, 3> meas{},         ///< multi-turn raw positions: motor 1, motor 2, shaft
+      meas_old{};                             ///< of the last tick
+  std::array<std::int32_t, 3> last_sample{};  ///< the last that was believed, offset added
+  std::array<std::int8_t, 3> turns{};         ///< whole turns since power-up
+  std::array<std::uint8_t, 3> rejected{};     ///< consecutive jumps discarded
   /// Raw references: in force, of the tick before, of the next.
-  std::array<std::int32_t, 2> ref{}, ref_old{}, ref_new{};
+  std::array<std::int32_t, 2> ref{},  ///< raw references in force
+      ref_old{},                      ///< of the tick before
+      ref_new{};                      ///< of the next
   /// Likewise of the rest of a set of references.
-  Orders orders{}, orders_old{}, orders_new{};
+  Orders orders{},   ///< in force
+      orders_old{},  ///< of the tick before
+      orders_new{};  ///< of the next
   /// Σe of the positions, Σε of the currents, and the error of the tick before.
-  std::array<std::int32_t, 2> error_sum{}, current_error_sum{}, current_error_before{};
+  std::array<std::int32_t, 2> error_sum{},        ///< Σe
+      current_error_sum{},                        ///< Σε
+      current_error_before{};                     ///< ε of the tick before
   std::array<std::int32_t, 2> pwm{};              ///< percent before the supply limit, ±100
   std::array<std::int32_t, 2> duty{};             ///< percent that goes out, signed by the direction pin
   std::array<bool, 2> forward{};                  ///< direction pins
@@ -89,7 +96,9 @@ struct ControllerState {
   std::array<std::int32_t, 2> rate_before{};      ///< advanced: the rate limit's memory; as it is, only [0]
   std::array<std::int32_t, 2> current_filter{};   ///< the filter's memory, mA << 6
   /// Of this reading, of the tick before, and of the one before that.
-  std::array<MilliAmp, 2> current{}, current_old{}, current_before{};
+  std::array<MilliAmp, 2> current{},          ///< of this tick
+      current_old{},                          ///< of the tick before
+      current_before{};                       ///< of the one before that
   MilliVolt supply{};                         ///< of this reading
   std::int32_t limit_pct = 0;                 ///< supply-dependent limit in force
   bool supply_seen = false;                   ///< whether there was a reading

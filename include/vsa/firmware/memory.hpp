@@ -31,34 +31,38 @@ namespace vsa::firmware {
 
 /// 16.16 fixed point.
 struct Gains {
-  std::int32_t p = 0, i = 0, d = 0;  ///< of position and current loops
+  std::int32_t p = 0,  ///< proportional
+      i = 0,           ///< integral
+      d = 0;           ///< derivative
   static auto fields(auto& s, auto&& visit) { return visit("p", "", s.p, "i", "", s.i, "d", "", s.d); }
   bool operator==(const Gains&) const = default;
 };
 
 /// One set of parameters, as the EEPROM has them. Angles are raw; gains 16.16.
 struct Memory {
-  bool valid = false;                                         ///< false: never written (an empty EEPROM page)
-  std::uint8_t id = 0;                                        ///< 1…; 0 is broadcast
-  Gains position;                                             ///< modes 0 and 4: % PWM a raw tick
-  Gains current;                                              ///< mode 2: % PWM a mA
-  Gains double_position;                                      ///< modes 3 and 5: mA a raw tick
-  Gains double_current;                                       ///< modes 3 and 5: % PWM a mA
-  std::int16_t current_limit_mA = 0;                          ///< modes 2, 3, 5
-  std::uint8_t startup_activation = 0;                        ///< written to the enable pins at power-up: 3 on
-  std::uint8_t input_mode = 0;                                ///< 0 bus, 1 third encoder
-  std::uint8_t control_mode = 0;                              ///< 0…5; others: no output
-  std::array<std::uint8_t, 3> resolution{};                   ///< ticks = raw >> resolution
-  std::array<std::int32_t, 3> offset{};                       ///< raw
-  std::array<float, 3> multiplier{};                          ///< of motor 1, motor 2 and shaft
-  std::uint8_t limits_on = 0;                                 ///< whether references are cut to the limits
-  std::array<std::int32_t, 2> limit_low{}, limit_high{};      ///< raw
-  std::uint16_t max_stiffness = 0;                            ///< raw; set by calibration
-  std::uint8_t baud_rate = 0;                                 ///< the divider of 6 MHz, as SET_BAUD_RATE gave it
-  std::uint8_t watchdog_period = 0;                           ///< of the counter; 0 disables
-  std::int32_t max_step_negative = 0, max_step_positive = 0;  ///< not used by the program
-  std::uint8_t max_pwm_rate = 255;  ///< advanced unit: % a tick. Not in its initial values; 255 never limits
-  std::uint32_t serial_number = 0;  ///< dialect seven
+  bool valid = false;                        ///< false: never written (an empty EEPROM page)
+  std::uint8_t id = 0;                       ///< 1…; 0 is broadcast
+  Gains position;                            ///< modes 0 and 4: % PWM a raw tick
+  Gains current;                             ///< mode 2: % PWM a mA
+  Gains double_position;                     ///< modes 3 and 5: mA a raw tick
+  Gains double_current;                      ///< modes 3 and 5: % PWM a mA
+  std::int16_t current_limit_mA = 0;         ///< modes 2, 3, 5
+  std::uint8_t startup_activation = 0;       ///< written to the enable pins at power-up: 3 on
+  std::uint8_t input_mode = 0;               ///< 0 bus, 1 third encoder
+  std::uint8_t control_mode = 0;             ///< 0…5; others: no output
+  std::array<std::uint8_t, 3> resolution{};  ///< ticks = raw >> resolution
+  std::array<std::int32_t, 3> offset{};      ///< raw
+  std::array<float, 3> multiplier{};         ///< of motor 1, motor 2 and shaft
+  std::uint8_t limits_on = 0;                ///< whether references are cut to the limits
+  std::array<std::int32_t, 2> limit_low{},   ///< raw
+      limit_high{};                          ///< raw
+  std::uint16_t max_stiffness = 0;           ///< raw; set by calibration
+  std::uint8_t baud_rate = 0;                ///< the divider of 6 MHz, as SET_BAUD_RATE gave it
+  std::uint8_t watchdog_period = 0;          ///< of the counter; 0 disables
+  std::int32_t max_step_negative = 0,        ///< not used by the program
+      max_step_positive = 0;                 ///< not used by the program
+  std::uint8_t max_pwm_rate = 255;           ///< advanced unit: % a tick. Not in its initial values; 255 never limits
+  std::uint32_t serial_number = 0;           ///< dialect seven
   static auto fields(auto& s, auto&& visit) {
     return visit("valid", "", s.valid, "id", "", s.id, "position", "", s.position, "current", "", s.current, "double_position", "",
                  s.double_position, "double_current", "", s.double_current, "current_limit", "mA", s.current_limit_mA,
@@ -76,8 +80,10 @@ void validate(const Memory& memory, std::string_view where, Problems& problems);
 
 /// The four copies.
 struct MemoryState {
-  Memory stored, current;  ///< what commands write, what the loop uses
-  Memory user, factory;    ///< the EEPROM's pages
+  Memory stored,  ///< what commands write
+      current;    ///< what the loop uses
+  Memory user,    ///< the EEPROM's first page
+      factory;    ///< the EEPROM's page of defaults
   static auto fields(auto& s, auto&& visit) {
     return visit("stored", "", s.stored, "current", "", s.current, "user", "", s.user, "factory", "", s.factory);
   }

@@ -12,8 +12,9 @@ namespace vsa::firmware {
 
 /// One answer in Output::bytes.
 struct Reply {
-  std::uint16_t begin = 0, size = 0;  ///< in Output::bytes
-  std::int64_t delay_ns = 0;          ///< after the call's time: EEPROM and earlier replies; the turn-around is the bus's
+  std::uint16_t begin = 0,    ///< in Output::bytes
+      size = 0;               ///< bytes
+  std::int64_t delay_ns = 0;  ///< after the call's time: EEPROM and earlier replies; the turn-around is the bus's
 };
 
 /// What a call of the program gave out. The caller clears it and hands the bytes on.

@@ -17,7 +17,8 @@ struct ReceiveBuffer {
   static constexpr std::uint8_t kSize = 32;  ///< bytes
 
   std::array<std::uint8_t, kSize> bytes{};  ///< in the ring
-  std::uint8_t read = 0, write = 0;         ///< places in `bytes`
+  std::uint8_t read = 0,                    ///< place of the next that is taken
+      write = 0;                            ///< place of the next that comes
   bool full = false;                        ///< as many bytes wait as there is room for
   bool overflow = false;                    ///< it ran over, and one byte seems to be there
 

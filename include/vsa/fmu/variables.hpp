@@ -34,7 +34,8 @@ struct Variable {
   Causality causality = Causality::output;            ///< to the model
   Variability variability = Variability::continuous;  ///< when it may change
   double start = 0;                                   ///< of parameters and inputs
-  std::optional<double> min{}, max{};                 ///< ends included
+  std::optional<double> min{},                        ///< end included; none: no bound
+      max{};                                          ///< end included; none: no bound
   std::vector<std::string> words{};                   ///< of an enumeration
   /// Of an output: the inputs that it follows at once, without a step.
   std::vector<Reference> depends_on{};

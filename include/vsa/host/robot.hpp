@@ -138,8 +138,9 @@ class Robot {
 
   /// One actuator's part of several commands that belong together.
   struct Command {
-    std::size_t actuator = 0;                       ///< an index below size()
-    std::optional<double> equilibrium_rad, preset;  ///< in the law's preset unit; none: keeps what it has
+    std::size_t actuator = 0;               ///< an index below size()
+    std::optional<double> equilibrium_rad,  ///< none: keeps what it has
+        preset;                             ///< in the law's preset unit; none: keeps what it has
   };
   /// Several at once, from any thread: all take effect in the same step, or none where one is refused (false).
   bool command(std::span<const Command> commands);

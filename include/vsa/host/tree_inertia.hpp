@@ -25,11 +25,11 @@ struct TreeBody {
   enum class Joint { free, fixed, revolute, prismatic };
   static constexpr std::size_t kGround = static_cast<std::size_t>(-1);  ///< as a parent
 
-  std::size_t parent = kGround;    ///< an earlier entry of the list, or the ground
-  Joint joint = Joint::free;       ///< free: of the ground only
-  std::array<double, 3> axis{};    ///< unit vector, world
-  std::array<double, 3> anchor{};  ///< a point on the axis
-  double mass_kg = 0;
+  std::size_t parent = kGround;            ///< an earlier entry of the list, or the ground
+  Joint joint = Joint::free;               ///< free: of the ground only
+  std::array<double, 3> axis{};            ///< unit vector, world
+  std::array<double, 3> anchor{};          ///< a point on the axis
+  double mass_kg = 0;                      ///< where nothing that moves has any, B isn't finite
   std::array<double, 3> center_of_mass{};  ///< world
   std::array<double, 9> inertia_kgm2{};    ///< about the centre of mass, world axes, by rows
 };

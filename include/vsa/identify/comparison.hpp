@@ -37,7 +37,8 @@ namespace vsa::identify {
 
 /// One explanation: a type with values changed, and what is free in it.
 struct Hypothesis {
-  std::string name, title;        ///< of files; for people
+  std::string name,               ///< of files
+      title;                      ///< for people
   experiment::Specimen specimen;  ///< with `set` and `start`
   config::ActuatorType type;      ///< that
   std::vector<Parameter> free;    ///< empty: nothing is fitted
@@ -76,9 +77,12 @@ struct FitRequest {
 
 /// An estimate; no interval (NaN) at a bound, infinite ones where the data don't determine it.
 struct Estimate {
-  std::string name, unit;               ///< as Parameter has them
-  double value = 0, low = 0, high = 0;  ///< the estimate and its 95 % interval
-  bool at_bound = false;                ///< the estimate ended there
+  std::string name,       ///< as Parameter has it
+      unit;               ///< as Parameter has it
+  double value = 0,       ///< θ̂_k
+      low = 0,            ///< lower end of the 95 % interval
+      high = 0;           ///< upper end
+  bool at_bound = false;  ///< the estimate ended there
 };
 
 /// One fit, with what is asked of it and what it cost. As JSON between runs.
@@ -87,7 +91,8 @@ struct FitRecord {
   std::vector<Estimate> estimates;                    ///< in the order of the parameters
   std::vector<double> rms_rad;                        ///< of every recording, of one that was left out by prediction
   double weighted_squares = 0;                        ///< S, of those fitted
-  double points = 0, independent = 0;                 ///< n, and N by this fit's own ρ
+  double points = 0,                                  ///< n
+      independent = 0;                                ///< N by this fit's own ρ
   std::vector<double> autocorrelation;                ///< ρ of those fitted
   std::vector<std::string> without_effect;            ///< names of parameters that change nothing
   std::vector<std::vector<std::string>> unseparated;  ///< names of parameters of which only a combination is determined
@@ -111,9 +116,10 @@ struct FitRecord {
 
 /// One row of the table.
 struct Judgement {
-  std::vector<double> rms_rad, left_out_rms_rad;  ///< of each recording; the second is empty with one recording
-  double aicc = 0;                                ///< of the fit to all; NaN: none
-  double seconds = 0;                             ///< of all its fits
+  std::vector<double> rms_rad,  ///< of each recording
+      left_out_rms_rad;         ///< of each recording, predicted; empty with one recording
+  double aicc = 0;              ///< of the fit to all; NaN: none
+  double seconds = 0;           ///< of all its fits
 };
 /// `records` in the order of requests(comparison).
 [[nodiscard]] std::vector<Judgement> judge(const Comparison& comparison, const std::vector<FitRecord>& records);

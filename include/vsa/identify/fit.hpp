@@ -33,13 +33,14 @@ struct FitOptions {
 
 /// What one local solution came to.
 struct StartResult {
-  std::vector<double> from, to;  ///< the start and the end
-  std::vector<double> steps;     ///< of the differences, in Parameter::coordinate()
-  double rms_rad = 0;            ///< of the residuals at `to`, unweighted
-  double cost = 0;               ///< at `to`, ½ Σ w² r²; by fit(), with what the model held constant on the way there
-  int iterations = 0;            ///< that it took
-  bool converged = false;        ///< by tolerance, not by their number
-  std::size_t evaluations = 0;   ///< simulations of a recording, of a job; a fit counts its own (Residuals)
+  std::vector<double> from,     ///< the start
+      to;                       ///< the end
+  std::vector<double> steps;    ///< of the differences, in Parameter::coordinate()
+  double rms_rad = 0;           ///< of the residuals at `to`, unweighted
+  double cost = 0;              ///< at `to`, ½ Σ w² r²; by fit(), with what the model held constant on the way there
+  int iterations = 0;           ///< that it took
+  bool converged = false;       ///< by tolerance, not by their number
+  std::size_t evaluations = 0;  ///< simulations of a recording, of a job; a fit counts its own (Residuals)
 };
 
 /// A fit: the best of its local solutions, with residuals and Jacobian there.
@@ -48,10 +49,11 @@ struct Fit {
   std::vector<bool> at_bound;                 ///< of each parameter
   std::vector<double> residuals;              ///< unweighted
   std::vector<std::vector<double>> jacobian;  ///< columns, unweighted, by Parameter::coordinate()
-  std::vector<double> steps;
-  double cost = 0, rms_rad = 0;     ///< ½ Σ w² r²; root mean square, unweighted
-  std::vector<StartResult> starts;  ///< the best is first
-};                                  ///< of the differences, as StartResult has them
+  std::vector<double> steps;                  ///< of the differences, as StartResult has them
+  double cost = 0,                            ///< ½ Σ w² r²
+      rms_rad = 0;                            ///< root mean square, unweighted
+  std::vector<StartResult> starts;            ///< the best is first
+};
 
 /// Throws what the model throws at the type's own values, and std::runtime_error where no start can be evaluated.
 [[nodiscard]] Fit fit(const Residuals& residuals, const FitOptions& options);

@@ -18,23 +18,27 @@ namespace vsa::identify {
 
 /// One parameter held at `value`, the others fitted again.
 struct ProfilePoint {
-  double value = 0, rms_rad = 0;  ///< NaN: that fit failed
+  double value = 0,  ///< of the parameter that is held
+      rms_rad = 0;   ///< NaN: that fit failed
 };
 
 /// All recordings of one preset left out: fitted to the others, judged on it. Each fit is searched for as the fit to everything is, which
 /// it doesn't know: begun there, it would stay near what the recording left out has fitted.
 struct LeftOut {
-  double preset = 0;                       ///< of the recordings left out
-  std::vector<double> values;              ///< fitted without them
-  std::vector<Misfit> misfits;             ///< of the recordings left out
-  double rms_rad = 0, rms_rad_of_all = 0;  ///< of them, by this fit and by the fit to everything
+  double preset = 0;            ///< of the recordings left out
+  std::vector<double> values;   ///< fitted without them
+  std::vector<Misfit> misfits;  ///< of the recordings left out
+  double rms_rad = 0,           ///< of them, by this fit
+      rms_rad_of_all = 0;       ///< of them, by the fit to everything
 };
 
 /// What fits to recordings with drawn errors came to.
 struct Bootstrap {
-  std::vector<std::vector<double>> values;        ///< of each draw
-  std::vector<double> standard_error, low, high;  ///< of each parameter: scatter; 2.5 and 97.5 % of the draws
-  std::size_t failed = 0;                         ///< draws that couldn't be fitted; they aren't among the above
+  std::vector<std::vector<double>> values;  ///< of each draw
+  std::vector<double> standard_error,       ///< of each parameter: scatter of the draws
+      low,                                  ///< 2.5 % of the draws lie below
+      high;                                 ///< 2.5 % of the draws lie above
+  std::size_t failed = 0;                   ///< draws that couldn't be fitted; they aren't among the above
 };
 
 /// What an identification is to find out, beside the estimate.
@@ -53,7 +57,8 @@ struct Identification {
   std::vector<double> residuals_before;             ///< at the type's values
   Fit fit;                                          ///< at the estimate
   Uncertainty uncertainty;                          ///< with the correlated residuals
-  std::vector<Misfit> misfits_before, misfits;      ///< of each recording, at the type's values and at the estimate
+  std::vector<Misfit> misfits_before,               ///< of each recording, at the type's values
+      misfits;                                      ///< of each recording, at the estimate
   std::vector<LeftOut> left_out;                    ///< upwards by preset
   std::vector<std::vector<ProfilePoint>> profiles;  ///< one a parameter, or none
   std::optional<Bootstrap> bootstrap;               ///< none: it wasn't asked for

@@ -19,10 +19,12 @@ namespace vsa::identify {
 
 /// One unknown: one key of the actuator type, or several that are to be equal.
 struct Parameter {
-  std::string name;                    ///< as the user wrote it: "elastic.k1_Nm=elastic.k2_Nm"
-  std::vector<std::string> keys;       ///< "elastic.k1_Nm", "elastic.k2_Nm"
-  std::string unit;                    ///< of the keys; empty for a plain number
-  double start = 0, min = 0, max = 0;  ///< the type's value, and the bounds
+  std::string name;               ///< as the user wrote it: "elastic.k1_Nm=elastic.k2_Nm"
+  std::vector<std::string> keys;  ///< "elastic.k1_Nm", "elastic.k2_Nm"
+  std::string unit;               ///< of the keys; empty for a plain number
+  double start = 0,               ///< the type's value
+      min = 0,                    ///< lower bound
+      max = 0;                    ///< upper bound
 
   /// Counted in its logarithm: its bounds are positive and two decades apart or more, so that what is asked for is its order of
   /// magnitude first. Searches, steps, Jacobians and intervals are then in ln(value).

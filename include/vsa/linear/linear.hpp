@@ -58,34 +58,43 @@ struct OperatingPoint {
 
 /// How the unit stands at the point.
 struct Rest {
-  elastic::Positions at;                       ///< shaft and pulleys, rad
-  double load_Nm = 0;                          ///< external torque about +q that holds the shaft
-  std::array<double, 2> motor_V{}, motor_A{};  ///< mean voltage and current of each motor
+  elastic::Positions at;            ///< shaft and pulleys, rad
+  double load_Nm = 0;               ///< external torque about +q that holds the shaft
+  std::array<double, 2> motor_V{},  ///< mean voltage of each motor
+      motor_A{};                    ///< current of each motor
 };
 
 /// One of a system's states, inputs or outputs.
 struct Signal {
-  std::string name, unit;  ///< "motor 1 speed", "rad/s"
+  std::string name,  ///< "motor 1 speed"
+      unit;          ///< "rad/s"
 };
 
 /// A linear system about a point: ẋ = A x + B u, or from loop to loop, and y = C x + D u.
 struct System {
-  Firmware firmware = Firmware::frozen;         ///< how the program was taken
-  double period_s = 0;                          ///< sampled: T; else 0
-  std::vector<Signal> states, inputs, outputs;  ///< in the order of the matrices
-  Eigen::MatrixXd a, b, c, d;                   ///< A, B, C, D
-  Eigen::Index torques = 1;  ///< how many inputs, the first ones, are load torques, each on a shaft or joint of its own
+  Firmware firmware = Firmware::frozen;  ///< how the program was taken
+  double period_s = 0;                   ///< sampled: T; else 0
+  std::vector<Signal> states,            ///< rows of A
+      inputs,                            ///< columns of B
+      outputs;                           ///< rows of C
+  Eigen::MatrixXd a,                     ///< A: states × states
+      b,                                 ///< B: states × inputs
+      c,                                 ///< C: outputs × states
+      d;                                 ///< D: outputs × inputs
+  Eigen::Index torques = 1;              ///< how many inputs, the first ones, are load torques, each on a shaft or joint of its own
   /// Sampled: the continuous system between two loops, inputs load torques and voltages; its states are the first of `states`.
-  Eigen::MatrixXd held_a, held_b;    ///< empty where it isn't sampled
+  Eigen::MatrixXd held_a,            ///< A; empty where it isn't sampled
+      held_b;                        ///< B, likewise
   std::vector<std::string> notices;  ///< what a user should know of this point
 };
 
 /// One unit about its point.
 struct Model : System {
-  Rest rest;                                         ///< how it stands there
-  double inertia_kgm2 = 0, damping_Nms_per_rad = 0;  ///< M, d
-  double held_stiffness_Nm_per_rad = 0;              ///< seen at the shaft with the pulleys held: the law's, and stuck frictions
-  double static_stiffness_Nm_per_rad = 0;            ///< with the motors yielding as the firmware lets them: 0 where it is frozen
+  Rest rest;                               ///< how it stands there
+  double inertia_kgm2 = 0,                 ///< M
+      damping_Nms_per_rad = 0;             ///< d
+  double held_stiffness_Nm_per_rad = 0;    ///< seen at the shaft with the pulleys held: the law's, and stuck frictions
+  double static_stiffness_Nm_per_rad = 0;  ///< with the motors yielding as the firmware lets them: 0 where it is frozen
 };
 
 /// Throws InputError: parameters that no unit has, a point that its program can't hold or its motors can't carry, an inertia or

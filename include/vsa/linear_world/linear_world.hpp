@@ -31,9 +31,10 @@ using Named = std::vector<std::pair<std::string, double>>;  ///< name and value,
 
 /// Where the world's joints stand, and what its actuators have.
 struct WorldPoint {
-  Named angles{};                     ///< joints that stand elsewhere, by their or their actuator's name; rad or m
-  std::optional<double> preset{};     ///< of all actuators; none: as attained now
-  Named presets{}, equilibria_rad{};  ///< of single actuators
+  Named angles{};                  ///< joints that stand elsewhere, by their or their actuator's name; rad or m
+  std::optional<double> preset{};  ///< of all actuators; none: as attained now
+  Named presets{},                 ///< of single actuators, in their laws' units
+      equilibria_rad{};            ///< of single actuators
 };
 
 /// A world about that point.

@@ -98,7 +98,8 @@ void validate(const GaitParams& params, std::string_view where, Problems& proble
 
 /// What a value may be, ends included.
 struct GaitRange {
-  double min = 0, max = 0;  ///< ends included
+  double min = 0,  ///< end included
+      max = 0;     ///< end included
 };
 
 /// What files and changes may say.
@@ -114,7 +115,11 @@ inline constexpr GaitBounds kGaitBounds{};  ///< those that files and changes ar
 
 /// What of a group can be changed while it plays.
 struct WaveParams {
-  double amplitude_rad = 0, offset_rad = 0, lambda = 1, delta_rad = 0, preset_rad = 0;  ///< A, D, λ, δ, p of the equation above
+  double amplitude_rad = 0,  ///< A
+      offset_rad = 0,        ///< D
+      lambda = 1,            ///< λ
+      delta_rad = 0,         ///< δ
+      preset_rad = 0;        ///< p
 };
 /// Values that change() goes to, or came from.
 struct GaitChange {
@@ -136,21 +141,24 @@ void steer(const SteeringParams& params, SteeringState& state, std::array<double
 
 /// Where the values were when they were last changed.
 struct GaitBlend {
-  double t_s = 0, phase_rad = 0;  ///< simulated; ∫ω dt then
-  GaitChange from;                ///< the values then
+  double t_s = 0,     ///< simulated, when it was changed
+      phase_rad = 0;  ///< ∫ω dt then
+  GaitChange from;    ///< the values then
 };
 
 /// Which commands of an actuator the gait leaves to somebody else.
 struct ByHand {
-  bool equilibrium = false, preset = false;                                  ///< of this actuator
+  bool equilibrium = false,                                                  ///< is somebody else's
+      preset = false;                                                        ///< is somebody else's
   [[nodiscard]] bool any() const noexcept { return equilibrium || preset; }  ///< either of them
 };
 
 /// An actuator that was given back: its commands blend from where the hand left them to the gait's.
 struct GaitReturn {
-  ByHand of;                               ///< which of the two come back
-  std::optional<double> t_s;               ///< since when; none: from the next commands on
-  double equilibrium_rad = 0, preset = 0;  ///< commanded then
+  ByHand of;                   ///< which of the two come back
+  std::optional<double> t_s;   ///< since when; none: from the next commands on
+  double equilibrium_rad = 0,  ///< commanded then
+      preset = 0;              ///< commanded then
 };
 
 /// All that changes while a gait plays, but for leave(). A copy goes on as it was.

@@ -27,13 +27,15 @@ namespace vsa::motion {
 
 /// One keyframe of a channel.
 struct MotionKey {
-  double time_s = 0, value_rad = 0;  ///< in the motion's own time; equilibrium or preset
+  double time_s = 0,  ///< in the motion's own time
+      value_rad = 0;  ///< equilibrium or preset
 };
 
 /// An actuator's keyframes.
 struct MotionTrack {
-  std::string actuator;                        ///< as the file names it
-  std::vector<MotionKey> equilibrium, preset;  ///< times grow; either may be empty
+  std::string actuator;                ///< as the file names it
+  std::vector<MotionKey> equilibrium,  ///< times grow; may be empty
+      preset;                          ///< times grow; may be empty
 };
 
 /// A motion as a file has it.

@@ -15,7 +15,8 @@ namespace vsa::motion {
 
 /// What an actuator was last told, rad.
 struct Commanded {
-  double equilibrium_rad = 0, preset = 0;  ///< rad, and the law's unit
+  double equilibrium_rad = 0,  ///< rad
+      preset = 0;              ///< in the law's unit
 };
 
 /// What a gait moves: actuators of one simulator, and its clock.

@@ -50,7 +50,8 @@ struct MjcfRead {
 /// A file that write_mjcf_files() makes.
 struct WrittenFile {
   /// Without a directory; and what is in it.
-  std::string name, bytes;
+  std::string name,  ///< without a directory
+      bytes;         ///< what is in it
 };
 
 /// NAME.xml, NAME.vsa.xml and what they name, for a world that came from elsewhere. read_mjcf() of it moves bit for bit as `world`

@@ -36,7 +36,8 @@ namespace vsa::physics {
 
 /// Of a joint with one axis: rad and rad/s, or m and m/s.
 struct JointState {
-  double position = 0, speed = 0;
+  double position = 0,  ///< rad or m
+      speed = 0;        ///< rad/s or m/s
 };
 
 /// Why a step was refused.

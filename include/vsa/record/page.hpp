@@ -21,8 +21,10 @@ struct PageText {
 /// page's channels, an actuator after the other), energy columns.
 struct Frame {
   /// For each link seven, for each actuator its channels, for each column one.
-  std::vector<float> poses, readings, energy;
-  void clear();  ///< keeps the memory
+  std::vector<float> poses,  ///< seven for each link that moves
+      readings,              ///< a page's channels, an actuator after the other
+      energy;                ///< the energy columns
+  void clear();              ///< keeps the memory
   /// A moment more; `moving` are the links whose poses it takes.
   void append(const Sample& sample, const std::vector<std::size_t>& moving);
 };

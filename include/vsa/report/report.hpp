@@ -32,13 +32,15 @@ struct Curve {
 
 /// A chart with its axes.
 struct Chart {
-  std::string title, x_label, y_label;  ///< labels with units: "deflection [rad]"
-  std::vector<Curve> curves;            ///< in the order of the legend
-  std::string caption;                  ///< a remark on it; empty: none
-  bool y_log = false;                   ///< as x_log
-  bool x_log = false;                   ///< as y_log: what isn't positive isn't drawn
-  std::optional<std::array<double, 2>> x_range{},
-      y_range{};  ///< so that charts beside each other have equal axes; none: by the curves
+  std::string title,                               ///< of the chart
+      x_label,                                     ///< with its unit: "deflection [rad]"
+      y_label;                                     ///< with its unit
+  std::vector<Curve> curves;                       ///< in the order of the legend
+  std::string caption;                             ///< a remark on it; empty: none
+  bool y_log = false;                              ///< as x_log
+  bool x_log = false;                              ///< as y_log: what isn't positive isn't drawn
+  std::optional<std::array<double, 2>> x_range{},  ///< so that charts beside each other have equal axes; none: by the curves
+      y_range{};                                   ///< likewise
 };
 
 /// A table of texts.
@@ -57,9 +59,11 @@ struct Text {
 
 /// A number that stands out: {"preset 0", "0.0087 rad", "bound 0.020 rad", good}.
 struct Figure {
-  std::string label, value, note;
+  std::string label,  ///< what it is
+      value,          ///< the number with its unit
+      note;           ///< a remark; empty: none
   /// In colour.
-  enum class Verdict { none, good, bad } verdict = Verdict::none;
+  enum class Verdict { none, good, bad } verdict = Verdict::none;  ///< what it is shown as
 };
 /// Some figures beside each other.
 struct Figures {
@@ -85,13 +89,19 @@ struct Bars {
 struct Cards {
   /// One card.
   struct Card {
-    std::string title, subtitle, tag, link;           ///< texts; the page that it leads to, relative to this one
-    std::vector<double> x, low, high;                 ///< the picture: from `low` to `high` over x; equal ones are a line
+    std::string title,                                ///< of the card
+        subtitle,                                     ///< in the line below
+        tag,                                          ///< a word before the subtitle
+        link;                                         ///< the page that it leads to, relative to this one
+    std::vector<double> x,                            ///< of the picture
+        low,                                          ///< lower edge over x
+        high;                                         ///< upper edge; equal ones are a line
     std::vector<std::array<std::string, 2>> figures;  ///< label, value with its unit
   };
-  std::string x_label, y_label;  ///< with units, common to all pictures
-  std::vector<Card> cards;       ///< in the order given
-  std::string caption;           ///< a remark on it; empty: none
+  std::string x_label,      ///< with its unit, common to all pictures
+      y_label;              ///< with its unit, common to all pictures
+  std::vector<Card> cards;  ///< in the order given
+  std::string caption;      ///< a remark on it; empty: none
 };
 
 using Block = std::variant<Text, Table, Chart, Figures, Bars, Cards>;  ///< one part of a section
@@ -104,7 +114,8 @@ struct Section {
 
 /// A page.
 struct Report {
-  std::string title, subtitle;                      ///< above all
+  std::string title,                                ///< of the page
+      subtitle;                                     ///< below it; may be empty
   std::vector<Section> sections;                    ///< from top to bottom
   std::string footer;                               ///< the command that made it, versions
   bool one_page = false;                            ///< a data sheet: laid out to print on one A4 page

@@ -16,16 +16,16 @@
 
 namespace vsa::scenario {
 
-inline constexpr double kShortest_s = 1e-9,
-                        kLongest_s = 1e8;     ///< of times; three years: beyond that nanoseconds would overflow soon
+inline constexpr double kShortest_s = 1e-9,   ///< of durations and steps
+    kLongest_s = 1e8;                         ///< three years: beyond that nanoseconds would overflow soon
 inline constexpr double kLargestSeed = 1e15;  ///< a seed is a whole number up to that
 
 /// One command of a scenario.
 struct Command {
-  double time_s = 0;     ///< simulated; given before the first step that begins then or later
-  std::string actuator;  ///< by name, or "model/name" where several models have it
-  /// None: that channel keeps what it has.
-  std::optional<double> equilibrium_rad, preset_rad;
+  double time_s = 0;                      ///< simulated; given before the first step that begins then or later
+  std::string actuator;                   ///< by name, or "model/name" where several models have it
+  std::optional<double> equilibrium_rad,  ///< none: keeps what it has
+      preset_rad;                         ///< in the law's unit; none: keeps what it has
 };
 
 /// One run's numbers, and where they come from. As a file: docs/reference/scenario-files.md.

@@ -17,8 +17,8 @@ namespace vsa::scene {
 /// Geometry for pictures; primitive kinds as in SDF.
 struct Shape {
   /// As in SDF.
-  enum class Kind { box, sphere, cylinder, capsule, plane, mesh, heightmap } kind = Kind::box;
-  Pose pose;                     ///< in its link
+  enum class Kind { box, sphere, cylinder, capsule, plane, mesh, heightmap } kind = Kind::box;  ///< which one
+  Pose pose;                                                                                    ///< in its link
   std::array<double, 3> size{};  ///< box x y z; sphere r; cylinder/capsule r, length; plane x y; mesh: scale; heightmap: extent
   std::array<float, 4> rgba{0.7f, 0.7f, 0.7f, 1};  ///< 0 … 1 each
   std::vector<float> vertices;                     ///< mesh and heightmap: triangles' corners, xyz each, link frame

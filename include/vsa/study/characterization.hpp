@@ -41,7 +41,8 @@ struct CharacterizationOptions {
 
 /// Of one quantity in a run.
 struct Range {
-  double least = 0, most = 0;  ///< of its samples
+  double least = 0,  ///< of its samples
+      most = 0;      ///< of its samples
 };
 
 /// One load test: what was run, and what it shows.
@@ -52,14 +53,19 @@ struct StiffnessResult {
   experiment::Loop loop;                          ///< hysteresis
   std::vector<experiment::StiffnessPoint> curve;  ///< stiffness against deflection
   /// As the unit measures them.
-  Range shaft_rad, load_Nm, deflection_rad;  ///< as the unit measures them
-  Range preset;                              ///< attained
+  Range shaft_rad,     ///< as the unit measures it
+      load_Nm,         ///< as the unit measures it
+      deflection_rad;  ///< as the unit measures it
+  Range preset;        ///< attained
 };
 
 /// One edge of the square wave.
 struct Edge {
-  double command_s = 0, from_rad = 0, to_rad = 0;  ///< when it was commanded; between which equilibria
-  experiment::StepMeasures shaft, pulleys;         ///< of the shaft; of the equilibrium, which the pulleys make
+  double command_s = 0,            ///< when it was commanded
+      from_rad = 0,                ///< equilibrium before
+      to_rad = 0;                  ///< equilibrium after
+  experiment::StepMeasures shaft,  ///< its response
+      pulleys;                     ///< that of the equilibrium, which the pulleys make
 };
 
 /// One speed test: what was run, and what it shows.
@@ -74,7 +80,8 @@ struct SpeedResult {
 struct PresetStepResult {
   experiment::PresetStepOptions options;  ///< that it was run with
   experiment::BenchRun run;               ///< its samples; empty in a plan
-  experiment::StepMeasures up, down;      ///< of the attained preset
+  experiment::StepMeasures up,            ///< of the attained preset, on the way up
+      down;                               ///< and back
   Range load_Nm;                          ///< measured
 };
 

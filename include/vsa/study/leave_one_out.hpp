@@ -24,14 +24,17 @@ struct LeaveOneOut {
   };
   /// A value of the identified type.
   struct Value {
-    std::string key, text;  ///< "drive.friction_Nm"; as a file has it
+    std::string key,  ///< "drive.friction_Nm"
+        text;         ///< as a file has it
   };
   /// The 95 % interval of a parameter that was fitted; NaN where it isn't determined.
   struct Interval {
-    std::string key;           ///< "drive.friction_Nm"
-    double low = 0, high = 0;  ///< ends of the interval
+    std::string key;  ///< "drive.friction_Nm"
+    double low = 0,   ///< end of the interval
+        high = 0;     ///< end of the interval
   };
-  std::string file, command;        ///< where it lies; what made it
+  std::string file,                 ///< where it lies
+      command;                      ///< what made it
   std::vector<std::string> fitted;  ///< parameters that were fitted again each time; all others were held
   std::vector<Interval> intervals;  ///< of each key of them, tied ones each
   std::vector<Row> rows;            ///< one a preset left out

@@ -62,14 +62,15 @@ struct HoldResult {
 
 /// A type's results.
 struct TaskResults {
-  config::ActuatorType actuator;         ///< as it was read
-  double torque_Nm = 0;                  ///< τ_p
-  double no_load_speed_rad_per_s = 0;    ///< computed, softest
-  double inertia_kgm2 = 0, load_Nm = 0;  ///< NaN where the motors move nothing, and then no results
-  std::vector<double> presets;           ///< in the law's unit, upwards
-  std::vector<ThrowResult> throws;       ///< one a preset
-  std::vector<SettleResult> settles;     ///< one a preset
-  std::vector<HoldResult> holds;         ///< one a preset
+  config::ActuatorType actuator;       ///< as it was read
+  double torque_Nm = 0;                ///< τ_p
+  double no_load_speed_rad_per_s = 0;  ///< computed, softest
+  double inertia_kgm2 = 0,             ///< J; NaN where the motors move nothing, and then no results
+      load_Nm = 0;                     ///< to hold; NaN likewise
+  std::vector<double> presets;         ///< in the law's unit, upwards
+  std::vector<ThrowResult> throws;     ///< one a preset
+  std::vector<SettleResult> settles;   ///< one a preset
+  std::vector<HoldResult> holds;       ///< one a preset
 
   /// "rad" …; empty: the law has no stiffness preset.
   [[nodiscard]] std::string preset_unit() const { return std::string(actuator.unit.actuator.transmission->preset_unit()); }

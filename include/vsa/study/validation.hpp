@@ -48,8 +48,10 @@ struct RecordingCheck {
   std::string origin;                                    ///< where it comes from; empty: nobody says
   double preset = 0;                                     ///< of the recording
   experiment::Kind kind = experiment::Kind::calibrated;  ///< whether the type was fitted to it
-  experiment::Branches data, ours;                       ///< recorded; simulated
-  experiment::Loop data_loop, our_loop;                  ///< of each
+  experiment::Branches data,                             ///< recorded
+      ours;                                              ///< simulated
+  experiment::Loop data_loop,                            ///< recorded
+      our_loop;                                          ///< simulated
   experiment::Difference rms;                            ///< in deflection
   experiment::TorqueDifference torque;                   ///< in torque
   std::optional<experiment::Published> published;        ///< what others reach on it
@@ -57,24 +59,32 @@ struct RecordingCheck {
 
 /// The same at another period of the sweep.
 struct PeriodCheck {
-  double preset = 0, period_s = 0;  ///< of the recording; of the sweep
-  experiment::Difference rms;       ///< in deflection
-  experiment::Loop loop;            ///< of the simulation
+  double preset = 0,           ///< of the recording
+      period_s = 0;            ///< of the sweep
+  experiment::Difference rms;  ///< in deflection
+  experiment::Loop loop;       ///< of the simulation
 };
 
 /// A step of the equilibrium, and the 2015 program's.
 struct SpeedCheck {
-  double preset = 0;                                    ///< commanded
-  int percent = 0;                                      ///< of the full preset, as the 2015 program's curves are named
-  experiment::StepMeasures shaft, pulleys, shaft_2015;  ///< ours, ours, the 2015 program's
-  experiment::TimeSeries ours, theirs;                  ///< of the shaft, time from the command
+  double preset = 0;               ///< commanded
+  int percent = 0;                 ///< of the full preset, as the 2015 program's curves are named
+  experiment::StepMeasures shaft,  ///< simulated
+      pulleys,                     ///< the equilibrium's, simulated
+      shaft_2015;                  ///< the 2015 program's
+  experiment::TimeSeries ours,     ///< of the shaft, time from the command
+      theirs;                      ///< the 2015 program's
 };
 
 /// A step of the preset and back, and the 2015 program's.
 struct PresetStepCheck {
-  bool loaded = false;                                    ///< with the lever held out
-  experiment::StepMeasures up, down, up_2015, down_2015;  ///< ours, ours, the 2015 program's
-  experiment::TimeSeries ours, theirs;                    ///< of the attained preset, time from the command
+  bool loaded = false;          ///< with the lever held out
+  experiment::StepMeasures up,  ///< simulated
+      down,                     ///< and back, simulated
+      up_2015,                  ///< the 2015 program's
+      down_2015;                ///< and back, the 2015 program's
+  experiment::TimeSeries ours,  ///< of the attained preset, time from the command
+      theirs;                   ///< the 2015 program's
 };
 
 /// Everything that was compared, and what became of each bound.

@@ -28,11 +28,13 @@ struct Measure {
   std::string value;               ///< of a study, in place of all below: a place in its results.json, or a quantity's name
   std::string signal;              ///< one of signal_names()
   std::string statistic = "last";  ///< one of statistic_names()
-  /// At most one; all empty: of all actuators.
-  std::string actuator, joint, link;                                  ///< at most one
-  double from_s = 0, to_s = std::numeric_limits<double>::infinity();  ///< only from_s < t ≤ to_s counts
-  double band = 0;                                                    ///< of settle_s: ± about the mean of the window's last tenth
-  double order = 0;                                                   ///< of quantile, 0 … 1
+  std::string actuator,            ///< whose signal, by name; at most one of the three, and none: of all actuators, or the world
+      joint,                       ///< likewise
+      link;                        ///< likewise
+  double from_s = 0,               ///< only from_s < t counts
+      to_s = std::numeric_limits<double>::infinity();  ///< only t ≤ to_s counts
+  double band = 0;                                     ///< of settle_s: ± about the mean of the window's last tenth
+  double order = 0;                                    ///< of quantile, 0 … 1
 };
 
 /// Of a measure with actuator or with nothing: "actuator"; else "joint", "link", "world".

@@ -31,7 +31,7 @@ using Value = std::variant<double, std::int64_t, bool, std::string>;  ///< as a 
 /// What varies.
 struct Axis {
   /// Where its values come from.
-  enum class Kind { listed, random, sobol, searched } kind = Kind::listed;
+  enum class Kind { listed, random, sobol, searched } kind = Kind::listed;  ///< of all its values
   /// How random and searched ones are spread.
   enum class Law { uniform, log_uniform, normal } law = Law::uniform;  ///< of random and searched
   std::string name;                                                    ///< the column; else the first key
@@ -47,7 +47,8 @@ struct Axis {
 
 /// Where a repetition begins: the first robot's model, if it flies free, is turned and moved by up to so much, each by chance.
 struct Start {
-  double yaw_deg = 0, xy_m = 0;  ///< at most, each by chance
+  double yaw_deg = 0,  ///< turned by so much at most, each way
+      xy_m = 0;        ///< moved by so much at most
 };
 
 /// What an optimiser is to make of a plan's searched axes (vsa/sweep/optimize.hpp).
@@ -59,9 +60,10 @@ struct Objective {
 };
 /// What is searched for, and how long.
 struct Search {
-  std::string algorithm;                       ///< pso, gaco, nsga2, nspso or maco
-  unsigned population = 24, generations = 20;  ///< candidates a generation; how many
-  std::vector<Objective> objectives;           ///< one: pso, gaco; several: the others
+  std::string algorithm;              ///< pso, gaco, nsga2, nspso or maco
+  unsigned population = 24,           ///< candidates of a generation
+      generations = 20;               ///< how many there are
+  std::vector<Objective> objectives;  ///< one: pso, gaco; several: the others
 };
 
 /// A plan: what is run, and what is measured. Immutable and cheap to copy.
@@ -115,7 +117,7 @@ class Plan {
 /// Runs of a plan, one after the other, in one thread. What it keeps between them (a world that was read) changes no bit.
 class Runner {
  public:
-  explicit Runner(const Plan& plan);
+  explicit Runner(const Plan& plan);  ///< keeps a copy of the plan
   ~Runner();
   Runner(const Runner&) = delete;
   Runner& operator=(const Runner&) = delete;

@@ -20,12 +20,14 @@ struct Work {
 
 /// Where the processors' time went, from the first run's beginning to the last one's end.
 struct Account {
-  std::size_t runs = 0, failed = 0, threads = 0;  ///< made; of them with an error; of the pool
-  double span_s = 0;                              ///< by the wall clock
-  double run_wall_s = 0;                          ///< Σ over runs: span·threads, if nobody waited
-  double run_cpu_s = 0;                           ///< Σ over runs
-  double all_cpu_s = 0;                           ///< of the process
-  double most_waited = 0;                         ///< waited() of the process that waited most; of one alone nobody asks
+  std::size_t runs = 0,    ///< that were made
+      failed = 0,          ///< of these, with an error
+      threads = 0;         ///< of the pool
+  double span_s = 0;       ///< by the wall clock
+  double run_wall_s = 0;   ///< Σ over runs: span·threads, if nobody waited
+  double run_cpu_s = 0;    ///< Σ over runs
+  double all_cpu_s = 0;    ///< of the process
+  double most_waited = 0;  ///< waited() of the process that waited most; of one alone nobody asks
   /// The share of the threads' time in which they had nothing to run.
   [[nodiscard]] double waited() const noexcept;
   Account& operator+=(const Account& other) noexcept;  ///< of another process beside this one

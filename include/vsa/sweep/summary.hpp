@@ -13,8 +13,10 @@ namespace vsa::sweep {
 
 /// Quartiles, interpolated; NaN of nothing. What isn't finite doesn't count.
 struct Quartiles {
-  std::size_t count = 0;                 ///< that are finite
-  double low = 0, median = 0, high = 0;  ///< quarters and half of them; NaN of nothing
+  std::size_t count = 0;  ///< that are finite
+  double low = 0,         ///< a quarter lies below
+      median = 0,         ///< half of them lie below
+      high = 0;           ///< a quarter lies above
 };
 [[nodiscard]] Quartiles quartiles(std::vector<double> values);  ///< of the finite ones
 

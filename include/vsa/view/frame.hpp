@@ -23,9 +23,11 @@ namespace vsa::view {
 
 /// What a frame says beside the world.
 struct FrameInfo {
-  double time_s = 0;                                     ///< simulated
-  double factor = 0;                                     ///< simulated by wall time, lately
-  bool paused = false, recording = false, gait = false;  ///< flags of the message; gait: it plays
+  double time_s = 0;      ///< simulated
+  double factor = 0;      ///< simulated by wall time, lately
+  bool paused = false,    ///< flag 1
+      recording = false,  ///< flag 2
+      gait = false;       ///< flag 4: it plays
 };
 
 inline constexpr std::size_t kContactsMax = 256;  ///< the strongest are shown where there are more

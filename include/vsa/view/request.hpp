@@ -34,14 +34,16 @@ namespace vsa::view {
 
 /// Of a value, ends included.
 struct Span {
-  double min = 0, max = 0;  ///< ends included
+  double min = 0,  ///< end included
+      max = 0;     ///< end included
 };
 
 /// What there is to ask for.
 struct Rules {
   /// What a page may command of an actuator.
   struct Actuator {
-    Span equilibrium_rad, preset;  ///< the preset in its law's unit
+    Span equilibrium_rad,  ///< that the controller lets it have
+        preset;            ///< in its law's unit
   };
   std::vector<Actuator> actuators;       ///< in the world's order
   std::vector<bool> moves;               ///< one a link
@@ -68,13 +70,15 @@ struct Speed {
 };
 /// Commands by hand.
 struct Command {
-  std::vector<std::size_t> actuators;             ///< of the world
-  std::optional<double> equilibrium_rad, preset;  ///< none: that one keeps what it has
+  std::vector<std::size_t> actuators;     ///< of the world
+  std::optional<double> equilibrium_rad,  ///< none: it keeps what it has
+      preset;                             ///< in the law's unit; none: it keeps what it has
 };
 /// A hand at a link.
 struct PullLink {
-  std::size_t link = 0;                         ///< of the world
-  std::array<double, 3> point_m{}, target_m{};  ///< in the link's frame; in the world
+  std::size_t link = 0;             ///< of the world
+  std::array<double, 3> point_m{},  ///< in the link's frame
+      target_m{};                   ///< in the world
 };
 struct Release {};
 /// Recording on or off.

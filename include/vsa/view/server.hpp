@@ -52,11 +52,12 @@ struct ServerOptions {
 
 /// Since the start.
 struct ServerCounts {
-  std::uint64_t viewers_now = 0, viewers = 0;  ///< now; since the start
-  std::uint64_t frames = 0;                    ///< shown by the maker
-  std::uint64_t sent = 0;                      ///< to viewers, summed
-  std::uint64_t dropped = 0;                   ///< for viewers that weren't ready, summed
-  std::uint64_t refused = 0;                   ///< connections: too many, wrong host or origin, no such page, no HTTP
+  std::uint64_t viewers_now = 0,  ///< now
+      viewers = 0;                ///< since the start
+  std::uint64_t frames = 0;       ///< shown by the maker
+  std::uint64_t sent = 0;         ///< to viewers, summed
+  std::uint64_t dropped = 0;      ///< for viewers that weren't ready, summed
+  std::uint64_t refused = 0;      ///< connections: too many, wrong host or origin, no such page, no HTTP
 };
 
 /// The server itself. Its thread calls Host; everything else may come from any.
