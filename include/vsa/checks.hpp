@@ -16,14 +16,16 @@
 
 namespace vsa {
 
+/// Finds the problems of one parameter struct.
 class Checks {
  public:
-  Checks(std::string_view where, Problems& problems) : where_(where), problems_(problems) {}
+  Checks(std::string_view where, Problems& problems) : where_(where), problems_(problems) {}  ///< `where` leads every key
 
-  void within(std::string_view key, double value, double min, double max);
-  void positive(std::string_view key, double value);
-  void not_negative(std::string_view key, double value) { within(key, value, 0, kUnbounded); }
-  void finite(std::string_view key, double value) { within(key, value, -kUnbounded, kUnbounded); }
+  void within(std::string_view key, double value, double min, double max);  ///< finite, and min ≤ value ≤ max
+  void positive(std::string_view key, double value);                        ///< finite, and at least the smallest normal number
+  void not_negative(std::string_view key, double value) { within(key, value, 0, kUnbounded); }      ///< finite, and 0 or more
+  void finite(std::string_view key, double value) { within(key, value, -kUnbounded, kUnbounded); }  ///< finite
+  /// A problem of its own.
   void refuse(std::string_view key, std::string value, std::string message, std::string allowed);
 
   /// A number as a message shows it: six digits.

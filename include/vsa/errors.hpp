@@ -23,9 +23,10 @@ struct Problem {
 /// The one exception for bad input. It carries every problem found, so that a user mends them in one go.
 class InputError : public std::runtime_error {
  public:
+  /// With all problems, at least one; what() is their text.
   explicit InputError(std::vector<Problem> problems);
-  explicit InputError(Problem problem);
-  [[nodiscard]] const std::vector<Problem>& problems() const noexcept { return problems_; }
+  explicit InputError(Problem problem);                                                      ///< with one problem
+  [[nodiscard]] const std::vector<Problem>& problems() const noexcept { return problems_; }  ///< all that were found
 
  private:
   std::vector<Problem> problems_;
@@ -34,10 +35,12 @@ class InputError : public std::runtime_error {
 /// Collects problems while reading; throws them together.
 class Problems {
  public:
-  void add(Problem problem) { list_.push_back(std::move(problem)); }
+  void add(Problem problem) { list_.push_back(std::move(problem)); }  ///< one more
+  /// All of another error's.
   void add_all(const InputError& error) { list_.insert(list_.end(), error.problems().begin(), error.problems().end()); }
-  [[nodiscard]] bool empty() const noexcept { return list_.empty(); }
-  [[nodiscard]] const std::vector<Problem>& list() const noexcept { return list_; }
+  [[nodiscard]] bool empty() const noexcept { return list_.empty(); }                ///< whether none was found
+  [[nodiscard]] const std::vector<Problem>& list() const noexcept { return list_; }  ///< those found so far
+  /// InputError with all of them; nothing where there are none.
   void throw_if_any() const {
     if (!list_.empty()) throw InputError(list_);
   }

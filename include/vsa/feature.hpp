@@ -8,12 +8,13 @@
 
 namespace vsa {
 
+/// A part of vsasim that needs a library of the system.
 struct Feature {
   std::string_view name;      ///< "reader of SDF and URDF", "topics"
   std::string_view found_as;  ///< the library with its version; empty: the feature is left out
   std::string_view remedy;    ///< what would bring it, a line
 
-  [[nodiscard]] bool is_in() const { return !found_as.empty(); }
+  [[nodiscard]] bool is_in() const { return !found_as.empty(); }  ///< whether the library was there
   /// "this build has no topics: install …"
   [[nodiscard]] std::string missing() const { return "this build has no " + std::string(name) + ": " + std::string(remedy); }
 };

@@ -28,16 +28,18 @@
 namespace vsa::lanes {
 
 template <class T>
-inline constexpr bool kScalar = std::is_same_v<T, double>;
+inline constexpr bool kScalar = std::is_same_v<T, double>;  ///< one number, no Pack
 
 // One number.
 
+/// Of one number, as the next ones: any() and all() are the truth itself.
 [[nodiscard]] inline bool any(bool m) noexcept { return m; }
-[[nodiscard]] inline bool all(bool m) noexcept { return m; }
-[[nodiscard]] inline bool same(bool a, bool b) noexcept { return a == b; }
-[[nodiscard]] inline double select(bool m, double a, double b) noexcept { return m ? a : b; }
-[[nodiscard]] inline bool select(bool m, bool a, bool b) noexcept { return m ? a : b; }
-[[nodiscard]] inline double abs(double v) noexcept { return std::abs(v); }
+[[nodiscard]] inline bool all(bool m) noexcept { return m; }                                   ///< likewise
+[[nodiscard]] inline bool same(bool a, bool b) noexcept { return a == b; }                     ///< both true or both false
+[[nodiscard]] inline double select(bool m, double a, double b) noexcept { return m ? a : b; }  ///< m ? a : b
+[[nodiscard]] inline bool select(bool m, bool a, bool b) noexcept { return m ? a : b; }        ///< likewise
+[[nodiscard]] inline double abs(double v) noexcept { return std::abs(v); }                     ///< without its sign bit
+/// By sign bits.
 [[nodiscard]] inline double copysign(double magnitude, double sign) noexcept { return std::copysign(magnitude, sign); }
 
 // Several.
@@ -45,23 +47,25 @@ inline constexpr bool kScalar = std::is_same_v<T, double>;
 /// The smallest natural vector of W doubles, and of W truths: all bits or none.
 template <int W>
 struct Vectors {
-  typedef double Number __attribute__((vector_size(8 * W)));
-  typedef long long Truth __attribute__((vector_size(8 * W)));
+  typedef double Number __attribute__((vector_size(8 * W)));    ///< W doubles
+  typedef long long Truth __attribute__((vector_size(8 * W)));  ///< W truths
 };
 
+/// A truth in each lane, all bits or none, as comparisons of Packs give it.
 template <int W, class Isa>
 struct Mask {
-  typename Vectors<W>::Truth v;
+  typename Vectors<W>::Truth v;  ///< −1 or 0 in each lane
 
   Mask() = default;
-  explicit Mask(typename Vectors<W>::Truth truth) noexcept : v(truth) {}
+  explicit Mask(typename Vectors<W>::Truth truth) noexcept : v(truth) {}  ///< as it is
+  /// The same in all lanes.
   explicit Mask(bool truth) noexcept : v(typename Vectors<W>::Truth{} - static_cast<long long>(truth)) {}
-  friend Mask operator&(Mask a, Mask b) noexcept { return Mask(a.v & b.v); }
-  friend Mask operator|(Mask a, Mask b) noexcept { return Mask(a.v | b.v); }
-  friend Mask operator!(Mask a) noexcept { return Mask(~a.v); }
-  friend Mask operator&(Mask a, bool b) noexcept { return a & Mask(b); }
-  friend Mask operator|(Mask a, bool b) noexcept { return a | Mask(b); }
-  [[nodiscard]] bool lane(int i) const noexcept { return v[i] != 0; }
+  friend Mask operator&(Mask a, Mask b) noexcept { return Mask(a.v & b.v); }  ///< lane by lane, as the next ones
+  friend Mask operator|(Mask a, Mask b) noexcept { return Mask(a.v | b.v); }  ///< or
+  friend Mask operator!(Mask a) noexcept { return Mask(~a.v); }               ///< not
+  friend Mask operator&(Mask a, bool b) noexcept { return a & Mask(b); }      ///< with the same truth in all lanes
+  friend Mask operator|(Mask a, bool b) noexcept { return a | Mask(b); }      ///< with the same truth in all lanes
+  [[nodiscard]] bool lane(int i) const noexcept { return v[i] != 0; }         ///< in lane i
   /// Bit i for lane i.
   [[nodiscard]] unsigned bits() const noexcept {
 #if defined(__AVX512DQ__)
@@ -79,30 +83,34 @@ struct Mask {
   }
 };
 
+/// Lane by lane: both true or both false.
 template <int W, class Isa>
 [[nodiscard]] Mask<W, Isa> same(Mask<W, Isa> a, Mask<W, Isa> b) noexcept {
   return Mask<W, Isa>(~(a.v ^ b.v));
 }
+/// In one lane or more.
 template <int W, class Isa>
 [[nodiscard]] bool any(Mask<W, Isa> m) noexcept {
   return m.bits() != 0;
 }
+/// In every lane.
 template <int W, class Isa>
 [[nodiscard]] bool all(Mask<W, Isa> m) noexcept {
   return m.bits() == (1U << W) - 1;
 }
 
+/// W doubles, one a lane. Every operator works lane by lane, one IEEE operation in each.
 template <int W, class Isa_>
 struct Pack {
-  using Isa = Isa_;
-  using Truth = Mask<W, Isa>;
-  static constexpr int kWidth = W;
-  typename Vectors<W>::Number v;
+  using Isa = Isa_;                 ///< a name for the instruction set
+  using Truth = Mask<W, Isa>;       ///< what comparisons give
+  static constexpr int kWidth = W;  ///< how many lanes
+  typename Vectors<W>::Number v;    ///< the numbers
 
   Pack() = default;
-  explicit Pack(typename Vectors<W>::Number number) noexcept : v(number) {}
+  explicit Pack(typename Vectors<W>::Number number) noexcept : v(number) {}  ///< as it is
   // NOLINTNEXTLINE(google-explicit-constructor): a number that all lanes have. x − 0 = x, for −0 too.
-  Pack(double all) noexcept : v(all - typename Vectors<W>::Number{}) {}
+  Pack(double all) noexcept : v(all - typename Vectors<W>::Number{}) {}  ///< in all lanes
 
   friend Pack operator+(Pack a, Pack b) noexcept { return Pack(a.v + b.v); }
   friend Pack operator-(Pack a, Pack b) noexcept { return Pack(a.v - b.v); }
@@ -119,23 +127,27 @@ struct Pack {
   Pack& operator-=(Pack o) noexcept { return *this = *this - o; }
   Pack& operator*=(Pack o) noexcept { return *this = *this * o; }
 
-  [[nodiscard]] double lane(int i) const noexcept { return v[i]; }
-  void set_lane(int i, double to) noexcept { v[i] = to; }
+  [[nodiscard]] double lane(int i) const noexcept { return v[i]; }  ///< in lane i
+  void set_lane(int i, double to) noexcept { v[i] = to; }           ///< in lane i
 };
 
+/// Lane by lane m ? a : b.
 template <int W, class Isa>
 [[nodiscard]] Pack<W, Isa> select(Mask<W, Isa> m, Pack<W, Isa> a, Pack<W, Isa> b) noexcept {
   return Pack<W, Isa>(m.v ? a.v : b.v);
 }
+/// Lane by lane m ? a : b.
 template <int W, class Isa>
 [[nodiscard]] Mask<W, Isa> select(Mask<W, Isa> m, Mask<W, Isa> a, Mask<W, Isa> b) noexcept {
   return Mask<W, Isa>((m.v & a.v) | (~m.v & b.v));
 }
+/// Lane by lane, by its sign bit.
 template <int W, class Isa>
 [[nodiscard]] Pack<W, Isa> abs(Pack<W, Isa> p) noexcept {
   using Bits = typename Vectors<W>::Truth;
   return Pack<W, Isa>(reinterpret_cast<typename Vectors<W>::Number>(reinterpret_cast<Bits>(p.v) & 0x7FFFFFFFFFFFFFFFLL));
 }
+/// Lane by lane, by sign bits.
 template <int W, class Isa>
 [[nodiscard]] Pack<W, Isa> copysign(Pack<W, Isa> magnitude, Pack<W, Isa> sign) noexcept {
   using Bits = typename Vectors<W>::Truth;
@@ -147,8 +159,9 @@ template <int W, class Isa>
 // Both.
 
 template <class T>
-using Truth = decltype(T() < T());
+using Truth = decltype(T() < T());  ///< bool, or a Mask
 
+/// The same in all lanes.
 template <class T>
 [[nodiscard]] Truth<T> truth(bool m) noexcept {
   return Truth<T>(m);
@@ -158,10 +171,12 @@ template <class T>
 [[nodiscard]] T min(T a, std::type_identity_t<T> b) noexcept {
   return select(b < a, b, a);
 }
+/// As std::max.
 template <class T>
 [[nodiscard]] T max(T a, std::type_identity_t<T> b) noexcept {
   return select(a < b, b, a);
 }
+/// As std::clamp, for low ≤ high; a NaN stays.
 template <class T>
 [[nodiscard]] T clamp(T v, std::type_identity_t<T> low, std::type_identity_t<T> high) noexcept {
   return select(v < low, low, select(high < v, high, v));
@@ -171,7 +186,7 @@ template <class T>
 [[nodiscard]] T where(Truth<T> m, T a) noexcept {
   return select(m, a, T(0.0));
 }
-[[nodiscard]] inline double where(bool m, double a) noexcept { return m ? a : 0.0; }
+[[nodiscard]] inline double where(bool m, double a) noexcept { return m ? a : 0.0; }  ///< of one number
 
 /// A small whole number beside T: int for one, a whole double in each lane for several.
 template <class T>

@@ -24,10 +24,10 @@ class OutputFile {
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&& other) noexcept;
 
-  void append(std::string_view piece);  ///< throws OutputError
-  void restart();                       ///< empties; throws OutputError
-  void close();                         ///< throws OutputError
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+  void append(std::string_view piece);                                                ///< throws OutputError
+  void restart();                                                                     ///< empties; throws OutputError
+  void close();                                                                       ///< throws OutputError
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }  ///< as it was given
 
  private:
   [[noreturn]] void fail(std::string_view what, int error) const;
@@ -42,6 +42,7 @@ class OutputFile {
 class DirectoryLock {
  public:
   DirectoryLock() = default;
+  /// Alone, or beside other readers.
   enum class Use { alone, shared };
   /// Throws InputError with `taken`, what the other one does, where another program holds it otherwise.
   DirectoryLock(const std::filesystem::path& directory, const char* taken, Use use = Use::alone);

@@ -16,6 +16,7 @@ namespace vsa {
 /// Says "where: what" on stderr and ends the program.
 [[noreturn]] void broken_promise(const char* where, const char* what) noexcept;
 
+/// broken_promise() where the promise wasn't kept.
 inline void require(bool promise, const char* where, const char* what) noexcept {
   if (!promise) [[unlikely]]
     broken_promise(where, what);
@@ -25,16 +26,18 @@ inline void require(bool promise, const char* where, const char* what) noexcept 
 template <class T>
 class Owner {
  public:
-  explicit Owner(const char* owner) noexcept : owner_(owner) {}
+  explicit Owner(const char* owner) noexcept : owner_(owner) {}  ///< `owner`: who it belongs to, for messages; a literal
+  /// The same with something inside.
   Owner(const char* owner, std::unique_ptr<T> inside) noexcept : inside_(std::move(inside)), owner_(owner) {}
-  void take(std::unique_ptr<T> inside) noexcept { inside_ = std::move(inside); }
-  [[nodiscard]] bool there() const noexcept { return inside_ != nullptr; }
+  void take(std::unique_ptr<T> inside) noexcept { inside_ = std::move(inside); }  ///< takes what is inside
+  [[nodiscard]] bool there() const noexcept { return inside_ != nullptr; }        ///< false: it was moved from
+  /// What is inside; throws std::logic_error where it was moved from.
   T& operator*() const {
     if (!inside_) [[unlikely]]
       throw std::logic_error(std::string(owner_) + ": used after it was moved from");
     return *inside_;
   }
-  T* operator->() const { return &**this; }
+  T* operator->() const { return &**this; }  ///< likewise
 
  private:
   std::unique_ptr<T> inside_;

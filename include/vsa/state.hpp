@@ -26,27 +26,30 @@
 
 namespace vsa {
 
+/// What a number of the array is (see above).
 enum class StateKind : std::uint8_t { real, single, whole, wide, flag, choice, bytes };
-[[nodiscard]] std::string_view name_of(StateKind kind) noexcept;
+[[nodiscard]] std::string_view name_of(StateKind kind) noexcept;  ///< "real", "single", …
 
+/// One member's part of the array.
 struct StateEntry {
-  std::string name;  ///< "robot[0]/elbow/unit.physics.motor[1].angle"
-  std::string unit;  ///< "rad"; empty: a number
-  StateKind kind = StateKind::real;
-  std::size_t offset = 0, count = 0;  ///< where in the array, and how many doubles
+  std::string name;                  ///< "robot[0]/elbow/unit.physics.motor[1].angle"
+  std::string unit;                  ///< "rad"; empty: a number
+  StateKind kind = StateKind::real;  ///< what it is
+  std::size_t offset = 0,            ///< where in the array
+      count = 0;                     ///< how many doubles
 };
 
 /// What each number of an array is, in order and without gaps.
 class StateLayout {
  public:
-  void add(std::string name, std::string unit, StateKind kind, std::size_t count);
+  void add(std::string name, std::string unit, StateKind kind, std::size_t count);  ///< at the end, without a gap
   void append(std::string_view prefix, const StateLayout& other);  ///< its entries behind these, their names behind `prefix`
 
-  [[nodiscard]] const std::vector<StateEntry>& entries() const noexcept { return entries_; }
-  [[nodiscard]] std::vector<StateEntry>& entries() noexcept { return entries_; }  ///< to give them other names
-  [[nodiscard]] std::size_t size() const noexcept { return size_; }               ///< of the array
-  [[nodiscard]] const StateEntry* find(std::string_view name) const noexcept;     ///< none: there is no such name
-  [[nodiscard]] std::string name_at(std::size_t offset) const;                    ///< of a number, with its place in the entry
+  [[nodiscard]] const std::vector<StateEntry>& entries() const noexcept { return entries_; }  ///< in order
+  [[nodiscard]] std::vector<StateEntry>& entries() noexcept { return entries_; }              ///< to give them other names
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }                           ///< of the array
+  [[nodiscard]] const StateEntry* find(std::string_view name) const noexcept;                 ///< none: there is no such name
+  [[nodiscard]] std::string name_at(std::size_t offset) const;  ///< of a number, with its place in the entry
   /// Of names, units, kinds and counts: arrays with the same hash mean the same.
   [[nodiscard]] std::uint64_t hash() const noexcept;
 
@@ -62,14 +65,15 @@ class StateLayout {
 
 /// Why numbers are no state, or a state has no numbers.
 struct StateFault {
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  std::size_t offset = kNone;
-  double value = 0;
-  const char* message = "";  ///< what is wrong
-  const char* allowed = "";  ///< in words; empty: low … high
-  double low = 0, high = 0;
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();  ///< no fault
+  std::size_t offset = kNone;                                                    ///< of the number that is wrong
+  double value = 0;                                                              ///< what it was
+  const char* message = "";                                                      ///< what is wrong
+  const char* allowed = "";                                                      ///< in words; empty: low … high
+  double low = 0,  ///< least that is allowed, where `allowed` is empty
+      high = 0;    ///< most
 
-  [[nodiscard]] bool there() const noexcept { return offset != kNone; }
+  [[nodiscard]] bool there() const noexcept { return offset != kNone; }  ///< whether there is one
 };
 
 /// Throws InputError with the number's name, where there is a fault.

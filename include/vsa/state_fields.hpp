@@ -37,23 +37,25 @@ namespace vsa::state {
 /// Items (size(), resize(), operator[]) of which a state may have up to `most`; beyond that it can't be saved.
 template <class Items>
 struct Capped {
-  Items& items;
-  std::size_t most;
+  Items& items;      ///< the container
+  std::size_t most;  ///< a count that a state may have
 };
 template <class Items>
-Capped(Items&, std::size_t) -> Capped<Items>;
+Capped(Items&, std::size_t) -> Capped<Items>;  ///< its items by reference
 
 // ------------------------------------------------------------------------------------------------ which members a struct has
 
 template <class T>
-inline constexpr bool kOptional = false;
+inline constexpr bool kOptional = false;  ///< a std::optional
 template <class T>
 inline constexpr bool kOptional<std::optional<T>> = true;
 
+/// Stands for any member but an optional, to count how many there are.
 struct AnyMember {
   template <class T>
   requires(!kOptional<T>) operator T() const;  // never called
 };
+/// Whether an aggregate takes so many members.
 template <class T, std::size_t... I>
 constexpr bool takes(std::index_sequence<I...>) {
   return requires { T{(static_cast<void>(I), AnyMember{})...}; };
@@ -68,9 +70,10 @@ constexpr std::size_t member_count() {
   }
 }
 
+/// Counts what fields() names.
 struct FieldCount {
   template <class... A>
-  constexpr auto operator()(A&&...) const {
+  constexpr auto operator()(A&&...) const {  ///< of one fields()
     return std::integral_constant<std::size_t, sizeof...(A) / 3>{};
   }
 };
@@ -97,6 +100,7 @@ struct FieldBytes {
   }
 };
 
+/// Names its members by fields().
 template <class T>
 inline constexpr bool kDescribed = requires(T& t) {
   T::fields(t, FieldCount{});
@@ -115,12 +119,14 @@ constexpr bool names_all() {
 
 // ----------------------------------------------------------------------------------------------------------- a single number
 
+/// A quantity of units.hpp.
 template <class T>
 inline constexpr bool kQuantity =
     std::is_same_v<T, Raw> || std::is_same_v<T, Ticks> || std::is_same_v<T, MilliAmp> || std::is_same_v<T, MilliVolt>;
 template <class T>
-inline constexpr bool kLeaf = std::is_arithmetic_v<T> || std::is_enum_v<T> || kQuantity<T>;
+inline constexpr bool kLeaf = std::is_arithmetic_v<T> || std::is_enum_v<T> || kQuantity<T>;  ///< one or two numbers
 
+/// As numbers of vsa/state.hpp.
 template <class T>
 constexpr StateKind kind() {
   if constexpr (kQuantity<T>) return kind<decltype(T::value)>();
@@ -131,13 +137,14 @@ constexpr StateKind kind() {
   return sizeof(T) > 4 ? StateKind::wide : StateKind::whole;
 }
 template <class T>
-inline constexpr std::size_t kSlots = kLeaf<T>&& kind<T>() == StateKind::wide ? 2 : 1;
+inline constexpr std::size_t kSlots = kLeaf<T>&& kind<T>() == StateKind::wide ? 2 : 1;  ///< how many
 
 /// A float's value; of a NaN the sign and the payload, which a conversion would make quiet.
 [[nodiscard]] double widened(float v) noexcept;
 /// None: no float has that value.
 [[nodiscard]] std::optional<float> narrowed(double v) noexcept;
 
+/// A member's number or numbers; `at` has room for kSlots<T>.
 template <class T>
 void put(double* at, const T& v) noexcept {
   if constexpr (kQuantity<T>) {
@@ -159,6 +166,7 @@ void put(double* at, const T& v) noexcept {
   return v >= low && v <= high && std::trunc(v) == v && !(v == 0 && std::signbit(v));
 }
 
+/// Of the number that a member may have.
 template <class T>
 [[nodiscard]] constexpr std::pair<double, double> range() noexcept {
   if constexpr (std::is_enum_v<T>) {
@@ -198,10 +206,11 @@ template <class T>
   return {};
 }
 
-inline constexpr std::size_t kBytesPerNumber = 6;
-inline constexpr std::size_t kFewBytes = 8;  ///< up to so many stand as numbers of their own
+inline constexpr std::size_t kBytesPerNumber = 6;  ///< of a packed array of bytes
+inline constexpr std::size_t kFewBytes = 8;        ///< up to so many stand as numbers of their own
+/// Numbers that so many bytes take.
 [[nodiscard]] constexpr std::size_t packed(std::size_t bytes) noexcept { return (bytes + kBytesPerNumber - 1) / kBytesPerNumber; }
-void put_bytes(double* at, std::span<const std::uint8_t> bytes) noexcept;
-[[nodiscard]] StateFault get_bytes(const double* at, std::span<std::uint8_t> bytes) noexcept;
+void put_bytes(double* at, std::span<const std::uint8_t> bytes) noexcept;                      ///< `at` has room for packed()
+[[nodiscard]] StateFault get_bytes(const double* at, std::span<std::uint8_t> bytes) noexcept;  ///< none: no such bytes
 
 }  // namespace vsa::state

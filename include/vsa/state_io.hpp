@@ -40,12 +40,12 @@ class Writer : public Sink {
     out_[at_++] = static_cast<double>(count);
     return count;
   }
-  void blank(std::size_t n) noexcept {
+  void blank(std::size_t n) noexcept {  ///< leaves room for n numbers, all zero
     std::fill_n(out_.begin() + static_cast<std::ptrdiff_t>(at_), n, 0.0);
     at_ += n;
   }
-  [[nodiscard]] const StateFault& fault() const noexcept { return fault_; }
-  [[nodiscard]] std::size_t at() const noexcept { return at_; }
+  [[nodiscard]] const StateFault& fault() const noexcept { return fault_; }  ///< none: what was written is a state
+  [[nodiscard]] std::size_t at() const noexcept { return at_; }              ///< numbers written so far
 
  private:
   std::span<double> out_;
@@ -83,7 +83,7 @@ class Reader : public Sink {
     items.resize(count);
     return count;
   }
-  void blank(std::size_t n) noexcept {
+  void blank(std::size_t n) noexcept {  ///< n numbers that a state has not
     if (room(n)) {
       const auto rest = in_.subspan(at_, n);
       const auto it = std::find_if(rest.begin(), rest.end(), [](double v) { return bits_as<std::uint64_t>(v) != 0; });
@@ -96,8 +96,8 @@ class Reader : public Sink {
     if (fault_.there()) return;
     if (const char* wrong = s.impossible()) fault_ = {at_ - 1, at_ > 0 ? in_[at_ - 1] : 0.0, "ends what can't be", wrong};
   }
-  [[nodiscard]] const StateFault& fault() const noexcept { return fault_; }
-  [[nodiscard]] std::size_t at() const noexcept { return at_; }
+  [[nodiscard]] const StateFault& fault() const noexcept { return fault_; }  ///< none: what was read is a state
+  [[nodiscard]] std::size_t at() const noexcept { return at_; }              ///< numbers read so far
 
  private:
   [[nodiscard]] bool room(std::size_t n) const noexcept { return !fault_.there() && at_ + n <= in_.size(); }

@@ -13,17 +13,17 @@
 namespace vsa::state {
 
 template <class T>
-inline constexpr bool kArray = false;
+inline constexpr bool kArray = false;  ///< one of those that stand by themselves
 template <class T, std::size_t N>
 inline constexpr bool kArray<std::array<T, N>> = true;
 template <class T>
-inline constexpr bool kVector = false;
+inline constexpr bool kVector = false;  ///< likewise
 template <class T>
 inline constexpr bool kVector<std::vector<T>> = true;
 template <class T>
-inline constexpr bool kCapped = false;
+inline constexpr bool kCapped = false;  ///< likewise
 template <class T>
-inline constexpr bool kCapped<Capped<T>> = true;
+inline constexpr bool kCapped<Capped<T>> = true;  ///< likewise
 
 template <class Sink, class T>
 void walk(Sink& sink, const char* name, const char* unit, T&& v);
@@ -44,10 +44,11 @@ void walk_fields(Sink& sink, S& s) {
 }
 
 template <class E>
-inline const E kNone{};
+inline const E kNone{};  ///< a value, for the sizes of it
 template <class E>
 [[nodiscard]] std::size_t size_of(const E& v = kNone<E>) noexcept;
 
+/// The count, and room for as many as there may be.
 template <class Sink, class Items>
 void walk_capped(Sink& sink, const char* name, const Capped<Items>& v) {
   using E = std::remove_cvref_t<decltype(v.items[0])>;
@@ -73,6 +74,7 @@ void walk_capped(Sink& sink, const char* name, const Capped<Items>& v) {
   sink.leave();
 }
 
+/// Whether it is given, and its value.
 template <class Sink, class T>
 void walk_optional(Sink& sink, const char* name, const char* unit, T& v) {
   using E = typename std::remove_const_t<T>::value_type;
@@ -93,6 +95,7 @@ void walk_optional(Sink& sink, const char* name, const char* unit, T& v) {
   sink.leave();
 }
 
+/// A member of any kind, by its type.
 template <class Sink, class T>
 void walk(Sink& sink, const char* name, const char* unit, T&& v) {
   using V = std::remove_cvref_t<T>;
@@ -123,16 +126,23 @@ void walk(Sink& sink, const char* name, const char* unit, T&& v) {
   }
 }
 
-/// What most of them don't care for.
+/// What a walk goes into: Sizer, Namer, Writer, Reader. Beside what is here, which most don't care for, a walk calls
+///   leaf(name, unit, v)           a number
+///   leaves(name, unit, v)         an array of numbers
+///   bytes(name, v, count, most)   `count` bytes, with room for `most`
+///   count(items, most)            how many items follow; a Reader resizes them
+///   blank(n)                      n numbers of room that nothing takes; only where kWantsRoom is false, else the walk goes on to `most`
 struct Sink {
-  void enter(const char*) noexcept {}
-  void enter(const char*, std::size_t) noexcept {}
-  void enter(std::size_t) noexcept {}
-  void leave() noexcept {}
+  void enter(const char*) noexcept {}               ///< a member that is a struct
+  void enter(const char*, std::size_t) noexcept {}  ///< element i of a member that is an array of structs
+  void enter(std::size_t) noexcept {}               ///< item i of a Capped
+  void leave() noexcept {}                          ///< what was entered last
+  /// A struct that has impossible() is complete.
   template <class S>
   void judge(const S&) noexcept {}
 };
 
+/// Counts the numbers that a state has.
 class Sizer : public Sink {
  public:
   static constexpr bool kWantsRoom = true;
@@ -153,7 +163,7 @@ class Sizer : public Sink {
     ++size_;
     return 0;
   }
-  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }  ///< so far
 
  private:
   std::size_t size_ = 0;
@@ -167,10 +177,11 @@ std::size_t size_of(const E& v) noexcept {
   return sizer.size();
 }
 
+/// Writes a layout instead of numbers.
 class Namer : public Sink {
  public:
   static constexpr bool kWantsRoom = true;
-  explicit Namer(StateLayout& layout) : layout_(layout) {}
+  explicit Namer(StateLayout& layout) : layout_(layout) {}  ///< its entries go there
   void enter(const char* name) { open(*name == '\0' ? prefix_ : prefix_ + name + "."); }
   void enter(const char* name, std::size_t i) { open(prefix_ + name + "[" + std::to_string(i) + "]."); }
   void enter(std::size_t i) { open(prefix_.substr(0, prefix_.empty() ? 0 : prefix_.size() - 1) + "[" + std::to_string(i) + "]."); }
@@ -207,6 +218,7 @@ class Namer : public Sink {
   std::vector<std::string> outer_;
 };
 
+/// The layout of one of them.
 template <class S>
 [[nodiscard]] StateLayout layout_of(const S& s = kNone<S>) {
   StateLayout out;

@@ -10,32 +10,35 @@ namespace vsa {
 /// The device's own integer units, as distinct types so that a tick can't be taken for a milliampere.
 /// Raw position: 65536 per turn. Reported position ("ticks"): raw >> resolution, 32768 per turn by default.
 struct Raw {
-  std::int32_t value = 0;
+  std::int32_t value = 0;  ///< raw, of one turn in 65536
   constexpr bool operator==(const Raw&) const = default;
 };
 
+/// An angle as the bus carries it: raw >> resolution, 32768 to a turn by default, 16 bits.
 struct Ticks {
-  std::int16_t value = 0;
+  std::int16_t value = 0;  ///< of that encoder
   constexpr bool operator==(const Ticks&) const = default;
 };
 
+/// A current as the program measures it.
 struct MilliAmp {
-  std::int32_t value = 0;
+  std::int32_t value = 0;  ///< mA
   constexpr bool operator==(const MilliAmp&) const = default;
 };
 
+/// A voltage as the program measures it.
 struct MilliVolt {
-  std::int32_t value = 0;
+  std::int32_t value = 0;  ///< mV
   constexpr bool operator==(const MilliVolt&) const = default;
 };
 
-inline constexpr double kPi = 3.14159265358979323846;
-inline constexpr double kRawPerTurn = 65536.0;
+inline constexpr double kPi = 3.14159265358979323846;  ///< half a turn, rad
+inline constexpr double kRawPerTurn = 65536.0;         ///< a turn
 
 /// Words of a turning shaft as a sliding one has them: "torque [N·m]" → "force [N]", "load_torque_Nm" → "load_force_N", "N·m/rad" →
 /// "N/m", "deflection_rad" → "deflection_m", "rad/s" → "m/s". What has nothing of that stays.
 [[nodiscard]] std::string sliding(std::string_view words);
 
-constexpr double radians(Raw raw) { return raw.value * (2.0 * kPi / kRawPerTurn); }
+constexpr double radians(Raw raw) { return raw.value * (2.0 * kPi / kRawPerTurn); }  ///< of that encoder
 
 }  // namespace vsa

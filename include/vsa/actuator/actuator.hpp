@@ -34,34 +34,37 @@
 
 namespace vsa::actuator {
 
+/// All that changes of an actuator. Copyable; a state belongs to whoever owns time, and goes on with actuators of equal parameters
+/// only.
 template <class T>
 struct ActuatorStateOf {
-  std::array<drive::MotorStateOf<T>, 2> motor{};
-  std::array<T, 2> motor_anchor{};
-  T shaft = 0;  ///< y, end of the last segment's path
-  T shaft_anchor = 0;
-  std::array<T, 2> tendon_anchor{};  ///< z_w of each spring's friction, J
-  std::array<T, 2> spring_w{};       ///< the springs' signed energies now, J; where there is tendon friction
-  std::array<T, 2> load{};           ///< mean spring load on each pulley over the last segment
-  elastic::OriginOf<T> origin;       ///< where the springs are: pulleys' angles and `shaft`
+  std::array<drive::MotorStateOf<T>, 2> motor{};  ///< the pulleys
+  std::array<T, 2> motor_anchor{};                ///< z of each gearbox's friction, rad
+  T shaft = 0;                                    ///< y, end of the last segment's path
+  T shaft_anchor = 0;                             ///< z of the shaft's friction, rad
+  std::array<T, 2> tendon_anchor{};               ///< z_w of each spring's friction, J
+  std::array<T, 2> spring_w{};                    ///< the springs' signed energies now, J; where there is tendon friction
+  std::array<T, 2> load{};                        ///< mean spring load on each pulley over the last segment
+  elastic::OriginOf<T> origin;                    ///< where the springs are: pulleys' angles and `shaft`
   elastic::SegmentMeanOf<T>
-      end;           ///< torque and loads at the last segment's end if all stood still there, to first order; its slopes
-  RubOf<T> end_rub;  ///< the part of those slopes that is the tendons' friction
-  LedgerOf<T> ledger;
+      end;             ///< torque and loads at the last segment's end if all stood still there, to first order; its slopes
+  RubOf<T> end_rub;    ///< the part of those slopes that is the tendons' friction
+  LedgerOf<T> ledger;  ///< since the start
   static auto fields(auto& s, auto&& visit) {
     return visit("motor", "", s.motor, "motor_anchor", "rad", s.motor_anchor, "shaft", "rad", s.shaft, "shaft_anchor", "rad",
                  s.shaft_anchor, "tendon_anchor", "J", s.tendon_anchor, "spring_energy", "J", s.spring_w, "load", "N·m", s.load,
                  "origin", "", s.origin, "end", "", s.end, "end_rub", "", s.end_rub, "ledger", "", s.ledger);
   }
 };
-using ActuatorState = ActuatorStateOf<double>;
+using ActuatorState = ActuatorStateOf<double>;  ///< of one unit
 
 /// Parameters at the pulley and the prepared motor steps. Immutable but for prepare(); a state belongs to whoever owns time.
 class Actuator {
  public:
-  explicit Actuator(ActuatorParams params);
+  explicit Actuator(ActuatorParams params);  ///< parameters that validate() passes; no check here
 
-  [[nodiscard]] const ActuatorParams& params() const noexcept { return params_; }
+  [[nodiscard]] const ActuatorParams& params() const noexcept { return params_; }  ///< as given
+  /// At rest, pulleys and shaft there (rad), frictions relaxed; the ledger begins.
   [[nodiscard]] ActuatorState initial(const std::array<double, 2>& pulleys, double shaft) const noexcept;
 
   /// Puts the shaft somewhere without work, friction relaxed: before the first step only. The ledger begins here.
@@ -73,8 +76,9 @@ class Actuator {
   /// Whether several units of these parameters may go side by side (vsa/lanes.hpp). They do while all their motors are driven.
   [[nodiscard]] bool has_lanes() const noexcept;
 
-  // The same in three parts, for one unit or several side by side. Until `finish` nothing else may be done with the state or begun on
+  /// The same in three parts, for one unit or several side by side. Until `finish` nothing else may be done with the state or begun on
   // this actuator.
+  /// Prepares a segment of length h: what motors and frictions see at its start.
   template <class T>
   void begin(ActuatorStateOf<T>& state, SegmentOf<T>& segment, double h_s, const SegmentInputOf<T>& in) noexcept;
   /// The torque over the segment for dq = 0 and its slope, extrapolated from the last segment without a call of the law. The first
@@ -86,6 +90,7 @@ class Actuator {
   template <class T>
   SegmentResultOf<T> attempt(const ActuatorStateOf<T>& state, SegmentOf<T>& segment, T dq, bool rough = false,
                              lanes::Truth<T> which = lanes::truth<T>(true)) const noexcept;
+  /// Ends the segment at its last attempt: moves motors, anchors, springs and state.shaft, and books the energies.
   template <class T>
   void finish(ActuatorStateOf<T>& state, const SegmentOf<T>& segment) const noexcept;
 
@@ -107,12 +112,14 @@ class Actuator {
   /// Somebody put the shaft elsewhere: the springs follow, and what is stored from now on is what the balance begins with.
   void relocate(ActuatorState& state, double shaft) const noexcept;
 
+  /// What the springs alone say with the shaft there, the pulleys where they are.
   [[nodiscard]] elastic::Response spring(const ActuatorState& state, double shaft) const noexcept;
   /// The springs' response with the torques of the frictions on the shaft's side: what acts if the shaft is there.
   [[nodiscard]] elastic::Response response(const ActuatorState& state, double shaft) const noexcept;
+  /// Of motor i now, A, at that terminal voltage; `supply_V` as of a segment, where the enable pin is modulated.
   [[nodiscard]] double motor_current(const ActuatorState& state, int i, double voltage, drive::Terminal terminal,
                                      double supply_V = 0) const noexcept;
-  [[nodiscard]] int motors() const noexcept { return motors_; }
+  [[nodiscard]] int motors() const noexcept { return motors_; }  ///< 1 or 2, of the law
 
  private:
   struct Prepared {

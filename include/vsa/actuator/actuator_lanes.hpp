@@ -19,6 +19,7 @@ namespace step {
 // Each motor's correction takes its own curvature alone. Where a law ties the motors together (x0x1 ≠ 0), the iteration closes in by
 // c₀c₁(x0x1)²/((1 + c₀κ₀)(1 + c₁κ₁)) a round, c a motor's give over the segment: a twentieth with rotors a hundred times lighter than the
 // qbmove's, so that it costs no round (tests/actuator/laws_test.cpp).
+/// ∂²H/∂x_i².
 template <class T>
 [[nodiscard]] T load_curvature(const elastic::HessianOf<T>& h, int i) noexcept {
   return i == 0 ? h.x0x0 : h.x1x1;
@@ -34,10 +35,12 @@ template <class T>
   return mean;
 }
 
+/// `to` becomes `from` where `which`.
 template <class Mask, class T>
 void choose(Mask which, T& to, const T& from) noexcept {
   to = lanes::select(which, from, to);
 }
+/// Likewise of both.
 template <class Mask, class T>
 void choose(Mask which, std::array<T, 2>& to, const std::array<T, 2>& from) noexcept {
   for (std::size_t i = 0; i < 2; ++i) choose(which, to[i], from[i]);

@@ -12,6 +12,7 @@
 
 namespace vsa::actuator {
 
+/// Energies of one actuator, J: sums since the start or the last reset, and what is stored now.
 template <class T>
 struct LedgerOf {
   T supply = 0;           ///< Σ ∫V I dt drawn from the supply; negative when motors feed back
@@ -32,7 +33,7 @@ struct LedgerOf {
   T bristle = 0;          ///< now: presliding energy of the gearboxes' frictions
   T shaft_bristle = 0;    ///< now: presliding energy of the shaft's friction
   T tendon_bristle = 0;   ///< now: presliding energy of the tendons' friction
-  T stored_at_start = 0;
+  T stored_at_start = 0;  ///< of the six that are stored
   T supply_moved = 0;     ///< ∫|P_supply| dt, by steps
   T delivered_moved = 0;  ///< ∫|P_shaft| dt, by steps
   static auto fields(auto& s, auto&& visit) {
@@ -45,6 +46,7 @@ struct LedgerOf {
                  "delivered_moved", "J", s.delivered_moved);
   }
 
+  /// Sum of what is stored now.
   [[nodiscard]] T stored() const noexcept { return kinetic + magnetic + elastic + bristle + shaft_bristle + tendon_bristle; }
   /// Left side less right side of the balance, J: rounding only.
   [[nodiscard]] T imbalance() const noexcept {
@@ -54,8 +56,8 @@ struct LedgerOf {
   /// ∫|P_supply| + ∫|P_shaft|, J: what the balance is measured against.
   [[nodiscard]] T moved() const noexcept { return supply_moved + delivered_moved; }
 
-  LedgerOf& operator+=(const LedgerOf& other) noexcept;
+  LedgerOf& operator+=(const LedgerOf& other) noexcept;  ///< entry by entry
 };
-using Ledger = LedgerOf<double>;
+using Ledger = LedgerOf<double>;  ///< of one unit
 
 }  // namespace vsa::actuator

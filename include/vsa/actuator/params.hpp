@@ -29,12 +29,14 @@ struct TendonParams {
   double damping_s = 0;     ///< T_d: the bristle's damper over its stiffness, ≥ 0
   bool operator==(const TendonParams&) const = default;
 };
+/// 0 ≤ μ < 1, and a presliding where there is friction.
 void validate(const TendonParams& params, std::string_view where, Problems& problems);
 
+/// One motor with what belongs to it.
 struct SideParams {
-  drive::MotorParams motor{};  ///< at the motor's shaft
-  drive::GearboxParams gearbox{};
-  drive::BridgeParams bridge{};
+  drive::MotorParams motor{};       ///< at the motor's shaft
+  drive::GearboxParams gearbox{};   ///< between motor and pulley
+  drive::BridgeParams bridge{};     ///< at its terminals
   sensor::EncoderParams encoder{};  ///< on the driving pulley
   int polarity = 1;                 ///< −1: motor wired against the sense that the program expects
   bool operator==(const SideParams&) const = default;
@@ -42,22 +44,24 @@ struct SideParams {
 /// Keys as those of a file's [drive] and [sensor]; `number` is what these tables have behind their names: "" or "_2".
 void validate(const SideParams& params, std::string_view where, std::string_view number, Problems& problems);
 
+/// All parameters of an actuator's physics. At a linear actuator's shaft m, N, kg.
 struct ActuatorParams {
   std::shared_ptr<const elastic::Transmission> transmission;  ///< its inputs are the pulleys' angles
   std::array<SideParams, 2> side;                             ///< a law with one motor ignores side[1]
   double supply_V = 12.0;                                     ///< of both bridges, ≥ 0; source of the default unknown
-  drive::FrictionParams shaft_friction;
-  TendonParams tendon;
-  sensor::EncoderParams shaft_encoder;
-  double shaft_zero_rad = 0;                    ///< and this added to the shaft's reading
+  drive::FrictionParams shaft_friction;                       ///< of the output shaft, beside the gearboxes'
+  TendonParams tendon;                                        ///< of the springs
+  sensor::EncoderParams shaft_encoder;                        ///< on the output shaft
+  double shaft_zero_rad = 0;                                  ///< and this added to the shaft's reading
   double shaft_scale = 1;                       ///< radians of the shaft's encoder per unit of the shaft; 1: turns with it
   double shaft_inertia_kgm2 = drive::kMissing;  ///< used as 1/A where a host can't tell the inverse inertia
 
-  void set_both(const SideParams& alike) { side = {alike, alike}; }
+  void set_both(const SideParams& alike) { side = {alike, alike}; }  ///< sides that are alike
   /// Sides that count: one for each motor.
   [[nodiscard]] std::size_t sides() const noexcept {
     return transmission ? static_cast<std::size_t>(transmission->motor_count()) : side.size();
   }
+  /// The law's shaft slides.
   [[nodiscard]] bool linear() const noexcept { return transmission && transmission->shaft_unit() == "m"; }
   bool operator==(const ActuatorParams&) const = default;
 };
@@ -68,6 +72,7 @@ void validate(const ActuatorParams& params, std::string_view where, Problems& pr
 /// The output shaft's friction as the coupling needs it: with a bristle. A presliding of 0 is taken as kLeastPresliding_rad, a
 /// hundredth of an encoder's count or less, so that what holds the shaft has a slope.
 inline constexpr double kLeastPresliding_rad = 1e-5;
+/// With that bristle.
 [[nodiscard]] drive::FrictionParams shaft_friction(const ActuatorParams& params) noexcept;
 
 }  // namespace vsa::actuator

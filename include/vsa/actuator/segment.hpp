@@ -18,24 +18,27 @@ class Actuator;
 /// How the tendons' frictions on the shaft answer: −dτ/d(x_i) and −dτ/d(Δy) of each, N·m/rad, and the dampers' part of the first.
 template <class T>
 struct RubOf {
-  std::array<T, 2> dx{}, dy{}, damping{};
+  std::array<T, 2> dx{},  ///< by x_i, N·m/rad
+      dy{},               ///< by the step's Δy, N·m/rad
+      damping{};          ///< the dampers' part of `dx`, N·m/rad
   static auto fields(auto& s, auto&& visit) {
     return visit("dx", "N·m/rad", s.dx, "dy", "N·m/rad", s.dy, "damping", "N·m/rad", s.damping);
   }
 };
 
-using Rub = RubOf<double>;
+using Rub = RubOf<double>;  ///< of one unit
 
 /// Where a segment lies in its host step, and how far ahead its springs and frictions look (the blend of host/robot.hpp). The
 /// default is a segment by itself, taken in its middle.
 template <class T>
 struct LeadOf {
-  double before = 0, share = 1;  ///< parts of the step's displacement Δy: made before the segment, made in it
-  T drift = 0;                   ///< ½ dt v, rad
-  T spring = 0;                  ///< w of the springs, 0 … 1
-  std::array<T, 2> tendon{};     ///< w of each tendon's friction, 0 … 1
+  double before = 0,          ///< part of the step's displacement Δy that was made before the segment
+      share = 1;              ///< part that is made in it
+  T drift = 0;                ///< ½ dt v, rad
+  T spring = 0;               ///< w of the springs, 0 … 1
+  std::array<T, 2> tendon{};  ///< w of each tendon's friction, 0 … 1
 };
-using Lead = LeadOf<double>;
+using Lead = LeadOf<double>;  ///< of one unit
 
 /// w of a spring or friction that swings with x = ω·dt: 0 up to a quarter, where a step resolves it, then towards 1:
 ///   w = (x⁴ − 4⁻⁴)/(16 + x⁴)
@@ -47,16 +50,18 @@ template <class T>
   return lanes::any(leads) ? lanes::where<T>(leads, (x4 - kResolved) / (16.0 + x4)) : T(0.0);
 }
 
+/// What acts in a segment: shaft path and terminals.
 template <class T>
 struct SegmentInputOf {
-  T dq = 0;  ///< shaft displacement along the path
-  std::array<T, 2> voltage{};
-  std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
-  LeadOf<T> lead{};
+  T dq = 0;                    ///< shaft displacement along the path
+  std::array<T, 2> voltage{};  ///< of each motor, V: its mean over the PWM
+  std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};  ///< of each motor
+  LeadOf<T> lead{};     ///< where it lies in its step, and how far ahead it looks
   double supply_V = 0;  ///< counts where the bridge's enable pin is modulated, by a duty of voltage/supply; 0: no current
 };
-using SegmentInput = SegmentInputOf<double>;
+using SegmentInput = SegmentInputOf<double>;  ///< of one unit
 
+/// What a trial finds for its dq.
 template <class T>
 struct SegmentResultOf {
   T torque = 0;  ///< mean torque of the transmission on the shaft
@@ -65,13 +70,16 @@ struct SegmentResultOf {
   /// Δy may be this far from here, rad, and the slope still tells the torque to 5e-6 of the springs' loads; 0: not known
   T straight = 0;
 };
-using SegmentResult = SegmentResultOf<double>;
+using SegmentResult = SegmentResultOf<double>;  ///< of one unit
 
 /// A motor on a bridge whose enable pin is modulated: its current as a straight line about the speed `aim`.
 struct PwmInSegment {
-  const drive::PwmCycle* cycle = nullptr;  // none: terminals at a mean voltage, or open
-  drive::DroopStepper stepper;
-  double start = 0, aim = 0, current_at_rest = 0, h = 0;
+  const drive::PwmCycle* cycle = nullptr;  ///< none: terminals at a mean voltage, or open
+  drive::DroopStepper stepper;             ///< at that line
+  double start = 0,                        ///< speed at the segment's start, rad/s
+      aim = 0,                             ///< where the line touches, rad/s
+      current_at_rest = 0,                 ///< of the line, A
+      h = 0;                               ///< length of the segment, s
 };
 /// Several lanes have none.
 struct NoPwm {};
@@ -126,6 +134,6 @@ class SegmentOf {
     return false;
   }
 };
-using Segment = SegmentOf<double>;
+using Segment = SegmentOf<double>;  ///< of one unit
 
 }  // namespace vsa::actuator

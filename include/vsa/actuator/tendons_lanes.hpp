@@ -15,7 +15,11 @@ namespace step {
 /// here with the same answers.
 template <class T>
 struct BendOf {
-  T bend = 0, per_dx = 0, per_dy = 0, free = 0, straight = 0;
+  T bend = 0,        ///< mean over the segment, J
+      per_dx = 0,    ///< part of it that answers to the pulley
+      per_dy = 0,    ///< … to the step's Δy
+      free = 0,      ///< … to the damper
+      straight = 0;  ///< how far w may be from here, J
 };
 
 /// From u, w changes by dw; `damper` is what ẇ adds to the bend, `ahead` what w changes from the end to where the engine goes.

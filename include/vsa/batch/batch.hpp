@@ -30,8 +30,11 @@
 
 namespace vsa::batch {
 
+/// Of a copy; failed: it is stepped no more until it is set anew.
 enum class Status { running, failed };
 
+/// Many copies of a world: states and parameters as rows, stepped by a crew of threads. One thread calls; blocks until all have
+/// stepped.
 class Batch {
  public:
   /// Copies of the world as it is, its hands (pulls, wrenches, torques) and parameters included. threads: how many step, the caller
@@ -41,16 +44,16 @@ class Batch {
   ~Batch();
   Batch(Batch&&) noexcept;
   Batch& operator=(Batch&&) noexcept;
-  static constexpr std::size_t kMostThreads = 1024;
+  static constexpr std::size_t kMostThreads = 1024;  ///< of `threads`
 
-  [[nodiscard]] std::size_t size() const;  ///< copies
-  [[nodiscard]] std::size_t threads() const;
+  [[nodiscard]] std::size_t size() const;                                ///< copies
+  [[nodiscard]] std::size_t threads() const;                             ///< that step
   [[nodiscard]] std::size_t actuators() const;                           ///< of a copy, in the order of World::actuators()
   [[nodiscard]] std::size_t links() const;                               ///< of a copy, in the order of World::links()
   [[nodiscard]] const std::vector<engine::JointHandle>& joints() const;  ///< with one axis, in the order of World::joints()
   [[nodiscard]] const engine::World& world() const;                      ///< for names; its state is that of any copy
 
-  // Commands, given at the beginning of every step(): size() × actuators(). NaN: that channel keeps what it has. At first all NaN.
+  /// Commands, given at the beginning of every step(): size() × actuators(). NaN: that channel keeps what it has. At first all NaN.
   [[nodiscard]] std::span<double> equilibrium();  ///< rad
   [[nodiscard]] std::span<double> preset();       ///< in the law's preset unit
 
@@ -58,55 +61,58 @@ class Batch {
   /// stays where it was before it failed, isn't stepped any more until it is set anew, and the others go on. InputError: a copy that
   /// isn't there or is named twice, an infinite command; nothing was stepped then.
   void step(int steps = 1);
-  void step(int steps, std::span<const std::size_t> which);
+  void step(int steps, std::span<const std::size_t> which);  ///< of those copies
   /// The same in slices, so that it can be ended: `between` is called between two of them in the caller's thread, where all of `which`
   /// that run are at the same step; what it throws ends the stepping there. A slice is of kSlice World steps of all copies together,
   /// but of kLeastSlice of each at least. The bits are those of one piece, but of a copy whose state can't be saved: it stays where
   /// its slice began.
   void step(int steps, std::span<const std::size_t> which, const std::function<void()>& between);
-  static constexpr int kSlice = 4096, kLeastSlice = 10;
+  static constexpr int kSlice = 4096,  ///< World steps of a slice, of all copies together
+      kLeastSlice = 10;                ///< World steps of each copy in it, at least
   /// Back to where the Batch began, with the copy's parameters: as the World was then, after World::set_parameters().
   void reset();
-  void reset(std::span<const std::size_t> which);
+  void reset(std::span<const std::size_t> which);  ///< of those copies
   /// Numbers of a world of this file (World::save), or of another copy: that copy goes on from there with its own parameters, those of
   /// its firmware, too. InputError: no such state, and nothing has changed.
   void restore(std::size_t copy, std::span<const double> state);
+  /// Numbers as World::save gives them; valid until that copy is stepped or set.
   [[nodiscard]] std::span<const double> state(std::size_t copy) const;
 
-  // Parameters: at first all have the World's. A key is one of the actuator's type (drive.friction_Nm …: `vsa actuators TYPE`), or of a
-  // link: link.mass_kg, with which the inertia goes in proportion; link.inertia_factor, 1e-6 … 1e6 on top of that, at first 1;
-  // link.friction, Coulomb's of all its shapes. Who: an actuator or a link as World finds it; empty: every one that has the key.
-  // They hold from the next step on, and the copy becomes what World::set_parameters() would make of it: motion goes on. InputError:
-  // what isn't there, what is out of bounds, with copy, name, key and what is allowed; nothing has changed then.
+  /// One number of one copy; at first all have the World's. A key is one of the actuator's type (drive.friction_Nm …: `vsa
+  /// actuators TYPE`), or of a link: link.mass_kg, with which the inertia goes in proportion; link.inertia_factor, 1e-6 … 1e6 on
+  /// top of that, at first 1; link.friction, Coulomb's of all its shapes. Who: an actuator or a link as World finds it; empty:
+  /// every one that has the key. It holds from the next step on, and the copy becomes what World::set_parameters() would make of
+  /// it: motion goes on. InputError, here and below: what isn't there, what is out of bounds, with copy, name, key and what is
+  /// allowed; nothing has changed then.
   void set(std::size_t copy, std::string_view who, std::string_view key, double value);
   void set(std::size_t copy, std::string_view who, std::string_view key, std::string_view word);  ///< "coast", "true"
   void set(std::span<const Setting> settings);                                                    ///< of equal ones the last counts
   /// A draw for each, which depends on seed, copy, who and key alone (spread.hpp): neither on threads nor on other copies or draws.
   void randomize(std::uint64_t seed, std::span<const Spread> what);
-  void randomize(std::uint64_t seed, std::span<const Spread> what, std::span<const std::size_t> which);
-  void reset_parameters();  ///< the World's again; reset() leaves them
-  void reset_parameters(std::span<const std::size_t> which);
+  void randomize(std::uint64_t seed, std::span<const Spread> what, std::span<const std::size_t> which);  ///< of those copies
+  void reset_parameters();                                    ///< the World's again; reset() leaves them
+  void reset_parameters(std::span<const std::size_t> which);  ///< of those copies
   [[nodiscard]] std::vector<std::string> owners(const std::string& who, const std::string& key) const;  ///< names of those meant
   /// Now: of each of them; of the first; as text. A word is its place in the list of words; NaN: optional, and not given.
   [[nodiscard]] std::vector<double> values(std::size_t copy, const std::string& who, const std::string& key) const;
-  [[nodiscard]] double value(std::size_t copy, const std::string& who, const std::string& key) const;
-  [[nodiscard]] std::string text(std::size_t copy, const std::string& who, const std::string& key) const;
+  [[nodiscard]] double value(std::size_t copy, const std::string& who, const std::string& key) const;      ///< of the first
+  [[nodiscard]] std::string text(std::size_t copy, const std::string& who, const std::string& key) const;  ///< of the first
   /// For a World of this file: World::set_parameters().
   [[nodiscard]] std::shared_ptr<const engine::World::Parameters> parameters(std::size_t copy) const;
 
-  [[nodiscard]] Status status(std::size_t copy) const;
+  [[nodiscard]] Status status(std::size_t copy) const;               ///< InputError: no such copy
   [[nodiscard]] const std::string& failure(std::size_t copy) const;  ///< why it failed; empty: it didn't
 
-  // Readings after the last step(), reset() or restore() of each copy, as World has them.
-  [[nodiscard]] std::span<const double> time_s() const;     ///< size()
-  [[nodiscard]] std::span<const double> shaft_rad() const;  ///< size() × actuators(), as the next ones
-  [[nodiscard]] std::span<const double> shaft_speed_rad_per_s() const;
-  [[nodiscard]] std::span<const double> torque_Nm() const;
-  [[nodiscard]] std::span<const double> stiffness_Nm_per_rad() const;
-  [[nodiscard]] std::span<const double> motor_rad() const;       ///< size() × actuators() × 2
-  [[nodiscard]] std::span<const double> joint_position() const;  ///< size() × joints().size(); rad or m
-  [[nodiscard]] std::span<const double> joint_speed() const;
-  [[nodiscard]] std::span<const scene::Pose> poses() const;  ///< size() × links()
+  /// Readings after the last step(), reset() or restore() of each copy, as World has them.
+  [[nodiscard]] std::span<const double> time_s() const;                 ///< size()
+  [[nodiscard]] std::span<const double> shaft_rad() const;              ///< size() × actuators(), as the next ones
+  [[nodiscard]] std::span<const double> shaft_speed_rad_per_s() const;  ///< as shaft_rad()
+  [[nodiscard]] std::span<const double> torque_Nm() const;              ///< as shaft_rad(); of springs and frictions
+  [[nodiscard]] std::span<const double> stiffness_Nm_per_rad() const;   ///< as shaft_rad(); σ
+  [[nodiscard]] std::span<const double> motor_rad() const;              ///< size() × actuators() × 2
+  [[nodiscard]] std::span<const double> joint_position() const;         ///< size() × joints().size(); rad or m
+  [[nodiscard]] std::span<const double> joint_speed() const;            ///< as joint_position(); rad/s or m/s
+  [[nodiscard]] std::span<const scene::Pose> poses() const;             ///< size() × links()
 
  private:
   struct Impl;

@@ -15,31 +15,31 @@ static_assert(sizeof(float) == 4, "the wire carries IEEE-754 single precision");
 /// Writes values one after another; what doesn't fit is dropped and marked.
 class ByteWriter {
  public:
-  explicit constexpr ByteWriter(std::span<std::uint8_t> out) noexcept : out_(out) {}
+  explicit constexpr ByteWriter(std::span<std::uint8_t> out) noexcept : out_(out) {}  ///< writes into `out`, which must outlive it
 
-  constexpr void u8(std::uint8_t v) noexcept {
+  constexpr void u8(std::uint8_t v) noexcept {  ///< as it is
     if (size_ < out_.size())
       out_[size_++] = v;
     else
       overflowed_ = true;
   }
-  constexpr void u16(std::uint16_t v) noexcept {
+  constexpr void u16(std::uint16_t v) noexcept {  ///< high byte first, as the next ones
     u8(static_cast<std::uint8_t>(v >> 8));
     u8(static_cast<std::uint8_t>(v & 0xFF));
   }
-  constexpr void u32(std::uint32_t v) noexcept {
+  constexpr void u32(std::uint32_t v) noexcept {  ///< high byte first
     u16(static_cast<std::uint16_t>(v >> 16));
     u16(static_cast<std::uint16_t>(v & 0xFFFF));
   }
-  constexpr void i16(std::int16_t v) noexcept { u16(static_cast<std::uint16_t>(v)); }
-  constexpr void i32(std::int32_t v) noexcept { u32(static_cast<std::uint32_t>(v)); }
-  void f32(float v) noexcept {
+  constexpr void i16(std::int16_t v) noexcept { u16(static_cast<std::uint16_t>(v)); }  ///< two's complement
+  constexpr void i32(std::int32_t v) noexcept { u32(static_cast<std::uint32_t>(v)); }  ///< two's complement
+  void f32(float v) noexcept {                                                         ///< IEEE-754 single precision
     std::uint32_t bits = 0;
     std::memcpy(&bits, &v, sizeof bits);
     u32(bits);
   }
-  [[nodiscard]] constexpr std::size_t size() const noexcept { return size_; }
-  [[nodiscard]] constexpr bool overflowed() const noexcept { return overflowed_; }
+  [[nodiscard]] constexpr std::size_t size() const noexcept { return size_; }       ///< bytes written
+  [[nodiscard]] constexpr bool overflowed() const noexcept { return overflowed_; }  ///< whether something didn't fit
 
  private:
   std::span<std::uint8_t> out_;
@@ -50,31 +50,31 @@ class ByteWriter {
 /// Reads values one after another; past the end it reads zeros and marks it.
 class ByteReader {
  public:
-  explicit constexpr ByteReader(std::span<const std::uint8_t> in) noexcept : in_(in) {}
+  explicit constexpr ByteReader(std::span<const std::uint8_t> in) noexcept : in_(in) {}  ///< reads `in`, which must outlive it
 
-  constexpr std::uint8_t u8() noexcept {
+  constexpr std::uint8_t u8() noexcept {  ///< 0 past the end
     if (at_ < in_.size()) return in_[at_++];
     overran_ = true;
     return 0;
   }
-  constexpr std::uint16_t u16() noexcept {
+  constexpr std::uint16_t u16() noexcept {  ///< high byte first, as the next ones
     const std::uint8_t high = u8();
     return static_cast<std::uint16_t>((high << 8) | u8());
   }
-  constexpr std::uint32_t u32() noexcept {
+  constexpr std::uint32_t u32() noexcept {  ///< high byte first
     const std::uint32_t high = u16();
     return (high << 16) | u16();
   }
-  constexpr std::int16_t i16() noexcept { return static_cast<std::int16_t>(u16()); }
-  constexpr std::int32_t i32() noexcept { return static_cast<std::int32_t>(u32()); }
-  float f32() noexcept {
+  constexpr std::int16_t i16() noexcept { return static_cast<std::int16_t>(u16()); }  ///< two's complement
+  constexpr std::int32_t i32() noexcept { return static_cast<std::int32_t>(u32()); }  ///< two's complement
+  float f32() noexcept {                                                              ///< IEEE-754 single precision
     const std::uint32_t bits = u32();
     float v = 0;
     std::memcpy(&v, &bits, sizeof v);
     return v;
   }
-  [[nodiscard]] constexpr bool overran() const noexcept { return overran_; }
-  [[nodiscard]] constexpr std::size_t left() const noexcept { return in_.size() - at_; }
+  [[nodiscard]] constexpr bool overran() const noexcept { return overran_; }              ///< whether zeros were made up
+  [[nodiscard]] constexpr std::size_t left() const noexcept { return in_.size() - at_; }  ///< bytes not read yet
 
  private:
   std::span<const std::uint8_t> in_;

@@ -12,9 +12,10 @@
 
 namespace vsa::bus {
 
+/// Where a Client writes and reads.
 class Channel {
  public:
-  using Time = std::chrono::nanoseconds;
+  using Time = std::chrono::nanoseconds;  ///< of now() and of time-outs
 
   Channel() = default;
   Channel(const Channel&) = delete;

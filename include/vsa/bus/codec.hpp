@@ -22,19 +22,22 @@ namespace vsa::bus {
 /// Whether the frame's LEN covers all that the request reads. Real units don't look.
 [[nodiscard]] bool complete(Wire wire, const Frame& frame) noexcept;
 
+/// How a unit answers.
 enum class ReplyKind : std::uint8_t { none, frame, parameter_list, info };
 /// What a unit answers to a request it executes.
 [[nodiscard]] ReplyKind reply_kind(Wire wire, const Request& request) noexcept;
 
 /// Replies as frames, from the unit `id`. One function a reply; `bus::encode_reply(wire, id, MeasurementsReply{…})`.
 [[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const PingReply& reply) noexcept;
-[[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const ActivationReply& reply) noexcept;
-[[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const InputsReply& reply) noexcept;
+[[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const ActivationReply& reply) noexcept;  ///< flags as they are
+[[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const InputsReply& reply) noexcept;  ///< in the sense of the wire
+/// In the sense of the wire.
 [[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const MeasurementsReply& reply) noexcept;
-[[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const CurrentsReply& reply) noexcept;
+[[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const CurrentsReply& reply) noexcept;  ///< mA
+/// By repair_layout two or four bytes apart.
 [[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const CurrentsAndMeasurementsReply& reply) noexcept;
-[[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const VelocitiesReply& reply) noexcept;
-[[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const CycleTimeReply& reply) noexcept;
+[[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const VelocitiesReply& reply) noexcept;  ///< likewise
+[[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const CycleTimeReply& reply) noexcept;   ///< dialect seven
 /// An acknowledgement needs to know what it answers: dialect seven carries the command.
 [[nodiscard]] FrameBytes encode_reply(Wire wire, std::uint8_t id, const Acknowledgement& reply, Command of) noexcept;
 
@@ -46,9 +49,11 @@ std::size_t encode_info(Wire wire, std::uint8_t id, std::string_view text, std::
 
 // ------------------------------------------------------------------------------------------------------------------ master's side
 
+/// A whole frame, checksum included.
 [[nodiscard]] FrameBytes encode_request(Wire wire, std::uint8_t id, const Request& request) noexcept;
 
 /// The reply in a frame that answers `command`. None: wrong command, wrong length.
+/// Specialised for every reply below; other types don't link.
 template <class R>
 [[nodiscard]] std::optional<R> decode_reply(Wire wire, Command command, const Frame& frame) noexcept;
 

@@ -18,24 +18,24 @@
 
 namespace vsa::bus {
 
-inline constexpr std::uint8_t kStartByte = ':';
-inline constexpr std::uint8_t kBroadcastId = 0;
-inline constexpr std::size_t kHeaderBytes = 4;
-inline constexpr std::size_t kMinLength = 2;    ///< CMD and CHK
-inline constexpr std::size_t kMaxLength = 128;  ///< the unit's buffer
-inline constexpr std::size_t kMaxPayload = kMaxLength - kMinLength;
-inline constexpr std::size_t kMaxFrameBytes = kHeaderBytes + kMaxLength;
+inline constexpr std::uint8_t kStartByte = ':';                           ///< twice before every frame
+inline constexpr std::uint8_t kBroadcastId = 0;                           ///< every unit hears it, none answers
+inline constexpr std::size_t kHeaderBytes = 4;                            ///< ':' ':' ID LEN
+inline constexpr std::size_t kMinLength = 2;                              ///< CMD and CHK
+inline constexpr std::size_t kMaxLength = 128;                            ///< the unit's buffer
+inline constexpr std::size_t kMaxPayload = kMaxLength - kMinLength;       ///< without CMD and CHK
+inline constexpr std::size_t kMaxFrameBytes = kHeaderBytes + kMaxLength;  ///< header and body
 
 /// XOR of all bytes.
 [[nodiscard]] std::uint8_t checksum(std::span<const std::uint8_t> bytes) noexcept;
 
 /// A short run of bytes with room for one frame. Appending past its end drops the byte and marks it.
 struct FrameBytes {
-  std::array<std::uint8_t, kMaxFrameBytes> bytes{};
-  std::uint8_t size = 0;
-  bool overflowed = false;
+  std::array<std::uint8_t, kMaxFrameBytes> bytes{};  ///< the first `size` count
+  std::uint8_t size = 0;                             ///< of `bytes`
+  bool overflowed = false;                           ///< whether one was dropped
 
-  void push(std::uint8_t byte) noexcept {
+  void push(std::uint8_t byte) noexcept {  ///< drops the byte if there is no room
     if (size < bytes.size())
       bytes[size++] = byte;
     else
@@ -43,8 +43,8 @@ struct FrameBytes {
   }
   /// Lives as long as this does: in a range-for over a temporary, iterate over the FrameBytes itself.
   [[nodiscard]] std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
-  [[nodiscard]] const std::uint8_t* begin() const noexcept { return bytes.data(); }
-  [[nodiscard]] const std::uint8_t* end() const noexcept { return bytes.data() + size; }
+  [[nodiscard]] const std::uint8_t* begin() const noexcept { return bytes.data(); }       ///< for a range-for
+  [[nodiscard]] const std::uint8_t* end() const noexcept { return bytes.data() + size; }  ///< for a range-for
   bool operator==(const FrameBytes&) const = default;
 };
 
@@ -60,14 +60,14 @@ struct FrameBytes {
 /// A received frame. `body` is CMD, payload, CHK as in the unit's own buffer: what lies behind `length` are bytes that earlier,
 /// longer frames left there, and the unit's program reads them when a request is shorter than it should be.
 struct Frame {
-  std::array<std::uint8_t, kMaxLength> body{};
-  std::uint8_t id = 0;
-  std::uint8_t length = 0;  ///< LEN: bytes of body that belong to the frame
+  std::array<std::uint8_t, kMaxLength> body{};  ///< CMD, payload, CHK, and what lies behind
+  std::uint8_t id = 0;                          ///< as the header has it
+  std::uint8_t length = 0;                      ///< LEN: bytes of body that belong to the frame
   static auto fields(auto& s, auto&& visit) { return visit("body", "", s.body, "id", "", s.id, "length", "", s.length); }
   [[nodiscard]] constexpr const char* impossible() const noexcept { return length <= kMaxLength ? nullptr : "a LEN of up to 128"; }
 
-  [[nodiscard]] std::uint8_t command() const noexcept { return body[0]; }
-  [[nodiscard]] std::span<const std::uint8_t> payload() const noexcept {
+  [[nodiscard]] std::uint8_t command() const noexcept { return body[0]; }  ///< CMD
+  [[nodiscard]] std::span<const std::uint8_t> payload() const noexcept {   ///< without CMD and CHK; empty where LEN is too small
     return {body.data() + 1, length < kMinLength ? 0U : length - kMinLength};
   }
   bool operator==(const Frame&) const = default;
@@ -86,7 +86,7 @@ enum class ReceiverEvent : std::uint8_t {
 [[nodiscard]] constexpr bool counts_toward_poll(ReceiverEvent e) noexcept {
   return e == ReceiverEvent::frame || e == ReceiverEvent::bad_checksum || e == ReceiverEvent::skipped;
 }
-inline constexpr int kFramesPerPoll = 6;
+inline constexpr int kFramesPerPoll = 6;  ///< after which the unit stops reading a poll
 
 /// The unit's receiver, byte by byte. Plain state: copy it for a snapshot.
 ///
@@ -96,15 +96,16 @@ inline constexpr int kFramesPerPoll = 6;
 /// length: ≤ 1 or > 128 → hunt again, nothing is counted; the byte itself isn't looked at again.
 /// body: LEN bytes, without a time-out: a sender that dies half way swallows the next frame's beginning.
 struct UnitReceiver {
+  /// Where it is in a frame (see above).
   enum class Phase : std::uint8_t { hunt, id, length, body, skip };
 
-  Frame frame{};
-  std::array<std::uint8_t, 3> last{};
-  Phase phase = Phase::hunt;
-  std::uint8_t wanted = 0;    ///< LEN of the frame under way
-  std::uint8_t received = 0;  ///< body bytes so far, of this unit's or another's frame
-  std::uint8_t pending_id = 0;
-  bool mine = false;
+  Frame frame{};                       ///< the frame under way, or the last
+  std::array<std::uint8_t, 3> last{};  ///< of the bytes in hunt
+  Phase phase = Phase::hunt;           ///< see above
+  std::uint8_t wanted = 0;             ///< LEN of the frame under way
+  std::uint8_t received = 0;           ///< body bytes so far, of this unit's or another's frame
+  std::uint8_t pending_id = 0;         ///< of the frame under way
+  bool mine = false;                   ///< whether it is for this unit
   static auto fields(auto& s, auto&& visit) {
     return visit("frame", "", s.frame, "last", "", s.last, "phase", "", s.phase, "wanted", "", s.wanted, "received", "", s.received,
                  "pending_id", "", s.pending_id, "mine", "", s.mine);
@@ -116,14 +117,14 @@ struct UnitReceiver {
                                                                                            : "received below wanted ≤ 128";
   }
 
-  [[nodiscard]] ReceiverEvent push(std::uint8_t byte, std::uint8_t own_id) noexcept;
+  [[nodiscard]] ReceiverEvent push(std::uint8_t byte, std::uint8_t own_id) noexcept;  ///< one byte, with the unit's id as it is now
   /// Nothing under way that a frame's first bytes could complete.
   [[nodiscard]] bool at_rest() const noexcept { return phase == Phase::hunt && last[2] != kStartByte; }
   /// At rest: the bytes of one whole_frame at once, with the same end as byte by byte. Someone else's costs next to nothing.
   [[nodiscard]] ReceiverEvent push_frame(std::span<const std::uint8_t> bytes, std::uint8_t own_id) noexcept;
   bool operator==(const UnitReceiver&) const = default;
 };
-[[nodiscard]] constexpr int choices(UnitReceiver::Phase) noexcept { return 5; }
+[[nodiscard]] constexpr int choices(UnitReceiver::Phase) noexcept { return 5; }  ///< for the walk over states
 
 /// A master's receiver: finds frames of any ID in a stream and forgets nothing it may still need. A frame whose checksum is wrong or
 /// whose LEN is out of range costs its first byte only; the rest is looked at again, so that a frame behind noise isn't lost.
@@ -131,7 +132,7 @@ class MasterReceiver {
  public:
   /// The bytes must be taken by `next` before more are pushed: at most `room()` are accepted, and the number is returned.
   std::size_t push(std::span<const std::uint8_t> bytes) noexcept;
-  [[nodiscard]] std::size_t room() const noexcept { return buffer_.size() - size_; }
+  [[nodiscard]] std::size_t room() const noexcept { return buffer_.size() - size_; }  ///< bytes that push() takes now
   /// The next whole frame, if there is one: true, and `frame` is set.
   [[nodiscard]] bool next(Frame& frame) noexcept;
   /// What is in the buffer and can't be a frame's beginning is noise; this many bytes were dropped so far.
@@ -139,7 +140,7 @@ class MasterReceiver {
   /// No more bytes will come: gives up the frame that waits for them, so that `next` looks behind its first byte. False: nothing
   /// left.
   bool give_up() noexcept;
-  void clear() noexcept { size_ = 0; }
+  void clear() noexcept { size_ = 0; }  ///< forgets what waits; dropped() stays
   static auto fields(auto& s, auto&& visit) {
     return visit("buffer", "", s.buffer_, "size", "", s.size_, "dropped", "", s.dropped_);
   }

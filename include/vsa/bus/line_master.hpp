@@ -12,8 +12,9 @@
 
 namespace vsa::bus {
 
-inline constexpr std::int64_t kNeverPs = std::numeric_limits<std::int64_t>::max();
+inline constexpr std::int64_t kNeverPs = std::numeric_limits<std::int64_t>::max();  ///< never, in picoseconds
 
+/// Who asks the units: the simulated master or a client on a port. The chain calls it, by the thread that runs the line.
 class LineMaster {
  public:
   virtual ~LineMaster() = default;

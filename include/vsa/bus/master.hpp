@@ -24,17 +24,17 @@
 
 namespace vsa::bus {
 
-inline constexpr int kSetInputsBytes = 10;
-inline constexpr int kGetMeasurementsBytes = 6;
-inline constexpr int kMeasurementsReplyBytes = 12;
+inline constexpr int kSetInputsBytes = 10;          ///< on the wire
+inline constexpr int kGetMeasurementsBytes = 6;     ///< on the wire
+inline constexpr int kMeasurementsReplyBytes = 12;  ///< on the wire
 
 /// The time table of one bus. Times "_ns" are integer nanoseconds of simulated time, rounded up: a frame isn't there before its
 /// last bit.
 struct Schedule {
-  std::int64_t cycle_ns = 0;
-  LineRate rate{};
-  std::int64_t turn_around_ps = 0;
-  int units = 0;
+  std::int64_t cycle_ns = 0;        ///< between two cycles
+  LineRate rate{};                  ///< of the line
+  std::int64_t turn_around_ps = 0;  ///< of every unit
+  int units = 0;                    ///< in the cycle
 
   /// One unit's part of a cycle.
   [[nodiscard]] constexpr std::int64_t slot_ps() const noexcept {
@@ -73,23 +73,25 @@ class MasterClient {
   MasterClient& operator=(const MasterClient&) = default;
 };
 
+/// Where a master is in its cycle.
 struct MasterState {
-  std::int64_t cycle_start_ps = 0;
-  int frame = 0;  ///< of the cycle, the next to set out: two per unit
-  MasterReceiver receiver;
+  std::int64_t cycle_start_ps = 0;  ///< of the cycle under way
+  int frame = 0;                    ///< of the cycle, the next to set out: two per unit
+  MasterReceiver receiver;          ///< of the replies
   static auto fields(auto& s, auto&& visit) {
     return visit("cycle_start", "ps", s.cycle_start_ps, "frame", "", s.frame, "receiver", "", s.receiver);
   }
 };
 
+/// Sends the schedule's frames and hands the client what units answer.
 class Master final : public LineMaster {
  public:
   /// `ids` in the order of the cycle; as many as the schedule has units.
   Master(const Schedule& schedule, std::vector<std::uint8_t> ids, MasterClient& client);
 
-  [[nodiscard]] const Schedule& schedule() const noexcept { return schedule_; }
-  [[nodiscard]] const MasterState& state() const noexcept { return state_; }
-  void restore(const MasterState& state) { state_ = state; }
+  [[nodiscard]] const Schedule& schedule() const noexcept { return schedule_; }  ///< as given
+  [[nodiscard]] const MasterState& state() const noexcept { return state_; }     ///< to copy
+  void restore(const MasterState& state) { state_ = state; }                     ///< of the same schedule
   /// The owner's time jumped.
   void shift_time(std::int64_t by_ns) noexcept { state_.cycle_start_ps += by_ns * kPsPerNs; }
 

@@ -25,6 +25,7 @@
 
 namespace vsa::bus {
 
+/// The parameters, as both dialects number them.
 enum class ParameterId : std::uint16_t {
   id = 1,
   position_pid = 2,
@@ -43,6 +44,7 @@ enum class ParameterId : std::uint16_t {
   serial_number = 15,  ///< dialect seven
 };
 
+/// How a value stands on the wire, big-endian.
 enum class ParameterType : std::uint8_t {
   flag = 0,
   int8 = 1,
@@ -56,46 +58,49 @@ enum class ParameterType : std::uint8_t {
   text = 9,
 };
 
+/// One parameter of a dialect.
 struct ParameterInfo {
-  ParameterId id = ParameterId::id;
-  ParameterType type = ParameterType::uint8;
-  std::uint8_t count = 1;
-  std::string_view text;  ///< as in the list, without the words for a flag's value
-  std::uint8_t menu = 0;  ///< 1 input mode, 2 control mode, 3 yes or no; 0 none
+  ParameterId id = ParameterId::id;           ///< its number
+  ParameterType type = ParameterType::uint8;  ///< of each value
+  std::uint8_t count = 1;                     ///< of its values
+  std::string_view text;                      ///< as in the list, without the words for a flag's value
+  std::uint8_t menu = 0;                      ///< 1 input mode, 2 control mode, 3 yes or no; 0 none
 };
 
 /// All parameters of a dialect, by number.
 [[nodiscard]] std::span<const ParameterInfo> parameter_table(Dialect dialect) noexcept;
+/// Null: no such parameter in this dialect.
 [[nodiscard]] const ParameterInfo* find_parameter(Dialect dialect, std::uint16_t index) noexcept;
-[[nodiscard]] std::size_t value_bytes(ParameterType type) noexcept;
+[[nodiscard]] std::size_t value_bytes(ParameterType type) noexcept;  ///< of one value of that type
 
+/// All values, as the list carries them.
 struct ParameterValues {
-  std::uint8_t id = 1;
-  std::array<float, 3> position_pid{};
-  std::array<float, 3> current_pid{};
-  std::uint8_t startup_activation = 0;
-  std::uint8_t input_mode = 0;
-  std::uint8_t control_mode = 0;
-  std::array<std::uint8_t, 3> resolutions{};
-  std::array<std::int16_t, 3> offsets{};
-  std::array<float, 3> multipliers{};
-  std::uint8_t limits_on = 0;
-  std::array<std::int32_t, 4> limits{};     ///< inf 1, sup 1, inf 2, sup 2
-  std::array<std::int32_t, 2> max_steps{};  ///< negative, positive
-  std::int16_t current_limit = 0;
-  std::uint8_t rate_limiter = 0;    ///< dialect seven
-  std::uint32_t serial_number = 0;  ///< dialect seven
+  std::uint8_t id = 1;                        ///< of the unit, 1 … 254
+  std::array<float, 3> position_pid{};        ///< P, I, D, as plain numbers
+  std::array<float, 3> current_pid{};         ///< P, I, D of the current loop
+  std::uint8_t startup_activation = 0;        ///< written to the enable pins at a power-up: 3 on
+  std::uint8_t input_mode = 0;                ///< 0: references come over the bus, 1: the third encoder is one
+  std::uint8_t control_mode = 0;              ///< firmware::ControlMode
+  std::array<std::uint8_t, 3> resolutions{};  ///< of motor 1, motor 2 and shaft: raw >> this is a tick
+  std::array<std::int16_t, 3> offsets{};      ///< of motor 1, motor 2 and shaft, ticks
+  std::array<float, 3> multipliers{};         ///< of motor 1, motor 2 and shaft
+  std::uint8_t limits_on = 0;                 ///< 0: references aren't limited
+  std::array<std::int32_t, 4> limits{};       ///< inf 1, sup 1, inf 2, sup 2
+  std::array<std::int32_t, 2> max_steps{};    ///< negative, positive
+  std::int16_t current_limit = 0;             ///< mA
+  std::uint8_t rate_limiter = 0;              ///< dialect seven
+  std::uint32_t serial_number = 0;            ///< dialect seven
   bool operator==(const ParameterValues&) const = default;
 };
 
 // ------------------------------------------------------------------------------------------------------------------------- list
 
-inline constexpr std::size_t kListBytesSix = kHeaderBytes + 1201;
-inline constexpr std::size_t kListBytesSeven = kHeaderBytes + 1216;
-inline constexpr std::size_t kMaxListBytes = kListBytesSeven;
-inline constexpr std::size_t kSlotBytes = 50;
-inline constexpr std::size_t kMenuBytes = 150;
-inline constexpr std::size_t kMaxMenus = 3;
+inline constexpr std::size_t kListBytesSix = kHeaderBytes + 1201;    ///< in dialect six
+inline constexpr std::size_t kListBytesSeven = kHeaderBytes + 1216;  ///< in dialect seven
+inline constexpr std::size_t kMaxListBytes = kListBytesSeven;        ///< of either dialect
+inline constexpr std::size_t kSlotBytes = 50;                        ///< one parameter
+inline constexpr std::size_t kMenuBytes = 150;                       ///< one menu
+inline constexpr std::size_t kMaxMenus = 3;                          ///< that the list has
 
 /// Header included. Returns the bytes written (1205 or 1220), 0 if `out` is too small.
 std::size_t encode_parameter_list(Wire wire, std::uint8_t id, const ParameterValues& values, std::span<std::uint8_t> out) noexcept;
@@ -105,16 +110,18 @@ std::size_t encode_parameter_list(Wire wire, std::uint8_t id, const ParameterVal
 
 /// One slot of a list, as sent: for programs that print what a unit says of itself.
 struct ParameterSlot {
-  ParameterType type = ParameterType::uint8;
-  std::uint8_t count = 0;
-  std::span<const std::uint8_t> values;
-  std::string_view text;
-  std::uint8_t menu = 0;
+  ParameterType type = ParameterType::uint8;  ///< of each value
+  std::uint8_t count = 0;                     ///< of its values
+  std::span<const std::uint8_t> values;       ///< on the wire, `count` of them
+  std::string_view text;                      ///< without its zero
+  std::uint8_t menu = 0;                      ///< 0: none; behind the text's zero
 };
+/// None: no such slot, or the list ends within it.
 [[nodiscard]] std::optional<ParameterSlot> read_slot(std::span<const std::uint8_t> list, std::uint16_t index) noexcept;
 
 // -------------------------------------------------------------------------------------------------------------------------- set
 
+/// A value of any parameter's type.
 using ParameterValue =
     std::variant<std::uint8_t, std::int16_t, std::uint32_t, std::array<std::uint8_t, 3>, std::array<std::int16_t, 3>,
                  std::array<float, 3>, std::array<std::int32_t, 2>, std::array<std::int32_t, 4>>;
@@ -123,7 +130,7 @@ using ParameterValue =
 [[nodiscard]] std::optional<SetParameter> encode_value(ParameterId id, const ParameterValue& value) noexcept;
 /// Reads as the unit does, stale bytes included. None: no such parameter in this dialect.
 [[nodiscard]] std::optional<ParameterValue> decode_value(Dialect dialect, const SetParameter& set) noexcept;
-[[nodiscard]] ParameterValue get(const ParameterValues& values, ParameterId id) noexcept;
+[[nodiscard]] ParameterValue get(const ParameterValues& values, ParameterId id) noexcept;  ///< its own type
 /// False: the value isn't of the parameter's type.
 bool put(ParameterValues& values, ParameterId id, const ParameterValue& value) noexcept;
 

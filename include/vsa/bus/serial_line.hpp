@@ -15,9 +15,10 @@
 
 namespace vsa::bus {
 
+/// A line behind a port: exchange(), wake() and set_rate() are the port's thread's.
 class SerialLine {
  public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = std::chrono::steady_clock;  ///< of the wall, which the port's thread lives by
   virtual ~SerialLine() = default;
 
   /// The client's bytes, heard now, in order; may be empty. What the line says by now is appended to `answer`. Any bytes are fine.

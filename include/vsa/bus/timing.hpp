@@ -21,22 +21,24 @@
 
 namespace vsa::bus {
 
-inline constexpr int kBitsPerByte = 10;
-inline constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;
-inline constexpr std::int64_t kPsPerNs = 1000;
-inline constexpr std::int64_t kDefaultBaud_Hz = 2'000'000;
-inline constexpr std::int64_t kMostBaud_Hz = 1'000'000'000;
+inline constexpr int kBitsPerByte = 10;                                   ///< 8N1
+inline constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;  ///< of one second
+inline constexpr std::int64_t kPsPerNs = 1000;                            ///< of one nanosecond
+inline constexpr std::int64_t kDefaultBaud_Hz = 2'000'000;                ///< of a unit that nobody set otherwise
+inline constexpr std::int64_t kMostBaud_Hz = 1'000'000'000;               ///< of a simulated line
 
 /// Rounded up: a byte isn't there before its last bit.
 [[nodiscard]] constexpr std::int64_t to_ns(std::int64_t ps) noexcept { return (ps + kPsPerNs - 1) / kPsPerNs; }
 
+/// A line's rate, and the time that bits take there.
 struct LineRate {
-  std::int64_t baud_Hz = kDefaultBaud_Hz;
+  std::int64_t baud_Hz = kDefaultBaud_Hz;  ///< bits per second
 
   /// Time of `bits` bits, rounded up. Exact up to 9 million bits.
   [[nodiscard]] constexpr std::int64_t bits_ps(std::int64_t bits) const noexcept {
     return (bits * kPicosecondsPerSecond + baud_Hz - 1) / baud_Hz;
   }
+  /// Of that many bytes.
   [[nodiscard]] constexpr std::int64_t bytes_ps(std::int64_t bytes) const noexcept { return bits_ps(bytes * kBitsPerByte); }
   bool operator==(const LineRate&) const = default;
   static auto fields(auto& s, auto&& visit) { return visit("baud", "Hz", s.baud_Hz); }
@@ -53,11 +55,11 @@ struct LineRate {
 
 /// Bytes that one speaker sends back to back.
 struct Burst {
-  std::int64_t start_ps = 0;
-  std::span<const std::uint8_t> bytes;
-  LineRate rate{};
+  std::int64_t start_ps = 0;            ///< of the first bit
+  std::span<const std::uint8_t> bytes;  ///< back to back
+  LineRate rate{};                      ///< of the speaker
 
-  [[nodiscard]] constexpr std::int64_t end_ps() const noexcept {
+  [[nodiscard]] constexpr std::int64_t end_ps() const noexcept {  ///< of the last bit
     return start_ps + rate.bytes_ps(static_cast<std::int64_t>(bytes.size()));
   }
 };
@@ -67,10 +69,11 @@ struct Burst {
   return a.start_ps < b.end_ps() && b.start_ps < a.end_ps();
 }
 
+/// A byte as a receiver has it.
 struct HeardByte {
-  std::int64_t end_ps = 0;  ///< end of the stop bit: when the receiver has it
-  std::uint8_t value = 0;
-  bool framing_error = false;
+  std::int64_t end_ps = 0;     ///< end of the stop bit: when the receiver has it
+  std::uint8_t value = 0;      ///< as sampled
+  bool framing_error = false;  ///< a stop bit that was 0
   bool operator==(const HeardByte&) const = default;
 };
 
@@ -79,8 +82,8 @@ struct HeardByte {
 
 /// A receiver that goes on from one call to the next: `from_ps` is where it looks for the next edge.
 struct LineReceiver {
-  LineRate rate{};
-  std::int64_t from_ps = std::numeric_limits<std::int64_t>::min();
+  LineRate rate{};                                                  ///< of the receiver; bits of another rate are sampled wrongly
+  std::int64_t from_ps = std::numeric_limits<std::int64_t>::min();  ///< until then it has looked
   static auto fields(auto& s, auto&& visit) { return visit("rate", "", s.rate, "from", "ps", s.from_ps); }
   bool operator==(const LineReceiver&) const = default;
 };

@@ -44,38 +44,40 @@ namespace vsa::config {
 
 /// One parameter as the type gives it: as texts for listings (`vsa actuators NAME`) and reports, and as numbers to work with.
 struct Entry {
-  std::string key;    ///< "drive.friction_Nm"
-  std::string value;  ///< as text, shortest that reads back the same
-  std::string unit;
-  std::string bounds;  ///< "0 … 100" or the list of allowed words
-  std::string meaning;
-  std::string source;
-  Kind kind = Kind::number;
-  double number = 0;        ///< the value: itself, 0 or 1 for a switch, a word's index
-  double min = 0, max = 0;  ///< number, integer: the bounds
+  std::string key;           ///< "drive.friction_Nm"
+  std::string value;         ///< as text, shortest that reads back the same
+  std::string unit;          ///< as the schema or the law writes it
+  std::string bounds;        ///< "0 … 100" or the list of allowed words
+  std::string meaning;       ///< one line for people
+  std::string source;        ///< where the value came from, as the file says
+  Kind kind = Kind::number;  ///< how `value` is to be read
+  double number = 0;         ///< the value: itself, 0 or 1 for a switch, a word's index
+  double min = 0,            ///< number, integer: lower bound, included
+      max = 0;               ///< upper bound, included
 };
 
+/// A type as it was read: what a unit of it is made of, and what can be told of it.
 struct ActuatorType {
-  std::string name;
-  std::string title;
-  std::string description;  ///< may be empty
-  std::filesystem::path file;
-  std::string law;
-  std::string controller;  ///< "qbmove", "position_servo", "torque_servo" or "motor_voltages"
-  std::string rank;        ///< on what its numbers stand: "measured", "published", "symbolic"; empty: its file doesn't say
-  std::string base;        ///< the type that it differs from; empty: it is whole
+  std::string name;            ///< its file's stem
+  std::string title;           ///< one line for people
+  std::string description;     ///< may be empty
+  std::filesystem::path file;  ///< that it was read from
+  std::string law;             ///< as files name it: "two_sinh"
+  std::string controller;      ///< "qbmove", "position_servo", "torque_servo" or "motor_voltages"
+  std::string rank;            ///< on what its numbers stand: "measured", "published", "symbolic"; empty: its file doesn't say
+  std::string base;            ///< the type that it differs from; empty: it is whole
   std::optional<Evidence> evidence;  ///< none: the type doesn't say
   std::optional<Stated> mass_kg;     ///< of the whole actuator; none: the type doesn't say, and no base does it for it
-  std::vector<Entry> entries;
+  std::vector<Entry> entries;        ///< all that has a value, in the schema's order
   std::vector<std::string> notices;  ///< old spellings in its file
   std::vector<std::string> remarks;  ///< what its law says of what it was made of
-  device::UnitConfig unit;
+  device::UnitConfig unit;           ///< valid: what device::validate() asks for holds
 };
 
 /// Numbers of a file, each row in the order of the columns that were asked for.
 struct LawRows {
-  std::vector<double> values;
-  std::filesystem::path file;
+  std::vector<double> values;      ///< row by row
+  std::filesystem::path file;      ///< for messages
   std::vector<std::size_t> lines;  ///< each row's
 };
 
@@ -86,6 +88,7 @@ struct LawRows {
 class LawReader {
  public:
   virtual ~LawReader() = default;
+  /// Between `min` and `max`, ends included.
   virtual double number(std::string_view key, std::string_view unit, double min, double max, std::string_view meaning) = 0;
   /// The rows of a CSV file that the type names, seen from its own: elastic.KEY = { value = "FILE.csv", source = "…" }. None where
   /// there are problems.
@@ -94,6 +97,7 @@ class LawReader {
   virtual void remark(std::string text) = 0;
 };
 
+/// Makes a law of what it reads. It may be called by several threads at once.
 using LawFactory = std::function<std::shared_ptr<const elastic::Transmission>(LawReader&)>;
 
 /// The laws a type may name; users add their own.
@@ -102,17 +106,19 @@ class LawRegistry {
   /// The library's (elastic::laws()) and those of the shared libraries that $VSA_LAW_PATH names (vsa/elastic/law_module.hpp).
   /// Throws InputError: a library that can't be used, with its file, or a name that is taken.
   [[nodiscard]] static LawRegistry standard();
-  void add(std::string name, LawFactory factory);
-  void add(const elastic::Law& law);  ///< which outlives this
-  [[nodiscard]] const LawFactory* find(std::string_view name) const;
-  [[nodiscard]] std::vector<std::string> names() const;
+  void add(std::string name, LawFactory factory);                     ///< replaces one of that name
+  void add(const elastic::Law& law);                                  ///< which outlives this
+  [[nodiscard]] const LawFactory* find(std::string_view name) const;  ///< null: no such law
+  [[nodiscard]] std::vector<std::string> names() const;               ///< sorted
 
  private:
   std::map<std::string, LawFactory, std::less<>> factories_;
 };
 
+/// A value that replaces a type's.
 struct Override {
-  std::string key, value;
+  std::string key,  ///< "drive.friction_Nm"
+      value;        ///< as a file would have it
 };
 /// "drive.friction_Nm=0.7" → an override. Throws InputError with every text that has no key or no value. `from`: "--set".
 [[nodiscard]] std::vector<Override> parse_overrides(const std::vector<std::string>& texts, const std::string& from);
@@ -123,6 +129,7 @@ struct Document;
 /// once; so the laws' factories are called.
 class TypeFile {
  public:
+  /// As TypeLibrary::open makes it.
   TypeFile(std::shared_ptr<const Document> document, LawRegistry laws) : document_(std::move(document)), laws_(std::move(laws)) {}
   /// Throws as TypeLibrary::load.
   [[nodiscard]] ActuatorType make(const std::vector<Override>& overrides = {}) const;
@@ -139,17 +146,19 @@ class TypeLibrary {
   /// For one more release $VSA_PRESET_PATH and presets/ are searched after them, see notices().
   explicit TypeLibrary(std::vector<std::filesystem::path> directories = {}, LawRegistry laws = LawRegistry::standard());
 
-  [[nodiscard]] std::vector<std::string> names() const;
+  [[nodiscard]] std::vector<std::string> names() const;  ///< of all directories, sorted
   /// A type's file. Throws InputError: unknown name.
   [[nodiscard]] std::filesystem::path find(std::string_view name) const;
   /// Throws InputError: unknown name (with the names there are), or all problems of the file and the overrides at once.
   [[nodiscard]] ActuatorType load(std::string_view name, const std::vector<Override>& overrides = {}) const;
   /// The same in two halves.
   [[nodiscard]] TypeFile open(std::string_view name) const;
+  /// Whatever directory it lies in.
   [[nodiscard]] ActuatorType load_file(const std::filesystem::path& file, const std::vector<Override>& overrides = {}) const;
   /// The same from text; `file` is what problems call it, its stem the name that the type must have.
   [[nodiscard]] ActuatorType load_text(std::string_view text, const std::filesystem::path& file,
                                        const std::vector<Override>& overrides = {}) const;
+  /// In the order that they are searched.
   [[nodiscard]] const std::vector<std::filesystem::path>& directories() const noexcept { return directories_; }
   [[nodiscard]] const std::vector<std::string>& notices() const noexcept { return notices_; }  ///< old spellings met
 
@@ -163,7 +172,7 @@ class TypeLibrary {
 
 /// Where data (actuators/, models/, web/) are looked for, in this order:
 ///   1. $VSA_DATA_DIR, if set: then nowhere else
-///   2. ../share/vsa beside the executable's directory: an installation, or build/<preset>/bin with build/<preset>/share/vsa
+///   2. ../share/vsa beside the executable's directory: an installation, or build/PRESET/bin with build/PRESET/share/vsa
 ///   3. of a program linked to an installation (find_package(vsasim)): that; else the source tree that the library was built from
 [[nodiscard]] std::vector<std::filesystem::path> data_directories();
 

@@ -13,12 +13,14 @@
 
 namespace vsa::config {
 
+/// A column that a reader asks for.
 struct WantedColumn {
-  std::string_view name;
-  bool required = true;
+  std::string_view name;       ///< as the header has it, with its unit
+  bool required = true;        ///< false: a file may lack it
   bool empty_allowed = false;  ///< an empty cell reads as NaN
 };
 
+/// The columns asked for; every row has a number in each that is there.
 struct CsvTable {
   std::vector<std::vector<double>> columns;  ///< in the order they were wanted; empty for an optional one that is absent
   std::vector<std::size_t> lines;            ///< line number of each row
@@ -30,10 +32,10 @@ struct CsvTable {
 /// Collects at most `kMost` problems, so that a file of garbage gives a page and not a book.
 class FewProblems {
  public:
-  static constexpr std::size_t kMost = 20;
-  void add(Problem problem);
-  [[nodiscard]] bool full() const noexcept { return problems_.list().size() >= kMost; }
-  void throw_if_any() const { problems_.throw_if_any(); }
+  static constexpr std::size_t kMost = 20;  ///< problems told
+  void add(Problem problem);                ///< the first kMost; further ones are dropped
+  [[nodiscard]] bool full() const noexcept { return problems_.list().size() >= kMost; }  ///< whether a reader may stop
+  void throw_if_any() const { problems_.throw_if_any(); }                                ///< InputError
 
  private:
   Problems problems_;

@@ -15,11 +15,13 @@
 
 namespace vsa::config {
 
+/// What a type's file says of its own fit.
 struct Evidence {
   std::vector<std::string> calibrated_on;  ///< may be empty: nothing was fitted to any of them
-  std::string source;
+  std::string source;                      ///< how it was fitted
 };
 
+/// For messages: how experiments are named.
 inline constexpr std::string_view kExperimentNames =
     "stiffness.0.6903, speed.0.7500 (commanded preset, four decimals), preset_step.no_load, preset_step.loaded";
 

@@ -13,11 +13,11 @@
 
 namespace vsa::config {
 
-inline constexpr std::string_view kPluginName = "vsa::Robot";
+inline constexpr std::string_view kPluginName = "vsa::Robot";  ///< that every host looks for
 
-/// Puts another actuator on a robot that is already described: every <actuator> takes these instead of what its element says.
+/// Puts another actuator on a robot that is already described: every `<actuator>` takes these instead of what its element says.
 struct Replacement {
-  std::optional<std::string> type;  ///< given: the elements' own <override>s, which belong to their types, are left out
+  std::optional<std::string> type;  ///< given: the elements' own `<override>`s, which belong to their types, are left out
   std::vector<Override> overrides;  ///< come after the elements' own; of an equal key this one counts
   std::string flag = "override";    ///< what gave them, for their problems: "--set"
 };

@@ -12,6 +12,7 @@
 
 namespace vsa::config {
 
+/// What kind of value a parameter has.
 enum class Kind {
   number,   ///< finite, within bounds
   integer,  ///< a whole number within bounds
@@ -25,16 +26,19 @@ using Setter = void (*)(device::UnitConfig& unit, double value);
 /// The same for one of the two sides.
 using SideSetter = void (*)(device::UnitConfig& unit, std::size_t side, double value);
 
+/// Whether a file must have it; defaulted: else `default_value` counts.
 enum class Need { required, optional, defaulted };
 
+/// A row of the schema.
 struct Parameter {
-  std::string_view key;   ///< "drive.friction_Nm"
-  std::string_view unit;  ///< "N·m"; "1" where it has none; kPresetUnit: the law's; empty for words and switches
-  Kind kind = Kind::number;
-  double min = 0, max = 0;  ///< number, integer: allowed range, ends included
-  std::string_view words;   ///< word: "brake|coast"
-  std::string_view meaning;
-  Need need = Need::required;
+  std::string_view key;             ///< "drive.friction_Nm"
+  std::string_view unit;            ///< "N·m"; "1" where it has none; kPresetUnit: the law's; empty for words and switches
+  Kind kind = Kind::number;         ///< of its value
+  double min = 0,                   ///< number, integer: least that is allowed
+      max = 0;                      ///< most that is allowed
+  std::string_view words;           ///< word: "brake|coast"
+  std::string_view meaning;         ///< one line for listings
+  Need need = Need::required;       ///< whether a file must have it
   std::string_view default_value;   ///< defaulted: as text
   std::string_view default_source;  ///< defaulted: where that came from
   Setter set = nullptr;             ///< null: `set_side` of both sides
@@ -43,7 +47,7 @@ struct Parameter {
   std::string_view controllers{};   ///< which controllers have it: "position_servo|torque_servo"; empty: all
   std::string_view shaft{};         ///< whose shaft's unit this is: "rad" or, of linear actuators, "m"; empty: all
 
-  void apply(device::UnitConfig& to, double value) const;
+  void apply(device::UnitConfig& to, double value) const;  ///< both sides where it is theirs and has no second value
 };
 
 /// A type's controllers (`control.kind`): "qbmove|position_servo|…". Keys of firmware.… are of the first.

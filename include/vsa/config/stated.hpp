@@ -10,8 +10,8 @@ namespace vsa::config {
 ///   [type]
 ///   mass_kg = { value = 0.45, unit = "kg", source = "maker's leaflet" }
 struct Stated {
-  double value = 0;
-  std::string source;
+  double value = 0;    ///< in the unit that its key names
+  std::string source;  ///< where it came from
 };
 
 }  // namespace vsa::config

@@ -22,8 +22,8 @@ namespace vsa::config {
 [[nodiscard]] std::string range_text(double min, double max);
 /// "a, b, c"
 [[nodiscard]] std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
-[[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
-[[nodiscard]] std::string_view trim(std::string_view text);
+[[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);  ///< all parts, empty ones, too
+[[nodiscard]] std::string_view trim(std::string_view text);  ///< without blanks, tabs and line ends at both ends
 
 /// What the word may have meant: of the candidates that begin with it, or else of all, the one with the smallest edit distance. Empty
 /// where there is none.

@@ -29,21 +29,23 @@ class TomlSection {
 
   /// A key that has to be there.
   TomlSection& need(const char* key, std::string_view allowed);
-  [[nodiscard]] const toml::node* find(const char* key);
+  [[nodiscard]] const toml::node* find(const char* key);           ///< the key counts as asked for; null: it isn't there
   [[nodiscard]] std::optional<std::string> text(const char* key);  ///< not empty
-  [[nodiscard]] std::optional<bool> flag(const char* key);
-  [[nodiscard]] std::optional<double> number(const char* key, double min, double max);
-  [[nodiscard]] std::optional<std::int64_t> whole(const char* key, double min, double max);
+  [[nodiscard]] std::optional<bool> flag(const char* key);         ///< true or false
+  [[nodiscard]] std::optional<double> number(const char* key, double min, double max);       ///< finite, ends included
+  [[nodiscard]] std::optional<std::int64_t> whole(const char* key, double min, double max);  ///< likewise, without a fraction
+  /// Of a list; a wrong one is a problem and `min`; empty: not there.
   [[nodiscard]] std::vector<double> numbers(const char* key, double min, double max);
-  [[nodiscard]] std::vector<std::string> texts(const char* key);
-  [[nodiscard]] std::optional<std::string> word(const char* key, const std::vector<std::string>& words);
+  [[nodiscard]] std::vector<std::string> texts(const char* key);  ///< of a list; empty: not there
+  [[nodiscard]] std::optional<std::string> word(const char* key, const std::vector<std::string>& words);  ///< one of these
   /// { "group.key" = number, text or true/false }
   [[nodiscard]] std::vector<Override> overrides(const char* key);
-  [[nodiscard]] const toml::table* table(const char* key);
+  [[nodiscard]] const toml::table* table(const char* key);                ///< null: it isn't there
   [[nodiscard]] std::vector<const toml::table*> tables(const char* key);  ///< of [[key]]
 
   /// After the last question: every other key is unknown.
   void refuse_others() const;
+  /// A problem of this place, with the scope before its key.
   void add(const std::string& key, const std::string& value, const std::string& message, const std::string& allowed) const;
 
  private:

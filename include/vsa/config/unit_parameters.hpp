@@ -19,7 +19,7 @@ namespace vsa::config {
 
 using Resolutions = std::array<std::uint8_t, 3>;  ///< motor 1, motor 2, shaft
 
-[[nodiscard]] double degrees_of(double ticks, std::uint8_t resolution);
+[[nodiscard]] double degrees_of(double ticks, std::uint8_t resolution);  ///< of an encoder
 /// "10.00° (910 ticks)"
 [[nodiscard]] std::string angle_text(std::int32_t ticks, std::uint8_t resolution);
 /// "motor 1 10.00° (910 ticks), motor 2 …, shaft …", as many as there are.
@@ -28,19 +28,23 @@ using Resolutions = std::array<std::uint8_t, 3>;  ///< motor 1, motor 2, shaft
 /// Reads values one by one and collects what is wrong with them.
 class ValueReader {
  public:
+  /// `what` leads every problem's key.
   ValueReader(std::string what, std::vector<std::string> values) : what_(std::move(what)), values_(std::move(values)) {}
 
   /// False, and a problem, unless there are so many.
   bool expect(std::size_t count, const std::string& example);
+  /// Ends included; else a problem, and 0. `index` below size(): expect() sees to it.
   [[nodiscard]] double number(std::size_t index, double low, double high, const std::string& unit);
+  /// Likewise, without a fraction.
   [[nodiscard]] std::int64_t whole(std::size_t index, std::int64_t low, std::int64_t high, const std::string& unit);
+  /// An angle of that encoder; in degrees, or with the word "ticks".
   [[nodiscard]] std::int32_t ticks(std::size_t index, std::uint8_t resolution, std::int32_t low, std::int32_t high);
   /// One of the words, by its place, or that place as a number.
   [[nodiscard]] std::size_t word(std::size_t index, std::span<const std::string_view> words);
-  [[nodiscard]] std::size_t size() const noexcept { return values_.size(); }
-  void throw_if_any() const { problems_.throw_if_any(); }
+  [[nodiscard]] std::size_t size() const noexcept { return values_.size(); }  ///< how many there are
+  void throw_if_any() const { problems_.throw_if_any(); }                     ///< InputError with all problems
 
-  void refuse(std::size_t index, const std::string& why, const std::string& allowed);
+  void refuse(std::size_t index, const std::string& why, const std::string& allowed);  ///< adds a problem of that value
 
  private:
   std::string what_;
@@ -57,6 +61,7 @@ class ValueReader {
                                                    std::span<const std::string_view> things);
 /// Throws InputError: neither one of the things nor a parameter of any dialect.
 void check_unit_word(const std::string& name, std::span<const std::string_view> things);
+/// Its value with unit, for people.
 [[nodiscard]] std::string unit_parameter_text(const bus::ParameterValues& values, bus::ParameterId id);
 /// Problems are the reader's; then the value means nothing.
 [[nodiscard]] bus::ParameterValue read_unit_parameter(ValueReader& reader, bus::ParameterId id, const Resolutions& resolutions);

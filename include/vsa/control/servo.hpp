@@ -50,9 +50,11 @@ inline constexpr double kTick_s = 1e-3;  ///< T
 /// Beyond it a double has no counts left to tell; states of integers have more.
 inline constexpr double kFarthest_rad = 1e9;
 
+/// Which of the controllers above a unit has.
 enum class ServoKind : std::uint8_t { position_servo, torque_servo, motor_voltages };
-[[nodiscard]] std::string_view name_of(ServoKind kind) noexcept;
+[[nodiscard]] std::string_view name_of(ServoKind kind) noexcept;  ///< as files write it
 
+/// A position servo's gains and limits, for both motors.
 struct PositionServoParams {
   double gain_per_s = 0;              ///< k_x
   double speed_max_rad_per_s = 0;     ///< ω_max
@@ -61,6 +63,7 @@ struct PositionServoParams {
   bool operator==(const PositionServoParams&) const = default;
 };
 
+/// A torque servo's gains and limits.
 struct TorqueServoParams {
   double gain = 0;                       ///< k_τ
   double integral_per_s = 0;             ///< k_ξ; 0: none
@@ -71,29 +74,33 @@ struct TorqueServoParams {
   bool operator==(const TorqueServoParams&) const = default;
 };
 
+/// A servo's parameters: those of its kind, and what all have.
 struct ServoParams {
-  ServoKind kind = ServoKind::position_servo;
-  double current_max_A = 0;      ///< I_max; not of motor_voltages
-  double speed_filter_s = 0;     ///< T_f; not of motor_voltages
-  double reference_max_rad = 0;  ///< x_max; of position_servo
-  PositionServoParams position;
-  TorqueServoParams torque;
+  ServoKind kind = ServoKind::position_servo;  ///< which one it is
+  double current_max_A = 0;                    ///< I_max; not of motor_voltages
+  double speed_filter_s = 0;                   ///< T_f; not of motor_voltages
+  double reference_max_rad = 0;                ///< x_max; of position_servo
+  PositionServoParams position;                ///< counts with position_servo
+  TorqueServoParams torque;                    ///< counts with torque_servo
   bool operator==(const ServoParams&) const = default;
 };
 
 /// Adds what is out of range of the kind's own parameters; `where` leads each key.
 void validate(const ServoParams& params, std::string_view where, Problems& problems);
 
+/// What a unit was told last.
 struct ServoCommand {
-  double equilibrium = 0, preset = 0;
+  double equilibrium = 0,          ///< rad
+      preset = 0;                  ///< in the law's unit; of a torque servo added to k₀, N·m/rad
   std::array<double, 2> direct{};  ///< torque servo: τ_c, N·m; motor voltages: V
   static auto fields(auto& s, auto&& visit) {
     return visit("equilibrium", "rad", s.equilibrium, "preset", "", s.preset, "direct", "", s.direct);
   }
 };
 
+/// All that changes of a servo.
 struct ServoState {
-  ServoCommand command;
+  ServoCommand command;               ///< in force
   std::array<std::int64_t, 3> raw{};  ///< motor 1, motor 2, shaft as counted, 65536 per turn
   std::array<double, 3> speed{};      ///< ω̂
   std::array<double, 2> integral{};   ///< ξ, N·m
@@ -107,21 +114,23 @@ struct ServoState {
   [[nodiscard]] const char* impossible() const noexcept;
 };
 
+/// What the electronics read at a tick.
 struct ServoReadings {
   std::array<std::int32_t, 3> encoder{};  ///< motor 1, motor 2, shaft within the turn (sensor::encoder_sample)
-  double supply_V = 0;
+  double supply_V = 0;                    ///< at the bridge
 };
 
 /// Where motors and shaft are, and how fast, as encoders would have it that count turns.
 struct ServoPlace {
-  std::array<double, 3> angle{}, speed{};
-  std::array<double, 2> held{};  ///< torque of each motor that holds its spring, N·m
+  std::array<double, 3> angle{},  ///< of motor 1, motor 2, shaft, rad
+      speed{};                    ///< likewise, rad/s
+  std::array<double, 2> held{};   ///< torque of each motor that holds its spring, N·m
 };
 
 /// A motor at its pulley, with all the resistance that its current meets, and a count of the encoder there.
 struct ServoMotor {
-  drive::MotorParams motor;
-  double count_rad = 0;
+  drive::MotorParams motor;  ///< as drive::at_pulley gives it
+  double count_rad = 0;      ///< of the encoder
   double shaft_per_rad =
       1;  ///< how far the shaft goes with a radian of the pulley where the spring doesn't give (elastic/travel.hpp)
 };
@@ -134,7 +143,7 @@ class Servo {
   Servo(const ServoParams& params, const std::array<ServoMotor, 2>& motors, std::shared_ptr<const elastic::Transmission> law,
         double shaft_per_rad = 1);
 
-  [[nodiscard]] const ServoParams& params() const noexcept { return params_; }
+  [[nodiscard]] const ServoParams& params() const noexcept { return params_; }  ///< as given
   /// x*, before counts.
   [[nodiscard]] std::array<double, 2> references(const ServoCommand& command) const noexcept;
   /// k of the joint that a torque servo makes.

@@ -15,22 +15,25 @@
 
 namespace vsa::description {
 
+/// What an engine can do. Default: nothing but the joints and shapes that it names.
 struct Capabilities {
   std::string engine;                  ///< its name, for messages
   std::vector<Geometry::Kind> shapes;  ///< that collide
-  std::vector<Joint::Kind> joints;
-  bool concave_meshes = false;        ///< collide as they are; else a mesh is taken for its convex hull
-  bool moving_terrain = false;        ///< planes and heightmaps on links that move
-  bool followers = false;             ///< World::couplings
-  bool collision_masks = false;       ///< Surface::mask
-  bool spin_friction = false;         ///< Surface::torsional_m
-  bool directional_friction = false;  ///< Surface::mu2
-  bool restitution = false;           ///< Surface::restitution
-  bool contact_springs = false;       ///< Surface::stiffness, damping; without it the engine's own do for all
-  bool stop_springs = false;          ///< Axis::stop_stiffness, stop_damping; likewise
-  bool weightless_links = false;      ///< Link::weightless
+  std::vector<Joint::Kind> joints;     ///< that it moves
+  bool concave_meshes = false;         ///< collide as they are; else a mesh is taken for its convex hull
+  bool moving_terrain = false;         ///< planes and heightmaps on links that move
+  bool followers = false;              ///< World::couplings
+  bool collision_masks = false;        ///< Surface::mask
+  bool spin_friction = false;          ///< Surface::torsional_m
+  bool directional_friction = false;   ///< Surface::mu2
+  bool restitution = false;            ///< Surface::restitution
+  bool contact_springs = false;        ///< Surface::stiffness, damping; without it the engine's own do for all
+  bool stop_springs = false;           ///< Axis::stop_stiffness, stop_damping; likewise
+  bool weightless_links = false;       ///< Link::weightless
 
+  /// Shapes that collide.
   [[nodiscard]] bool takes(Geometry::Kind kind) const { return std::find(shapes.begin(), shapes.end(), kind) != shapes.end(); }
+  /// Joints that it moves.
   [[nodiscard]] bool takes(Joint::Kind kind) const { return std::find(joints.begin(), joints.end(), kind) != joints.end(); }
 };
 

@@ -20,32 +20,37 @@ namespace vsa::description {
 
 /// Triangles in the frame of the collision or visual, already scaled.
 struct Mesh {
-  std::vector<Vec3> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Vec3> vertices;                           ///< m
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three indices into `vertices` each
 };
 
 /// Heights above the geometry's origin, row 0 at the smallest y, column 0 at the smallest x. The grid spans
 /// [−extent/2, extent/2] about `centre`.
 struct Heightmap {
-  std::size_t rows = 0, columns = 0;
-  std::vector<double> heights;  ///< ≥ 0, rows × columns
-  double extent_x = 0, extent_y = 0;
-  Vec3 centre;
-  [[nodiscard]] double highest() const;
+  std::size_t rows = 0,                  ///< of samples, along y
+      columns = 0;                       ///< of samples, along x
+  std::vector<double> heights;           ///< ≥ 0, rows × columns
+  double extent_x = 0,                   ///< along x, m
+      extent_y = 0;                      ///< along y, m
+  Vec3 centre;                           ///< of the grid, in the geometry's frame
+  [[nodiscard]] double highest() const;  ///< of the heights; 0 without any
 };
 
+/// A shape, to collide or to be looked at.
 struct Geometry {
-  enum class Kind { box, sphere, cylinder, capsule, ellipsoid, plane, mesh, heightmap } kind = Kind::box;
+  /// As in SDF.
+  enum class Kind { box, sphere, cylinder, capsule, ellipsoid, plane, mesh, heightmap } kind = Kind::box;  ///< which one
   Vec3 size;  ///< box: full lengths; sphere: r; cylinder, capsule: r, length of the straight part; ellipsoid: radii; plane: lengths
-  Pose3 offset;  ///< of the geometry in its collision or visual (a plane's normal is +z of this frame)
-  std::shared_ptr<const Mesh> mesh;
-  bool hull = false;                               ///< the mesh stands for its convex hull
+  Pose3 offset;                      ///< of the geometry in its collision or visual (a plane's normal is +z of this frame)
+  std::shared_ptr<const Mesh> mesh;  ///< of a mesh
+  bool hull = false;                 ///< the mesh stands for its convex hull
   std::vector<std::shared_ptr<const Mesh>> parts;  ///< convex; where the mesh itself isn't, and was decomposed
-  std::shared_ptr<const Heightmap> heightmap;
+  std::shared_ptr<const Heightmap> heightmap;      ///< of a heightmap
 };
 
 inline constexpr std::uint32_t kAllCollisions = 0xFFFF;  ///< SDF's default
 
+/// How a shape touches others.
 struct Surface {
   double mu = 1;                        ///< Coulomb friction; a pair has the smaller of its two
   std::optional<double> mu2;            ///< across `first`, where it isn't mu
@@ -57,58 +62,67 @@ struct Surface {
   std::uint32_t mask = kAllCollisions;  ///< two shapes collide where their masks share a bit
 };
 
+/// What of a link collides.
 struct Collision {
-  std::string name;  ///< "model::link/collision"
-  Pose3 pose;        ///< in the link
-  Geometry geometry;
-  Surface surface;
+  std::string name;   ///< "model::link/collision"
+  Pose3 pose;         ///< in the link
+  Geometry geometry;  ///< in the collision's frame
+  Surface surface;    ///< of this shape
 };
 
+/// A body. A static one has no joint that moves it and stays where it is.
 struct Link {
-  std::string name;   ///< scoped
-  std::string model;  ///< top-level
-  bool is_static = false;
-  bool self_collide = false;
-  bool weightless = false;  ///< gravity leaves it alone
-  Pose3 pose;
-  double mass = 1;
-  Vec3 com;      ///< in the link
-  Mat3 inertia;  ///< about the centre of mass, link's axes
-  std::vector<Collision> collisions;
+  std::string name;                   ///< scoped
+  std::string model;                  ///< top-level
+  bool is_static = false;             ///< never moves; its mass counts for nothing
+  bool self_collide = false;          ///< collides with the other links of its model
+  bool weightless = false;            ///< gravity leaves it alone
+  Pose3 pose;                         ///< in the world, at the start
+  double mass = 1;                    ///< kg
+  Vec3 com;                           ///< in the link
+  Mat3 inertia;                       ///< about the centre of mass, link's axes
+  std::vector<Collision> collisions;  ///< its shapes
 };
 
+/// How a joint of one axis moves, or one of a universal joint's two.
 struct Axis {
-  Vec3 xyz;
-  std::optional<std::array<double, 2>> range;
-  double damping = 0;    ///< N·m·s/rad or N·s/m
-  double friction = 0;   ///< Coulomb, N·m or N
-  double stiffness = 0;  ///< N·m/rad or N/m about `rest`
-  double rest = 0;
+  Vec3 xyz;                                    ///< unit vector, world, at the start
+  std::optional<std::array<double, 2>> range;  ///< lower and upper end, rad or m; none: without limits
+  double damping = 0;                          ///< N·m·s/rad or N·s/m
+  double friction = 0;                         ///< Coulomb, N·m or N
+  double stiffness = 0;                        ///< N·m/rad or N/m about `rest`
+  double rest = 0;                             ///< rad or m, where the spring gives nothing
+  /// Of the limits, N·m/rad and N·m·s/rad (N/m, N·s/m); none: the engine's own.
   std::optional<double> stop_stiffness, stop_damping;  ///< of the limits, N·m/rad and N·m·s/rad; none: the engine's own
   std::optional<double> start;                         ///< rad or m: where the joint stands at t = 0; none: at 0
 };
 
+/// What ties two links together, or one to the world.
 struct Joint {
-  enum class Kind { fixed, hinge, slide, ball, universal } kind = Kind::fixed;
-  std::string name;                   ///< scoped
-  std::optional<std::size_t> parent;  ///< none: the world
-  std::optional<std::size_t> child;
-  Pose3 pose;
+  /// As in SDF; fixed: moves nothing.
+  enum class Kind { fixed, hinge, slide, ball, universal } kind = Kind::fixed;  ///< how it moves
+  std::string name;                                                             ///< scoped
+  std::optional<std::size_t> parent;                                            ///< none: the world
+  std::optional<std::size_t> child;                                             ///< the link that it moves; none: the world
+  Pose3 pose;                                                                   ///< in the world, at the start: where the axes meet
   std::vector<Axis> axes;  ///< hinge, slide: 1; universal: 2, the first fixed in the parent
+  /// Hinge or slide: what an actuator can drive.
   [[nodiscard]] bool one_axis() const { return kind == Kind::hinge || kind == Kind::slide; }
 };
 
 /// One joint that follows another: q_follower = multiplier·q_leader + offset. Both have one axis.
 struct Coupling {
-  std::size_t follower = 0, leader = 0;  ///< into joints
-  double multiplier = 1, offset = 0;
+  std::size_t follower = 0,  ///< into World::joints
+      leader = 0;            ///< into World::joints
+  double multiplier = 1,     ///< rad or m of the follower per rad or m of the leader
+      offset = 0;            ///< rad or m
 };
 
-/// A <plugin> of ours, as text.
+/// A `<plugin>` of ours, as text.
 struct Plugin {
-  std::string model;  ///< scoped name of the model that owns it
-  std::string top_model;
-  std::string xml;
+  std::string model;      ///< scoped name of the model that owns it
+  std::string top_model;  ///< of the model that has all of it, scoped
+  std::string xml;        ///< of the whole element
 };
 
 /// What an engine has made of a file in its own format. It steps that; links, joints and couplings tell of it.
@@ -120,14 +134,15 @@ class Native {
   Native& operator=(const Native&) = delete;
 };
 
+/// A world as read: what an engine makes steps of, and what readers and pages need.
 struct World {
-  std::string name;
-  Vec3 gravity{0, 0, -9.8};
-  double step_s = 1e-3;
-  std::vector<Link> links;
-  std::vector<Joint> joints;
-  std::vector<Coupling> couplings;
-  std::vector<Plugin> plugins;
+  std::string name;                      ///< the world's name
+  Vec3 gravity{0, 0, -9.8};              ///< m/s²
+  double step_s = 1e-3;                  ///< of the engine
+  std::vector<Link> links;               ///< in the file's order
+  std::vector<Joint> joints;             ///< in the file's order
+  std::vector<Coupling> couplings;       ///< mimics
+  std::vector<Plugin> plugins;           ///< of ours
   std::vector<scene::LinkInfo> infos;    ///< one a link, with its visuals
   std::shared_ptr<const Native> native;  ///< none: all that an engine needs stands here
 };

@@ -27,24 +27,25 @@
 
 namespace vsa::device {
 
+/// The line itself, the same for all who hang on it.
 struct LineConfig {
-  bus::LineRate rate{};
+  bus::LineRate rate{};             ///< that every unit begins with; a program may set its own
   std::int64_t turn_around_ps = 0;  ///< UNKNOWN on hardware
 };
 
 /// A unit's program; its state belongs to the unit.
 struct Station {
-  const firmware::Program* program = nullptr;
-  firmware::ProgramState* state = nullptr;
+  const firmware::Program* program = nullptr;  ///< null: a unit with a servo, which has no program
+  firmware::ProgramState* state = nullptr;     ///< the owner's; it lives as long as the chain
 };
 
 /// How a unit hangs on the line: right, unless somebody breaks it.
 struct Wiring {
-  bool powered = true;
+  bool powered = true;       ///< false: neither hears nor speaks
   double lost_byte = 0;      ///< probability that a byte, heard or said, is lost
   double flipped_byte = 0;   ///< probability that one of its bits is flipped
   std::int64_t late_ns = 0;  ///< answers come this much later
-  [[nodiscard]] bool clean() const noexcept { return lost_byte <= 0 && flipped_byte <= 0; }
+  [[nodiscard]] bool clean() const noexcept { return lost_byte <= 0 && flipped_byte <= 0; }  ///< no byte is lost or flipped
   bool operator==(const Wiring&) const = default;
   static auto fields(auto& s, auto&& visit) {
     return visit("powered", "", s.powered, "lost_byte", "", s.lost_byte, "flipped_byte", "", s.flipped_byte, "late", "ns",
@@ -53,47 +54,55 @@ struct Wiring {
   [[nodiscard]] const char* impossible() const noexcept {
     return late_ns >= 0 && late_ns <= kLatestNs ? nullptr : "answers that come 0 … 60 s late";
   }
-  static constexpr std::int64_t kLatestNs = 60'000'000'000;
+  static constexpr std::int64_t kLatestNs = 60'000'000'000;  ///< the longest `late_ns`
 };
 
+/// All that changes of a chain, but for the programs' states, which are the units'. As numbers it has room for what most_speeches()
+/// and most_bytes() say.
 struct ChainState {
-  static constexpr int kMaster = -1;
+  static constexpr int kMaster = -1;  ///< as a speaker
   /// What a state as numbers has room for. As a rule a station says one thing at a time; an answer through a fault is one speech a
   /// byte, of which a usual answer has twelve. Bytes: those that are said already and wait to be dropped (1024 at most), two parameter
   /// lists (1220 each), and some of every unit.
   [[nodiscard]] static constexpr std::size_t most_speeches(std::size_t stations) noexcept { return 16 * stations + 16; }
+  /// See most_speeches().
   [[nodiscard]] static constexpr std::size_t most_bytes(std::size_t stations) noexcept { return 64 * stations + 4096; }
+  /// What somebody says: bytes back to back. It is dropped once all have heard it.
   struct Speech {
-    std::int64_t start_ps = 0, end_ps = 0;
-    std::uint32_t begin = 0, size = 0;  ///< in `bytes`
-    std::uint32_t heard = 0;            ///< bytes handed over, while nobody else speaks
-    int speaker = kMaster;
-    bus::LineRate rate{};
+    std::int64_t start_ps = 0,  ///< when its first bit begins
+        end_ps = 0;             ///< when its last bit ends
+    std::uint32_t begin = 0,    ///< in `bytes`
+        size = 0;               ///< of it, in `bytes`
+    std::uint32_t heard = 0;    ///< bytes handed over, while nobody else speaks
+    int speaker = kMaster;      ///< a station, or kMaster
+    bus::LineRate rate{};       ///< of the speaker
     static auto fields(auto& s, auto&& visit) {
       return visit("start", "ps", s.start_ps, "end", "ps", s.end_ps, "begin", "", s.begin, "size", "", s.size, "heard", "", s.heard,
                    "speaker", "", s.speaker, "rate", "", s.rate);
     }
   };
+  /// How a station hears.
   struct Ear {
-    bus::LineReceiver receiver;
-    std::int64_t free_ps = 0;  ///< until then it speaks
-    Wiring wiring;
-    Dice dice;
+    bus::LineReceiver receiver;  ///< for bits
+    std::int64_t free_ps = 0;    ///< until then it speaks
+    Wiring wiring;               ///< as set_wiring() says
+    Dice dice;                   ///< of lost and flipped bytes
     static auto fields(auto& s, auto&& visit) {
       return visit("receiver", "", s.receiver, "free", "ps", s.free_ps, "wiring", "", s.wiring, "dice", "", s.dice);
     }
   };
+  /// How exactly the line is simulated now: whole frames handed over, byte by byte, or bit by bit (see above).
   enum class Mode : std::uint8_t { frames, bytes, bits };
 
-  std::int64_t now_ps = 0;
-  Mode mode = Mode::frames;
-  bool someone_waits = false;  ///< a program has bytes that it couldn't look at yet
-  bool rates_differ = false;
-  bus::LineReceiver master_ear;
-  std::int64_t host_free_ps = 0;
-  std::vector<Ear> ears;         // one a station
-  std::vector<Speech> speeches;  // by start
-  std::vector<std::uint8_t> bytes;
+  std::int64_t now_ps = 0;          ///< the line's time
+  Mode mode = Mode::frames;         ///< as of the last event
+  bool someone_waits = false;       ///< a program has bytes that it couldn't look at yet
+  bool rates_differ = false;        ///< bit by bit as long as they do
+  bus::LineReceiver master_ear;     ///< at the rate of its serial port
+  std::int64_t host_free_ps = 0;    ///< until then the master's own bytes are on the line
+  std::vector<Ear> ears;            ///< one a station
+  std::vector<Speech> speeches;     ///< by start
+  std::vector<std::uint8_t> bytes;  ///< of all speeches
 
   static auto fields(auto& s, auto&& visit) {
     const std::size_t stations = s.ears.size();
@@ -103,14 +112,15 @@ struct ChainState {
   }
   [[nodiscard]] const char* impossible() const noexcept;
 };
-[[nodiscard]] constexpr int choices(ChainState::Mode) noexcept { return 3; }
+[[nodiscard]] constexpr int choices(ChainState::Mode) noexcept { return 3; }  ///< for the walk over states
 
+/// Units on one line: carries bytes between their programs and a master, in simulated time. One thread; nothing is thrown.
 class Chain {
  public:
-  Chain(const LineConfig& config, std::vector<Station> stations);
+  Chain(const LineConfig& config, std::vector<Station> stations);  ///< stations that are powered and hear, time 0
 
-  [[nodiscard]] std::size_t size() const noexcept { return stations_.size(); }
-  [[nodiscard]] const ChainState& state() const noexcept { return state_; }
+  [[nodiscard]] std::size_t size() const noexcept { return stations_.size(); }  ///< stations
+  [[nodiscard]] const ChainState& state() const noexcept { return state_; }     ///< to look at, or to copy
   /// state(), into one that was saved to before: allocates nothing then, whatever is under way on the line.
   void save(ChainState& into) const;
   /// For snapshots: the same number of stations. The programs' states are the owner's to restore.

@@ -21,32 +21,37 @@
 
 namespace vsa::device {
 
+/// A unit on the line, and what its shaft does.
 struct EmulatedUnit {
-  UnitConfig config;
+  UnitConfig config;     ///< checked as Unit does
   int id = 1;            ///< 1 … 254, unique
   bool held = false;     ///< the shaft stays where it is
   double shaft_rad = 0;  ///< where it begins
 };
 
+/// Units that a client meets as if they were hardware, without world and robot (`vsa emulate`).
 class Emulation {
  public:
   /// Throws InputError: no unit, an id out of range or given twice, a shaft that isn't a number.
   explicit Emulation(std::vector<EmulatedUnit> units, const LineConfig& line = {},
                      std::function<bus::SerialLine::Clock::time_point()> now = bus::SerialLine::Clock::now);
 
-  [[nodiscard]] std::size_t size() const noexcept { return units_.size(); }
-  [[nodiscard]] PortLine& line() noexcept { return port_; }
+  [[nodiscard]] std::size_t size() const noexcept { return units_.size(); }  ///< units
+  [[nodiscard]] PortLine& line() noexcept { return port_; }                  ///< for a serial port's thread
 
   /// Runs all ticks before this simulated time, and the physics up to it in whole milliseconds. By one thread.
   void advance(std::int64_t until_ns);
-  [[nodiscard]] std::int64_t now_ns() const noexcept { return now_ns_; }
+  [[nodiscard]] std::int64_t now_ns() const noexcept { return now_ns_; }  ///< simulated, since the start
 
   /// From any thread; from the next tick on. Throws InputError for values out of bounds or no such unit.
   void set_faults(std::size_t unit, const Faults& faults);
 
+  /// What a unit is doing.
   struct Reading {
-    std::array<double, 2> motor_rad{};
-    double shaft_rad = 0, shaft_speed_rad_per_s = 0, torque_Nm = 0;
+    std::array<double, 2> motor_rad{};  ///< the pulleys
+    double shaft_rad = 0,               ///< q
+        shaft_speed_rad_per_s = 0,      ///< q̇
+        torque_Nm = 0;                  ///< mean over the last step
   };
   /// By the thread that advances.
   [[nodiscard]] Reading read(std::size_t unit) const;

@@ -22,26 +22,29 @@
 
 namespace vsa::device {
 
+/// What one encoder has.
 struct EncoderFault {
-  bool stuck = false;
+  bool stuck = false;    ///< keeps its last word
   double noise_rad = 0;  ///< 0 … π
   static auto fields(auto& s, auto&& visit) { return visit("stuck", "", s.stuck, "noise", "rad", s.noise_rad); }
   bool operator==(const EncoderFault&) const = default;
 };
 
+/// All that may be broken of one unit; the default is a unit as it should be.
 struct Faults {
-  bool powered = true;
+  bool powered = true;                    ///< false: no supply at the logic
   double lost_byte = 0;                   ///< 0 … 1
   double flipped_byte = 0;                ///< 0 … 1
   double late_s = 0;                      ///< 0 … 60
   std::array<EncoderFault, 3> encoder{};  ///< motor 1, motor 2, shaft
   std::optional<double> supply_V;         ///< 0 … 100; none: as configured
-  std::array<bool, 2> motor_unplugged{};
-  std::uint64_t seed = 1;
+  std::array<bool, 2> motor_unplugged{};  ///< of each motor
+  std::uint64_t seed = 1;                 ///< of bytes and noise
   bool operator==(const Faults&) const = default;
-  static constexpr double kLatest_s = 60, kMostSupply_V = 100;
+  static constexpr double kLatest_s = 60,  ///< of late_s
+      kMostSupply_V = 100;                 ///< of supply_V
 
-  [[nodiscard]] Wiring wiring() const noexcept;
+  [[nodiscard]] Wiring wiring() const noexcept;  ///< what of it concerns the line
   static auto fields(auto& s, auto&& visit) {
     return visit("powered", "", s.powered, "lost_byte", "", s.lost_byte, "flipped_byte", "", s.flipped_byte, "late", "s", s.late_s,
                  "encoder", "", s.encoder, "supply", "V", s.supply_V, "motor_unplugged", "", s.motor_unplugged, "seed", "", s.seed);

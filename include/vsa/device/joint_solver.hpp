@@ -23,23 +23,24 @@
 namespace vsa::device {
 
 namespace solver {
-inline constexpr int kMaxIterations = 80;
+inline constexpr int kMaxIterations = 80;  ///< rounds of Newton
 /// A guess may lie where the spring's exponential law has no numbers left, so it goes no further than this at once.
 inline constexpr double kReach_rad = 0.25;
 /// A step along which the slope still has this part of what it had, with the other sign, went too far. Where a friction begins or
 /// ends to slide Newton can go to and fro, so after some rounds less is allowed.
 inline constexpr double kOvershoot = 0.9, kOvershootLater = 0.3;
-inline constexpr int kEarly = 8;
+inline constexpr int kEarly = 8;  ///< rounds before kOvershootLater holds
 /// The torque that may be left over where no round settles.
-inline constexpr double kLeft = 1e-3, kLeft_Nm = 1e-4;
+inline constexpr double kLeft = 1e-3, kLeft_Nm = 1e-4;  ///< of a torque; N·m
 }  // namespace solver
 
+/// Solves one tree's step. One thread; after the constructor nothing is allocated.
 class JointSolver {
  public:
   /// Everything that a step needs is allocated here. `instructions`: as JointTrials has them.
   explicit JointSolver(std::size_t joints, std::string_view instructions = {});
 
-  [[nodiscard]] std::size_t size() const noexcept { return n_; }
+  [[nodiscard]] std::size_t size() const noexcept { return n_; }  ///< joints
 
   /// B by rows, n × n, 1/(kg·m²). One that isn't finite and positive definite leaves each joint by itself with its diagonal. A
   /// diagonal entry of 0 (n = 1 only): the motion is prescribed.
@@ -51,7 +52,7 @@ class JointSolver {
   /// than 1e-4 N·m) is left over; the torques are those of the last attempt.
   bool solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
 
-  static constexpr int kMaxIterations = solver::kMaxIterations;
+  static constexpr int kMaxIterations = solver::kMaxIterations;  ///< as the solver has it
 
  private:
   void factor_mobility() noexcept;

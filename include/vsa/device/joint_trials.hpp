@@ -26,28 +26,33 @@ struct LaneTable;
 /// The whole torque on a shaft for a displacement Δy of its step.
 template <class T>
 struct ShaftTorqueOf {
-  T torque = 0;  ///< N·m
-  T slope = 0;   ///< −dτ/d(Δy), N·m/rad
-  lanes::Truth<T> settled = lanes::truth<T>(true);
+  T torque = 0;                                     ///< N·m
+  T slope = 0;                                      ///< −dτ/d(Δy), N·m/rad
+  lanes::Truth<T> settled = lanes::truth<T>(true);  ///< the motors are found, so that this may be the answer
 };
-using ShaftTorque = ShaftTorqueOf<double>;
+using ShaftTorque = ShaftTorqueOf<double>;  ///< of one unit
 
+/// A joint while its step is solved; all three are the owner's.
 struct JointInStep {
-  Unit* unit = nullptr;
-  UnitState* state = nullptr;
-  StepPlan* plan = nullptr;
+  Unit* unit = nullptr;        ///< of the joint's actuator
+  UnitState* state = nullptr;  ///< of that unit
+  StepPlan* plan = nullptr;    ///< begun by Unit::begin_step
 };
 
 /// What is known of each joint of a tree for the Δy that was tried last: as many numbers as it has joints.
 struct TrialColumns {
+  /// So many numbers in each column.
   explicit TrialColumns(std::size_t joints)
       : free(joints), last_torque(joints), dy(joints), torque(joints), slope(joints), carried(joints) {}
-  std::vector<double> free, last_torque;  ///< Δy without new torques, and the torques it goes with
-  std::vector<double> dy;                 ///< of each unit's last attempt
-  std::vector<double> torque, slope;      ///< there, or where the solver took `carried` for it
-  std::vector<ShaftTorque> carried;       ///< what the last attempt foretells of a move from there
+  std::vector<double> free,          ///< Δy without new torques
+      last_torque;                   ///< the torques that it goes with, N·m
+  std::vector<double> dy;            ///< of each unit's last attempt
+  std::vector<double> torque,        ///< there, or where the solver took `carried` for it, N·m
+      slope;                         ///< −dτ/d(Δy) there, N·m/rad
+  std::vector<ShaftTorque> carried;  ///< what the last attempt foretells of a move from there
 };
 
+/// Tries the units of joints in lanes and by themselves. Kept from step to step for its memory; one thread.
 class JointTrials {
  public:
   /// Everything that a step needs is allocated here, for so many joints that are solved together (0: all for solve_each).

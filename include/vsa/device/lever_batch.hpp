@@ -17,26 +17,29 @@
 
 namespace vsa::device {
 
+/// What a unit turns: a body with a mass below or above the shaft.
 struct Lever {
   double inertia_kgm2 = 1e-3;      ///< J > 0
   double damping_Nms_per_rad = 0;  ///< d ≥ 0
   double gravity_Nm = 0;           ///< G = m g l: pulls towards q = 0 where positive, away where negative
 };
 
+/// Units with levers, stepped together. One thread.
 class LeverBatch {
  public:
   /// InputError as UnitBatch; a lever that is out of range.
   LeverBatch(const UnitConfig& config, std::size_t units, const Lever& lever, std::string_view instructions = {});
 
-  [[nodiscard]] std::size_t size() const noexcept { return units_.size(); }
-  [[nodiscard]] const UnitBatch& units() const noexcept { return units_; }
+  [[nodiscard]] std::size_t size() const noexcept { return units_.size(); }  ///< units
+  [[nodiscard]] const UnitBatch& units() const noexcept { return units_; }   ///< to look at; LeverBatch moves them
+  /// Simulated, since the start.
   [[nodiscard]] double time_s() const noexcept { return 1e-9 * static_cast<double>(units_.time_ns()); }
 
   /// From the next step on. InputError: no such unit, out of range.
   void set_lever(std::size_t unit, const Lever& lever);
-  [[nodiscard]] const Lever& lever(std::size_t unit) const;
+  [[nodiscard]] const Lever& lever(std::size_t unit) const;  ///< InputError: no such unit
 
-  // Given with every step().
+  /// Given with every step().
   [[nodiscard]] std::span<double> equilibrium() noexcept { return equilibrium_; }  ///< rad; NaN, as at first: what it was
   [[nodiscard]] std::span<double> preset() noexcept { return preset_; }            ///< in the law's preset unit; NaN likewise
   [[nodiscard]] std::span<double> push() noexcept { return push_; }                ///< N·m about +q; at first 0
@@ -50,9 +53,9 @@ class LeverBatch {
   /// numbers that aren't finite.
   void reset(std::size_t unit, double equilibrium_rad, double preset, double shaft_rad, double speed_rad_per_s = 0);
 
-  [[nodiscard]] std::span<const double> shaft_rad() const noexcept { return angle_; }
-  [[nodiscard]] std::span<const double> shaft_speed_rad_per_s() const noexcept { return speed_; }
-  [[nodiscard]] std::span<const double> torque_Nm() const noexcept { return torque_; }  ///< mean over the last step
+  [[nodiscard]] std::span<const double> shaft_rad() const noexcept { return angle_; }              ///< q now, one number a unit
+  [[nodiscard]] std::span<const double> shaft_speed_rad_per_s() const noexcept { return speed_; }  ///< q̇ now, one number a unit
+  [[nodiscard]] std::span<const double> torque_Nm() const noexcept { return torque_; }             ///< mean over the last step
 
  private:
   void command();

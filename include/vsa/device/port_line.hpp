@@ -34,13 +34,15 @@
 
 namespace vsa::device {
 
+/// A chain behind a serial port. Its locks keep the port's thread and the stepping thread apart; the chain is nobody else's.
 class PortLine final : public bus::SerialLine, private bus::LineMaster {
  public:
-  static constexpr std::int64_t kAheadNs = 500'000;
-  static constexpr std::int64_t kMaxLeadNs = 50'000'000;
-  static constexpr std::size_t kMaxWaiting = 4096;
-  static constexpr double kRateSlack = 0.05;
+  static constexpr std::int64_t kAheadNs = 500'000;       ///< how far the line is simulated ahead of its clock
+  static constexpr std::int64_t kMaxLeadNs = 50'000'000;  ///< lead of one clock over the other that is still kept
+  static constexpr std::size_t kMaxWaiting = 4096;        ///< bytes of a client
+  static constexpr double kRateSlack = 0.05;              ///< part of the units' rate
 
+  /// `now` is the wall clock, for tests.
   explicit PortLine(Chain& chain, std::function<Clock::time_point()> now = Clock::now) : chain_(chain), wall_(std::move(now)) {}
 
   void exchange(std::span<const std::uint8_t> from_client, std::vector<std::uint8_t>& answer) override;
@@ -63,19 +65,20 @@ class PortLine final : public bus::SerialLine, private bus::LineMaster {
     const std::lock_guard lock(mutex_);
     return work();
   }
-  void lock() const { mutex_.lock(); }
-  void unlock() const { mutex_.unlock(); }
+  void lock() const { mutex_.lock(); }      ///< as a mutex: for std::lock_guard
+  void unlock() const { mutex_.unlock(); }  ///< see lock()
   /// Under the lock, after a restore or reset: time begins anew, nothing is under way to the client.
   void forget();
   /// Bytes of the client that were lost because too many waited.
   [[nodiscard]] std::uint64_t lost() const;
   /// What was dropped because of its rate, and the rates when that happened last.
   struct WrongRate {
-    std::uint64_t bytes = 0;
-    std::int64_t client_Hz = 0, units_Hz = 0;
+    std::uint64_t bytes = 0;                 ///< so far
+    std::int64_t client_Hz = 0,              ///< of the client, then
+        units_Hz = 0;                        ///< of the units, then
     [[nodiscard]] std::string text() const;  ///< for a user
   };
-  [[nodiscard]] WrongRate wrong_rate() const;
+  [[nodiscard]] WrongRate wrong_rate() const;  ///< so far
 
  private:
   std::int64_t next_ps() const noexcept override;

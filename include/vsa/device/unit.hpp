@@ -42,8 +42,8 @@ inline constexpr int kMaxTicksPerStep = 17;  ///< host steps up to 16 ms
 
 /// What the bridges hold from one tick to the next.
 struct Held {
-  std::array<double, 2> voltage{};
-  std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};
+  std::array<double, 2> voltage{};                                                            ///< V
+  std::array<drive::Terminal, 2> terminal{drive::Terminal::driven, drive::Terminal::driven};  ///< of each motor
   double supply_V = 0;  ///< where the enable pin is modulated, by a duty of voltage/supply
   static auto fields(auto& s, auto&& visit) {
     return visit("voltage", "V", s.voltage, "terminal", "", s.terminal, "supply", "V", s.supply_V);
@@ -52,26 +52,27 @@ struct Held {
 
 /// A shaft's angle (rad) and speed (rad/s).
 struct ShaftMotion {
-  double angle = 0, speed = 0;
+  double angle = 0,  ///< q
+      speed = 0;     ///< q̇
   static auto fields(auto& s, auto&& visit) { return visit("angle", "rad", s.angle, "speed", "rad/s", s.speed); }
 };
 
+/// All that changes of a unit; the same size for every unit. It goes on with equal parameters only: Unit::adopt takes it to others.
 struct UnitState {
-  actuator::ActuatorState actuator;
-  Held held;
-  std::int32_t limit_pct = 100;  ///< the program's supply limit after its last tick
-  bool supply_on = true;
-  // what was promised to the host in the last step
-  bool started = false;
-  double start_y = 0;
-  double applied_torque = 0;
-  double path_work = 0;
-  double last_speed = 0;
-  double last_dt = 0;
-  double unresolved = 0;  ///< (ω·dt)² of its spring on the inertia behind the joint, where it first went beyond 1
-  ShaftMotion reached;    ///< where the shaft is at the last step's end, as foreseen
-  firmware::ProgramState program;
-  Faults faults;
+  actuator::ActuatorState actuator;  ///< motors, springs, ledger
+  Held held;                         ///< by the bridges, until the next tick
+  std::int32_t limit_pct = 100;      ///< the program's supply limit after its last tick
+  bool supply_on = true;             ///< Robot::set_supply
+  bool started = false;              ///< whether there was a step; the next ones are what was promised to the host in it
+  double start_y = 0;                ///< y where its path began, rad
+  double applied_torque = 0;         ///< mean torque that the host got, N·m
+  double path_work = 0;              ///< that the actuator booked along its own path, J
+  double last_speed = 0;             ///< v at its start, rad/s
+  double last_dt = 0;                ///< its length, s
+  double unresolved = 0;             ///< (ω·dt)² of its spring on the inertia behind the joint, where it first went beyond 1
+  ShaftMotion reached;               ///< where the shaft is at the last step's end, as foreseen
+  firmware::ProgramState program;    ///< of a unit without a servo
+  Faults faults;                     ///< in force
   std::array<std::int32_t, 3> last_encoder{};  ///< what a stuck encoder says
   Dice dice;                                   ///< of the encoders' noise
   control::ServoState servo;                   ///< of a unit that has one
@@ -85,6 +86,7 @@ struct UnitState {
   [[nodiscard]] const char* impossible() const noexcept;
 };
 
+/// What a host tells of the shaft at the start of a step (see host::JointIn).
 struct ShaftIn {
   double angle = 0;            ///< q at the step's start, rad
   double speed = 0;            ///< v, rad/s
@@ -95,22 +97,23 @@ struct ShaftIn {
 
 /// A host step under way: the owner's scratch, of no meaning between steps.
 struct StepPlan {
-  std::int64_t t_ns = 0, dt_ns = 0;
-  bool whole = false;  ///< one segment: no tick inside
-  ShaftIn in;
-  double y = 0;                ///< where the path begins
-  double free = 0;             ///< Δy if the torques of this tree stay what they were
-  double last_torque = 0;      ///< that they were
-  double dy = 0;               ///< Δy as far as it is known
-  actuator::Lead lead;         ///< of the step as a whole
-  double shaft_weight = 0;     ///< w of the shaft's friction
-  std::int64_t walked_ns = 0;  ///< how far the actuator has gone to be sampled
-  std::size_t held_count = 0;
-  std::array<Held, kMaxTicksPerStep + 1> held;
-  actuator::ActuatorState start;  ///< where it stood, if it went
-  actuator::Segment last;         ///< of the path's trials
-  actuator::SegmentResult path;   ///< what the last trial found for the transmission
-  drive::FrictionTorque rub;      ///< and for the shaft's friction
+  std::int64_t t_ns = 0,                        ///< when the step begins
+      dt_ns = 0;                                ///< how long it is
+  bool whole = false;                           ///< one segment: no tick inside
+  ShaftIn in;                                   ///< as it was told
+  double y = 0;                                 ///< where the path begins
+  double free = 0;                              ///< Δy if the torques of this tree stay what they were
+  double last_torque = 0;                       ///< that they were
+  double dy = 0;                                ///< Δy as far as it is known
+  actuator::Lead lead;                          ///< of the step as a whole
+  double shaft_weight = 0;                      ///< w of the shaft's friction
+  std::int64_t walked_ns = 0;                   ///< how far the actuator has gone to be sampled
+  std::size_t held_count = 0;                   ///< entries of `held`
+  std::array<Held, kMaxTicksPerStep + 1> held;  ///< from each tick to the next; the first: from the step's start
+  actuator::ActuatorState start;                ///< where it stood, if it went
+  actuator::Segment last;                       ///< of the path's trials
+  actuator::SegmentResult path;                 ///< what the last trial found for the transmission
+  drive::FrictionTorque rub;                    ///< and for the shaft's friction
 };
 
 /// Where a unit is put; see Unit::place.
@@ -125,11 +128,13 @@ struct UnitPlace {
 template <class T>
 struct UnitPhysics;
 
+/// One unit's parameters and what follows from them; the state is the owner's, so that equal units share a Unit. Not for two
+/// threads at once: it has scratch.
 class Unit {
  public:
-  explicit Unit(UnitConfig config);  ///< throws InputError with all that validate() finds
-  [[nodiscard]] const UnitConfig& config() const noexcept { return config_; }
-  [[nodiscard]] const firmware::Program& program() const noexcept { return program_; }
+  explicit Unit(UnitConfig config);                                            ///< throws InputError with all that validate() finds
+  [[nodiscard]] const UnitConfig& config() const noexcept { return config_; }  ///< as checked
+  [[nodiscard]] const firmware::Program& program() const noexcept { return program_; }  ///< of a unit with a servo: unused
   [[nodiscard]] const control::Servo* servo() const noexcept { return servo_ ? &*servo_ : nullptr; }  ///< null: it has the program
 
   /// At rest on its references for (equilibrium, preset), on for long, motors enabled, with the shaft where it is; with a torque
@@ -165,11 +170,11 @@ class Unit {
   /// Solves a unit alone and ends its step; returns the torque.
   double end_step(UnitState& state, StepPlan& plan) noexcept;
 
-  // For whoever solves: expect (before the ticks) | begin_trials, foresee, attempt as often as needed, finish.
+  /// For whoever solves: expect (before the ticks) | begin_trials, foresee, attempt as often as needed, finish.
 
   /// The torque for a small Δy, from what the last step left.
   [[nodiscard]] ShaftTorque expect(const UnitState& state, const StepPlan& plan, double dy) const noexcept;
-  void begin_trials(UnitState& state, StepPlan& plan) noexcept;
+  void begin_trials(UnitState& state, StepPlan& plan) noexcept;  ///< sets out from the Δy that is known by then
   /// Instead of them, of units that have lanes: whether this step is one for src/device/lanes/kernel.hpp.
   [[nodiscard]] bool may_go_beside(const UnitState& state, const StepPlan& plan) const noexcept;
   /// As `expect`, with what the bridges do now. Steps of one segment only; the others keep to `expect`.
@@ -193,9 +198,9 @@ class Unit {
   /// A state as numbers (vsa/state.hpp): the same layout for every unit. They go on with equal parameters only; a unit with others
   /// has to adopt() what was restored. Another size, or numbers that no state has: InputError, and nothing has changed.
   [[nodiscard]] static StateLayout state_layout();
-  [[nodiscard]] static std::size_t state_size() noexcept;
-  static void save(const UnitState& state, std::span<double> out);
-  static void restore(UnitState& state, std::span<const double> in);
+  [[nodiscard]] static std::size_t state_size() noexcept;             ///< the same for every unit
+  static void save(const UnitState& state, std::span<double> out);    ///< fills state_size() numbers
+  static void restore(UnitState& state, std::span<const double> in);  ///< all or nothing
 
   /// Takes effect at the next tick. The line's part (Faults::wiring) is the chain's.
   static void set_faults(UnitState& state, const Faults& faults) noexcept;
@@ -204,8 +209,8 @@ class Unit {
   [[nodiscard]] static constexpr std::int64_t first_tick_ns(std::int64_t t_ns) noexcept {
     return (t_ns + firmware::kTickNs - 1) / firmware::kTickNs * firmware::kTickNs;
   }
-  [[nodiscard]] actuator::Actuator& physics() noexcept { return actuator_; }
-  [[nodiscard]] const actuator::Actuator& physics() const noexcept { return actuator_; }
+  [[nodiscard]] actuator::Actuator& physics() noexcept { return actuator_; }  ///< motors, springs and the shaft's friction
+  [[nodiscard]] const actuator::Actuator& physics() const noexcept { return actuator_; }  ///< to look at
 
   /// A step's physics, for one unit or several side by side (src/device/unit_lanes.hpp).
   template <class T>

@@ -24,6 +24,7 @@
 
 namespace vsa::device {
 
+/// Units of one type, stepped together in lanes. One thread calls.
 class UnitBatch {
  public:
   /// All begin at time 0, at rest at equilibrium 0 and preset 0, the shaft at 0 (Unit::initial). `instructions`: "avx512", "avx2" or
@@ -37,16 +38,16 @@ class UnitBatch {
   /// Those that this machine can run, the fastest first.
   [[nodiscard]] static std::vector<std::string_view> instruction_sets();
 
-  [[nodiscard]] std::size_t size() const noexcept;
-  [[nodiscard]] const UnitConfig& config() const noexcept;
-  [[nodiscard]] std::string_view instructions() const noexcept;
+  [[nodiscard]] std::size_t size() const noexcept;               ///< units
+  [[nodiscard]] const UnitConfig& config() const noexcept;       ///< common to all
+  [[nodiscard]] std::string_view instructions() const noexcept;  ///< in use, as instruction_sets() names them
   /// How many units go side by side; 1: this type has no lanes.
   [[nodiscard]] int width() const noexcept;
-  [[nodiscard]] std::int64_t time_ns() const noexcept;
+  [[nodiscard]] std::int64_t time_ns() const noexcept;  ///< since the start
 
   /// A unit's state, as Unit has it; what its program waits for is in the batch's time. InputError: no such unit.
   [[nodiscard]] UnitState state(std::size_t unit) const;
-  void set(std::size_t unit, const UnitState& state);
+  void set(std::size_t unit, const UnitState& state);  ///< goes on from that state; InputError: no such unit
 
   /// Equilibrium (rad) and preset of a unit, from its next tick on. InputError: no such unit, numbers that aren't finite.
   void command(std::size_t unit, double equilibrium_rad, double preset);

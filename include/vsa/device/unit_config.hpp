@@ -15,9 +15,10 @@
 
 namespace vsa::device {
 
+/// All parameters of one unit. `memory` and `program` count only without a servo.
 struct UnitConfig {
-  actuator::ActuatorParams actuator;
-  firmware::ProgramParams program;
+  actuator::ActuatorParams actuator;  ///< motors, springs, shaft, encoders
+  firmware::ProgramParams program;    ///< what isn't in the EEPROM: model, dialect, generation
   firmware::Memory memory = firmware::initial_memory(firmware::Model::maker_pro);  ///< both EEPROM pages; the ID is the robot's
   double preset_max = 0.785;                                                       ///< accepted |preset| of a command in SI units
   double substep_max_s = 1e-3;                                                     ///< longest physics segment, (0, 1 ms]
@@ -32,6 +33,7 @@ struct UnitConfig {
   [[nodiscard]] bool references_limited() const noexcept {
     return servo ? is(control::ServoKind::position_servo) : memory.limits_on != 0;
   }
+  /// Whether it has this servo.
   [[nodiscard]] bool is(control::ServoKind kind) const noexcept { return servo && servo->kind == kind; }
   /// Of the preset that the unit takes as a command: N·m/rad with a torque servo, else the law's; empty: it takes none.
   [[nodiscard]] std::string_view preset_unit() const noexcept;

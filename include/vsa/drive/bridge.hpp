@@ -27,15 +27,17 @@ enum class PwmPin {
   enable  ///< open: the current runs out through the diodes against the supply (fast decay), the motor coasts at duty 0
 };
 
+/// An H-bridge and the PWM that drives it, as the equations above need them.
 struct BridgeParams {
   double dead_band = 0;        ///< [0, 1); none, as in the published firmware (the paper's Table I has 0.3)
   bool brake_when_off = true;  ///< off, inputs modulated: terminals shorted (true) or open (false). UNKNOWN for the maker pro.
-  PwmPin pin = PwmPin::input;
-  double period_s = 0;    ///< of the PWM, ≥ 0; 0: far below the winding's time constant, no ripple
-  double switch_Ohm = 0;  ///< both switches that the current passes, ≥ 0
-  double diode_V = 0;     ///< drop of one of the two diodes that it passes, ≥ 0
+  PwmPin pin = PwmPin::input;  ///< which pin the PWM modulates
+  double period_s = 0;         ///< of the PWM, ≥ 0; 0: far below the winding's time constant, no ripple
+  double switch_Ohm = 0;       ///< both switches that the current passes, ≥ 0
+  double diode_V = 0;          ///< drop of one of the two diodes that it passes, ≥ 0
   bool operator==(const BridgeParams&) const = default;
 };
+/// Dead band 0 … 0.99, period 0 … 1 s, all else ≥ 0.
 void validate(const BridgeParams& params, std::string_view where, Problems& problems);
 
 /// What a bridge with a modulated enable pin holds between two ticks.

@@ -14,10 +14,11 @@
 
 namespace vsa::drive {
 
+/// The step above for one motor, droop g and length h. Copyable, no allocation.
 class DroopStepper {
  public:
   DroopStepper() = default;
-  DroopStepper(const MotorParams& pulley_side, double droop_As_per_rad, double h_s) noexcept;
+  DroopStepper(const MotorParams& pulley_side, double droop_As_per_rad, double h_s) noexcept;  ///< g ≥ 0, A·s/rad; h > 0
 
   /// ∫ω for T = 0.
   [[nodiscard]] double free_displacement(double speed, double current_at_rest) const noexcept {
@@ -25,14 +26,15 @@ class DroopStepper {
   }
   /// ∂(∫ω)/∂T, rad/(N·m).
   [[nodiscard]] double compliance() const noexcept { return h_ * h_ * phi2_ / inertia_; }
+  /// The whole step: its end and the integrals for the ledger.
   [[nodiscard]] MotorStep step(double speed, double current_at_rest, double torque) const noexcept;
   /// ∫(ω − ω̄)² of the same step: what keeps its heat above that at the mean speed.
   [[nodiscard]] double spread(double speed, double current_at_rest, double torque) const noexcept {
     const double s = start_slope(speed, current_at_rest, torque);
     return h_ * h_ * h_ * psi_ * s * s;
   }
-  [[nodiscard]] double droop_As_per_rad() const noexcept { return droop_; }
-  [[nodiscard]] double h_s() const noexcept { return h_; }
+  [[nodiscard]] double droop_As_per_rad() const noexcept { return droop_; }  ///< g
+  [[nodiscard]] double h_s() const noexcept { return h_; }                   ///< the step length that it was made for
 
  private:
   [[nodiscard]] double start_slope(double speed, double current_at_rest, double torque) const noexcept {

@@ -22,15 +22,17 @@ class Problems;
 
 namespace vsa::drive {
 
+/// Hayward's and Armstrong's friction: the equations above.
 struct FrictionParams {
   double coulomb_Nm = 0;      ///< τ_c ≥ 0
   double presliding_rad = 0;  ///< z_max ≥ 0
   bool operator==(const FrictionParams&) const = default;
 };
-void validate(const FrictionParams& params, std::string_view where, Problems& problems);
+void validate(const FrictionParams& params, std::string_view where, Problems& problems);  ///< finite and ≥ 0
 
 /// The parameters with what every step needs of them, made once.
 struct Friction : FrictionParams {
+  /// Divides once for all steps.
   // NOLINTNEXTLINE(google-explicit-constructor): the same law, only prepared
   Friction(const FrictionParams& p) noexcept
       : FrictionParams(p), stiffness(p.presliding_rad > 0 && p.coulomb_Nm > 0 ? p.coulomb_Nm / p.presliding_rad : 0.0) {}
@@ -40,8 +42,9 @@ struct Friction : FrictionParams {
 /// The same where each lane has a limit of its own; the bristle's stiffness is common to all.
 template <class T>
 struct FrictionOf {
-  T coulomb_Nm = 0, presliding_rad = 0;
-  double stiffness = 0;
+  T coulomb_Nm = 0,        ///< τ_c
+      presliding_rad = 0;  ///< z_max
+  double stiffness = 0;    ///< τ_c/z_max
 };
 
 /// The friction under a load: τ_c grows by ratio·|load|, the bristle's stiffness stays (z_max grows with τ_c); without a bristle it
@@ -53,23 +56,25 @@ template <class T>
   return loaded;
 }
 
+/// What a part did in a step, and its friction with it.
 template <class T>
 struct FrictionStepOf {
   T displacement = 0;   ///< Δx, rad
   T torque = 0;         ///< τ̄ on the part, N·m
   T anchor_travel = 0;  ///< Δz, rad
 };
-using FrictionStep = FrictionStepOf<double>;
+using FrictionStep = FrictionStepOf<double>;  ///< of one part
 
 /// Torque and its slope −dτ/d(Δx).
 template <class T>
 struct FrictionTorqueOf {
-  T torque = 0, slope = 0;
+  T torque = 0,   ///< τ, N·m
+      slope = 0;  ///< −dτ/d(Δx), N·m/rad
 };
-using FrictionTorque = FrictionTorqueOf<double>;
+using FrictionTorque = FrictionTorqueOf<double>;  ///< of one part
 
-// Where a friction has no bristle, what holds depends on the sign of what pulls: that is written for one number only, and a caller with
-// several needs stiffness > 0 or no friction at all (kBristled).
+/// Whether there is a bristle. Without one, what holds depends on the sign of what pulls: that is written for one number only, and a
+/// caller with several lanes needs a bristle or no friction at all.
 template <class Params>
 [[nodiscard]] bool bristled(const Params& p) noexcept {
   return p.stiffness > 0;
@@ -113,8 +118,8 @@ template <class T, class Params>
 /// What a part does that gives way, and how much more for each N·m on it, rad/(N·m).
 template <class T>
 struct YieldingStepOf {
-  FrictionStepOf<T> step;
-  T gain = 0;
+  FrictionStepOf<T> step;  ///< its displacement and friction
+  T gain = 0;              ///< ∂(Δx) by ∂torque
 };
 
 /// Solves resist·Δx = free + compliance·τ̄(Δx) in closed form (one scalar, clamped).

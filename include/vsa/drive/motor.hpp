@@ -21,20 +21,22 @@
 
 namespace vsa::drive {
 
-inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();  ///< a number that somebody forgot
 
 /// At the motor's own shaft; forgotten numbers stay NaN, which device::Unit refuses by name.
 struct MotorParams {
-  double inertia_kgm2 = kMissing;
-  double viscous_Nms_per_rad = kMissing;
-  double torque_constant_Nm_per_A = kMissing;
-  double back_emf_Vs_per_rad = kMissing;
-  double resistance_Ohm = kMissing;
-  std::optional<double> inductance_H;  ///< none: I follows V and ω at once
+  double inertia_kgm2 = kMissing;              ///< J
+  double viscous_Nms_per_rad = kMissing;       ///< b
+  double torque_constant_Nm_per_A = kMissing;  ///< K_τ
+  double back_emf_Vs_per_rad = kMissing;       ///< K_b
+  double resistance_Ohm = kMissing;            ///< R of the winding
+  std::optional<double> inductance_H;          ///< none: I follows V and ω at once
   bool operator==(const MotorParams&) const = default;
 };
+/// Numbers that aren't finite, J or R that isn't above 0, negative ones.
 void validate(const MotorParams& params, std::string_view where, Problems& problems);
 
+/// A gearbox between motor and pulley, and what rubs in it.
 struct GearboxParams {
   double ratio = 1.0;         ///< n = motor turns per pulley turn, > 0
   FrictionParams friction{};  ///< loss torque at the motor's shaft (eq. 5) and its presliding at the PULLEY
@@ -42,12 +44,15 @@ struct GearboxParams {
   std::optional<double> back_loss{};  ///< λ where the load drives the motor back, ≥ 0: 1 − η; none: as load_loss
   bool operator==(const GearboxParams&) const = default;
 };
+/// A ratio that isn't above 0, negative losses.
 void validate(const GearboxParams& params, std::string_view where, Problems& problems);
 
 /// eq. (4)–(5): everything at the pulley.
 [[nodiscard]] MotorParams at_pulley(const MotorParams& motor, double ratio) noexcept;
+/// Presliding is the pulley's already and stays.
 [[nodiscard]] FrictionParams at_pulley(const FrictionParams& loss, double ratio) noexcept;
 
+/// Where a motor is and how it moves, told at its pulley.
 template <class T>
 struct MotorStateOf {
   T angle = 0;    ///< pulley, rad
@@ -57,11 +62,12 @@ struct MotorStateOf {
     return visit("angle", "rad", s.angle, "speed", "rad/s", s.speed, "current", "A", s.current);
   }
 };
-using MotorState = MotorStateOf<double>;
+using MotorState = MotorStateOf<double>;  ///< of one motor
 
 /// What the electrical side offers in a step.
+/// Driven: a voltage at the terminals; open: no current.
 enum class Terminal { driven, open };
-[[nodiscard]] constexpr int choices(Terminal) noexcept { return 2; }
+[[nodiscard]] constexpr int choices(Terminal) noexcept { return 2; }  ///< for the walk over states: values that a Terminal may have
 
 /// Exact results of a step of length h with constant voltage and torque.
 template <class T>
@@ -70,15 +76,17 @@ struct MotorStepOf {
   T speed = 0;         ///< at the end
   T current = 0;       ///< at the end
   T charge = 0;        ///< ∫I
-  T int_II = 0, int_ww = 0, int_Iw = 0;
+  T int_II = 0,        ///< ∫I² dt, A²·s
+      int_ww = 0,      ///< ∫ω² dt, rad²/s
+      int_Iw = 0;      ///< ∫Iω dt, A·rad
 };
-using MotorStep = MotorStepOf<double>;
+using MotorStep = MotorStepOf<double>;  ///< of one motor
 
 /// The exact step of one motor for one step length: z = (ω, I, V, T) → results. Copyable, no allocation.
 class MotorStepper {
  public:
   MotorStepper() = default;
-  MotorStepper(const MotorParams& pulley_side, Terminal terminal, double h_s) noexcept;
+  MotorStepper(const MotorParams& pulley_side, Terminal terminal, double h_s) noexcept;  ///< h > 0; open: without current all along
 
   /// ∫ω for T = 0: the displacement without load.
   template <class T = double>
@@ -96,7 +104,7 @@ class MotorStepper {
     }
     return without_inductance(s, voltage, torque);
   }
-  [[nodiscard]] double h_s() const noexcept { return h_; }
+  [[nodiscard]] double h_s() const noexcept { return h_; }  ///< the step length that it was made for
 
  private:
   using Row = std::array<double, 4>;

@@ -30,12 +30,15 @@ namespace vsa::drive {
 
 /// Mean current, A, and −∂ī/∂e, 1/Ω.
 struct PwmMean {
-  double current = 0, conductance = 0;
+  double current = 0,   ///< ī, A
+      conductance = 0;  ///< −∂ī/∂e, 1/Ω, ≥ 0
 };
 
 /// Mean powers, W: drawn from the supply (negative: fed back), heat of the winding, heat of switches and diodes.
 struct PwmPower {
-  double supply = 0, winding = 0, bridge = 0;
+  double supply = 0,  ///< drawn; negative: fed back
+      winding = 0,    ///< heat of the winding, ≥ 0
+      bridge = 0;     ///< heat of switches and diodes, ≥ 0
 };
 
 /// One duty, prepared: two exponentials. Evaluating it costs a logarithm at most. Ranges: R > 0; |d| ≤ 1; L ≤ 0 means T = 0.
@@ -45,11 +48,11 @@ class PwmCycle {
   /// `supply_V`: now, whatever the parameters say.
   PwmCycle(const BridgeParams& bridge, double supply_V, double resistance_Ohm, double inductance_H, double duty) noexcept;
 
-  [[nodiscard]] PwmMean mean(double emf_V) const noexcept;
-  [[nodiscard]] PwmPower power(double emf_V) const noexcept;
+  [[nodiscard]] PwmMean mean(double emf_V) const noexcept;    ///< of the periodic steady state at this e
+  [[nodiscard]] PwmPower power(double emf_V) const noexcept;  ///< at this e; what the supply gives less e ī is heat
   /// The supply that it was prepared for.
   [[nodiscard]] double supply_V() const noexcept { return supply_; }
-  [[nodiscard]] double duty() const noexcept { return duty_; }
+  [[nodiscard]] double duty() const noexcept { return duty_; }  ///< as it was given, −1 … 1
 
  private:
   /// Integrals over one phase of j(t) = j_end + (j_begin − j_end)e^(−t/τ), as parts of the period.

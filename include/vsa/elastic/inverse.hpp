@@ -23,13 +23,16 @@ namespace vsa::elastic {
 [[nodiscard]] std::optional<double> equilibrium_for(const Transmission& law, double q, double torque_Nm, double preset,
                                                     double reach_rad = 6.283185307179586) noexcept;
 
+/// What a command is to bring about at a shaft that stands.
 struct Wanted {
   double q = 0;                     ///< where the shaft is, rad
   double torque_Nm = 0;             ///< that the actuator is to give it, about +q
   double stiffness_Nm_per_rad = 0;  ///< > 0
 };
 
+/// What command_for() found.
 struct Command {
+  /// Why there is no command, if there is none.
   enum class Outcome {
     found,
     too_soft,            ///< wanted is less than the least stiffness at this torque
@@ -37,11 +40,12 @@ struct Command {
     torque_unreachable,  ///< no preset allowed reaches the torque within a turn
     not_a_number         ///< an argument isn't finite, or is negative where it can't be
   };
-  Outcome outcome = Outcome::not_a_number;
-  EquilibriumPreset command;                    ///< where found; else that of the nearest stiffness, if there is one
-  double stiffness_min = 0, stiffness_max = 0;  ///< what the presets 0 … preset_max reach at this torque, N·m/rad
-  [[nodiscard]] bool found() const noexcept { return outcome == Outcome::found; }
-  [[nodiscard]] std::string text() const;  ///< the outcome in words, with the range
+  Outcome outcome = Outcome::not_a_number;  ///< whether `command` gives what was wanted
+  EquilibriumPreset command;                ///< where found; else that of the nearest stiffness, if there is one
+  double stiffness_min = 0,                 ///< the least that the presets 0 … preset_max reach at this torque, N·m/rad
+      stiffness_max = 0;                    ///< the largest, N·m/rad
+  [[nodiscard]] bool found() const noexcept { return outcome == Outcome::found; }  ///< `command` gives torque and stiffness, both
+  [[nodiscard]] std::string text() const;                                          ///< the outcome in words, with the range
 };
 
 /// `preset_max`: largest preset allowed, ≥ 0, in the law's unit (UnitConfig::preset_max); 0 for a law without presets.

@@ -45,16 +45,17 @@ inline constexpr std::uint32_t kLawInterface = 2;
 
 /// What a library exports as vsa_law_module. `interface` tells whether the rest is as this header has it, so it stays first.
 struct LawModule {
-  std::uint32_t interface;
-  std::uint32_t count;  ///< of laws
-  std::uint64_t layout;
-  const char* abi;
-  const char* version;
-  const Law* const* laws;
+  std::uint32_t interface;  ///< kLawInterface of the headers that it was compiled with
+  std::uint32_t count;      ///< of laws
+  std::uint64_t layout;     ///< law_layout(), likewise
+  const char* abi;          ///< VSA_LAW_ABI, likewise
+  const char* version;      ///< VSA_LAW_VERSION, likewise
+  const Law* const* laws;   ///< `count` of them
 };
 
 }  // namespace vsa::elastic
 
+/// Once in a library, with a pointer to each of its laws.
 #define VSA_EXPORT_LAWS(...)                                                                  \
   namespace {                                                                                 \
   constexpr const vsa::elastic::Law* vsa_exported_laws[] = {__VA_ARGS__};                     \

@@ -11,15 +11,16 @@
 
 namespace vsa::elastic {
 
+/// One motor and one linear spring: the law above.
 class SeriesSpring final : public Transmission {
  public:
-  explicit SeriesSpring(double stiffness_Nm_per_rad) noexcept : stiffness_(stiffness_Nm_per_rad) {}
+  explicit SeriesSpring(double stiffness_Nm_per_rad) noexcept : stiffness_(stiffness_Nm_per_rad) {}  ///< k > 0
 
-  [[nodiscard]] Response evaluate(const Positions& at) const noexcept override;
+  [[nodiscard]] Response evaluate(const Positions& at) const noexcept override;  ///< the law above, load₁ = 0
   [[nodiscard]] SegmentMean mean_over(const Positions& from, const Positions& to) const noexcept override;
   [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& command) const noexcept override;
   [[nodiscard]] EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override;
-  [[nodiscard]] int motor_count() const noexcept override { return 1; }
+  [[nodiscard]] int motor_count() const noexcept override { return 1; }  ///< input 1 isn't there
   [[nodiscard]] int spring_count() const noexcept override { return 1; }
   [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override;
   [[nodiscard]] bool equals(const Transmission& other) const noexcept override;

@@ -28,26 +28,27 @@ namespace vsa::elastic {
 /// Where the transmission is: shaft and the two inputs. A law with one motor ignores x[1].
 template <class T>
 struct PositionsOf {
-  T q = 0;
-  std::array<T, 2> x{};
+  T q = 0;               ///< rad (m where it slides)
+  std::array<T, 2> x{};  ///< rad (m where it is a travel)
   static auto fields(auto& s, auto&& visit) { return visit("q", "rad", s.q, "x", "rad", s.x); }
 };
-using Positions = PositionsOf<double>;
+using Positions = PositionsOf<double>;  ///< of one unit
 
 /// Second derivatives of H (or of its mean over a segment; see SegmentMean).
 template <class T>
 struct HessianOf {
-  T qq = 0;
-  std::array<T, 2> qx{};
+  T qq = 0;               ///< σ
+  std::array<T, 2> qx{};  ///< ∂²H/∂q∂x_i, N·m/rad
+  /// ∂²H/∂x_i∂x_j, N·m/rad, symmetric.
   T x0x0 = 0;
-  T x0x1 = 0;
-  T x1x1 = 0;
+  T x0x1 = 0;  ///< likewise
+  T x1x1 = 0;  ///< likewise
   static auto fields(auto& s, auto&& visit) {
     return visit("qq", "N·m/rad", s.qq, "qx", "N·m/rad", s.qx, "x0x0", "N·m/rad", s.x0x0, "x0x1", "N·m/rad", s.x0x1, "x1x1",
                  "N·m/rad", s.x1x1);
   }
 };
-using Hessian = HessianOf<double>;
+using Hessian = HessianOf<double>;  ///< of one unit
 
 /// Everything a law says at one place.
 struct Response {
@@ -63,25 +64,25 @@ struct Response {
 /// Midpoint-rule integrators that use these means conserve energy exactly, however stiff the law.
 template <class T>
 struct SegmentMeanOf {
-  T torque = 0;
-  std::array<T, 2> load{};
-  HessianOf<T> slope;
+  T torque = 0;             ///< τ̄, N·m
+  std::array<T, 2> load{};  ///< likewise load̄, N·m
+  HessianOf<T> slope;       ///< for the segment's end, N·m/rad
   static auto fields(auto& s, auto&& visit) {
     return visit("torque", "N·m", s.torque, "load", "N·m", s.load, "slope", "", s.slope);
   }
 };
-using SegmentMean = SegmentMeanOf<double>;
+using SegmentMean = SegmentMeanOf<double>;  ///< of one unit
 
 /// A place, and what the law keeps of it, so that means over segments that begin there and places close to it cost little. What is
 /// kept means nothing to anyone else; a law may keep nothing.
 template <class T>
 struct OriginOf {
-  PositionsOf<T> at;
-  std::array<T, 4> kept{};
+  PositionsOf<T> at;          ///< shaft and inputs there
+  std::array<T, 4> kept{};    ///< of the law's own making
   lanes::Count<T> moves = 0;  ///< since it was worked out from `at` alone
   static auto fields(auto& s, auto&& visit) { return visit("at", "", s.at, "kept", "", s.kept, "moves", "", s.moves); }
 };
-using Origin = OriginOf<double>;
+using Origin = OriginOf<double>;  ///< of one unit
 
 /// The spring's own slope and tensions at a place: what tells how fast the swing on it is.
 template <class T>
@@ -89,20 +90,23 @@ struct TangentOf {
   T stiffness = 0;             ///< σ = ∂²H/∂q², N·m/rad
   std::array<T, 2> tension{};  ///< |T_i| of the springs that the law names, N·m
 };
-using Tangent = TangentOf<double>;
+using Tangent = TangentOf<double>;  ///< of one unit
 
 /// What a user commands. The preset's unit belongs to the law (see Transmission::preset_unit).
 struct EquilibriumPreset {
   double equilibrium = 0;  ///< rad
-  double preset = 0;
+  double preset = 0;       ///< p, in the law's unit
 };
 
+/// A law: what stores energy between motors and shaft. Immutable, so that units and threads share one; everything is pure,
+/// allocates nothing and throws nothing. An override is called millions of times a second.
 class Transmission {
  public:
   virtual ~Transmission() = default;
   Transmission(const Transmission&) = delete;
   Transmission& operator=(const Transmission&) = delete;
 
+  /// H, its gradient and its second derivatives at one place.
   [[nodiscard]] virtual Response evaluate(const Positions& at) const noexcept = 0;
 
   /// H alone; override where it is cheaper than evaluate().
@@ -115,14 +119,17 @@ class Transmission {
   /// The three together: where many segments follow each other, as in a simulation. They give what the functions of Positions do,
   /// but for rounding, which moved() doesn't let grow. Defaults keep nothing and call those.
   [[nodiscard]] virtual Origin origin(const Positions& at) const noexcept { return {at}; }
+  /// The origin at `to`, worked out from one close by.
   [[nodiscard]] virtual Origin moved(const Origin&, const Positions& to) const noexcept { return origin(to); }
   /// The mean over from → to with the shaft (not the inputs) moved ahead by `ahead_rad` at both ends.
   [[nodiscard]] virtual SegmentMean mean_from(const Origin& from, const Positions& to, double ahead_rad) const noexcept {
     return mean_over({from.at.q + ahead_rad, from.at.x}, {to.q + ahead_rad, to.x});
   }
+  /// σ and |T_i| at an origin. Default: of evaluate(), |load_i| for the tensions.
   [[nodiscard]] virtual Tangent tangent_of(const Origin& here) const noexcept;
   /// H and w (below) at an origin.
   [[nodiscard]] virtual double energy_of(const Origin& here) const noexcept { return energy(here.at); }
+  /// w_i at an origin.
   [[nodiscard]] virtual std::array<double, 2> signed_energies_of(const Origin& here) const noexcept {
     return signed_energies(here.at);
   }
@@ -139,6 +146,7 @@ class Transmission {
     return std::nullopt;
   }
 
+  /// 1 or 2; with 1 all of x[1], load[1] and their slopes count for nothing.
   [[nodiscard]] virtual int motor_count() const noexcept { return 2; }
   /// Springs whose tension a loss can be proportional to (actuator/actuator.hpp): spring i lies between input i and the shaft, with
   /// deflection δ_i = q − x_i. 0: the law names none, and such a loss is refused.

@@ -22,32 +22,37 @@ namespace vsa::elastic {
 
 /// Lead of each input that is a travel, m/rad, and the radius of a pinion at a shaft that is one, m.
 struct Leads {
-  std::array<std::optional<double>, 2> input;
-  std::optional<double> shaft;
+  std::array<std::optional<double>, 2> input;  ///< of a pulley; none: the law's input is an angle
+  std::optional<double> shaft;                 ///< of a pinion; none: the law's shaft turns, or its travel is the actuator's own
   bool operator==(const Leads&) const = default;
 };
 
+/// A law behind leads and a pinion: the equations above, so that all outside sees angles.
 class Travel final : public Transmission {
  public:
+  /// The leads as they are: validate() looks at them.
   Travel(std::shared_ptr<const Transmission> law, const Leads& leads) noexcept;
 
+  /// The one behind, with its own units.
   [[nodiscard]] const std::shared_ptr<const Transmission>& law() const noexcept { return law_; }
-  [[nodiscard]] const Leads& leads() const noexcept { return leads_; }
+  [[nodiscard]] const Leads& leads() const noexcept { return leads_; }  ///< as given
 
-  [[nodiscard]] Response evaluate(const Positions& at) const noexcept override;
+  [[nodiscard]] Response evaluate(const Positions& at) const noexcept override;  ///< in the angles ψ and φ, as all below
   [[nodiscard]] double energy(const Positions& at) const noexcept override;
   [[nodiscard]] SegmentMean mean_over(const Positions& from, const Positions& to) const noexcept override;
   [[nodiscard]] Origin origin(const Positions& at) const noexcept override;
-  [[nodiscard]] Origin moved(const Origin& from, const Positions& to) const noexcept override;
+  [[nodiscard]] Origin moved(const Origin& from, const Positions& to) const noexcept override;  ///< by the law's own
   [[nodiscard]] SegmentMean mean_from(const Origin& from, const Positions& to, double ahead_rad) const noexcept override;
+  /// σ at the joint; tensions of the springs that are left.
   [[nodiscard]] Tangent tangent_of(const Origin& here) const noexcept override;
   [[nodiscard]] double energy_of(const Origin& here) const noexcept override;
+  /// Of the springs that are left.
   [[nodiscard]] std::array<double, 2> signed_energies_of(const Origin& here) const noexcept override;
   [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& command) const noexcept override;
   [[nodiscard]] EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override;
   [[nodiscard]] std::optional<EquilibriumPreset> command_exactly(double q, double torque_Nm,
                                                                  double stiffness_Nm_per_rad) const noexcept override;
-  [[nodiscard]] int motor_count() const noexcept override { return law_->motor_count(); }
+  [[nodiscard]] int motor_count() const noexcept override { return law_->motor_count(); }  ///< the law's
   /// None where one would lie behind a travel: it has no deflection q − φ.
   [[nodiscard]] int spring_count() const noexcept override;
   [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override;

@@ -24,6 +24,7 @@
 
 namespace vsa::elastic {
 
+/// Numbers of the two springs.
 struct TwoSinhParams {
   std::array<double, 2> k_Nm{};                                        ///< torque scale of each spring, > 0
   std::array<double, 2> a_per_rad{};                                   ///< hardening rate of each spring, > 0
@@ -34,10 +35,12 @@ struct TwoSinhParams {
 /// Keys as files have them: "k1_Nm".
 void validate(const TwoSinhParams& params, std::string_view where, Problems& problems);
 
+/// The law above, from its closed forms. For a symmetric pair command_exactly() has one, too.
 class TwoSinh final : public Transmission {
  public:
-  explicit TwoSinh(const TwoSinhParams& params) noexcept;
+  explicit TwoSinh(const TwoSinhParams& params) noexcept;  ///< unchecked: validate() is the caller's
 
+  /// By exp_less_1(), so the same bits on every machine.
   [[nodiscard]] Response evaluate(const Positions& at) const noexcept override;
   [[nodiscard]] double energy(const Positions& at) const noexcept override;
   /// Closed form: the mean of k sinh(a δ) from δ₀ to δ₁ is k sinh(a m) sinhc(a Δ/2), m = (δ₀+δ₁)/2, Δ = δ₁−δ₀.
@@ -45,11 +48,12 @@ class TwoSinh final : public Transmission {
   /// Kept: sinh and cosh − 1 of each a_i δ_i. From there the addition theorems give a segment's means and the next origin by short
   /// series, without exp, as long as no a_i δ_i moves by more than 0.1; every 64th origin is worked out anew.
   [[nodiscard]] Origin origin(const Positions& at) const noexcept override;
+  /// By addition theorems, see origin().
   [[nodiscard]] Origin moved(const Origin& from, const Positions& to) const noexcept override;
   [[nodiscard]] SegmentMean mean_from(const Origin& from, const Positions& to, double ahead_rad) const noexcept override;
-  [[nodiscard]] Tangent tangent_of(const Origin& here) const noexcept override;
+  [[nodiscard]] Tangent tangent_of(const Origin& here) const noexcept override;  ///< in closed form
   [[nodiscard]] double energy_of(const Origin& here) const noexcept override;
-  [[nodiscard]] std::array<double, 2> signed_energies_of(const Origin& here) const noexcept override;
+  [[nodiscard]] std::array<double, 2> signed_energies_of(const Origin& here) const noexcept override;  ///< in closed form
   [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& command) const noexcept override;
   [[nodiscard]] EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override;
 
@@ -59,19 +63,23 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] int spring_count() const noexcept override { return 2; }
   [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override;
 
-  // The same for units side by side; defined where lanes are (vsa/elastic/two_sinh_lanes.hpp). What is rare goes lane by lane.
+  /// The same for units side by side; defined where lanes are (vsa/elastic/two_sinh_lanes.hpp). What is rare goes lane by lane.
+  /// As moved(); lanes that went far are worked out anew, one by one.
   template <class T>
   [[nodiscard]] OriginOf<T> moved_lanes(const OriginOf<T>& from, const PositionsOf<T>& to) const noexcept;
+  /// As mean_from().
   template <class T>
   [[nodiscard]] SegmentMeanOf<T> mean_lanes(const OriginOf<T>& from, const PositionsOf<T>& to, T ahead_rad) const noexcept;
+  /// As tangent_of().
   template <class T>
   [[nodiscard]] TangentOf<T> tangent_lanes(const OriginOf<T>& here) const noexcept;
+  /// As signed_energies_of().
   template <class T>
   [[nodiscard]] std::array<T, 2> signed_energies_lanes(const OriginOf<T>& here) const noexcept;
 
   [[nodiscard]] bool equals(const Transmission& other) const noexcept override;
   void validate(std::string_view where, Problems& problems) const override;
-  [[nodiscard]] const TwoSinhParams& params() const noexcept { return params_; }
+  [[nodiscard]] const TwoSinhParams& params() const noexcept { return params_; }  ///< as given
 
  private:
   struct Spring {

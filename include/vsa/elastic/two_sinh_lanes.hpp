@@ -16,13 +16,16 @@ inline constexpr int kMoves = 64;      // origins from each other: rounding grow
 /// sinh and cosh − 1.
 template <class T>
 struct HyperbolicOf {
-  T sinh, cosh, cosh_less_1;
+  T sinh,           ///< sinh u
+      cosh,         ///< cosh u
+      cosh_less_1;  ///< cosh u − 1
 };
 
 /// sinhc z = sinh z / z and its derivative.
 template <class T>
 struct SinhcOf {
-  T value, slope;
+  T value,    ///< sinhc z
+      slope;  ///< d sinhc/dz
 };
 
 /// By Taylor to z⁸: below 1 ulp of 1 for |z| < 0.1.

@@ -33,21 +33,25 @@ class Handle {
   std::uint32_t index_ = 0, tag_ = 0;  // of the world's names; 0: of no world
 };
 using JointHandle = Handle<struct JointKind>;  ///< of a joint with one axis
-using LinkHandle = Handle<struct LinkKind>;
+using LinkHandle = Handle<struct LinkKind>;    ///< of a link, static ones too
 
+/// What a world knows of one of its joints, as its file has it: World::joints(), where a JointHandle's index leads.
 struct JointInfo {
+  /// Universal: two axes.
   enum class Type { fixed, revolute, prismatic, ball, universal };
-  std::string name;  ///< scoped: "model::joint"
-  Type type = Type::fixed;
+  std::string name;         ///< scoped: "model::joint"
+  Type type = Type::fixed;  ///< only revolute and prismatic ones, with their one axis, have handles, angles and speeds
   std::optional<std::array<double, 2>> range;  ///< of its one axis, rad or m; none: without limits
   std::optional<std::size_t> actuator;         ///< that drives it: an index into World::actuators()
   /// Its first degree of freedom: where it stands in vectors and matrices of World::dof_count(). Revolute, prismatic: 1; universal:
   /// 2; ball: 3 (angular velocity in the child's axes). None where it has no motion.
   std::optional<std::size_t> dof;
-  // Of its one axis, what the file gives the joint beside an actuator; N·m per rad (a prismatic one's: N per m):
-  double damping = 0, stiffness = 0, rest = 0;  ///< torque −stiffness (q − rest) − damping q̇
-  double dry_friction = 0;                      ///< N·m
-  std::optional<std::size_t> follows;           ///< the joint that it follows (<mimic>): an index into World::joints()
+  /// Of its one axis, what the file gives the joint beside an actuator: torque −stiffness (q − rest) − damping q̇.
+  double damping = 0,                  ///< N·m·s/rad; N·s/m of a prismatic one
+      stiffness = 0,                   ///< N·m/rad; N/m of a prismatic one
+      rest = 0;                        ///< where its spring rests, rad or m
+  double dry_friction = 0;             ///< N·m; N of a prismatic one
+  std::optional<std::size_t> follows;  ///< the joint that it follows (`<mimic>`): an index into World::joints()
 };
 
 }  // namespace vsa::engine

@@ -9,8 +9,10 @@
 
 namespace vsa::engine {
 
+/// One of the files that a world becomes: a file name without a directory, and what is in it.
 struct ExportedFile {
-  std::string name, bytes;
+  std::string name,  ///< without a directory
+      bytes;         ///< what is in it
 };
 
 /// A world in MuJoCo's format, with what else a World needs in a file beside it (vsa/physics/mjcf.hpp): loaded again it moves bit for

@@ -20,19 +20,20 @@ inline constexpr std::array kPresetShares{0.0, 0.25, 0.5, 0.75, 0.9};
 
 /// The actuator at one attained preset, computed.
 struct PresetColumn {
-  double preset = 0;
-  double stiffness_at_rest_Nm_per_rad = 0;
-  Reach peak;       ///< at standstill, begins to move the load
-  Reach holding;    ///< at standstill, both motors at full voltage
-  Reach unpowered;  ///< at standstill, held by friction; NaN: the springs turn the motors back
-  double no_load_speed_rad_per_s = 0;
-  BestPower power;
-  double energy_at_rest_J = 0;
-  double half_load_Nm = 0;  ///< half of what it moves at its peak
-  double stiffness_at_half_Nm_per_rad = 0;
-  Holding held_at_rest, held_at_half;
-  std::vector<WorkspacePoint> boundary;
-  std::vector<LawPoint> curve;
+  double preset = 0;                        ///< attained, in the law's unit
+  double stiffness_at_rest_Nm_per_rad = 0;  ///< σ there, the shaft unloaded
+  Reach peak;                               ///< at standstill, begins to move the load
+  Reach holding;                            ///< at standstill, both motors at full voltage
+  Reach unpowered;                          ///< at standstill, held by friction; NaN: the springs turn the motors back
+  double no_load_speed_rad_per_s = 0;       ///< of the unloaded shaft
+  BestPower power;                          ///< along the boundary
+  double energy_at_rest_J = 0;              ///< H with the shaft unloaded
+  double half_load_Nm = 0;                  ///< half of what it moves at its peak
+  double stiffness_at_half_Nm_per_rad = 0;  ///< σ there
+  Holding held_at_rest,                     ///< unloaded
+      held_at_half;                         ///< at half of what it moves
+  std::vector<WorkspacePoint> boundary;     ///< speeds at which it still moves something
+  std::vector<LawPoint> curve;              ///< the law alone, under a load
 };
 
 /// The position loop's errors, one motor without load.
@@ -41,16 +42,17 @@ struct LoopErrors {
   double full_rad = 0;   ///< where the output is full
 };
 
+/// A data sheet's numbers, computed: of law and drive at a few presets.
 struct DataSheet {
-  config::ActuatorType type;
-  std::array<MotorLine, 2> line;  ///< of each motor; where the law has one, it twice
-  std::array<LoopErrors, 2> errors;
-  double attainable_preset = 0;
+  config::ActuatorType type;          ///< that it is about
+  std::array<MotorLine, 2> line;      ///< of each motor; where the law has one, it twice
+  std::array<LoopErrors, 2> errors;   ///< of each motor
+  double attainable_preset = 0;       ///< the largest that both motors wind the springs to
   double stiffest_Nm_per_rad = 0;     ///< at rest with that preset
   std::vector<PresetColumn> columns;  ///< kPresetShares of the attainable preset; one for a law without
   double most_energy_J = 0;           ///< over all reachable presets and loads
 };
 
-[[nodiscard]] DataSheet data_sheet(const config::ActuatorType& type);
+[[nodiscard]] DataSheet data_sheet(const config::ActuatorType& type);  ///< computed; nothing is simulated
 
 }  // namespace vsa::experiment

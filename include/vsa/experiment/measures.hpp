@@ -14,8 +14,10 @@ struct Loop {
   double area_Nm_rad = 0;         ///< ∫(falling − rising) dτ by trapezoids; > 0 where energy is lost
   double mean_width_rad = 0;      ///< mean of (falling − rising)
   double mean_abs_width_rad = 0;  ///< mean of |falling − rising|
-  double largest_width_rad = 0, smallest_width_rad = 0;
-  double peak_rising_rad = 0, peak_falling_rad = 0;  ///< largest |deflection| of each branch
+  double largest_width_rad = 0,   ///< of falling − rising
+      smallest_width_rad = 0;     ///< of falling − rising; negative: they cross
+  double peak_rising_rad = 0,     ///< largest abs(δ) of the rising branch
+      peak_falling_rad = 0;       ///< of the falling branch
 };
 /// All NaN with fewer than two common points.
 [[nodiscard]] Loop loop(const Branches& branches);
@@ -25,8 +27,12 @@ struct Loop {
 /// mean of the branches. A point is left out where a branch doesn't fill the window or a slope isn't positive. The law's own
 /// curvature biases σ by less than 3 % for the qbmove maker pro's law from preset 0.3 rad up, and 9 % below (tests).
 struct StiffnessPoint {
-  double deflection_rad = 0, torque_Nm = 0, stiffness_Nm_per_rad = 0, standard_error_Nm_per_rad = 0;
+  double deflection_rad = 0,          ///< δ
+      torque_Nm = 0,                  ///< τ
+      stiffness_Nm_per_rad = 0,       ///< σ there
+      standard_error_Nm_per_rad = 0;  ///< of σ
 };
+/// Increasing in the deflection; empty where nothing fits.
 [[nodiscard]] std::vector<StiffnessPoint> stiffness_curve(const Branches& branches, double window_Nm = 0.4);
 
 /// A step response y(t), commanded from `from` to `to`, time in s. "Attained change" is final value − from. Rates are per second in

@@ -39,28 +39,34 @@ namespace vsa::experiment {
 
 /// A motor with its gearbox at full voltage, at the pulley.
 struct MotorLine {
-  double full_duty = 0;         ///< of the supply, at full output
-  double voltage_V = 0;         ///< V
-  double stall_Nm = 0;          ///< K_τ V/R, before friction; with a servo no more than its current gives
-  double stall_current_A = 0;   ///< V/R, or the servo's limit
-  double friction_Nm = 0;       ///< τ_c
-  double back_Nms_per_rad = 0;  ///< K_τ K_b/R + b
-  double torque_constant_Nm_per_A = 0, resistance_Ohm = 0;    ///< K_τ; R in the way of V
-  double full_Nm = 0;                                         ///< K_τ V/R whatever limits the current
+  double full_duty = 0;                 ///< of the supply, at full output
+  double voltage_V = 0;                 ///< V
+  double stall_Nm = 0;                  ///< K_τ V/R, before friction; with a servo no more than its current gives
+  double stall_current_A = 0;           ///< V/R, or the servo's limit
+  double friction_Nm = 0;               ///< τ_c
+  double back_Nms_per_rad = 0;          ///< K_τ K_b/R + b
+  double torque_constant_Nm_per_A = 0,  ///< K_τ
+      resistance_Ohm = 0;               ///< R in the way of V
+  double full_Nm = 0;                   ///< K_τ V/R whatever limits the current
   double limit_Nm = std::numeric_limits<double>::infinity();  ///< K_τ I_max of a servo
   double viscous_Nms_per_rad = 0;                             ///< b
   double load_loss = 0;                                       ///< λ
   double back_loss = 0;                                       ///< λ where the load drives the motor back
   /// The enable pin is modulated: the motor at full duty, both ways.
   struct Chopped {
-    drive::PwmCycle along, against;
-    double torque_constant_Nm_per_A = 0, back_emf_Vs_per_rad = 0, viscous_Nms_per_rad = 0;
+    drive::PwmCycle along,  ///< full duty, driving the motor
+        against;            ///< full duty, braking it
+    /// K_τ, K_b, b at the pulley.
+    double torque_constant_Nm_per_A = 0,  ///< K_τ
+        back_emf_Vs_per_rad = 0,          ///< K_b
+        viscous_Nms_per_rad = 0;          ///< b
+    /// M of a cycle at a speed.
     [[nodiscard]] double torque_Nm(const drive::PwmCycle& cycle, double speed_rad_per_s) const noexcept {
       return torque_constant_Nm_per_A * cycle.mean(back_emf_Vs_per_rad * speed_rad_per_s).current -
              viscous_Nms_per_rad * speed_rad_per_s;
     }
   };
-  std::optional<Chopped> chopped;
+  std::optional<Chopped> chopped;  ///< of a bridge whose enable pin is modulated
 
   [[nodiscard]] double most_Nm(double speed_rad_per_s) const noexcept;   ///< M⁺; negative beyond the no-load speed
   [[nodiscard]] double least_Nm(double speed_rad_per_s) const noexcept;  ///< M⁻
@@ -72,6 +78,7 @@ struct MotorLine {
 /// Mean voltage that a standing motor gets at a controller output, V: its current times the resistance in its way.
 [[nodiscard]] double standing_voltage(const device::UnitConfig& unit, std::size_t motor, double output, double full_duty) noexcept;
 
+/// What the actuator is to do with its load.
 enum class Task {
   move,      ///< turn against the load at a speed; at speed 0: begin to
   hold,      ///< stand still, both motors at full voltage
@@ -88,14 +95,17 @@ struct Reach {
 
 /// One point of the boundary of the torque–speed–stiffness workspace.
 struct WorkspacePoint {
-  double speed_rad_per_s = 0;
-  Reach reach;
+  double speed_rad_per_s = 0;  ///< ω
+  Reach reach;                 ///< the largest load at it
 };
 
 /// Output power at its largest along a boundary.
 struct BestPower {
-  double power_W = 0, torque_Nm = 0, speed_rad_per_s = 0;
+  double power_W = 0,       ///< P = τω
+      torque_Nm = 0,        ///< τ there
+      speed_rad_per_s = 0;  ///< ω there
 };
+/// The point of the boundary with the most power.
 [[nodiscard]] BestPower best_power(const std::vector<WorkspacePoint>& boundary);
 
 /// What a place at standstill costs. NaN where full voltage doesn't hold it, or the law doesn't.
@@ -106,12 +116,15 @@ struct Holding {
 
 /// The law under an external load at a preset, pulleys held: what a torque–deflection curve shows.
 struct LawPoint {
-  double deflection_rad = 0, load_Nm = 0, stiffness_Nm_per_rad = 0;
+  double deflection_rad = 0,     ///< δ
+      load_Nm = 0,               ///< external
+      stiffness_Nm_per_rad = 0;  ///< σ
 };
 
+/// What an actuator can do at constant speed (see above), worked out from its parameters alone.
 class Workspace {
  public:
-  explicit Workspace(const device::UnitConfig& unit);
+  explicit Workspace(const device::UnitConfig& unit);  ///< parameters that device::validate() passes
 
   /// Of each motor; where the law has one, it twice.
   [[nodiscard]] const std::array<MotorLine, 2>& lines() const noexcept { return lines_; }
@@ -125,7 +138,7 @@ class Workspace {
   [[nodiscard]] std::vector<WorkspacePoint> boundary(double preset, int points) const;
   /// Between the largest loads that the motors move in both directions.
   [[nodiscard]] std::vector<LawPoint> law_curve(double preset, int points) const;
-  [[nodiscard]] double stiffness_at_rest(double preset) const;
+  [[nodiscard]] double stiffness_at_rest(double preset) const;  ///< σ with the shaft unloaded
   /// H with the shaft unloaded.
   [[nodiscard]] double energy_at_rest(double preset) const;
   /// σ with the pulleys held under an external load; NaN beyond what the motors move.

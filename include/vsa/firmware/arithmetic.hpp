@@ -9,13 +9,13 @@
 
 namespace vsa::firmware {
 
-constexpr std::int32_t wrap_add(std::int32_t a, std::int32_t b) noexcept {
+constexpr std::int32_t wrap_add(std::int32_t a, std::int32_t b) noexcept {  ///< a + b in two's complement, as the next ones
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
-constexpr std::int32_t wrap_sub(std::int32_t a, std::int32_t b) noexcept {
+constexpr std::int32_t wrap_sub(std::int32_t a, std::int32_t b) noexcept {  ///< a − b
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
 }
-constexpr std::int32_t wrap_mul(std::int32_t a, std::int32_t b) noexcept {
+constexpr std::int32_t wrap_mul(std::int32_t a, std::int32_t b) noexcept {  ///< a · b, its lower 32 bits
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b));
 }
 /// The processor shifts bit by bit, so that any count has a meaning: 32 and more leave nothing …

@@ -40,8 +40,9 @@
 
 namespace vsa::firmware {
 
-inline constexpr std::int64_t kTickNs = 1'000'000;
+inline constexpr std::int64_t kTickNs = 1'000'000;  ///< of the program
 
+/// What the program holds: the modes of the equations above. Others give no output.
 enum class ControlMode : std::uint8_t {
   position = 0,
   pwm = 1,
@@ -53,9 +54,9 @@ enum class ControlMode : std::uint8_t {
 
 /// What the electronics hand to a tick.
 struct TickInputs {
-  std::array<std::int32_t, 3> encoder{};  ///< samples within the turn, raw (sensor::encoder_sample): −32768…32767
-  std::array<int, 2> current_adc{};
-  int supply_adc = 0;
+  std::array<std::int32_t, 3> encoder{};             ///< samples within the turn, raw (sensor::encoder_sample): −32768…32767
+  std::array<int, 2> current_adc{};                  ///< counts of the motors' current sensors
+  int supply_adc = 0;                                ///< of the supply sensor
   std::array<bool, 3> encoder_ok{true, true, true};  ///< the word's parity
 };
 
@@ -71,23 +72,36 @@ struct Orders {
 
 /// As at power-up.
 struct ControllerState {
-  std::array<std::int32_t, 3> meas{}, meas_old{};  ///< multi-turn raw positions: motor 1, motor 2, shaft
-  std::array<std::int32_t, 3> last_sample{};
-  std::array<std::int8_t, 3> turns{};
-  std::array<std::uint8_t, 3> rejected{};  ///< consecutive jumps discarded
-  std::array<std::int32_t, 2> ref{}, ref_old{}, ref_new{};
-  Orders orders{}, orders_old{}, orders_new{};
-  std::array<std::int32_t, 2> error_sum{}, current_error_sum{}, current_error_before{};
+  std::array<std::int32_t, 3> meas{},         ///< multi-turn raw positions: motor 1, motor 2, shaft
+      meas_old{};                             ///< of the last tick
+  std::array<std::int32_t, 3> last_sample{};  ///< the last that was believed, offset added
+  std::array<std::int8_t, 3> turns{};         ///< whole turns since power-up
+  std::array<std::uint8_t, 3> rejected{};     ///< consecutive jumps discarded
+  /// Raw references: in force, of the tick before, of the next.
+  std::array<std::int32_t, 2> ref{},  ///< raw references in force
+      ref_old{},                      ///< of the tick before
+      ref_new{};                      ///< of the next
+  /// Likewise of the rest of a set of references.
+  Orders orders{},   ///< in force
+      orders_old{},  ///< of the tick before
+      orders_new{};  ///< of the next
+  /// Σe of the positions, Σε of the currents, and the error of the tick before.
+  std::array<std::int32_t, 2> error_sum{},        ///< Σe
+      current_error_sum{},                        ///< Σε
+      current_error_before{};                     ///< ε of the tick before
   std::array<std::int32_t, 2> pwm{};              ///< percent before the supply limit, ±100
   std::array<std::int32_t, 2> duty{};             ///< percent that goes out, signed by the direction pin
   std::array<bool, 2> forward{};                  ///< direction pins
   std::array<std::int8_t, 2> current_sign{1, 1};  ///< of the duty, for the current reading
   std::array<std::int32_t, 2> rate_before{};      ///< advanced: the rate limit's memory; as it is, only [0]
   std::array<std::int32_t, 2> current_filter{};   ///< the filter's memory, mA << 6
-  std::array<MilliAmp, 2> current{}, current_old{}, current_before{};
-  MilliVolt supply{};
-  std::int32_t limit_pct = 0;  ///< supply-dependent limit in force
-  bool supply_seen = false;
+  /// Of this reading, of the tick before, and of the one before that.
+  std::array<MilliAmp, 2> current{},          ///< of this tick
+      current_old{},                          ///< of the tick before
+      current_before{};                       ///< of the one before that
+  MilliVolt supply{};                         ///< of this reading
+  std::int32_t limit_pct = 0;                 ///< supply-dependent limit in force
+  bool supply_seen = false;                   ///< whether there was a reading
   bool first_tick = true;                     ///< no sample of the third encoder was good yet: samples are taken as they are
   std::array<std::int32_t, 2> meas_driven{};  ///< positions at the last loop, where that isn't the last tick
   std::uint8_t loop_phase = 0;                ///< ticks since then
@@ -105,30 +119,31 @@ struct ControllerState {
   }
 };
 
-/// Percent of full duty by supply: 100 up to 8 V, 61 at 12 V, 43 at 24 V, 0 above 25.5 V; 6.4 … 10.6 V are left at the motor.
 /// What the program makes of the ADC's counts.
 [[nodiscard]] MilliVolt supply_reading(int adc) noexcept;
+/// Percent of full duty by supply, of v6: 100 up to 8 V, 61 at 12 V, 43 at 24 V, 0 above 25.5 V; 6.4 … 10.6 V are left at the motor.
 [[nodiscard]] std::int32_t supply_limit_pct(MilliVolt supply, Generation generation = Generation::v6) noexcept;
 
 /// The two sets that the loop reads.
 struct LoopMemory {
-  const Memory& stored;
-  const Memory& current;
+  const Memory& stored;   ///< what commands write
+  const Memory& current;  ///< what the loop uses
 };
 
 /// The laws; no state of its own.
 struct Controller {
-  Model model = Model::maker_pro;
-  bool supply_table = true;  ///< false: full duty at any supply (the advanced unit)
-  Repairs repairs{};
-  Generation generation = Generation::v6;
+  Model model = Model::maker_pro;          ///< which unit
+  bool supply_table = true;                ///< false: full duty at any supply (the advanced unit)
+  Repairs repairs{};                       ///< defects that are repaired
+  Generation generation = Generation::v6;  ///< whose loop
 
+  /// One encoder: jump, turns, meas.
   void read_encoder(LoopMemory m, ControllerState& s, const TickInputs& in, int i) const noexcept;
   /// Both motors, in the ticks in which the loop runs.
   void drive_motors(LoopMemory m, ControllerState& s) const noexcept;
-  void drive_motor(LoopMemory m, ControllerState& s, int i) const noexcept;
-  void read_analog(ControllerState& s, const TickInputs& in) const noexcept;
-  static void end_tick(ControllerState& s) noexcept;
+  void drive_motor(LoopMemory m, ControllerState& s, int i) const noexcept;   ///< one motor of the last one
+  void read_analog(ControllerState& s, const TickInputs& in) const noexcept;  ///< supply and both currents
+  static void end_tick(ControllerState& s) noexcept;                          ///< what the sums and the samples before keep
 
   /// All of it.
   void tick(LoopMemory m, ControllerState& s, const TickInputs& in) const noexcept;

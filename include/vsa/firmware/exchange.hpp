@@ -35,8 +35,11 @@ void set_offsets(Memory& stored, ControllerState& s, std::array<Ticks, 3> offset
 /// Before STORE_PARAMS: the new references follow changed multipliers and offsets, within the old limits.
 void move_references(LoopMemory m, ControllerState& s) noexcept;
 
+/// As GET_MEASUREMENTS has them: ticks of the last completed tick.
 [[nodiscard]] std::array<Ticks, 3> positions(Model model, const Memory& stored, const ControllerState& s) noexcept;
+/// As GET_INPUTS has them: the references of the last completed tick.
 [[nodiscard]] std::array<Ticks, 2> inputs(const Memory& stored, const ControllerState& s) noexcept;
+/// As GET_CURRENTS has them, of the last completed tick.
 [[nodiscard]] std::array<std::int16_t, 2> currents_mA(const ControllerState& s) noexcept;
 
 }  // namespace vsa::firmware

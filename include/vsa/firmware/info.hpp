@@ -22,11 +22,12 @@ namespace vsa::firmware {
 /// The program's buffer has 1100 bytes; the longest text is shorter.
 inline constexpr std::size_t kInfoBytes = 1100;
 
+/// What the text is about.
 struct InfoSource {
-  Model model = Model::maker_pro;
-  Repairs repairs{};
-  LoopMemory memory;
-  const ControllerState& loop;
+  Model model = Model::maker_pro;  ///< whose text
+  Repairs repairs{};               ///< what it reads otherwise then
+  LoopMemory memory;               ///< whose values it shows
+  const ControllerState& loop;     ///< whose loop
   std::uint32_t loop_time_us = 0;  ///< the line "debug"
 };
 

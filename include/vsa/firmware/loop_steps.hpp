@@ -13,13 +13,13 @@
 
 namespace vsa::firmware::steps {
 
-inline constexpr std::int32_t kPwmMax = 100;
-inline constexpr std::int32_t kTurnJump = 49152;     // a jump past this is the wrap of the turn
-inline constexpr std::int32_t kSuspectJump = 16384;  // a quarter turn in a tick is not believed …
-inline constexpr std::int32_t kBelieveAfter = 10;    // … unless it stays for ten ticks
-inline constexpr std::int32_t kFarError = 131072;    // 2¹⁷: beyond it the P product is shifted early
-inline constexpr std::int32_t kAdcOffset = 1638;
-inline constexpr std::int32_t kFilterAlpha = 3;  // of 1024 per tick: τ ≈ 341 ms
+inline constexpr std::int32_t kPwmMax = 100;         ///< %
+inline constexpr std::int32_t kTurnJump = 49152;     ///< a jump past this is the wrap of the turn
+inline constexpr std::int32_t kSuspectJump = 16384;  ///< a quarter turn in a tick is not believed …
+inline constexpr std::int32_t kBelieveAfter = 10;    ///< … unless it stays for ten ticks
+inline constexpr std::int32_t kFarError = 131072;    ///< 2¹⁷: beyond it the P product is shifted early
+inline constexpr std::int32_t kAdcOffset = 1638;     ///< of zero current
+inline constexpr std::int32_t kFilterAlpha = 3;      ///< of 1024 per tick: τ ≈ 341 ms
 
 /// cut_16 in an int32: a narrower type would keep a compiler from taking many at once.
 inline std::int32_t low_16(std::int32_t a) noexcept { return wrap_shl(a, 16) >> 16; }
@@ -39,9 +39,10 @@ inline bool follow_word(std::int32_t sample, bool whole_jump, std::int32_t& last
   return believed;
 }
 
+/// Raw over turns.
 inline std::int32_t unwrapped(std::int32_t sample, std::int32_t turns) noexcept { return wrap_add(sample, wrap_shl(turns, 16)); }
 
-inline std::int32_t proportional(std::int32_t k, std::int32_t error) noexcept {
+inline std::int32_t proportional(std::int32_t k, std::int32_t error) noexcept {  ///< P(k) of a gain in 16.16
   const bool far = error > kFarError || error < -kFarError;
   return far ? wrap_mul(k, error >> 8) >> 8 : wrap_mul(k, error) >> 16;
 }
@@ -53,7 +54,7 @@ inline std::int32_t position_pwm(std::int32_t p, std::int32_t i, std::int32_t d,
   return wrap_add(wrap_add(proportional(p, error), integral), derivative);
 }
 
-inline std::int32_t limited_sum(std::int32_t sum, std::int32_t error, std::int32_t most) noexcept {
+inline std::int32_t limited_sum(std::int32_t sum, std::int32_t error, std::int32_t most) noexcept {  ///< Σ, cut to ± most
   return std::clamp(wrap_add(sum, error), -most, most);
 }
 
@@ -61,6 +62,7 @@ inline std::int32_t limited_sum(std::int32_t sum, std::int32_t error, std::int32
 inline std::int32_t limited_pwm(std::int32_t pwm, std::int32_t limit_pct) noexcept {
   return (((pwm * 1024) / kPwmMax) * limit_pct) >> 10;
 }
+/// Signed by the direction.
 inline std::int32_t signed_duty(bool forward, std::int32_t out) noexcept { return forward ? std::abs(out) : -std::abs(out); }
 
 /// The filter's memory, mA << 6, after one more reading.

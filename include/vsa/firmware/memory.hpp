@@ -31,11 +31,14 @@ namespace vsa::firmware {
 
 /// 16.16 fixed point.
 struct Gains {
-  std::int32_t p = 0, i = 0, d = 0;
+  std::int32_t p = 0,  ///< proportional
+      i = 0,           ///< integral
+      d = 0;           ///< derivative
   static auto fields(auto& s, auto&& visit) { return visit("p", "", s.p, "i", "", s.i, "d", "", s.d); }
   bool operator==(const Gains&) const = default;
 };
 
+/// One set of parameters, as the EEPROM has them. Angles are raw; gains 16.16.
 struct Memory {
   bool valid = false;                        ///< false: never written (an empty EEPROM page)
   std::uint8_t id = 0;                       ///< 1…; 0 is broadcast
@@ -49,15 +52,17 @@ struct Memory {
   std::uint8_t control_mode = 0;             ///< 0…5; others: no output
   std::array<std::uint8_t, 3> resolution{};  ///< ticks = raw >> resolution
   std::array<std::int32_t, 3> offset{};      ///< raw
-  std::array<float, 3> multiplier{};
-  std::uint8_t limits_on = 0;
-  std::array<std::int32_t, 2> limit_low{}, limit_high{};  ///< raw
-  std::uint16_t max_stiffness = 0;                        ///< raw; set by calibration
-  std::uint8_t baud_rate = 0;
-  std::uint8_t watchdog_period = 0;                           ///< of the counter; 0 disables
-  std::int32_t max_step_negative = 0, max_step_positive = 0;  ///< not used by the program
-  std::uint8_t max_pwm_rate = 255;  ///< advanced unit: % a tick. Not in its initial values; 255 never limits
-  std::uint32_t serial_number = 0;  ///< dialect seven
+  std::array<float, 3> multiplier{};         ///< of motor 1, motor 2 and shaft
+  std::uint8_t limits_on = 0;                ///< whether references are cut to the limits
+  std::array<std::int32_t, 2> limit_low{},   ///< raw
+      limit_high{};                          ///< raw
+  std::uint16_t max_stiffness = 0;           ///< raw; set by calibration
+  std::uint8_t baud_rate = 0;                ///< the divider of 6 MHz, as SET_BAUD_RATE gave it
+  std::uint8_t watchdog_period = 0;          ///< of the counter; 0 disables
+  std::int32_t max_step_negative = 0,        ///< not used by the program
+      max_step_positive = 0;                 ///< not used by the program
+  std::uint8_t max_pwm_rate = 255;           ///< advanced unit: % a tick. Not in its initial values; 255 never limits
+  std::uint32_t serial_number = 0;           ///< dialect seven
   static auto fields(auto& s, auto&& visit) {
     return visit("valid", "", s.valid, "id", "", s.id, "position", "", s.position, "current", "", s.current, "double_position", "",
                  s.double_position, "double_current", "", s.double_current, "current_limit", "mA", s.current_limit_mA,
@@ -73,15 +78,19 @@ struct Memory {
 /// What a device's own EEPROM could hold for its program to work; keys are those of files ("limit_low_raw").
 void validate(const Memory& memory, std::string_view where, Problems& problems);
 
+/// The four copies.
 struct MemoryState {
-  Memory stored, current;
-  Memory user, factory;
+  Memory stored,  ///< what commands write
+      current;    ///< what the loop uses
+  Memory user,    ///< the EEPROM's first page
+      factory;    ///< the EEPROM's page of defaults
   static auto fields(auto& s, auto&& visit) {
     return visit("stored", "", s.stored, "current", "", s.current, "user", "", s.user, "factory", "", s.factory);
   }
   bool operator==(const MemoryState&) const = default;
 };
 
+/// Of the EEPROM.
 enum class Page : std::uint8_t { user, factory };
 
 inline constexpr int kMemoryRows = 7;  ///< EEPROM rows that one store writes
@@ -91,8 +100,8 @@ inline constexpr int kMemoryRows = 7;  ///< EEPROM rows that one store writes
 
 /// Each returns the EEPROM rows it wrote: that is the time it takes.
 int store(MemoryState& m, Page page) noexcept;
-int restore(MemoryState& m, Model model) noexcept;
-int initialise(MemoryState& m, Model model) noexcept;
-int recall(MemoryState& m, Model model) noexcept;
+int restore(MemoryState& m, Model model) noexcept;     ///< stored := factory, then stored into the user page
+int initialise(MemoryState& m, Model model) noexcept;  ///< the initial values, into both pages
+int recall(MemoryState& m, Model model) noexcept;      ///< stored := user, current := stored; an empty page: restore
 
 }  // namespace vsa::firmware

@@ -27,6 +27,7 @@ struct LoopFacts {
   std::int32_t sum_max = 100000;  ///< of the integral's error sum
   bool plain_products = false;    ///< no early shift for far errors, and the output's scaling truncates instead of rounding down
 };
+/// Of a generation: what holds for 4 holds for 3 and 2.
 [[nodiscard]] constexpr LoopFacts loop_facts(Generation g) noexcept {
   return g == Generation::v6 ? LoopFacts{} : LoopFacts{2, 1000, true};
 }

@@ -34,36 +34,40 @@
 
 namespace vsa::firmware {
 
+/// What a unit's program is made of, beside its parameter memory.
 struct ProgramParams {
-  Model model = Model::maker_pro;
-  bus::Dialect dialect = bus::Dialect::six;
-  Repairs repairs{};
-  Generation generation = Generation::v6;  ///< of a maker pro's control loop
-  std::optional<bool> supply_table;        ///< duty limited by the supply; none: as the model has it (maker pro yes, advanced no)
-  std::int64_t row_write_ns = 10'000'000;  ///< EEPROM row of 16 bytes
-  std::uint32_t loop_time_us = 0;          ///< info text's "debug": the loop's run time, UNKNOWN
-  std::int16_t cycle_time_us = 1000;       ///< dialect seven, GET_CYCLE_TIME
+  Model model = Model::maker_pro;            ///< whose program
+  bus::Dialect dialect = bus::Dialect::six;  ///< which it speaks
+  Repairs repairs{};                         ///< the defects that are none
+  Generation generation = Generation::v6;    ///< of a maker pro's control loop
+  std::optional<bool> supply_table;          ///< duty limited by the supply; none: as the model has it (maker pro yes, advanced no)
+  std::int64_t row_write_ns = 10'000'000;    ///< EEPROM row of 16 bytes
+  std::uint32_t loop_time_us = 0;            ///< info text's "debug": the loop's run time, UNKNOWN
+  std::int16_t cycle_time_us = 1000;         ///< dialect seven, GET_CYCLE_TIME
   bool operator==(const ProgramParams&) const = default;
 };
+/// A row and a loop time that are no times.
 void validate(const ProgramParams& params, std::string_view where, Problems& problems);
 
 /// CALIBRATE: every 100 ms a step. Motors to 0, a second's wait, then 91 raw (0.5°) apart a step with PD 0.1/0.3 until a current is
 /// above +1000 mA; that reference is max_stiffness. Motors to 0, a second's wait, store both pages. The maker pro doesn't hear its
 /// bus from the first step to the end; the advanced unit (6.1.6) does, and keeps its own gains.
 struct Calibration {
+  /// Where it is.
   enum class Stage : std::uint8_t { stop, start, go_apart, finish, wait_before, wait_after };
-  Stage stage = Stage::stop;
+  Stage stage = Stage::stop;  ///< what comes next
   std::uint16_t divider = 1;  ///< ticks to 100; keeps its value between calibrations
-  std::uint8_t pauses = 0;
-  Gains saved{};
+  std::uint8_t pauses = 0;    ///< tenths of a second waited
+  Gains saved{};              ///< the position gains that it comes back to
   static auto fields(auto& s, auto&& visit) {
     return visit("stage", "", s.stage, "divider", "", s.divider, "pauses", "", s.pauses, "saved", "", s.saved);
   }
 };
-[[nodiscard]] constexpr int choices(Calibration::Stage) noexcept { return 6; }
+[[nodiscard]] constexpr int choices(Calibration::Stage) noexcept { return 6; }  ///< for the walk over states
 
 /// GET_COUNTERS of the advanced unit, in the order of its reply. Some are never counted.
 struct Counters {
+  /// One for each command; kCount: how many there are.
   enum Which : std::uint8_t {
     activate,
     set_inputs,
@@ -87,25 +91,26 @@ struct Counters {
     counters,
     kCount
   };
-  std::array<std::uint16_t, kCount> value{};
+  std::array<std::uint16_t, kCount> value{};  ///< of each
   static auto fields(auto& s, auto&& visit) { return visit("value", "", s.value); }
 };
 
+/// All that changes of a program.
 struct ProgramState {
-  ControllerState loop;
-  MemoryState memory;
-  bus::UnitReceiver receiver;
-  ReceiveBuffer buffer;
-  Watchdog watchdog;
-  Calibration calibration;
-  Counters counters;
-  std::int64_t busy_until_ns = 0;
-  std::uint8_t enable = 0;        ///< enable pins: bit 0 motor 1, bit 1 motor 2
-  std::uint8_t baud_divider = 3;  ///< of 6 MHz: 2 Mbaud
-  bool activation_waits = false;  ///< Repairs::activation_with_references
-  bool bytes_waiting = false;
-  bool receiver_off = false;
-  bool in_bootloader = false;
+  ControllerState loop;            ///< the controller
+  MemoryState memory;              ///< the four copies of the parameters
+  bus::UnitReceiver receiver;      ///< of frames
+  ReceiveBuffer buffer;            ///< bytes that came while it was busy
+  Watchdog watchdog;               ///< see firmware/watchdog.hpp
+  Calibration calibration;         ///< see above
+  Counters counters;               ///< see above
+  std::int64_t busy_until_ns = 0;  ///< stores and answers: nothing else is done until then
+  std::uint8_t enable = 0;         ///< enable pins: bit 0 motor 1, bit 1 motor 2
+  std::uint8_t baud_divider = 3;   ///< of 6 MHz: 2 Mbaud
+  bool activation_waits = false;   ///< Repairs::activation_with_references
+  bool bytes_waiting = false;      ///< bytes that the program hasn't looked at
+  bool receiver_off = false;       ///< during a calibration: nothing is heard
+  bool in_bootloader = false;      ///< silent until the next power-up
   static auto fields(auto& s, auto&& visit) {
     return visit("loop", "", s.loop, "memory", "", s.memory, "receiver", "", s.receiver, "buffer", "", s.buffer, "watchdog", "",
                  s.watchdog, "calibration", "", s.calibration, "counters", "", s.counters, "busy_until", "ns", s.busy_until_ns,
@@ -117,16 +122,18 @@ struct ProgramState {
 
 /// What the bridge gets: percent of full duty, signed; nothing while a motor's enable pin is off.
 struct Drive {
-  std::array<std::int32_t, 2> duty_pct{};
-  std::array<bool, 2> enabled{};
+  std::array<std::int32_t, 2> duty_pct{};  ///< percent of full duty, signed by the direction pin
+  std::array<bool, 2> enabled{};           ///< bits 0 and 1 of `enable`
 };
 
+/// A unit's program: bytes and inputs in, bytes and duty out. It holds parameters only, so that units share it; the state is the
+/// owner's.
 class Program {
  public:
-  explicit Program(const ProgramParams& params) noexcept;
-  [[nodiscard]] const ProgramParams& params() const noexcept { return params_; }
-  [[nodiscard]] const Controller& controller() const noexcept { return controller_; }
-  [[nodiscard]] const bus::Wire& wire() const noexcept { return wire_; }
+  explicit Program(const ProgramParams& params) noexcept;                              ///< checked by validate() alone
+  [[nodiscard]] const ProgramParams& params() const noexcept { return params_; }       ///< as given
+  [[nodiscard]] const Controller& controller() const noexcept { return controller_; }  ///< of the same parameters
+  [[nodiscard]] const bus::Wire& wire() const noexcept { return wire_; }               ///< how it speaks
 
   /// A unit with an empty EEPROM, switched on: it has written its initial values and is ready.
   [[nodiscard]] ProgramState fresh(std::int64_t now_ns) const noexcept;
@@ -135,6 +142,7 @@ class Program {
   /// Power comes back: the EEPROM's pages are what stays. The references are 0, and so are the turns.
   void power_up(ProgramState& s, std::int64_t now_ns) const noexcept;
 
+  /// A byte of the bus, at its stop bit's end.
   void receive(ProgramState& s, std::uint8_t byte, std::int64_t now_ns, Output& out) const noexcept;
   /// Whether a whole frame that is on the wire from `begin_ns` (its first byte's end) to `end_ns` may come by receive_frame: the
   /// program is free, waits for a frame's beginning, and the watchdog's clock doesn't tick meanwhile.
@@ -151,11 +159,13 @@ class Program {
   /// When `poll` has something to do; none: nothing waits.
   [[nodiscard]] std::optional<std::int64_t> wake_ns(const ProgramState& s) const noexcept;
 
+  /// Encoders and motors; see above.
   void begin_tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, Output& out) const noexcept;
+  /// Supply, currents, calibration, references.
   void end_tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, Output& out) const noexcept;
-  void tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, Output& out) const noexcept;
+  void tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, Output& out) const noexcept;  ///< both, as one
 
-  [[nodiscard]] Drive drive(const ProgramState& s) const noexcept;
+  [[nodiscard]] Drive drive(const ProgramState& s) const noexcept;  ///< until the next tick
 
  private:
   [[nodiscard]] bool skips(const ProgramState& s, std::int64_t now_ns) const noexcept;

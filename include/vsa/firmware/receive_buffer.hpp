@@ -12,22 +12,25 @@
 
 namespace vsa::firmware {
 
+/// The ring of 32 bytes between interrupt and program.
 struct ReceiveBuffer {
-  static constexpr std::uint8_t kSize = 32;
+  static constexpr std::uint8_t kSize = 32;  ///< bytes
 
-  std::array<std::uint8_t, kSize> bytes{};
-  std::uint8_t read = 0, write = 0;
-  bool full = false;
-  bool overflow = false;
+  std::array<std::uint8_t, kSize> bytes{};  ///< in the ring
+  std::uint8_t read = 0,                    ///< place of the next that is taken
+      write = 0;                            ///< place of the next that comes
+  bool full = false;                        ///< as many bytes wait as there is room for
+  bool overflow = false;                    ///< it ran over, and one byte seems to be there
 
+  /// What comes while it is full overwrites what waits.
   void push(std::uint8_t byte) noexcept {
     bytes[write] = byte;
     overflow = overflow || full;
     write = static_cast<std::uint8_t>((write + 1) % kSize);
     full = full || read == write;
   }
-  [[nodiscard]] bool empty() const noexcept { return read == write && !full; }
-  std::uint8_t pop() noexcept {
+  [[nodiscard]] bool empty() const noexcept { return read == write && !full; }  ///< nothing waits
+  std::uint8_t pop() noexcept {                                                 ///< the next, whether or not one waits
     const std::uint8_t byte = bytes[read];
     read = static_cast<std::uint8_t>((read + 1) % kSize);
     full = false;
@@ -35,7 +38,7 @@ struct ReceiveBuffer {
   }
   /// `count` bytes came and were taken; the buffer is empty before and after.
   void pass(std::size_t count) noexcept { read = write = static_cast<std::uint8_t>((write + count) % kSize); }
-  void clear() noexcept {
+  void clear() noexcept {  ///< as the main loop does when it ran over
     read = write = 0;
     full = overflow = false;
   }

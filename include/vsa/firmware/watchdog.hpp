@@ -14,22 +14,23 @@
 
 namespace vsa::firmware {
 
-inline constexpr std::int64_t kWatchdogClockNs = 40'960'000;
+inline constexpr std::int64_t kWatchdogClockNs = 40'960'000;  ///< of its counter
 
+/// The counter, its clock and what it has told.
 struct Watchdog {
-  std::int64_t next_clock_ns = 0;
-  std::uint8_t period = 127;
-  std::uint8_t count = 127;
-  bool enabled = false;
-  bool reload = false;   ///< asked for; done at the next clock
-  bool expired = false;  ///< until the next byte
+  std::int64_t next_clock_ns = 0;  ///< of its clock, line time
+  std::uint8_t period = 127;       ///< N: clocks until it goes off, less one
+  std::uint8_t count = 127;        ///< down to 0
+  bool enabled = false;            ///< false: it counts nothing
+  bool reload = false;             ///< asked for; done at the next clock
+  bool expired = false;            ///< until the next byte
 
-  void power_up(std::int64_t now_ns, bool on) noexcept {
+  void power_up(std::int64_t now_ns, bool on) noexcept {  ///< at the clock that begins then
     *this = {};
     enabled = on;
     next_clock_ns = now_ns + kWatchdogClockNs;
   }
-  void run_to(std::int64_t now_ns) noexcept {
+  void run_to(std::int64_t now_ns) noexcept {  ///< every clock up to then
     for (; next_clock_ns <= now_ns; next_clock_ns += kWatchdogClockNs) {
       const bool out = enabled && !reload && count == 0;
       expired = expired || out;
@@ -37,7 +38,7 @@ struct Watchdog {
       reload = false;
     }
   }
-  void heard_byte() noexcept {
+  void heard_byte() noexcept {  ///< reloads at the next clock
     reload = true;
     expired = false;
   }

@@ -22,33 +22,39 @@
 
 namespace vsa::fmu {
 
+/// What the standard's calls return, in its own order.
 enum class Status { ok, warning, discard, error, fatal };
+/// Where the instance is (see above).
 enum class Mode { instantiated, initialization, stepping, terminated, failed };
 
 /// Names of the log's categories, as both versions of the standard have them.
 inline constexpr const char* kLogInfo = "logAll";
-inline constexpr const char* kLogWarning = "logStatusWarning";
-inline constexpr const char* kLogError = "logStatusError";
+inline constexpr const char* kLogWarning = "logStatusWarning";  ///< of the log's categories
+inline constexpr const char* kLogError = "logStatusError";      ///< of the log's categories
 
+/// An instance as the standard's functions see it. One thread.
 class Instance {
  public:
+  /// Gets every line that the importer asked for.
   using Logger = std::function<void(Status status, const char* category, const std::string& text)>;
 
+  /// `token`: the one of modelDescription.xml, for states.
   Instance(std::unique_ptr<Model> model, std::uint64_t token, Logger logger);
 
-  [[nodiscard]] Mode mode() const noexcept { return mode_; }
-  [[nodiscard]] const Model& model() const noexcept { return *model_; }
-  void set_logging(bool on) noexcept { talks_ = on; }
+  [[nodiscard]] Mode mode() const noexcept { return mode_; }             ///< see above
+  [[nodiscard]] const Model& model() const noexcept { return *model_; }  ///< what it stands on
+  void set_logging(bool on) noexcept { talks_ = on; }                    ///< whether the log's other categories are told
 
-  // `call`: the standard's name of the function, for messages.
-  Status set_up(const char* call, double start_s, bool has_stop, double stop_s) noexcept;
-  Status enter_initialization(const char* call) noexcept;
-  Status exit_initialization(const char* call) noexcept;
-  Status terminate(const char* call) noexcept;
-  Status reset(const char* call) noexcept;
+  /// `call`: the standard's name of the function, for messages.
+  Status set_up(const char* call, double start_s, bool has_stop, double stop_s) noexcept;  ///< `has_stop` false: no end is known
+  Status enter_initialization(const char* call) noexcept;                                  ///< the values count from here on
+  Status exit_initialization(const char* call) noexcept;                                   ///< the model begins with them
+  Status terminate(const char* call) noexcept;                                             ///< from stepping and failed
+  Status reset(const char* call) noexcept;  ///< from any mode; time 0, values as they were instantiated
 
   /// All or nothing. `values`: whole numbers, switches (0, 1) and words (from 1) as doubles.
   Status get(const char* call, Kind kind, std::span<const Reference> references, std::span<double> values) noexcept;
+  /// In the modes that Variability allows.
   Status set(const char* call, Kind kind, std::span<const Reference> references, std::span<const double> values) noexcept;
   /// sensitivity[u] = Σ_k ∂unknown_u/∂known_k seed[k]
   Status derivatives(const char* call, std::span<const Reference> unknowns, std::span<const Reference> knowns,
@@ -59,18 +65,19 @@ class Instance {
 
   /// From t to t + h, h > 0, t where the last step ended.
   Status step(const char* call, double t_s, double h_s) noexcept;
+  /// Start plus what was stepped.
   [[nodiscard]] double time_s() const noexcept { return start_s_ + static_cast<double>(model_->time_ns()) * 1e-9; }
 
-  // Saved states: values, time and mode. They are the instance's, and go with it at the latest; a pointer that is none of them is
-  // refused, whatever it points to.
+  /// Saved states: values, time and mode. They are the instance's, and go with it at the latest; a pointer that is none of them is
+  /// refused, whatever it points to.
   /// `*state`: null, or one of them, which is used again.
   Status save(const char* call, void** state) noexcept;
-  Status restore(const char* call, const void* state) noexcept;
-  Status free_state(const char* call, void** state) noexcept;  ///< null is content
+  Status restore(const char* call, const void* state) noexcept;  ///< mode and times, too; refused: not one of ours
+  Status free_state(const char* call, void** state) noexcept;    ///< null is content
   /// A state's bytes are the same on every machine: "VSAFMU1\n", token, mode, times, numbers, a hash.
   Status size_of_state(const char* call, const void* state, std::size_t* size) noexcept;
-  Status serialize(const char* call, const void* state, std::span<char> out) noexcept;
-  Status deserialize(const char* call, std::span<const char> in, void** state) noexcept;
+  Status serialize(const char* call, const void* state, std::span<char> out) noexcept;    ///< size_of_state() bytes
+  Status deserialize(const char* call, std::span<const char> in, void** state) noexcept;  ///< of another FMU, or damaged: an error
 
   /// A call that the FMU doesn't have: an error with what it says.
   Status refuse(const char* call, const std::string& why) noexcept;

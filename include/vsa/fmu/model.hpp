@@ -17,14 +17,16 @@
 
 namespace vsa::fmu {
 
+/// A model of an FMU: values by reference, and a state of its own.
 class Model {
  public:
   virtual ~Model() = default;
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
+  /// By reference; fixed after the constructor.
   [[nodiscard]] const std::vector<Variable>& variables() const noexcept { return variables_; }
-  [[nodiscard]] std::int64_t time_ns() const noexcept { return time_ns_; }
+  [[nodiscard]] std::int64_t time_ns() const noexcept { return time_ns_; }  ///< since begin()
 
   /// Parameters and inputs as set, outputs as they are now. Before begin(): parameters and inputs only.
   [[nodiscard]] double get(Reference variable);
@@ -39,23 +41,23 @@ class Model {
 
   /// ∂output/∂input at the communication point; nothing where the model has no derivatives.
   [[nodiscard]] virtual bool has_derivatives() const noexcept { return false; }
-  [[nodiscard]] virtual double derivative(Reference output, Reference input) const;
+  [[nodiscard]] virtual double derivative(Reference output, Reference input) const;  ///< 0 without derivatives
 
   /// Values, time and state as numbers; what restore() takes save() gives back. Throws InputError for other numbers, and nothing
   /// has changed.
   [[nodiscard]] std::size_t state_size() const { return variables_.size() + kHead + own_size(); }
-  void save(std::span<double> out) const;
-  void restore(std::span<const double> in);
+  void save(std::span<double> out) const;    ///< state_size() numbers
+  void restore(std::span<const double> in);  ///< what save() gave
 
   /// Gets a readable line where something should be known of the run: clamped commands, steps too long.
   std::function<void(const std::string&)> warn{};
 
  protected:
   Model() = default;
-  void add_variables(std::vector<Variable> variables);
-  void make_start_values();  ///< of the parameters as they are set now
-  [[nodiscard]] double value(Reference variable) const { return values_[variable]; }
-  void tell(const std::string& line) const {
+  void add_variables(std::vector<Variable> variables);                                ///< in the constructor, once
+  void make_start_values();                                                           ///< of the parameters as they are set now
+  [[nodiscard]] double value(Reference variable) const { return values_[variable]; }  ///< as it was set or evaluated
+  void tell(const std::string& line) const {                                          ///< to whoever listens
     if (warn) warn(line);
   }
 

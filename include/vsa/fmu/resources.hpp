@@ -29,10 +29,11 @@ namespace vsa::fmu {
 /// Paths below resources/, with '/' between, and their bytes.
 using Resources = std::map<std::string, std::string>;
 
+/// What an FMU of one actuator is to be.
 struct UnitPlan {
-  std::string type;
-  UnitStart start{};
-  Names names = Names::vsasim;
+  std::string type;             ///< of the library
+  UnitStart start{};            ///< until the importer sets something else
+  Names names = Names::vsasim;  ///< of the variables
 };
 
 /// Throws InputError: an unknown type, one whose law an FMU's library doesn't have, a file that lies outside of the type's folder, and

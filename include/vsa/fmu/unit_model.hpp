@@ -28,6 +28,7 @@
 
 namespace vsa::fmu {
 
+/// Who moves the shaft within a step (see above).
 enum class Coupling { prescribed, implicit };
 
 /// What an FMU begins with, unless its importer says otherwise.
@@ -42,13 +43,14 @@ inline constexpr double kExplicitLimit = 0.3;
 /// An angle or a speed that no shaft has, rad and rad/s.
 inline constexpr double kFarthest = 1e6;
 
+/// One actuator: the type's parameters, commands and shaft in; torque, stiffness, motors out.
 class UnitModel final : public Model {
  public:
   /// Throws InputError as TypeFile::make.
   UnitModel(config::TypeFile file, UnitStart start, Names names);
   ~UnitModel() override;
 
-  [[nodiscard]] const config::ActuatorType& type() const noexcept;
+  [[nodiscard]] const config::ActuatorType& type() const noexcept;  ///< with the parameters that the importer set
   [[nodiscard]] bool has_derivatives() const noexcept override { return true; }
   /// Of torque, deflection and stiffness by shaft_angle; every other is 0. N·m/rad, 1, N·m/rad². That of the stiffness is a
   /// difference over 2·10⁻⁵ rad, since laws give no third derivative.

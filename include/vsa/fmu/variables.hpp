@@ -16,23 +16,27 @@
 
 namespace vsa::fmu {
 
-using Reference = std::uint32_t;
+using Reference = std::uint32_t;  ///< a variable's place in the list
 
+/// A variable's kind of value.
 enum class Kind { real, integer, boolean, enumeration };
+/// What a variable is to its model; independent: time.
 enum class Causality { independent, parameter, input, output };
 /// fixed: until the end of the initialisation; tunable: at communication points, too.
 enum class Variability { fixed, tunable, continuous };
 
+/// One variable, as modelDescription.xml lists it.
 struct Variable {
-  std::string name;
-  std::string unit;  ///< "N.m/rad", as unit_name() has it; empty: a number without one
-  std::string description;
-  Kind kind = Kind::real;
-  Causality causality = Causality::output;
-  Variability variability = Variability::continuous;
-  double start = 0;                    ///< of parameters and inputs
-  std::optional<double> min{}, max{};  ///< ends included
-  std::vector<std::string> words{};    ///< of an enumeration
+  std::string name;                                   ///< unique; letters, digits, '_', '[', ']'
+  std::string unit;                                   ///< "N.m/rad", as unit_name() has it; empty: a number without one
+  std::string description;                            ///< one line
+  Kind kind = Kind::real;                             ///< of its values
+  Causality causality = Causality::output;            ///< to the model
+  Variability variability = Variability::continuous;  ///< when it may change
+  double start = 0;                                   ///< of parameters and inputs
+  std::optional<double> min{},                        ///< end included; none: no bound
+      max{};                                          ///< end included; none: no bound
+  std::vector<std::string> words{};                   ///< of an enumeration
   /// Of an output: the inputs that it follows at once, without a step.
   std::vector<Reference> depends_on{};
 };

@@ -18,23 +18,26 @@
 
 namespace vsa::fmu {
 
+/// Which standard the file follows.
 enum class Version { fmi2 = 2, fmi3 = 3 };
 
+/// An FMU to be written.
 struct PackagePlan {
-  std::string name;    ///< of the type or world; the model identifier is made of it
-  std::string title;   ///< one line for people
-  std::string note{};  ///< a paragraph on how to step it, for the documentation page
-  Version version = Version::fmi2;
-  double step_s = 1e-3;  ///< suggested communication step
-  std::filesystem::path library;
-  std::string licence;  ///< text of the project's
+  std::string name;                 ///< of the type or world; the model identifier is made of it
+  std::string title;                ///< one line for people
+  std::string note{};               ///< a paragraph on how to step it, for the documentation page
+  Version version = Version::fmi2;  ///< of the standard
+  double step_s = 1e-3;             ///< suggested communication step
+  std::filesystem::path library;    ///< that makes the model of resources/
+  std::string licence;              ///< text of the project's
 };
 
 /// A C identifier: "qbmove_maker_pro_6_1".
 [[nodiscard]] std::string identifier_of(std::string_view name);
+/// modelDescription.xml; `token` as token_of() has it.
 [[nodiscard]] std::string model_description(const Model& model, const PackagePlan& plan, const std::string& token);
-[[nodiscard]] std::string documentation_page(const Model& model, const PackagePlan& plan);
-[[nodiscard]] std::string icon_png();
+[[nodiscard]] std::string documentation_page(const Model& model, const PackagePlan& plan);  ///< documentation/index.html
+[[nodiscard]] std::string icon_png();                                                       ///< model.png
 
 /// Beside `file` first, then renamed. Throws OutputError with the reason; then nothing is left.
 void write_zip(const std::map<std::string, std::string>& files, const std::filesystem::path& file);
@@ -49,7 +52,7 @@ class TemporaryFolder {
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }  ///< of the folder, which is empty at first
 
  private:
   std::filesystem::path path_;

@@ -20,10 +20,11 @@
 
 namespace vsa::fmu {
 
+/// A world: every actuator's commands in, its joint, torques, motors and the robots' places out.
 class WorldModel final : public Model {
  public:
-  explicit WorldModel(engine::World world);
-  [[nodiscard]] const engine::World& world() const noexcept { return world_; }
+  explicit WorldModel(engine::World world);  ///< parameters of actuators and world stay as they are
+  [[nodiscard]] const engine::World& world() const noexcept { return world_; }  ///< to look at
 
  private:
   struct Actuator {
@@ -54,6 +55,7 @@ class WorldModel final : public Model {
   bool warned_ = false;
 };
 
+/// A world that an FMU is to be made of.
 struct WorldPlan {
   std::string world;                    ///< a file, or a built-in one's name
   std::vector<config::Override> set{};  ///< of every actuator

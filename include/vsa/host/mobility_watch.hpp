@@ -14,10 +14,11 @@
 
 namespace vsa::host {
 
+/// Tells a host when B is due (see above). Part of its state: without it a restored run would work B out at other steps.
 class MobilityWatch {
  public:
   MobilityWatch() = default;
-  explicit MobilityWatch(std::size_t joints) : angles_(joints) {}
+  explicit MobilityWatch(std::size_t joints) : angles_(joints) {}  ///< how many driven joints
 
   /// Once before each step. True: B is due, and is taken to be that of these angles.
   [[nodiscard]] bool due(std::span<const JointIn> joints) noexcept {

@@ -14,6 +14,7 @@
 
 namespace vsa::host {
 
+/// How the coupling renders one undamped swing: 1 and 1 where the step resolves it.
 struct Resolution {
   double radius = 1;     ///< of the swing's amplitude from one step to the next
   double frequency = 1;  ///< over the true one

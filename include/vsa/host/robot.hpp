@@ -46,8 +46,8 @@ namespace vsa::host {
 
 /// What a host tells of one joint at the start of a step.
 struct JointIn {
-  double angle_rad = 0;
-  double speed_rad_per_s = 0;
+  double angle_rad = 0;        ///< q at the step's start
+  double speed_rad_per_s = 0;  ///< v there
   /// B_jj = (M⁻¹)_jj, 1/(kg·m²); none: the unit's configured shaft_inertia_kgm2 is used. Joints of a tree with a matrix have it
   /// there.
   std::optional<double> inverse_inertia;
@@ -62,20 +62,20 @@ struct JointIn {
 /// What an actuator is doing, for topics and recordings: all at one instant, the end of the last step. Physical truth; the unit's
 /// own readings are `measured`.
 struct ActuatorReading {
-  double equilibrium_command_rad = 0;
-  double preset_command = 0;
-  double equilibrium_rad = 0;  ///< attained, from the pulleys
-  double preset = 0;           ///< attained, from the pulleys
-  double shaft_rad = 0;
-  double shaft_speed_rad_per_s = 0;
-  double deflection_rad = 0;  ///< shaft − equilibrium
-  double stiffness_Nm_per_rad = 0;
-  double torque_Nm = 0;       ///< on the shaft by springs and frictions
-  double mean_torque_Nm = 0;  ///< the same as the host got it: over the last step (of several substeps: the last one)
-  std::array<double, 2> motor_rad{};
-  std::array<double, 2> motor_speed_rad_per_s{};
-  std::array<double, 2> motor_torque_Nm{};  ///< on each pulley by its spring and tendon
-  std::array<double, 2> current_A{};
+  double equilibrium_command_rad = 0;  ///< as it was given; of a trajectory: its value now
+  double preset_command = 0;           ///< likewise, in the law's preset unit
+  double equilibrium_rad = 0;          ///< attained, from the pulleys
+  double preset = 0;                   ///< attained, from the pulleys
+  double shaft_rad = 0;                ///< q; where the host observed it after its step, else as the unit foresaw it
+  double shaft_speed_rad_per_s = 0;    ///< q̇, likewise
+  double deflection_rad = 0;           ///< shaft − equilibrium
+  double stiffness_Nm_per_rad = 0;     ///< σ at the present deflection
+  double torque_Nm = 0;                ///< on the shaft by springs and frictions
+  double mean_torque_Nm = 0;           ///< the same as the host got it: over the last step (of several substeps: the last one)
+  std::array<double, 2> motor_rad{};   ///< the pulleys
+  std::array<double, 2> motor_speed_rad_per_s{};  ///< of the pulleys
+  std::array<double, 2> motor_torque_Nm{};        ///< on each pulley by its spring and tendon
+  std::array<double, 2> current_A{};              ///< of each winding
   std::array<Ticks, 3> measured{};  ///< motor 1, motor 2, shaft as the bus master last read them; with a client, as they'd be read
 };
 
@@ -90,7 +90,7 @@ struct Placement {
 /// A command that was out of range is clamped as the device does and reported once per actuator.
 struct Notice {
   std::optional<std::size_t> actuator;  ///< none: of the robot as a whole
-  std::string text;
+  std::string text;                     ///< one line, with the numbers
 };
 
 /// A robot that was moved from throws std::logic_error from everything but its destructor and assignment; advance() aborts.
@@ -106,8 +106,9 @@ class Robot {
   /// bus with a serial port has one of its own.
   [[nodiscard]] Robot clone() const;
 
-  [[nodiscard]] const RobotConfig& config() const;
-  [[nodiscard]] std::size_t size() const;  ///< number of actuators
+  [[nodiscard]] const RobotConfig& config() const;  ///< as it is now: set_parameters() changes it
+  [[nodiscard]] std::size_t size() const;           ///< number of actuators
+  /// Its index, in config order; none: no such name.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view actuator_name) const;
 
   /// Which actuators' joints move each other: those of one kinematic tree. An actuator that is in none moves its own joint only.
@@ -135,32 +136,38 @@ class Robot {
   /// what its stiffness gives. InputError: another controller, a number that isn't finite. The stepping thread's.
   void command_direct(std::size_t actuator, const std::array<double, 2>& values);
 
-  /// Several at once: all take effect in the same step, or none where one is refused (false).
+  /// One actuator's part of several commands that belong together.
   struct Command {
-    std::size_t actuator = 0;
-    std::optional<double> equilibrium_rad, preset;
+    std::size_t actuator = 0;               ///< an index below size()
+    std::optional<double> equilibrium_rad,  ///< none: keeps what it has
+        preset;                             ///< in the law's preset unit; none: keeps what it has
   };
+  /// Several at once, from any thread: all take effect in the same step, or none where one is refused (false).
   bool command(std::span<const Command> commands);
 
-  /// A trajectory in simulated time: knots (time after its start, value), linear between, last value held. It replaces what that
-  /// channel had. Empty or non-increasing knots or non-finite numbers: refused (false).
+  /// A point of a trajectory.
   struct Knot {
-    double time_s = 0;
-    double value = 0;
+    double time_s = 0;  ///< after the trajectory's start, ≥ 0
+    double value = 0;   ///< rad, or in the law's preset unit
     static auto fields(auto& s, auto&& visit) { return visit("time", "s", s.time_s, "value", "", s.value); }
   };
+  /// What of an actuator a trajectory leads.
   enum class Channel { equilibrium, preset };
+  /// A trajectory in simulated time, from any thread; it starts with the next step: knots (time after its start, value), linear
+  /// between, last value held. It replaces what that channel had. Empty or non-increasing knots or non-finite numbers: refused
+  /// (false).
   bool follow(std::size_t actuator, Channel channel, std::vector<Knot> knots);
 
-  /// Several at once: all begin with the same step, or none where one is refused (false).
+  /// One channel's part of several trajectories that belong together.
   struct Path {
-    std::size_t actuator = 0;
-    Channel channel = Channel::equilibrium;
-    std::vector<Knot> knots;
+    std::size_t actuator = 0;                ///< an index below size()
+    Channel channel = Channel::equilibrium;  ///< one of its two
+    std::vector<Knot> knots;                 ///< times that increase
   };
+  /// Several at once: all begin with the same step, or none where one is refused (false).
   bool follow(std::vector<Path> paths);
 
-  // An actuator that isn't there: InputError.
+  /// As it is now. InputError, here and below: an actuator that isn't there.
   [[nodiscard]] ActuatorReading read(std::size_t actuator) const;
   /// The references that the unit received last, as they came over its bus.
   [[nodiscard]] std::array<Ticks, 2> received_inputs(std::size_t actuator) const;
@@ -182,8 +189,8 @@ class Robot {
   /// Other parameters from the next step on, for a randomised domain, say: checked by device::validate(). Motion, currents, the
   /// gears' bristles and the program's loop go on; springs and the other frictions begin relaxed where they are, the actuator's
   /// ledger begins anew; where firmware parameters differ, the program has them at once. Parameters aren't state: restore() and
-  /// reset() keep them. InputError: values out of range, another firmware model or dialect, another number of motors. The
-  /// stepping thread's.
+  /// reset() keep them. InputError: values out of range, another controller, firmware model or dialect, another number of motors.
+  /// The stepping thread's.
   void set_parameters(std::size_t actuator, const UnitConfig& unit);
   /// The same, with what the unit was made from, for who reads config().
   void set_parameters(std::size_t actuator, const UnitConfig& unit, std::string type, std::shared_ptr<const Settings> changed);
@@ -191,6 +198,7 @@ class Robot {
   /// All parameters as one value that never changes, for who steps many robots of one kind with one Robot (batch/batch.hpp): those in
   /// force, and `base` with other actuators in it, checked as set_parameters() does (InputError) and prepared for steps of dt_ns.
   [[nodiscard]] std::shared_ptr<const RobotConfig> parameters() const;
+  /// `base` with other actuators in it, by their indices; those in force stay.
   [[nodiscard]] std::shared_ptr<const RobotConfig> parameters_with(const RobotConfig& base,
                                                                    std::span<const std::pair<std::size_t, ActuatorConfig>> changes,
                                                                    std::int64_t dt_ns) const;
@@ -210,8 +218,8 @@ class Robot {
   /// The units' end of a bus's serial port; none if the bus has no serial port. Lives as long as the robot.
   [[nodiscard]] device::PortLine* serial_line(std::size_t bus);
 
-  struct Snapshot;  ///< opaque, copyable value
-  [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
+  struct Snapshot;                                                 ///< opaque, copyable value
+  [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;  ///< of everything but parameters; allocates
   /// Of this robot or of another with the same actuators on the same buses; another's: InputError, and nothing changed. Commands
   /// that no step has taken yet are dropped. Parameters aren't part of it: see set_parameters().
   void restore(const Snapshot& snapshot);
@@ -226,17 +234,17 @@ class Robot {
   ///   restore  throws InputError for another size and for numbers that no state has, and nothing has changed; it drops commands
   ///            that wait. check: whether restore() would throw
   static constexpr std::size_t kMostKnots = 64;
-  [[nodiscard]] StateLayout state_layout() const;
-  [[nodiscard]] std::size_t state_size() const;
-  void save(std::span<double> out) const;
-  void restore(std::span<const double> in);
-  void check(std::span<const double> in) const;
+  [[nodiscard]] StateLayout state_layout() const;  ///< names, kinds and units of the numbers, in their order
+  [[nodiscard]] std::size_t state_size() const;    ///< how many save() gives
+  void save(std::span<double> out) const;          ///< fills state_size() numbers
+  void restore(std::span<const double> in);        ///< as restore() of a snapshot, from such numbers
+  void check(std::span<const double> in) const;    ///< throws what restore() would
   [[nodiscard]] std::uint64_t state_hash() const;  ///< of the numbers that save() gives; allocates
 
   /// For a host whose step may fail: keep() before it notes what snapshot() would hold, in memory that the robot has for it, so that
   /// nothing is allocated; go_back() is restore() of that, or of the first sample where nothing was kept.
   void keep();
-  void go_back();
+  void go_back();  ///< to where keep() was called last
 
  private:
   struct Impl;

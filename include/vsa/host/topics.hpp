@@ -39,34 +39,38 @@
 
 namespace vsa::host {
 
+/// A trajectory message, whatever its transport calls it: for the channels in `names` their values at each point.
 struct Trajectory {
+  /// One line of the table: a value for each name, and when.
   struct Point {
     std::vector<double> positions;  ///< one a name
-    double time_from_start_s = 0;
+    double time_from_start_s = 0;   ///< ≥ 0, from point to point more
   };
-  std::vector<std::string> names;
-  std::vector<Point> points;
+  std::vector<std::string> names;  ///< of channels: an actuator's name, or that and "_preset"
+  std::vector<Point> points;       ///< in order of time
 };
 
+/// The message of cmd_array.
 struct ActuatorsCmd {
-  std::vector<double> positions;
+  std::vector<double> positions;  ///< all equilibria, rad, then all presets
 };
 
 /// Simulation truth, not the unit's readings.
 struct JointStates {
+  /// A shaft or a pulley.
   struct Joint {
-    std::string name;
-    double position_rad = 0;
-    double velocity_rad_per_s = 0;
-    double force_Nm = 0;  ///< shaft: by the actuator on the robot; motor: by the spring on its pulley
+    std::string name;               ///< as host/topics.hpp names it in a message
+    double position_rad = 0;        ///< rad; m of a shaft that slides
+    double velocity_rad_per_s = 0;  ///< rad/s; m/s of a shaft that slides
+    double force_Nm = 0;            ///< shaft: by the actuator on the robot; motor: by the spring on its pulley
   };
   /// What an actuator has been told, so that a client sees its command arrive.
   struct Command {
-    double equilibrium_rad = 0;
-    double preset = 0;
+    double equilibrium_rad = 0;  ///< as it was given
+    double preset = 0;           ///< likewise, in the law's preset unit
   };
-  std::int64_t time_ns = 0;  ///< simulated
-  std::string model;
+  std::int64_t time_ns = 0;              ///< simulated
+  std::string model;                     ///< scoped name
   std::vector<Joint> joints;             ///< of each actuator: shaft, motor 1, and motor 2 where it has one
   std::vector<std::string> names;        ///< of the actuators
   std::vector<std::size_t> first_joint;  ///< each actuator's shaft, in `joints`
@@ -78,10 +82,12 @@ template <class Message>
 class Publisher {
  public:
   virtual ~Publisher() = default;
-  [[nodiscard]] virtual bool wanted() const noexcept = 0;
+  [[nodiscard]] virtual bool wanted() const noexcept = 0;  ///< whether anybody listens
+  /// Sends it; `time_ns` is its stamp.
   virtual void publish(std::int64_t time_ns, const Message& message) = 0;
 };
 
+/// What became of a subscription, a service or a topic.
 enum class Outcome {
   ok,
   unsupported,  ///< the transport has no such message kind: the topic is left out
@@ -92,14 +98,16 @@ enum class Outcome {
 class TopicTransport {
  public:
   virtual ~TopicTransport() = default;
-  virtual Outcome on_double(const std::string& topic, std::function<void(double)> handler) = 0;
-  virtual Outcome on_trajectory(const std::string& topic, std::function<void(const Trajectory&)> handler) = 0;
-  virtual Outcome on_actuators(const std::string& topic, std::function<void(const ActuatorsCmd&)> handler) = 0;
+  virtual Outcome on_double(const std::string& topic, std::function<void(double)> handler) = 0;  ///< `handler` gets each message
+  virtual Outcome on_trajectory(const std::string& topic, std::function<void(const Trajectory&)> handler) = 0;   ///< likewise
+  virtual Outcome on_actuators(const std::string& topic, std::function<void(const ActuatorsCmd&)> handler) = 0;  ///< likewise
   /// A service: a text is asked and one answered; none: there is nobody any more who could.
   using Answer = std::function<std::optional<std::string>(const std::string& request)>;
+  /// Answers requests until the transport is gone.
   virtual Outcome serve_text(const std::string& service, Answer answer) = 0;
   /// Null: unsupported or refused.
   virtual std::unique_ptr<Publisher<double>> advertise_double(const std::string& topic) = 0;
+  /// Null, as above.
   virtual std::unique_ptr<Publisher<JointStates>> advertise_states(const std::string& topic) = 0;
 };
 
@@ -108,6 +116,7 @@ class TopicTransport {
 
 /// The topics' names, for hosts and clients alike. Names are scoped with "::" or "/".
 [[nodiscard]] std::string model_topic(std::string_view model, std::string_view leaf);  ///< leaf: "vsa/cmd", "vsa/joint_state", …
+/// The same of an actuator's topics: "cmd_equilibrium", "stiffness", …
 [[nodiscard]] std::string joint_topic(std::string_view model, std::string_view actuator, std::string_view leaf);
 
 /// Subscribes and publishes for one robot, which must outlive it. Commands that come once it is gone, or whose constructor threw,

@@ -8,9 +8,8 @@
 //     U = I S,   D = Sᵀ U,   I_parent += I − U Uᵀ/D                                          from the leaves to the roots, once
 //     u = τ − Sᵀ p,   p_parent += p + U u/D                                                  from joint j to its root
 //     q̈ = (u − Uᵀ a_parent)/D,   a = a_parent + S q̈                                         from the roots to the leaves
-// four columns at a time, and only as far out as their joints: B is symmetric.
-// with a = 0 for the ground and a = −I⁻¹ p for a body that flies free. Contacts aren't in it. Reference: R. Featherstone, Rigid
-// Body Dynamics Algorithms, ch. 7.
+// With a = 0 for the ground and a = −I⁻¹ p for a body that flies free. Four columns at a time, and only as far out as their joints:
+// B is symmetric. Contacts aren't in it. Reference: R. Featherstone, Rigid Body Dynamics Algorithms, ch. 7.
 #pragma once
 
 #include <array>
@@ -22,18 +21,20 @@ namespace vsa::host {
 
 /// A body and the joint that it hangs on. Positions in world coordinates, m.
 struct TreeBody {
+  /// Of one degree of freedom, or of none; free: six.
   enum class Joint { free, fixed, revolute, prismatic };
-  static constexpr std::size_t kGround = static_cast<std::size_t>(-1);
+  static constexpr std::size_t kGround = static_cast<std::size_t>(-1);  ///< as a parent
 
-  std::size_t parent = kGround;  ///< an earlier entry of the list, or the ground
-  Joint joint = Joint::free;     ///< free: of the ground only
-  std::array<double, 3> axis{};  ///< unit vector, world
-  std::array<double, 3> anchor{};
-  double mass_kg = 0;
-  std::array<double, 3> center_of_mass{};
-  std::array<double, 9> inertia_kgm2{};  ///< about the centre of mass, world axes, by rows
+  std::size_t parent = kGround;            ///< an earlier entry of the list, or the ground
+  Joint joint = Joint::free;               ///< free: of the ground only
+  std::array<double, 3> axis{};            ///< unit vector, world
+  std::array<double, 3> anchor{};          ///< a point on the axis
+  double mass_kg = 0;                      ///< where nothing that moves has any, B isn't finite
+  std::array<double, 3> center_of_mass{};  ///< world
+  std::array<double, 9> inertia_kgm2{};    ///< about the centre of mass, world axes, by rows
 };
 
+/// Works B out for one set of bodies, step after step, without allocating.
 class TreeInertia {
  public:
   static constexpr std::size_t kBlock = 4;  ///< columns that are worked out together

@@ -13,11 +13,11 @@ namespace vsa::identify {
 
 /// The sweep, common to all recordings. Of the simulated cycles the first half is left out, as in the recordings.
 struct SweepOptions {
-  double period_s = 38.0;
+  double period_s = 38.0;               ///< of the sweep
   std::optional<double> amplitude_rad;  ///< none: by experiment::sweep_amplitude() at each solution's start, then held
   double cycles = 1.5;                  ///< 1.5 or more
-  double sample_s = 0.01;
-  double load_share = 1;  ///< of the bench's mass, 1 kg
+  double sample_s = 0.01;               ///< between two samples
+  double load_share = 1;                ///< of the bench's mass, 1 kg
 };
 
 /// Puts `model`, `prepare` and, where the unit has one (quasi_static.hpp), `surrogate` into a task whose parameters and

@@ -35,21 +35,24 @@
 
 namespace vsa::identify {
 
+/// One explanation: a type with values changed, and what is free in it.
 struct Hypothesis {
-  std::string name, title;
+  std::string name,               ///< of files
+      title;                      ///< for people
   experiment::Specimen specimen;  ///< with `set` and `start`
   config::ActuatorType type;      ///< that
-  std::vector<Parameter> free;
+  std::vector<Parameter> free;    ///< empty: nothing is fitted
 };
 
+/// A question and its candidates, as the file has them.
 struct Comparison {
-  std::filesystem::path file;
-  std::string title;
+  std::filesystem::path file;           ///< that they came from
+  std::string title;                    ///< for people
   std::vector<Observation> recordings;  ///< weighted
-  SweepOptions sweep;
-  FitOptions fit;
-  int jobs = 0;
-  std::vector<Hypothesis> hypotheses;
+  SweepOptions sweep;                   ///< common to all
+  FitOptions fit;                       ///< of every fit
+  int jobs = 0;                         ///< fits side by side; 0: as many as the machine runs at once
+  std::vector<Hypothesis> hypotheses;   ///< in the file's order
 };
 
 /// `library`: where types by name are. Throws InputError with all problems at once: what can't be read, keys that are unknown,
@@ -59,8 +62,8 @@ struct Comparison {
 
 /// One fit: a hypothesis to all recordings, or without one.
 struct FitRequest {
-  std::size_t hypothesis = 0;
-  std::optional<std::size_t> without;
+  std::size_t hypothesis = 0;          ///< into Comparison::hypotheses
+  std::optional<std::size_t> without;  ///< a recording that is left out
 };
 /// All that a comparison needs: with two recordings or more, each left out once.
 [[nodiscard]] std::vector<FitRequest> requests(const Comparison& comparison);
@@ -74,26 +77,32 @@ struct FitRequest {
 
 /// An estimate; no interval (NaN) at a bound, infinite ones where the data don't determine it.
 struct Estimate {
-  std::string name, unit;
-  double value = 0, low = 0, high = 0;
-  bool at_bound = false;
+  std::string name,       ///< as Parameter has it
+      unit;               ///< as Parameter has it
+  double value = 0,       ///< θ̂_k
+      low = 0,            ///< lower end of the 95 % interval
+      high = 0;           ///< upper end
+  bool at_bound = false;  ///< the estimate ended there
 };
 
+/// One fit, with what is asked of it and what it cost. As JSON between runs.
 struct FitRecord {
-  std::string asked;  ///< its hash
-  std::vector<Estimate> estimates;
-  std::vector<double> rms_rad;          ///< of every recording, of one that was left out by prediction
-  double weighted_squares = 0;          ///< S, of those fitted
-  double points = 0, independent = 0;   ///< n, and N by this fit's own ρ
-  std::vector<double> autocorrelation;  ///< ρ of those fitted
-  std::vector<std::string> without_effect;
-  std::vector<std::vector<std::string>> unseparated;
-  std::vector<double> start_rms;  ///< √(S/n) of each local solution, the best first
-  double seconds = 0;             ///< of work on this machine; the only thing here that isn't the same every time
-  std::size_t evaluations = 0;    ///< simulations
+  std::string asked;                                  ///< its hash
+  std::vector<Estimate> estimates;                    ///< in the order of the parameters
+  std::vector<double> rms_rad;                        ///< of every recording, of one that was left out by prediction
+  double weighted_squares = 0;                        ///< S, of those fitted
+  double points = 0,                                  ///< n
+      independent = 0;                                ///< N by this fit's own ρ
+  std::vector<double> autocorrelation;                ///< ρ of those fitted
+  std::vector<std::string> without_effect;            ///< names of parameters that change nothing
+  std::vector<std::vector<std::string>> unseparated;  ///< names of parameters of which only a combination is determined
+  std::vector<double> start_rms;                      ///< √(S/n) of each local solution, the best first
+  double seconds = 0;           ///< of work on this machine; the only thing here that isn't the same every time
+  std::size_t evaluations = 0;  ///< simulations
 
+  /// Parameters that the data don't determine.
   [[nodiscard]] std::size_t undetermined() const { return without_effect.size() + unseparated.size(); }
-  [[nodiscard]] std::size_t at_bounds() const;
+  [[nodiscard]] std::size_t at_bounds() const;  ///< estimates that ended at a bound
   /// Largest over smallest of start_rms, less 1; 0 with one.
   [[nodiscard]] double spread() const;
 };
@@ -107,9 +116,10 @@ struct FitRecord {
 
 /// One row of the table.
 struct Judgement {
-  std::vector<double> rms_rad, left_out_rms_rad;  ///< of each recording; the second is empty with one recording
-  double aicc = 0;
-  double seconds = 0;  ///< of all its fits
+  std::vector<double> rms_rad,  ///< of each recording
+      left_out_rms_rad;         ///< of each recording, predicted; empty with one recording
+  double aicc = 0;              ///< of the fit to all; NaN: none
+  double seconds = 0;           ///< of all its fits
 };
 /// `records` in the order of requests(comparison).
 [[nodiscard]] std::vector<Judgement> judge(const Comparison& comparison, const std::vector<FitRecord>& records);

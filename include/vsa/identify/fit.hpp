@@ -14,6 +14,7 @@
 
 namespace vsa::identify {
 
+/// How a fit is made: starts, steps and when to stop.
 struct FitOptions {
   /// Local solutions at most: one from the type's values (or where the surrogate leads from there, if that is better), the others
   /// from a global search on the surrogate, which may find fewer places; without a surrogate from the best of 4 × as many trials
@@ -26,28 +27,32 @@ struct FitOptions {
   /// The same of the Jacobian that the intervals come from. A simulated unit is rough (encoders' steps, motors that stick and slip:
   /// 0.1 … 0.2 mrad however small the step); that noise in the columns hides how alike two of them are, and with it an interval.
   double interval_effect_rad = 8e-3;
-  double tolerance = 1e-3;  ///< relative decrease of the cost at which a solution ends
-  std::function<void(const std::string&)> progress;
+  double tolerance = 1e-3;                           ///< relative decrease of the cost at which a solution ends
+  std::function<void(const std::string&)> progress;  ///< gets a line now and then; null: nobody
 };
 
+/// What one local solution came to.
 struct StartResult {
-  std::vector<double> from, to;
-  std::vector<double> steps;  ///< of the differences, in Parameter::coordinate()
-  double rms_rad = 0;
-  double cost = 0;  ///< at `to`, ½ Σ w² r²; by fit(), with what the model held constant on the way there
-  int iterations = 0;
-  bool converged = false;
+  std::vector<double> from,     ///< the start
+      to;                       ///< the end
+  std::vector<double> steps;    ///< of the differences, in Parameter::coordinate()
+  double rms_rad = 0;           ///< of the residuals at `to`, unweighted
+  double cost = 0;              ///< at `to`, ½ Σ w² r²; by fit(), with what the model held constant on the way there
+  int iterations = 0;           ///< that it took
+  bool converged = false;       ///< by tolerance, not by their number
   std::size_t evaluations = 0;  ///< simulations of a recording, of a job; a fit counts its own (Residuals)
 };
 
+/// A fit: the best of its local solutions, with residuals and Jacobian there.
 struct Fit {
-  std::vector<double> values;
-  std::vector<bool> at_bound;
+  std::vector<double> values;                 ///< the estimate, in the order of Task::parameters
+  std::vector<bool> at_bound;                 ///< of each parameter
   std::vector<double> residuals;              ///< unweighted
   std::vector<std::vector<double>> jacobian;  ///< columns, unweighted, by Parameter::coordinate()
-  std::vector<double> steps;
-  double cost = 0, rms_rad = 0;
-  std::vector<StartResult> starts;  ///< the best is first
+  std::vector<double> steps;                  ///< of the differences, as StartResult has them
+  double cost = 0,                            ///< ½ Σ w² r²
+      rms_rad = 0;                            ///< root mean square, unweighted
+  std::vector<StartResult> starts;            ///< the best is first
 };
 
 /// Throws what the model throws at the type's own values, and std::runtime_error where no start can be evaluated.

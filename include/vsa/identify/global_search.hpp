@@ -13,6 +13,7 @@
 
 namespace vsa::identify {
 
+/// How wide a search looks.
 struct GlobalOptions {
   int searches = 2;                      ///< each from its own seed
   unsigned seed = 1;                     ///< of the first
@@ -20,11 +21,13 @@ struct GlobalOptions {
   unsigned threads = 0;                  ///< searches side by side; 0: all that the machine has. They don't change the result
 };
 
+/// A place that a search ended at.
 struct GlobalPoint {
-  std::vector<double> values;
-  double cost = 0;  ///< of the surrogate, ½ Σ w² r²
+  std::vector<double> values;  ///< in the order of Task::parameters
+  double cost = 0;             ///< of the surrogate, ½ Σ w² r²
 };
 
+/// What searches found, and what they couldn't see.
 struct GlobalSearch {
   /// Those that are apart by more than 2 % of a searched range, best first; none worse than ten times the best.
   std::vector<GlobalPoint> points;

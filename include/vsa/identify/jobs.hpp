@@ -19,12 +19,13 @@
 
 namespace vsa::identify {
 
+/// One local solution to be made, anywhere.
 struct Job {
   std::optional<std::size_t> without;  ///< which preset's recordings are left out, counted upwards from the lowest
-  std::vector<double> from;
-  bool led = false;         ///< by the surrogate first, if the task has one
-  std::vector<bool> fixed;  ///< parameters that keep their value; empty: none
-  unsigned draw = 0;        ///< number of a bootstrap draw about `from`; 0: the recordings as they are
+  std::vector<double> from;            ///< values, in the order of Task::parameters
+  bool led = false;                    ///< by the surrogate first, if the task has one
+  std::vector<bool> fixed;             ///< parameters that keep their value; empty: none
+  unsigned draw = 0;                   ///< number of a bootstrap draw about `from`; 0: the recordings as they are
 };
 
 /// A task for one thread, with `threads` for itself; nothing in it may be shared with another one's.
@@ -41,6 +42,7 @@ using MakeTask = std::function<Task(unsigned threads)>;
 /// Does jobs, one after the other.
 class Worker {
  public:
+  /// One task, and the options of its fits.
   Worker(Task task, FitOptions options) : task_(std::move(task)), options_(std::move(options)) {}
   /// `cost`: with what the model holds constant at the end. Throws InputError where the values make no sense together, and what the
   /// model throws.
@@ -53,9 +55,12 @@ class Worker {
 
 /// As numbers, exactly: for messages and logs. A job has job_size(parameters) of them, a result result_size(parameters).
 [[nodiscard]] std::size_t job_size(std::size_t parameters);
+/// Of a job, job_size() of them.
 [[nodiscard]] std::vector<double> numbers_of(const Job& job);
+/// The job of those numbers; `task` and options are the caller's.
 [[nodiscard]] Job job_of(const std::vector<double>& numbers);
-[[nodiscard]] std::size_t result_size(std::size_t parameters);
+[[nodiscard]] std::size_t result_size(std::size_t parameters);  ///< of a result
+/// Of a result, result_size() of them.
 [[nodiscard]] std::vector<double> numbers_of(const StartResult& result);
 /// `from` isn't among them.
 [[nodiscard]] StartResult result_of(const std::vector<double>& numbers);

@@ -51,10 +51,11 @@ class StaticDrive {
 
 /// Where the sweep turns: with the shaft at an angle, or with the command at an amplitude, rad.
 struct Turn {
-  double shaft_rad = 0;
+  double shaft_rad = 0;                 ///< farthest angle
   std::optional<double> amplitude_rad;  ///< given: it decides, and `shaft_rad` is the farthest that is tried
 };
 
+/// The load test without dynamics, of one unit (see above).
 class QuasiStatic {
  public:
   /// `load_peak_Nm`: M g r of the bench. The unit must not be unsupported().

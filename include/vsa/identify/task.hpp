@@ -21,41 +21,45 @@ namespace vsa::identify {
 struct Parameter {
   std::string name;               ///< as the user wrote it: "elastic.k1_Nm=elastic.k2_Nm"
   std::vector<std::string> keys;  ///< "elastic.k1_Nm", "elastic.k2_Nm"
-  std::string unit;
-  double start = 0, min = 0, max = 0;
+  std::string unit;               ///< of the keys; empty for a plain number
+  double start = 0,               ///< the type's value
+      min = 0,                    ///< lower bound
+      max = 0;                    ///< upper bound
 
   /// Counted in its logarithm: its bounds are positive and two decades apart or more, so that what is asked for is its order of
   /// magnitude first. Searches, steps, Jacobians and intervals are then in ln(value).
   [[nodiscard]] bool logarithmic() const { return min > 0 && max / min >= 100; }
-  [[nodiscard]] double coordinate(double value) const;
+  [[nodiscard]] double coordinate(double value) const;  ///< ln(value) where it is counted so, else the value
   /// Within the bounds; at a bound exactly that.
   [[nodiscard]] double value_at(double coordinate) const;
-  [[nodiscard]] double span() const { return coordinate(max) - coordinate(min); }
+  [[nodiscard]] double span() const { return coordinate(max) - coordinate(min); }  ///< of the coordinates, bound to bound
 };
 
+/// A recording that is to be explained.
 struct Observation {
-  std::string name;  ///< the recording's file
-  double preset = 0;
-  experiment::Branches data;
-  double weight = 1;    ///< w, 1/rad; see scatter_weight()
-  bool points = false;  ///< places at rest (experiment::read_points), which the law alone predicts, not the bench
+  std::string name;           ///< the recording's file
+  double preset = 0;          ///< that was commanded
+  experiment::Branches data;  ///< its branch means
+  double weight = 1;          ///< w, 1/rad; see scatter_weight()
+  bool points = false;        ///< places at rest (experiment::read_points), which the law alone predicts, not the bench
 };
 
 /// The branches that observation number i would show. Called from several threads at once; may throw where the values make no
 /// sense. `values` are in the order of Task::parameters.
 using Model = std::function<experiment::Branches(const std::vector<double>& values, std::size_t observation)>;
 
+/// What is to be identified: parameters, recordings, and the model that predicts them.
 struct Task {
-  std::vector<Parameter> parameters;
-  std::vector<Observation> observations;
-  Model model;
+  std::vector<Parameter> parameters;      ///< in the order of every vector of values
+  std::vector<Observation> observations;  ///< in the order of every index of them
+  Model model;                            ///< called for residuals
   /// Called, from one thread, before each local solution with its start: what the model holds constant on the way (the sweep's
   /// amplitude). May be empty.
   std::function<void(const std::vector<double>& values)> prepare;
   /// A cheap model of the same kind for the global search, called from several threads; its branches may lie on another grid.
   /// Empty: there is none, and `no_surrogate` says why.
   Model surrogate;
-  std::string no_surrogate;
+  std::string no_surrogate;  ///< why there is no surrogate; empty: there is one
 };
 
 /// "a.x,b.y=c.z" → parameters with unit, start and bounds of the type. Tied keys: the bounds' intersection, the first key's

@@ -12,9 +12,9 @@ namespace vsa::identify {
 
 /// A changed value and what its source shall say.
 struct Identified {
-  std::string key;
-  double value = 0;
-  std::string source;
+  std::string key;     ///< "elastic.k1_Nm"
+  double value = 0;    ///< the new value
+  std::string source;  ///< where it came from, with its interval
 };
 
 /// TOML text of a type called `name`. Its [evidence] is the type's with what the identification was

@@ -23,16 +23,21 @@
 
 namespace vsa::identify {
 
+/// What the data tell of the estimate, and how well.
 struct Uncertainty {
-  std::vector<double> standard_error;        ///< infinite where the data don't determine it; NaN at a bound
-  std::vector<double> low, high;             ///< 95 %, not cut at the bounds
-  std::vector<double> white_standard_error;  ///< as if the residuals were independent: too small, for comparison
-  std::vector<std::vector<double>> correlation;
-  std::vector<double> autocorrelation, sd_rad;  ///< ρ_i, s_i of each recording
-  double effective_samples = 0, degrees_of_freedom = 0;
+  std::vector<double> standard_error;                 ///< infinite where the data don't determine it; NaN at a bound
+  std::vector<double> low,                            ///< of the 95 % interval, not cut at the bounds
+      high;                                           ///< likewise
+  std::vector<double> white_standard_error;           ///< as if the residuals were independent: too small, for comparison
+  std::vector<std::vector<double>> correlation;       ///< of the estimates, symmetric
+  std::vector<double> autocorrelation,                ///< ρ_i of each recording
+      sd_rad;                                         ///< s_i of each recording
+  double effective_samples = 0,                       ///< n_eff
+      degrees_of_freedom = 0;                         ///< ν
   double condition = 1;                               ///< largest over smallest singular value of J with columns of length one
   std::vector<std::size_t> without_effect;            ///< parameters that change nothing
   std::vector<std::vector<std::size_t>> unseparated;  ///< groups of which only a combination is determined
+  /// The data don't determine all of them.
   [[nodiscard]] bool deficient() const { return !without_effect.empty() || !unseparated.empty(); }
 };
 

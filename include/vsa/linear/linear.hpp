@@ -41,9 +41,12 @@
 
 namespace vsa::linear {
 
+/// How the program is taken (see above).
 enum class Firmware { frozen, averaged, sampled };
+/// How dry friction is taken (see above).
 enum class DryFriction { sliding, stuck };
 
+/// Where a unit stands when it is made linear.
 struct OperatingPoint {
   double equilibrium_rad = 0;            ///< attained by the pulleys
   double preset = 0;                     ///< attained; the law's unit, within the unit's preset_max
@@ -55,30 +58,41 @@ struct OperatingPoint {
 
 /// How the unit stands at the point.
 struct Rest {
-  elastic::Positions at;                       ///< shaft and pulleys, rad
-  double load_Nm = 0;                          ///< external torque about +q that holds the shaft
-  std::array<double, 2> motor_V{}, motor_A{};  ///< mean voltage and current of each motor
+  elastic::Positions at;            ///< shaft and pulleys, rad
+  double load_Nm = 0;               ///< external torque about +q that holds the shaft
+  std::array<double, 2> motor_V{},  ///< mean voltage of each motor
+      motor_A{};                    ///< current of each motor
 };
 
+/// One of a system's states, inputs or outputs.
 struct Signal {
-  std::string name, unit;  ///< "motor 1 speed", "rad/s"
+  std::string name,  ///< "motor 1 speed"
+      unit;          ///< "rad/s"
 };
 
 /// A linear system about a point: ẋ = A x + B u, or from loop to loop, and y = C x + D u.
 struct System {
-  Firmware firmware = Firmware::frozen;
-  double period_s = 0;  ///< sampled: T; else 0
-  std::vector<Signal> states, inputs, outputs;
-  Eigen::MatrixXd a, b, c, d;
-  Eigen::Index torques = 1;  ///< how many inputs, the first ones, are load torques, each on a shaft or joint of its own
+  Firmware firmware = Firmware::frozen;  ///< how the program was taken
+  double period_s = 0;                   ///< sampled: T; else 0
+  std::vector<Signal> states,            ///< rows of A
+      inputs,                            ///< columns of B
+      outputs;                           ///< rows of C
+  Eigen::MatrixXd a,                     ///< A: states × states
+      b,                                 ///< B: states × inputs
+      c,                                 ///< C: outputs × states
+      d;                                 ///< D: outputs × inputs
+  Eigen::Index torques = 1;              ///< how many inputs, the first ones, are load torques, each on a shaft or joint of its own
   /// Sampled: the continuous system between two loops, inputs load torques and voltages; its states are the first of `states`.
-  Eigen::MatrixXd held_a, held_b;
+  Eigen::MatrixXd held_a,            ///< A; empty where it isn't sampled
+      held_b;                        ///< B, likewise
   std::vector<std::string> notices;  ///< what a user should know of this point
 };
 
+/// One unit about its point.
 struct Model : System {
-  Rest rest;
-  double inertia_kgm2 = 0, damping_Nms_per_rad = 0;
+  Rest rest;                               ///< how it stands there
+  double inertia_kgm2 = 0,                 ///< M
+      damping_Nms_per_rad = 0;             ///< d
   double held_stiffness_Nm_per_rad = 0;    ///< seen at the shaft with the pulleys held: the law's, and stuck frictions
   double static_stiffness_Nm_per_rad = 0;  ///< with the motors yielding as the firmware lets them: 0 where it is frozen
 };
@@ -89,6 +103,7 @@ struct Model : System {
 [[nodiscard]] Model linearize(const device::UnitConfig& unit, const OperatingPoint& point, Firmware firmware,
                               DryFriction friction = DryFriction::sliding);
 
+/// One pole.
 struct Pole {
   std::complex<double> s;    ///< 1/s; sampled: ln(z)/T
   double frequency_Hz = 0;   ///< |s|/2π
@@ -105,12 +120,12 @@ struct Pole {
 
 /// What answers a sinusoidal torque at the shaft.
 struct Response {
-  double frequency_Hz = 0;
+  double frequency_Hz = 0;          ///< of the torque
   std::complex<double> impedance;   ///< Z = τ_load/q̇, N·m·s/rad, inertia and damping of the shaft included
   std::complex<double> compliance;  ///< q/τ_load, rad/(N·m)
-  // Of the actuator alone, jω(Z − jωM − d) = stiffness + jω damping:
-  double stiffness_Nm_per_rad = 0;
-  double damping_Nms_per_rad = 0;
+  /// Of the actuator alone, jω(Z − jωM − d) = stiffness + jω damping:
+  double stiffness_Nm_per_rad = 0;  ///< Re jω(Z − jωM − d)
+  double damping_Nms_per_rad = 0;   ///< Im of it, over ω
 };
 /// At frequencies as answers().
 [[nodiscard]] Response response(const Model& model, double frequency_Hz);

@@ -19,38 +19,43 @@
 
 namespace vsa::linear {
 
+/// A joint of the bodies, whether or not a unit turns it.
 struct BodyJoint {
-  std::string name;
-  bool prismatic = false;
-  double angle = 0;      ///< where it stands, rad or m
-  double damping = 0;    ///< ≥ 0, N·m·s/rad
-  double stiffness = 0;  ///< ≥ 0, N·m/rad
+  std::string name;        ///< scoped
+  bool prismatic = false;  ///< its angle and stiffness are in m, N/m and N·s/m
+  double angle = 0;        ///< where it stands, rad or m
+  double damping = 0;      ///< ≥ 0, N·m·s/rad
+  double stiffness = 0;    ///< ≥ 0, N·m/rad
 };
 
+/// The bodies that the units move, about the point.
 struct Bodies {
-  std::vector<BodyJoint> joints;
+  std::vector<BodyJoint> joints;      ///< in the order of `mass` and of every vector
   Eigen::MatrixXd mass;               ///< M, symmetric and positive definite
   Eigen::MatrixXd gravity_stiffness;  ///< K, symmetric
 };
 
 /// A unit on a joint. Its point's inertia and damping don't count.
 struct MountedUnit {
-  std::string name;
-  device::UnitConfig unit;
-  OperatingPoint point;
-  std::size_t joint = 0;  ///< into Bodies::joints; at most one unit a joint
+  std::string name;         ///< of the actuator
+  device::UnitConfig unit;  ///< its parameters
+  OperatingPoint point;     ///< its point; inertia and damping come from the bodies
+  std::size_t joint = 0;    ///< into Bodies::joints; at most one unit a joint
 };
 
+/// Units and bodies about a point.
 struct RobotModel : System {
-  Bodies bodies;
+  Bodies bodies;  ///< as they were given
+  /// How one of the units stands there.
   struct UnitRest {
-    std::string name;
-    std::size_t joint = 0;
-    int motors = 0;
-    Rest rest;
+    std::string name;       ///< of the actuator
+    std::size_t joint = 0;  ///< into `bodies.joints`
+    int motors = 0;         ///< 1 or 2
+    Rest rest;              ///< at the point
+    /// Of the unit by itself.
     double held_stiffness_Nm_per_rad = 0, static_stiffness_Nm_per_rad = 0;  ///< of the unit by itself
   };
-  std::vector<UnitRest> units;
+  std::vector<UnitRest> units;       ///< in the order of the states
   Eigen::MatrixXd held_stiffness;    ///< joints × joints: K + C and the units' with pulleys held
   Eigen::MatrixXd static_stiffness;  ///< the same with motors that yield
 };
@@ -62,7 +67,7 @@ struct RobotModel : System {
 
 /// What answers sinusoidal torques at the joints, each joints × joints.
 struct RobotResponse {
-  double frequency_Hz = 0;
+  double frequency_Hz = 0;      ///< of the torques
   Eigen::MatrixXcd compliance;  ///< q_i over τ_j, the other joints free to move
   Eigen::MatrixXcd impedance;   ///< Z: τ = Z q̇, N·m·s/rad
   /// What a torque at one joint feels there, 1/(Z⁻¹)_jj: the other joints yield.

@@ -12,9 +12,9 @@
 // like the others, with their springs and dampers. M is the engine's. K = ∂/∂q of its gravity torques g(q), by differences of fourth
 // order over steps of 1 mrad (mm), then made symmetric: off by less than 1e-10 of the largest |g|, in N·m/rad.
 //
-// NOT IN IT, with a notice: joints and free bodies that nothing here moves; contacts, hands and a limit that a joint stands
-// at; dry friction of the file's joints. REFUSED: a robot on links that fly free, joints of several axes, joints that follow another
-// (<mimic>), all where they move with a driven joint.
+// NOT IN IT, with a notice: joints and free bodies that nothing here moves; contacts, hands and a limit that a joint stands at; dry
+// friction of the file's joints. REFUSED: a robot on links that fly free, joints of several axes, joints that follow another
+// (`<mimic>`), all where they move with a driven joint.
 #pragma once
 
 #include <optional>
@@ -27,14 +27,17 @@
 
 namespace vsa::linear_world {
 
-using Named = std::vector<std::pair<std::string, double>>;
+using Named = std::vector<std::pair<std::string, double>>;  ///< name and value, each name once
 
+/// Where the world's joints stand, and what its actuators have.
 struct WorldPoint {
-  Named angles{};                     ///< joints that stand elsewhere, by their or their actuator's name; rad or m
-  std::optional<double> preset{};     ///< of all actuators; none: as attained now
-  Named presets{}, equilibria_rad{};  ///< of single actuators
+  Named angles{};                  ///< joints that stand elsewhere, by their or their actuator's name; rad or m
+  std::optional<double> preset{};  ///< of all actuators; none: as attained now
+  Named presets{},                 ///< of single actuators, in their laws' units
+      equilibria_rad{};            ///< of single actuators
 };
 
+/// A world about that point.
 struct WorldModel {
   linear::RobotModel model;            ///< joints go by their actuators' names, those without by their own
   std::vector<double> gravity_torque;  ///< of each joint of the model: what its weight asks for, N·m or N

@@ -59,69 +59,80 @@
 
 namespace vsa::motion {
 
+/// A wave over actuators that move one after the other: the equation above.
 struct GaitGroup {
-  std::string name;
+  std::string name;                    ///< of the file's [group.NAME]
   std::vector<std::string> actuators;  ///< "joint_1", or "model/joint_1" where several models have it
   std::vector<int> n;                  ///< one per actuator
-  double amplitude_rad = 0;
-  double offset_rad = 0;
-  double lambda = 1;
-  double delta_rad = 0;
-  double preset_rad = 0;
+  double amplitude_rad = 0;            ///< A
+  double offset_rad = 0;               ///< D
+  double lambda = 1;                   ///< λ: actuators a half wave
+  double delta_rad = 0;                ///< δ
+  double preset_rad = 0;               ///< p, of every actuator in it
 };
 
+/// Turns the model as it travels: the law above.
 struct SteeringParams {
-  std::string group;
-  double gain = 1;
-  double limit_rad = 0.8;
-  double slew_rad_per_s = 0.35;
-  double min_travel_m = 0.03;
-  std::optional<double> target_rad;
+  std::string group;                 ///< whose s it changes
+  double gain = 1;                   ///< rad/rad; negative turns the other way
+  double limit_rad = 0.8;            ///< of s
+  double slew_rad_per_s = 0.35;      ///< at most
+  double min_travel_m = 0.03;        ///< below it there is no direction
+  std::optional<double> target_rad;  ///< none: where it went after ramp and first period
 };
 
+/// A gait as a file has it: waves, or a motion.
 struct GaitParams {
-  std::string file;  ///< for messages
-  std::string title;
-  double frequency_rad_per_s = 0;
-  double ramp_s = 0;
-  std::int64_t period_ns = 10'000'000;
-  std::vector<GaitGroup> groups;
-  std::optional<SteeringParams> steering;
-  std::optional<MotionParams> motion;  ///< keyframes; then there are no groups and frequency_rad_per_s is 0
+  std::string file;                        ///< for messages
+  std::string title;                       ///< one line for people
+  double frequency_rad_per_s = 0;          ///< ω
+  double ramp_s = 0;                       ///< until the wave has its amplitude; 0: at once
+  std::int64_t period_ns = 10'000'000;     ///< between two commands, a whole number
+  std::vector<GaitGroup> groups;           ///< actuators once, over all groups
+  std::optional<SteeringParams> steering;  ///< none: nothing is steered
+  std::optional<MotionParams> motion;      ///< keyframes; then there are no groups and frequency_rad_per_s is 0
 };
 
 /// Adds what can't be played.
 void validate(const GaitParams& params, std::string_view where, Problems& problems);
 
+/// What a value may be, ends included.
 struct GaitRange {
-  double min = 0, max = 0;
+  double min = 0,  ///< end included
+      max = 0;     ///< end included
 };
 
 /// What files and changes may say.
 struct GaitBounds {
-  GaitRange frequency_rad_per_s{0.01, 1000};
-  GaitRange amplitude_deg{0, 160};
-  GaitRange offset_deg{-160, 160};
-  GaitRange lambda{0.1, 1000};
-  GaitRange delta_deg{-360, 360};
-  GaitRange preset_deg{0, 90};
+  GaitRange frequency_rad_per_s{0.01, 1000};  ///< ω
+  GaitRange amplitude_deg{0, 160};            ///< A
+  GaitRange offset_deg{-160, 160};            ///< D
+  GaitRange lambda{0.1, 1000};                ///< λ
+  GaitRange delta_deg{-360, 360};             ///< δ
+  GaitRange preset_deg{0, 90};                ///< p
 };
-inline constexpr GaitBounds kGaitBounds{};
+inline constexpr GaitBounds kGaitBounds{};  ///< those that files and changes are held to
 
 /// What of a group can be changed while it plays.
 struct WaveParams {
-  double amplitude_rad = 0, offset_rad = 0, lambda = 1, delta_rad = 0, preset_rad = 0;
+  double amplitude_rad = 0,  ///< A
+      offset_rad = 0,        ///< D
+      lambda = 1,            ///< λ
+      delta_rad = 0,         ///< δ
+      preset_rad = 0;        ///< p
 };
+/// Values that change() goes to, or came from.
 struct GaitChange {
-  double frequency_rad_per_s = 0;
+  double frequency_rad_per_s = 0;  ///< ω
   std::vector<WaveParams> groups;  ///< as many as the gait has, in its order
 };
 
+/// Where steering stands.
 struct SteeringState {
   std::vector<std::array<double, 2>> trail;  ///< the last period's centres of mass, oldest first
   std::optional<double> heading_rad;         ///< direction of travel
-  std::optional<double> target_rad;
-  double phase_rad = 0;  ///< s
+  std::optional<double> target_rad;          ///< that it turns to; none: not chosen yet
+  double phase_rad = 0;                      ///< s
 };
 
 /// One control period of steering; `window` is a gait period in samples, `engaged` false while the gait still ramps up.
@@ -130,31 +141,36 @@ void steer(const SteeringParams& params, SteeringState& state, std::array<double
 
 /// Where the values were when they were last changed.
 struct GaitBlend {
-  double t_s = 0, phase_rad = 0;
-  GaitChange from;
+  double t_s = 0,     ///< simulated, when it was changed
+      phase_rad = 0;  ///< ∫ω dt then
+  GaitChange from;    ///< the values then
 };
 
 /// Which commands of an actuator the gait leaves to somebody else.
 struct ByHand {
-  bool equilibrium = false, preset = false;
-  [[nodiscard]] bool any() const noexcept { return equilibrium || preset; }
+  bool equilibrium = false,                                                  ///< is somebody else's
+      preset = false;                                                        ///< is somebody else's
+  [[nodiscard]] bool any() const noexcept { return equilibrium || preset; }  ///< either of them
 };
 
 /// An actuator that was given back: its commands blend from where the hand left them to the gait's.
 struct GaitReturn {
-  ByHand of;                               ///< which of the two come back
-  std::optional<double> t_s;               ///< since when; none: from the next commands on
-  double equilibrium_rad = 0, preset = 0;  ///< commanded then
+  ByHand of;                   ///< which of the two come back
+  std::optional<double> t_s;   ///< since when; none: from the next commands on
+  double equilibrium_rad = 0,  ///< commanded then
+      preset = 0;              ///< commanded then
 };
 
+/// All that changes while a gait plays, but for leave(). A copy goes on as it was.
 struct GaitState {
-  std::int64_t last_slot = -1;  ///< time_ns / period_ns of the last commands
-  SteeringState steering;
-  std::optional<GaitBlend> blend;
-  std::optional<double> held_phase_rad;  ///< while it is held
-  std::map<std::string, GaitReturn, std::less<>> returning;
+  std::int64_t last_slot = -1;                               ///< time_ns / period_ns of the last commands
+  SteeringState steering;                                    ///< where it stands
+  std::optional<GaitBlend> blend;                            ///< what is left of a change; none: all as params() has it
+  std::optional<double> held_phase_rad;                      ///< while it is held
+  std::map<std::string, GaitReturn, std::less<>> returning;  ///< by the actuator's name
 };
 
+/// Plays a gait on a Stage: bind it, then call apply() before every step.
 class Gait {
  public:
   /// Throws InputError with every problem: missing file, syntax, unknown or missing keys, NaN, numbers out of range, doubled
@@ -164,8 +180,8 @@ class Gait {
   /// steering without a frequency.
   explicit Gait(GaitParams params);
 
-  [[nodiscard]] const GaitParams& params() const noexcept { return params_; }
-  [[nodiscard]] const GaitState& state() const noexcept { return state_; }
+  [[nodiscard]] const GaitParams& params() const noexcept { return params_; }  ///< as they are now, after change()
+  [[nodiscard]] const GaitState& state() const noexcept { return state_; }     ///< to look at; a copy of the Gait is how it is kept
 
   /// Throws InputError naming every actuator that the stage hasn't. apply() does it by itself on its first call.
   void bind(const Stage& stage);
@@ -174,20 +190,20 @@ class Gait {
   /// Forgets steering, the last commands and what is left of a change.
   void reset();
 
-  static constexpr double kBlend_s = 1.0;
+  static constexpr double kBlend_s = 1.0;  ///< that a change takes
   /// The values as files give them, for changing.
   [[nodiscard]] GaitChange values() const;
   /// From simulated time t_s on. Throws InputError with every number out of kGaitBounds.
   void change(const GaitChange& to, double t_s);
   /// No commands from now on: the last ones stay. resume() goes on with the phase where it stood.
   void hold(double t_s);
-  void resume(double t_s);
-  [[nodiscard]] bool held() const noexcept { return state_.held_phase_rad.has_value(); }
-  static constexpr double kGiveBack_s = 0.5;
+  void resume(double t_s);  ///< with the phase where hold() stopped it
+  [[nodiscard]] bool held() const noexcept { return state_.held_phase_rad.has_value(); }  ///< between hold() and resume()
+  static constexpr double kGiveBack_s = 0.5;                                              ///< that giving an actuator back takes
   /// From its next commands on. What was by hand and no longer is goes from where the hand left it to the gait's own values,
   /// linearly in kGiveBack_s. An actuator that isn't the gait's: false. A reset doesn't undo it.
   bool leave(std::string_view actuator, ByHand by_hand);
-  [[nodiscard]] ByHand by_hand(std::string_view actuator) const;
+  [[nodiscard]] ByHand by_hand(std::string_view actuator) const;  ///< both false where leave() wasn't called
 
   /// eq. (10) for the k-th actuator of a group at simulated time t. Throws InputError where the group has no such actuator.
   [[nodiscard]] double equilibrium(const GaitGroup& group, std::size_t k, double t_s) const;

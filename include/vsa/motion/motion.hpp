@@ -25,20 +25,25 @@
 
 namespace vsa::motion {
 
+/// One keyframe of a channel.
 struct MotionKey {
-  double time_s = 0, value_rad = 0;
+  double time_s = 0,  ///< in the motion's own time
+      value_rad = 0;  ///< equilibrium or preset
 };
 
+/// An actuator's keyframes.
 struct MotionTrack {
-  std::string actuator;
-  std::vector<MotionKey> equilibrium, preset;  ///< times grow; either may be empty
+  std::string actuator;                ///< as the file names it
+  std::vector<MotionKey> equilibrium,  ///< times grow; may be empty
+      preset;                          ///< times grow; may be empty
 };
 
+/// A motion as a file has it.
 struct MotionParams {
-  bool smooth = true;
-  double end_s = 0;  ///< the last keyframe's time
-  std::optional<double> loop_from_s;
-  std::vector<MotionTrack> tracks;
+  bool smooth = true;                 ///< false: linear
+  double end_s = 0;                   ///< the last keyframe's time
+  std::optional<double> loop_from_s;  ///< none: it ends
+  std::vector<MotionTrack> tracks;    ///< one an actuator, in the file's order
 };
 
 /// The motion's own time: simulated time, folded where it loops.

@@ -16,17 +16,18 @@ using Json = nlohmann::ordered_json;
 
 /// The shortest digits that read back the same number, whole ones without a point. JSON has no NaN and no infinity: null.
 [[nodiscard]] Json number(double value);
+/// Of a single-precision number: the shortest that reads back the same float.
 [[nodiscard]] Json number(float value);
 /// Rounded to so many digits.
 [[nodiscard]] Json number(double value, int digits);
 
 /// As it stands in a page, on one line.
 [[nodiscard]] std::string text(const Json& json);
-[[nodiscard]] inline std::string json_string(std::string_view value) { return text(Json(value)); }
+[[nodiscard]] inline std::string json_string(std::string_view value) { return text(Json(value)); }  ///< quoted and escaped
 
 /// A result, which keeps its point where it is whole: 5.0. null: not finite.
 [[nodiscard]] Json real(double value);
-[[nodiscard]] Json reals(const std::vector<double>& values);
+[[nodiscard]] Json reals(const std::vector<double>& values);  ///< real() of each
 /// What a results.json begins with: who wrote it, and on which command.
 [[nodiscard]] Json results_head(const std::string& command);
 /// As it stands in a results.json, indented.

@@ -10,7 +10,7 @@
 
 namespace vsa::page {
 
-inline constexpr std::string_view kMarker = "@VSA_PAGE_DATA@";
+inline constexpr std::string_view kMarker = "@VSA_PAGE_DATA@";  ///< where the data go
 
 /// Reads the template and checks that it has the marker once. Throws InputError.
 [[nodiscard]] std::string read_template(const std::filesystem::path& file);

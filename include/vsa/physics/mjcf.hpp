@@ -30,6 +30,7 @@
 
 namespace vsa::physics {
 
+/// A world as read from an MJCF.
 struct MjcfRead {
   description::World world;   ///< its `native` is MuJoCo's
   bool names_others = false;  ///< the file names others: meshes, includes
@@ -46,8 +47,11 @@ struct MjcfRead {
 /// Whether that is MJCF: by the root element of a text, by .xml or .mjcf of a file.
 [[nodiscard]] bool is_mjcf(const std::filesystem::path& path, std::string_view text);
 
+/// A file that write_mjcf_files() makes.
 struct WrittenFile {
-  std::string name, bytes;
+  /// Without a directory; and what is in it.
+  std::string name,  ///< without a directory
+      bytes;         ///< what is in it
 };
 
 /// NAME.xml, NAME.vsa.xml and what they name, for a world that came from elsewhere. read_mjcf() of it moves bit for bit as `world`

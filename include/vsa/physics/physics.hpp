@@ -34,15 +34,17 @@ struct World;
 
 namespace vsa::physics {
 
+/// Of a joint with one axis: rad and rad/s, or m and m/s.
 struct JointState {
-  double position = 0, speed = 0;
+  double position = 0,  ///< rad or m
+      speed = 0;        ///< rad/s or m/s
 };
 
 /// Why a step was refused.
 struct Refusal {
   std::string where;     ///< "joint m::j", "link m::l", or the engine
   std::string quantity;  ///< "acceleration", "position", an engine's warning
-  double value = 0;
+  double value = 0;      ///< what it was
 };
 
 /// Masses and frictions of all links as an engine works with them. Never changed, so that several threads may share one.
@@ -52,16 +54,18 @@ class Bodies {
   [[nodiscard]] virtual std::span<const scene::LinkParameters> links() const = 0;  ///< by link
 };
 
+/// One world's bodies in an engine, in motion. One thread at a time; indices of links and joints are those of description::World.
 class Physics {
  public:
   virtual ~Physics() = default;
 
-  virtual void prepare() = 0;
+  virtual void prepare() = 0;  ///< first half of a step; clears what was applied
   /// One-axis joints whose torques move each other, by groups: indices into `joints`. Fixed for a world.
   [[nodiscard]] virtual std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const = 0;
   /// B of those joints: how advance() answers to torques, (v' − v)/dt = … + B τ, contacts and limits aside. By rows, 1/(kg·m²);
   /// between prepare() and advance().
   virtual void mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
+  /// Of a driven one-axis joint, N·m or N; in place of what was applied there.
   virtual void apply(std::size_t joint, double torque) = 0;
   /// Adds the spring's force to what is applied; after all apply() of the step.
   virtual void pull(const scene::Pull& pull) = 0;
@@ -69,19 +73,20 @@ class Physics {
   [[nodiscard]] virtual std::optional<Refusal> advance() = 0;
 
   [[nodiscard]] virtual JointState joint(std::size_t joint) const = 0;  ///< one-axis joints
-  virtual void set_joint(std::size_t joint, JointState state) = 0;
+  virtual void set_joint(std::size_t joint, JointState state) = 0;      ///< of a one-axis joint; contacts() are void then
 
-  virtual void poses(std::span<scene::Pose> links) const = 0;
+  virtual void poses(std::span<scene::Pose> links) const = 0;  ///< of all links, by index
+  /// Of those together, m, world.
   [[nodiscard]] virtual std::array<double, 3> center_of_mass(std::span<const std::size_t> links) const = 0;
   /// Turns about the world's z axis and shifts every free body among `links`. False where one of them is tied to the world.
   [[nodiscard]] virtual bool displace(std::span<const std::size_t> links, double yaw, const std::array<double, 3>& shift) = 0;
   /// With positions moved back by half a step, velocities as they are.
   [[nodiscard]] virtual scene::Energy energy() const = 0;
-  [[nodiscard]] virtual int contact_count() const = 0;
+  [[nodiscard]] virtual int contact_count() const = 0;                ///< at the present positions
   virtual void contacts(std::vector<scene::Contact>& out) const = 0;  ///< of the last advance(); none where the state was set since
 
-  [[nodiscard]] virtual StateLayout state_layout() const = 0;
-  [[nodiscard]] virtual std::size_t state_size() const = 0;
+  [[nodiscard]] virtual StateLayout state_layout() const = 0;  ///< of the numbers of save()
+  [[nodiscard]] virtual std::size_t state_size() const = 0;    ///< how many
   /// state_size() numbers; nothing is allocated.
   virtual void save(std::span<double> out) const = 0;
   virtual void restore(std::span<const double> in) = 0;  ///< finite numbers
@@ -90,16 +95,19 @@ class Physics {
   [[nodiscard]] virtual std::unique_ptr<Physics> clone() const = 0;
   /// Add to what is applied; after all apply() of the step, before the pulls.
   virtual void push(std::size_t joint, double torque) = 0;
+  /// On a link, in world axes.
   virtual void push(std::size_t link, const scene::Wrench& wrench) = 0;
 
-  // Of the present state; degrees of freedom as in engine::World.
-  [[nodiscard]] virtual std::size_t dofs() const = 0;
-  [[nodiscard]] virtual std::optional<std::size_t> joint_dof(std::size_t joint) const = 0;
+  /// Of the present state; degrees of freedom as in engine::World.
+  [[nodiscard]] virtual std::size_t dofs() const = 0;                                       ///< degrees of freedom
+  [[nodiscard]] virtual std::optional<std::size_t> joint_dof(std::size_t joint) const = 0;  ///< the first of a joint; none: fixed
+  /// The first of six of a link that flies free; else none.
   [[nodiscard]] virtual std::optional<std::size_t> free_dof(std::size_t link) const = 0;
-  [[nodiscard]] virtual scene::Pose pose(std::size_t link) const = 0;
-  [[nodiscard]] virtual scene::Twist velocity(std::size_t link) const = 0;
-  virtual void mass_matrix(std::span<double> out) const = 0;
-  virtual void bias(std::span<double> out, bool moving) const = 0;  ///< moving: at the present speeds, else at rest
+  [[nodiscard]] virtual scene::Pose pose(std::size_t link) const = 0;       ///< now, world
+  [[nodiscard]] virtual scene::Twist velocity(std::size_t link) const = 0;  ///< now, world axes
+  virtual void mass_matrix(std::span<double> out) const = 0;                ///< M, dofs()² numbers by rows
+  virtual void bias(std::span<double> out, bool moving) const = 0;          ///< moving: at the present speeds, else at rest
+  /// 6 × dofs() by rows, as engine::World::jacobian().
   virtual void jacobian(std::size_t link, const std::array<double, 3>& point, std::span<double> out) const = 0;
 
   /// What the links weigh and how they rub, now.
@@ -119,9 +127,11 @@ class CompiledWorld {
   [[nodiscard]] virtual std::unique_ptr<Physics> start() const = 0;  ///< at its joints' zeros
 };
 
+/// A physics engine: makes of a description what steps it. Give it to engine::WorldOptions.
 class Engine {
  public:
   virtual ~Engine() = default;
+  /// What it can simulate; the rest of a description is refused or left out.
   [[nodiscard]] virtual const description::Capabilities& capabilities() const = 0;
   /// Adds to `problems` and returns null where it can't. Safe from several threads.
   [[nodiscard]] virtual std::shared_ptr<const CompiledWorld> compile(const std::shared_ptr<const description::World>& world,

@@ -9,12 +9,13 @@
 
 namespace vsa::ports {
 
+/// Tells once where simulated time falls behind the wall clock.
 class PaceWatch {
  public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = std::chrono::steady_clock;  ///< of the wall
   /// A window of wall time that brings less than this much of it in simulated time was slow.
   static constexpr std::chrono::seconds kWindow{1};
-  static constexpr double kSlow = 0.9;
+  static constexpr double kSlow = 0.9;  ///< of a window that is still fast enough
 
   /// After a step, `sim_ns` in all. True once: after the first slow window.
   [[nodiscard]] bool fell_behind(Clock::time_point now, std::int64_t sim_ns) {

@@ -13,14 +13,16 @@
 
 namespace vsa::ports {
 
-using Report = std::function<void(const std::string&)>;
+using Report = std::function<void(const std::string&)>;  ///< gets one readable line
 
+/// A robot's open ports; they close with the object.
 class RobotPorts {
  public:
   /// Opens the robot's ports; `report` gets a line a port. Throws InputError with every one that can't be had. The robot must
   /// outlive this.
   void open(host::Robot& robot, const std::string& model, const Report& report);
 
+  /// In the order of its buses.
   [[nodiscard]] const std::vector<std::unique_ptr<serial::VirtualPort>>& all() const noexcept { return ports_; }
 
  private:

@@ -24,6 +24,7 @@
 
 namespace vsa::record {
 
+/// The CSV files of one recording, while it runs.
 class CsvFiles {
  public:
   /// Makes the directory where it is missing, replaces the files, writes the headers. Throws InputError with every file that can't
@@ -40,7 +41,7 @@ class CsvFiles {
   /// Reports what the system could tell only now (RecordError). Nothing may be written afterwards.
   void close();
 
-  [[nodiscard]] std::vector<std::filesystem::path> files() const;
+  [[nodiscard]] std::vector<std::filesystem::path> files() const;  ///< with their paths; they are there from the start
 
  private:
   struct Impl;

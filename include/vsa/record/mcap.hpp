@@ -26,32 +26,36 @@ namespace vsa::record {
 
 using McapMap = std::vector<std::pair<std::string, std::string>>;  ///< keys once each
 
+/// The form of a channel's messages.
 struct McapSchema {
-  std::string name;
+  std::string name;  ///< "vsasim.Energy"
   std::string text;  ///< JSON Schema
 };
 
+/// A topic, whose messages have one schema.
 struct McapChannel {
   std::size_t schema = 0;  ///< into McapContents::schemas
-  std::string topic;
-  McapMap metadata{};
+  std::string topic;       ///< "/world/W/energy"
+  McapMap metadata{};      ///< for readers; may be empty
 };
 
+/// A record of texts beside the messages.
 struct McapMetadata {
-  std::string name;
-  McapMap values;
+  std::string name;  ///< "vsasim.run"
+  McapMap values;    ///< keys once each
 };
 
 /// All that is known before the first message. Texts that aren't UTF-8 are mended. At most 65535 schemas and channels.
 struct McapContents {
-  std::string library;  ///< who wrote the file
-  std::vector<McapSchema> schemas;
-  std::vector<McapChannel> channels;
-  std::vector<McapMetadata> metadata{};
+  std::string library;                    ///< who wrote the file
+  std::vector<McapSchema> schemas;        ///< those of the channels
+  std::vector<McapChannel> channels;      ///< by whose index write() is called
+  std::vector<McapMetadata> metadata{};   ///< written first
   std::size_t chunk_bytes = 262'144;      ///< a chunk that has as many is written, …
   std::int64_t chunk_ns = 1'000'000'000;  ///< … or one whose first message is older than that
 };
 
+/// Writes one MCAP file, messages in the order they come.
 class McapWriter {
  public:
   /// Creates or replaces the file. Throws RecordError.
@@ -68,7 +72,7 @@ class McapWriter {
   /// Writes what is left and the summary. Nothing may be written afterwards. Throws RecordError.
   void close();
 
-  [[nodiscard]] const std::filesystem::path& path() const noexcept;
+  [[nodiscard]] const std::filesystem::path& path() const noexcept;  ///< as it was given
 
  private:
   struct Impl;

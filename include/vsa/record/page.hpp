@@ -12,16 +12,20 @@ namespace vsa::record {
 
 /// What stands around the numbers.
 struct PageText {
-  std::string title;
-  std::vector<Statistic> summary;
+  std::string title;               ///< of the page
+  std::vector<Statistic> summary;  ///< below it
   std::vector<std::string> notes;  ///< what a reader must know, e.g. why the run ended early
 };
 
 /// One moment as the page holds it, one array after the other: poses of the links that move (x y z qw qx qy qz each), readings (the
 /// page's channels, an actuator after the other), energy columns.
 struct Frame {
-  std::vector<float> poses, readings, energy;
-  void clear();
+  /// For each link seven, for each actuator its channels, for each column one.
+  std::vector<float> poses,  ///< seven for each link that moves
+      readings,              ///< a page's channels, an actuator after the other
+      energy;                ///< the energy columns
+  void clear();              ///< keeps the memory
+  /// A moment more; `moving` are the links whose poses it takes.
   void append(const Sample& sample, const std::vector<std::size_t>& moving);
 };
 /// Links that aren't static, in order.
@@ -31,13 +35,14 @@ struct Frame {
 /// on, so that a long run gives a page of bounded size.
 class PageData {
  public:
-  PageData(const RunInfo& info, double rate_Hz, std::size_t frames_max);
+  PageData(const RunInfo& info, double rate_Hz, std::size_t frames_max);  ///< rate in (0, 1e6] Hz; at least 2 frames
 
-  [[nodiscard]] bool due(std::int64_t time_ns) const noexcept { return cadence_.due(time_ns); }
-  void add(const Sample& sample);
-  void restart();
-  [[nodiscard]] std::size_t frames() const noexcept { return time_.size(); }
+  [[nodiscard]] bool due(std::int64_t time_ns) const noexcept { return cadence_.due(time_ns); }  ///< at the page's present rate
+  void add(const Sample& sample);                                             ///< halves the rate where it is the last that fits
+  void restart();                                                             ///< without frames, at the first rate
+  [[nodiscard]] std::size_t frames() const noexcept { return time_.size(); }  ///< so far
 
+  /// All of it, for the page.
   [[nodiscard]] std::string json(const RunInfo& info, const PageText& text) const;
 
  private:

@@ -21,6 +21,7 @@
 
 namespace vsa::record {
 
+/// What a recording is to hold.
 struct RecorderOptions {
   double rate_Hz = 100;                ///< of the CSV files, (0, 1e6]
   double page_rate_Hz = 50;            ///< of the page, (0, 1e6]; halved as often as page_frames_max asks
@@ -50,15 +51,17 @@ class RunRecord {
   std::filesystem::path finish(const std::vector<Statistic>& summary, std::string_view note);
   /// Why there will be no page, in a sentence; empty: there will be one.
   [[nodiscard]] const std::string& without_page() const;
-  [[nodiscard]] std::vector<std::filesystem::path> files() const;
+  [[nodiscard]] std::vector<std::filesystem::path> files() const;  ///< without the page, which finish() makes
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
+/// Records a simulation: RunRecord with samples of it.
 class Recorder {
  public:
+  /// Takes the first sample; throws as RunRecord.
   Recorder(const host::Simulation& world, const std::filesystem::path& directory, RecorderOptions options = {});
 
   /// Call after each step: takes a sample if one is due.
@@ -67,7 +70,9 @@ class Recorder {
   /// Writes the page, if there is a template. `note` says on it why the run ended early; empty where it didn't.
   std::filesystem::path finish(const std::vector<Statistic>& summary = {}, std::string_view note = {});
 
+  /// Without the page, which finish() makes.
   [[nodiscard]] std::vector<std::filesystem::path> files() const { return record_.files(); }
+  /// Why there will be no page; empty: there will be one.
   [[nodiscard]] const std::string& without_page() const { return record_.without_page(); }
 
  private:

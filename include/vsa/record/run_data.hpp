@@ -18,8 +18,9 @@
 
 namespace vsa::record {
 
+/// An actuator, as headers and pages name it.
 struct ActuatorInfo {
-  std::string name;
+  std::string name;                 ///< unique in its robot
   std::string joint;                ///< scoped joint name, as configured
   std::string type;                 ///< the actuator type's name
   std::string preset_unit = "rad";  ///< the law's; "" where it has no preset
@@ -28,23 +29,25 @@ struct ActuatorInfo {
   bool linear = false;              ///< its shaft slides: readings in m and N
 };
 
+/// A robot of the world.
 struct RobotInfo {
-  std::string model;  ///< scoped model name
-  std::vector<ActuatorInfo> actuators;
+  std::string model;                    ///< scoped model name
+  std::vector<ActuatorInfo> actuators;  ///< in the order of Sample::actuators
 };
 
+/// What doesn't change during a run.
 struct RunInfo {
-  std::string world;
-  double step_s = 0;
-  std::vector<RobotInfo> robots;
-  std::vector<scene::LinkInfo> links;
+  std::string world;                   ///< the world's name
+  double step_s = 0;                   ///< of the simulator
+  std::vector<RobotInfo> robots;       ///< in the order of Sample::actuators
+  std::vector<scene::LinkInfo> links;  ///< of Sample::poses
   std::string
       faults{};  ///< what is broken from the start and the seeds of its chances, as `vsa run --fault` takes it; empty: nothing
 };
 
 /// One moment. The same shape for every sample of a run.
 struct Sample {
-  std::int64_t time_ns = 0;
+  std::int64_t time_ns = 0;                      ///< simulated
   std::vector<host::ActuatorReading> actuators;  ///< robots in order, each robot's actuators in order
   std::vector<scene::Pose> poses;                ///< one an entry of RunInfo::links
   actuator::Ledger ledger;                       ///< over all actuators
@@ -53,7 +56,7 @@ struct Sample {
 
 /// A line of the summary, as the command line prints it and the page shows it.
 struct Statistic {
-  std::string label;
+  std::string label;  ///< one or two words
   std::string value;  ///< with its unit
 };
 
@@ -64,11 +67,13 @@ using RecordError = OutputError;
 /// that sample times never drift and a rate above the step rate takes every step.
 class Cadence {
  public:
-  explicit Cadence(double rate_Hz);
+  explicit Cadence(double rate_Hz);  ///< (0, 1e6] Hz, rounded to whole ns
+  /// Whether the sample at this time is wanted.
   [[nodiscard]] bool due(std::int64_t time_ns) const noexcept { return time_ns >= next_ns_; }
+  /// The sample at this time is made.
   void taken(std::int64_t time_ns) noexcept { next_ns_ = (time_ns / period_ns_ + 1) * period_ns_; }
-  void restart() noexcept { next_ns_ = 0; }
-  [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }
+  void restart() noexcept { next_ns_ = 0; }                                     ///< back to time 0
+  [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }  ///< between two samples
 
  private:
   std::int64_t period_ns_;

@@ -20,6 +20,7 @@
 
 namespace vsa::record {
 
+/// Writes run.mcap, sample by sample.
 class RunLog {
  public:
   /// Replaces directory/run.mcap; the directory exists (CsvFiles makes and guards it). Throws InputError.
@@ -35,7 +36,7 @@ class RunLog {
   /// Makes the file whole (RecordError). Nothing may be written afterwards.
   void close();
 
-  [[nodiscard]] const std::filesystem::path& file() const noexcept;
+  [[nodiscard]] const std::filesystem::path& file() const noexcept;  ///< directory/run.mcap
 
  private:
   struct Impl;

@@ -9,8 +9,8 @@
 
 namespace vsa::report {
 
-[[nodiscard]] Table sliding(Table table);
-[[nodiscard]] Chart sliding(Chart chart);
-[[nodiscard]] std::vector<Figure> sliding(std::vector<Figure> figures);
+[[nodiscard]] Table sliding(Table table);                                ///< title, head, rows and caption
+[[nodiscard]] Chart sliding(Chart chart);                                ///< title, labels, curves and caption
+[[nodiscard]] std::vector<Figure> sliding(std::vector<Figure> figures);  ///< labels, values and notes
 
 }  // namespace vsa::report

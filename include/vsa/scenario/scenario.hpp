@@ -16,19 +16,23 @@
 
 namespace vsa::scenario {
 
-inline constexpr double kShortest_s = 1e-9, kLongest_s = 1e8;  // three years; beyond that nanoseconds would overflow soon
-inline constexpr double kLargestSeed = 1e15;
+inline constexpr double kShortest_s = 1e-9,   ///< of durations and steps
+    kLongest_s = 1e8;                         ///< three years: beyond that nanoseconds would overflow soon
+inline constexpr double kLargestSeed = 1e15;  ///< a seed is a whole number up to that
 
+/// One command of a scenario.
 struct Command {
-  double time_s = 0;  ///< simulated; given before the first step that begins then or later
-  std::string actuator;
-  std::optional<double> equilibrium_rad, preset_rad;
+  double time_s = 0;                      ///< simulated; given before the first step that begins then or later
+  std::string actuator;                   ///< by name, or "model/name" where several models have it
+  std::optional<double> equilibrium_rad,  ///< none: keeps what it has
+      preset_rad;                         ///< in the law's unit; none: keeps what it has
 };
 
+/// One run's numbers, and where they come from. As a file: docs/reference/scenario-files.md.
 struct Scenario {
-  std::string scenario;  ///< the file that said so; empty: none did
-  std::string world;     ///< a file, or a built-in world's name
-  std::optional<double> duration_s;
+  std::string scenario;               ///< the file that said so; empty: none did
+  std::string world;                  ///< a file, or a built-in world's name
+  std::optional<double> duration_s;   ///< none: the caller's own
   std::optional<double> step_s;       ///< none: what the world says
   std::optional<std::uint64_t> seed;  ///< of faults that draw and name none themselves; the next one's is 1000 more
   std::string concave = "refuse";     ///< collision meshes that aren't convex: refuse, hull, decompose
@@ -43,9 +47,9 @@ struct Scenario {
 /// Adds what no run could have, by the keys of a file. Names of files, types and gaits are looked up where they are used.
 void validate(const Scenario& scenario, std::string_view where, Problems& problems);
 
-// Each throws InputError with every problem.
+/// Each throws InputError with every problem.
 
-[[nodiscard]] engine::World load_world(const Scenario& scenario);
+[[nodiscard]] engine::World load_world(const Scenario& scenario);  ///< the world with its step, its types and its actuators
 /// The gait or motion of a run, with the scenario's changes; none: it has none.
 [[nodiscard]] std::optional<motion::Gait> load_motion(const Scenario& scenario);
 /// Its faults, with the scenario's seed in every text that has none.

@@ -5,7 +5,9 @@ namespace vsa::scene {
 
 /// Kinetic and gravitational energy of all bodies and that of the description's own joint springs, J.
 struct Energy {
-  double kinetic = 0, gravitational = 0, springs = 0;
+  double kinetic = 0,     ///< of all bodies
+      gravitational = 0,  ///< 0 of a body at the world's origin
+      springs = 0;        ///< the description's own, of joints
 };
 
 }  // namespace vsa::scene

@@ -16,19 +16,21 @@ namespace vsa::scene {
 
 /// Geometry for pictures; primitive kinds as in SDF.
 struct Shape {
-  enum class Kind { box, sphere, cylinder, capsule, plane, mesh, heightmap } kind = Kind::box;
-  Pose pose;                     ///< in its link
+  /// As in SDF.
+  enum class Kind { box, sphere, cylinder, capsule, plane, mesh, heightmap } kind = Kind::box;  ///< which one
+  Pose pose;                                                                                    ///< in its link
   std::array<double, 3> size{};  ///< box x y z; sphere r; cylinder/capsule r, length; plane x y; mesh: scale; heightmap: extent
-  std::array<float, 4> rgba{0.7f, 0.7f, 0.7f, 1};
-  std::vector<float> vertices;  ///< mesh and heightmap: triangles' corners, xyz each, link frame
-  std::vector<std::uint32_t> indices;
+  std::array<float, 4> rgba{0.7f, 0.7f, 0.7f, 1};  ///< 0 … 1 each
+  std::vector<float> vertices;                     ///< mesh and heightmap: triangles' corners, xyz each, link frame
+  std::vector<std::uint32_t> indices;              ///< three a triangle, into `vertices`
 };
 
+/// A body of the world, as pages and recordings name it.
 struct LinkInfo {
-  std::string name;   ///< scoped: "model::link"
-  std::string model;  ///< top-level model
-  double mass_kg = 0;
-  bool is_static = false;
+  std::string name;            ///< scoped: "model::link"
+  std::string model;           ///< top-level model
+  double mass_kg = 0;          ///< 0 of a static link
+  bool is_static = false;      ///< it never moves
   std::vector<Shape> visuals;  ///< the SDF's visuals (collisions where a link has none)
 };
 

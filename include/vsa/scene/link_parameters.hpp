@@ -8,6 +8,7 @@
 
 namespace vsa::scene {
 
+/// What a link weighs and how it rubs.
 struct LinkParameters {
   double mass_kg = 0;                    ///< 1e-9 … 1e9; of a static link nothing but 0
   std::array<double, 3> inertia_kgm2{};  ///< principal moments about the centre of mass, as the engine orders them; their axes stay

@@ -7,6 +7,7 @@
 
 namespace vsa::scene {
 
+/// A link's place in the world; its rotation is a unit quaternion.
 struct Pose {
   std::array<double, 3> position{};              ///< m, world
   std::array<double, 4> quaternion{1, 0, 0, 0};  ///< w x y z
@@ -17,8 +18,8 @@ struct Pose {
 
 /// Linear velocity of a link's origin and angular velocity, both in world axes.
 struct Twist {
-  std::array<double, 3> linear_m_per_s{};
-  std::array<double, 3> angular_rad_per_s{};
+  std::array<double, 3> linear_m_per_s{};     ///< of the link's origin
+  std::array<double, 3> angular_rad_per_s{};  ///< of the link
 };
 
 }  // namespace vsa::scene

@@ -12,7 +12,8 @@ namespace vsa::scene {
 struct Contact {
   std::array<double, 3> position{};  ///< m, world
   std::array<double, 3> force_N{};   ///< world; on `link` by `other`
-  std::size_t link = 0, other = 0;   ///< into the world's links; `link` isn't static
+  std::size_t link = 0,              ///< into the world's links; not static
+      other = 0;                     ///< into the world's links
 };
 
 /// A force at a point of a link and a torque on it, both in world axes; the point goes with the link.

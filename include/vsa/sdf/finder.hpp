@@ -21,15 +21,21 @@ namespace vsa::reader {
 
 /// The directories above, as the environment gives them now.
 struct SearchPath {
+  /// Read of the environment once, here; `more`: the caller's own.
   explicit SearchPath(const std::vector<std::filesystem::path>& more);
   [[nodiscard]] bool operator==(const SearchPath&) const = default;
 
-  std::vector<std::filesystem::path> directories, prefixes, packages, resources, last;
+  std::vector<std::filesystem::path> directories,  ///< DIR/NAME is looked for
+      prefixes,                                    ///< PREFIX/share/NAME and the like
+      packages,                                    ///< $ROS_PACKAGE_PATH
+      resources,                                   ///< of plain paths
+      last;                                        ///< our own, after all others
 };
 
+/// Finds what a description names.
 class Finder {
  public:
-  /// Where it looks is noted in `seen`.
+  /// Where it looks is noted in `seen`, which tells later whether anything has changed.
   Finder(SearchPath path, SeenFiles& seen) : path_(std::move(path)), seen_(seen) {}
   /// Empty where nothing is found.
   [[nodiscard]] std::filesystem::path find(std::string_view uri, const std::filesystem::path& base) const;

@@ -3,7 +3,8 @@
 // SDF 1.6 … 1.12 and URDF → description::World.
 //
 // What the engine that asks can't honour (its Capabilities) is a problem, and so is what no description can say but physics depends
-// on; what doesn't touch the physics (sensors, foreign plugins) is a warning, once a kind. A file with a model and no world becomes that model in a world of SDF's defaults.
+// on; what doesn't touch the physics (sensors, foreign plugins) is a warning, once a kind. A file with a model and no world becomes
+// that model in a world of SDF's defaults.
 #pragma once
 
 #include <filesystem>
@@ -19,15 +20,17 @@
 
 namespace vsa::reader {
 
+/// For whom it is read, and how much is bent to fit.
 struct ReadOptions {
-  description::Capabilities engine;  ///< that the description is for
-  Concave concave = Concave::refuse;
+  description::Capabilities engine;   ///< that the description is for
+  Concave concave = Concave::refuse;  ///< what becomes of meshes that aren't convex
 };
 
+/// A file, or a text of one.
 struct SdfSource {
-  std::filesystem::path path;  ///< read from here; empty: `text`
-  std::string_view text;
-  [[nodiscard]] std::string label() const { return path.empty() ? "SDF text" : path.string(); }
+  std::filesystem::path path;                                                                    ///< read from here; empty: `text`
+  std::string_view text;                                                                         ///< counts where there is no path
+  [[nodiscard]] std::string label() const { return path.empty() ? "SDF text" : path.string(); }  ///< for problems
 };
 
 /// Everything wrong goes to `problems`; the description is complete only where nothing was. What is read

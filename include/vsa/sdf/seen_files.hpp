@@ -15,6 +15,7 @@
 
 namespace vsa::reader {
 
+/// What was read and what was looked for, so that a world need not be read again. One thread.
 class SeenFiles {
  public:
   /// Before the file is read, or a directory listed; one that isn't there counts, too.
@@ -24,8 +25,8 @@ class SeenFiles {
   /// Something was read that can't be known.
   void lost() { settled_ = false; }
 
-  [[nodiscard]] bool settled() const { return settled_; }
-  [[nodiscard]] bool unchanged() const;
+  [[nodiscard]] bool settled() const { return settled_; }  ///< whether unchanged() can be relied on
+  [[nodiscard]] bool unchanged() const;                    ///< whether all of it would be read the same now
 
  private:
   struct Stamp {

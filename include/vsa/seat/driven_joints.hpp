@@ -21,10 +21,12 @@ struct JointKey {
   }
 };
 
+/// The joints of one robot, taken for as long as it lives. Safe from several threads.
 class DrivenJoints {
  public:
+  /// A joint to take, with what the refusal of a second robot calls it.
   struct Joint {
-    JointKey key;
+    JointKey key;          ///< by which it is known; its name only goes into messages
     std::string name;      ///< relative to the model
     std::string actuator;  ///< that drives it
   };

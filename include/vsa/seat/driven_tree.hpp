@@ -12,6 +12,7 @@
 
 namespace vsa::seat {
 
+/// A model's rigid tree as its host sees it: the host keeps bodies() up to date, mobility() makes B of it.
 class DrivenTree {
  public:
   DrivenTree() = default;
@@ -24,6 +25,7 @@ class DrivenTree {
     }
   }
 
+  /// To be filled with where they are, before mobility().
   [[nodiscard]] std::vector<host::TreeBody>& bodies() noexcept { return bodies_; }
   /// Actuators by trees, for host::Robot::join; none where the model is no tree.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& trees() const noexcept { return trees_; }

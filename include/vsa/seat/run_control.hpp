@@ -28,11 +28,14 @@ struct ControlRequest {
   std::optional<std::int64_t> run_to_ns;  ///< run until this simulated time, then pause; a time that has passed pauses at once
 };
 
+/// Between who asks (a topic, a page, a signal) and the one loop that steps: requests wait in order of arrival, and next()
+/// carries them out.
 class RunControl {
  public:
+  /// What the loop is to do.
   enum class Next { step, reset, wait };
 
-  explicit RunControl(bool paused = false) : mode_{paused, 0, std::nullopt} {}
+  explicit RunControl(bool paused = false) : mode_{paused, 0, std::nullopt} {}  ///< how it begins
 
   /// Any thread; in order of arrival.
   void request(const ControlRequest& request);

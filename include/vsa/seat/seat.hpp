@@ -49,25 +49,29 @@ struct Joint {
   bool slides = false;                ///< its position is a travel in m, for a linear actuator
 };
 
+/// What a host knows of a model before it steps: from it the seat makes its robot.
 struct Model {
-  std::string xml;                           ///< of the whole <plugin> element
+  std::string xml;                           ///< of the whole `<plugin>` element
   std::string where;                         ///< leads every line of a problem: "arm.sdf: arm"
   std::string name;                          ///< scoped
   std::vector<Joint> joints;                 ///< those that an element may name
   std::optional<host::RobotConfig> robot{};  ///< given: instead of `xml`, for a host whose models say it otherwise
 };
 
+/// What a host, or its user, wants otherwise than the element says.
 struct Options {
-  config::TypeLibrary types{};
+  config::TypeLibrary types{};         ///< where the types that the element names are looked for
   config::Replacement actuator{};      ///< puts another actuator on the robot
   host::RobotTopics::Report report{};  ///< one readable line, from any thread; none: nobody is told
-  bool makes_substeps = false;         ///< the host honours <substeps>; else a robot that asks for several is refused
+  bool makes_substeps = false;         ///< the host honours `<substeps>`; else a robot that asks for several is refused
   bool watches_pace = true;            ///< tells once where a robot with a serial port falls behind the wall clock
 };
 
+/// A robot in a simulator: host::Robot with its clock, B, ports, topics, faults and snapshots. Neither copied nor moved; see
+/// clone().
 class Seat {
  public:
-  using Report = host::RobotTopics::Report;
+  using Report = host::RobotTopics::Report;  ///< who reads the seat's lines
 
   /// Throws InputError with every problem at once; a joint that another robot of this process drives is one.
   Seat(const Model& model, const Options& options);
@@ -78,8 +82,8 @@ class Seat {
   [[nodiscard]] std::unique_ptr<Seat> clone() const;
 
   [[nodiscard]] const std::string& model() const noexcept { return model_; }  ///< scoped name
-  [[nodiscard]] host::Robot& robot() noexcept { return robot_; }
-  [[nodiscard]] const host::Robot& robot() const noexcept { return robot_; }
+  [[nodiscard]] host::Robot& robot() noexcept { return robot_; }              ///< its steps and resets are the seat's
+  [[nodiscard]] const host::Robot& robot() const noexcept { return robot_; }  ///< to look at
   /// Of the actuators, into Model::joints.
   [[nodiscard]] const std::vector<std::size_t>& joints() const noexcept { return joints_; }
   void report_to(Report report) { report_ = std::move(report); }  ///< from now on; topics: from connect() on
@@ -88,24 +92,28 @@ class Seat {
   /// is then solved by itself with its type's shaft inertia, or what the host gives as JointIn::inverse_inertia.
   void join(const std::vector<std::vector<std::size_t>>& trees);
 
-  // One step. Nothing is allocated, as long as nothing is reported.
+  /// One entry an actuator, to be filled before step() and before observe(). A step allocates nothing, as long as nothing is
+  /// reported.
   [[nodiscard]] std::span<host::JointIn> in() noexcept { return own_.now.in; }
   /// Once before each step, when in() is filled: whether B is due (host/mobility_watch.hpp).
   [[nodiscard]] bool wants_mobility() noexcept { return !own_.mobility.empty() && own_.watch.due(own_.now.in); }
+  /// To be filled where wants_mobility() says so: B of each tree by rows, in the order of join().
   [[nodiscard]] std::span<double> mobility() noexcept { return own_.mobility; }
   /// A step length that the units don't know, or a joint that is no longer finite, stops the actuators with one reported line:
   /// torques are 0 until reset().
   void step(std::int64_t dt_ns);
+  /// Of the last step, N·m (N of a linear actuator), one an actuator.
   [[nodiscard]] std::span<const double> torques() const noexcept { return torques_; }
-  [[nodiscard]] bool stopped() const noexcept { return own_.now.stopped; }
+  [[nodiscard]] bool stopped() const noexcept { return own_.now.stopped; }  ///< whether it gave up, see step()
   /// in() tells where the joints are after the host's step.
   void observe() noexcept { robot_.observe(own_.now.in); }
   /// The host has put bodies elsewhere: B is due in the next step. With an actuator: its joint, and that was neither work nor
   /// acceleration; throws InputError for one that isn't there.
   void moved() noexcept { own_.watch.again(); }
-  void moved(std::size_t actuator);
+  void moved(std::size_t actuator);  ///< InputError: no such actuator
 
   void open_ports();  ///< reports each; throws InputError with every one that can't be had
+  /// Those that are open.
   [[nodiscard]] const std::vector<std::unique_ptr<serial::VirtualPort>>& ports() const noexcept { return ports_.all(); }
 
   /// The robot's topics (host/topics.hpp) and the service of its faults, /model/M/vsa/faults: asked "ACTUATOR words" or "all words"
@@ -129,17 +137,17 @@ class Seat {
 
   struct Snapshot;  ///< of robot, clock, B and in()
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
-  void restore(const Snapshot& snapshot);
+  void restore(const Snapshot& snapshot);      ///< of this seat or of a clone; torques are 0 until the next step
   void check(const Snapshot& snapshot) const;  ///< throws InputError where restore() would be wrong
-  // The same as numbers: the robot's (host/robot.hpp tells of errors), then the seat's own.
+  /// As numbers: the robot's (host/robot.hpp tells of errors), then the seat's own; join() changes the layout.
   [[nodiscard]] StateLayout state_layout() const;
-  [[nodiscard]] std::size_t state_size() const noexcept { return robot_.state_size() + own_size_; }
-  void save(std::span<double> out) const;
-  void restore(std::span<const double> in);
-  void check(std::span<const double> in);
+  [[nodiscard]] std::size_t state_size() const noexcept { return robot_.state_size() + own_size_; }  ///< how many save() gives
+  void save(std::span<double> out) const;                                                            ///< fills state_size() numbers
+  void restore(std::span<const double> in);  ///< as restore() of a snapshot, from such numbers
+  void check(std::span<const double> in);    ///< throws what restore() would
   /// For a host whose step may fail: keep() before it, and go_back() to there. Nothing is allocated.
   void keep();
-  void go_back();
+  void go_back();  ///< to where keep() was called last
 
  private:
   using Clock = std::chrono::steady_clock;

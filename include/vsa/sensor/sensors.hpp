@@ -22,12 +22,13 @@ class Problems;
 
 namespace vsa::sensor {
 
+/// An encoder on a motor's pulley or on the shaft.
 struct EncoderParams {
   int bits = 12;        ///< 1…16
   double zero_rad = 0;  ///< reading = angle + zero
   bool operator==(const EncoderParams&) const = default;
 };
-void validate(const EncoderParams& params, std::string_view where, Problems& problems);
+void validate(const EncoderParams& params, std::string_view where, Problems& problems);  ///< 1 … 16 bits
 
 /// Position within the turn in raw units (65536 per turn), as a signed 16-bit number: −32768…32767.
 [[nodiscard]] inline std::int32_t encoder_sample(const EncoderParams& p, double angle_rad) noexcept {
@@ -41,8 +42,8 @@ void validate(const EncoderParams& params, std::string_view where, Problems& pro
   return raw >= 32768 ? raw - 65536 : raw;
 }
 
-inline constexpr int kAdcMax = 4095;
-inline constexpr int kAdcOffset = 1638;
+inline constexpr int kAdcMax = 4095;     ///< of 12 bits
+inline constexpr int kAdcOffset = 1638;  ///< of both sensors, at no current and no voltage
 
 namespace detail {
 [[nodiscard]] inline int to_counts(double milli, double counts_per_milli) noexcept {
@@ -52,11 +53,12 @@ namespace detail {
 }
 }  // namespace detail
 
-[[nodiscard]] inline int current_adc(double magnitude_A) noexcept {
+[[nodiscard]] inline int current_adc(double magnitude_A) noexcept {  ///< counts, cut at the ends of the scale
   return detail::to_counts(std::abs(magnitude_A) * 1e3, 8192.0 / 25771.0);
 }
-[[nodiscard]] MilliAmp current_from_adc(int counts) noexcept;
+[[nodiscard]] MilliAmp current_from_adc(int counts) noexcept;  ///< as the program reads them, mA
+/// Counts, cut at the ends of the scale.
 [[nodiscard]] inline int supply_adc(double volts) noexcept { return detail::to_counts(volts * 1e3, 128.0 / 1952.0); }
-[[nodiscard]] MilliVolt supply_from_adc(int counts) noexcept;
+[[nodiscard]] MilliVolt supply_from_adc(int counts) noexcept;  ///< as the program reads them, mV
 
 }  // namespace vsa::sensor

@@ -16,11 +16,12 @@ namespace vsa::serial {
 /// programs for the hardware list what lies in /dev.
 [[nodiscard]] std::string lock_path(std::string_view port);
 
+/// The serial ports of this machine that vsasim knows.
 struct PortList {
   std::vector<std::string> virtual_ports;  ///< "vsa-…" in the place above; those whose owner was killed are left out
   std::vector<std::string> left_behind;    ///< links of such ports whose owner was killed
   std::vector<std::string> devices;        ///< /dev/ttyUSB*, /dev/ttyACM*
 };
-[[nodiscard]] PortList find_ports();
+[[nodiscard]] PortList find_ports();  ///< as they are now
 
 }  // namespace vsa::serial

@@ -11,6 +11,7 @@
 
 namespace vsa::serial {
 
+/// One open port. Closes it when it goes.
 class SerialChannel final : public bus::Channel {
  public:
   /// Opens the port for this program alone: raw, eight bits, no parity, pending input thrown away. Two locks: flock, which our own
@@ -21,8 +22,9 @@ class SerialChannel final : public bus::Channel {
 
   /// Waits up to a second for room.
   [[nodiscard]] bool write(std::span<const std::uint8_t> bytes) override;
+  /// Where the port can be read, at least one byte; as bus::Channel has it.
   [[nodiscard]] std::optional<std::size_t> read(std::span<std::uint8_t> into, Time timeout) override;
-  [[nodiscard]] Time now() const override;
+  [[nodiscard]] Time now() const override;  ///< of the machine, monotonic
 
  private:
   int fd_ = -1;

@@ -23,6 +23,7 @@
 
 namespace vsa::serial {
 
+/// Where the port stands, and how much of a client that doesn't read is kept.
 struct VirtualPortOptions {
   std::string path;                        ///< the link's name, see port_path
   std::size_t most_held_bytes = 64 << 10;  ///< answers kept for a client that doesn't read
@@ -39,6 +40,7 @@ struct PortCounters {
   std::int64_t longest_service_ns = 0;   ///< from a request's arrival in our thread to its answer in the terminal
 };
 
+/// One port with one line behind it, served until the object goes.
 class VirtualPort {
  public:
   /// Serves at once. `line` must outlive the port, and may be locked by others for microseconds only. Throws InputError for a path
@@ -49,8 +51,8 @@ class VirtualPort {
   VirtualPort(const VirtualPort&) = delete;
   VirtualPort& operator=(const VirtualPort&) = delete;
 
-  [[nodiscard]] const std::string& path() const noexcept;
-  [[nodiscard]] PortCounters counters() const noexcept;
+  [[nodiscard]] const std::string& path() const noexcept;  ///< of the link that clients open
+  [[nodiscard]] PortCounters counters() const noexcept;    ///< since the port was made
 
  private:
   class Server;

@@ -10,12 +10,14 @@
 
 namespace vsa::study {
 
+/// How the paper's benches are set for an actuator: presets in its law's unit.
 struct BenchFit {
-  bool papers_law = false;
+  bool papers_law = false;  ///< two_sinh, or a law whose name begins so
   double full = 0;  ///< the preset that counts as stiff: the paper's for its own law, else the largest that the motors wind to
-  double load_share = 1;             ///< of the load bench's mass: 1, 2, 5, 10 … or 0.5, 0.2 …
-  bool carries = false;              ///< some preset carries that
-  double softest = 0, stiffest = 0;  ///< the first and the last that do; without `carries` 0 and `full`
+  double load_share = 1;  ///< of the load bench's mass: 1, 2, 5, 10 … or 0.5, 0.2 …
+  bool carries = false;   ///< some preset carries that
+  double softest = 0,     ///< the first preset that carries; without `carries` 0
+      stiffest = 0;       ///< the last; without `carries` `full`
 };
 
 /// The paper's law keeps the paper's mass. Any other has more where its strongest preset still moves twice as much, and less, by the

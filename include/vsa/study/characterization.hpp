@@ -28,8 +28,9 @@ enum class Experiment {
 /// "stiffness", "speed", "preset-step"
 [[nodiscard]] const char* word(Experiment experiment);
 
+/// What is to be measured. Where nothing is said the paper's own values hold, as far as the actuator bears them.
 struct CharacterizationOptions {
-  experiment::Specimen specimen;
+  experiment::Specimen specimen;        ///< the actuator
   std::vector<Experiment> experiments;  ///< empty: all that the actuator has
   std::vector<double> preset;      ///< in the law's unit; a preset step takes the largest. Empty: the paper's, see bench_fit.hpp
   std::optional<double> period_s;  ///< of the stiffness sweep, 1 … 3600; none: 38
@@ -38,38 +39,50 @@ struct CharacterizationOptions {
   std::optional<double> load_kg;        ///< on the load bench's lever, 0.001 … 1000; none: by fit_bench()
 };
 
+/// Of one quantity in a run.
 struct Range {
-  double least = 0, most = 0;
+  double least = 0,  ///< of its samples
+      most = 0;      ///< of its samples
 };
 
+/// One load test: what was run, and what it shows.
 struct StiffnessResult {
-  experiment::StiffnessOptions options;
-  experiment::BenchRun run;
-  experiment::Branches branches;
-  experiment::Loop loop;
-  std::vector<experiment::StiffnessPoint> curve;
-  Range shaft_rad, load_Nm, deflection_rad;  ///< as the unit measures them
-  Range preset;                              ///< attained
+  experiment::StiffnessOptions options;           ///< that it was run with
+  experiment::BenchRun run;                       ///< its samples; empty in a plan
+  experiment::Branches branches;                  ///< rising and falling means on a torque grid
+  experiment::Loop loop;                          ///< hysteresis
+  std::vector<experiment::StiffnessPoint> curve;  ///< stiffness against deflection
+  /// As the unit measures them.
+  Range shaft_rad,     ///< as the unit measures it
+      load_Nm,         ///< as the unit measures it
+      deflection_rad;  ///< as the unit measures it
+  Range preset;        ///< attained
 };
 
 /// One edge of the square wave.
 struct Edge {
-  double command_s = 0, from_rad = 0, to_rad = 0;
-  experiment::StepMeasures shaft, pulleys;  ///< of the shaft; of the equilibrium, which the pulleys make
+  double command_s = 0,            ///< when it was commanded
+      from_rad = 0,                ///< equilibrium before
+      to_rad = 0;                  ///< equilibrium after
+  experiment::StepMeasures shaft,  ///< its response
+      pulleys;                     ///< that of the equilibrium, which the pulleys make
 };
 
+/// One speed test: what was run, and what it shows.
 struct SpeedResult {
-  experiment::SpeedOptions options;
-  experiment::BenchRun run;
-  std::vector<Edge> edges;
-  Edge mean;  ///< over the edges; steady errors signed by the way of travel: negative where it falls short
+  experiment::SpeedOptions options;  ///< that it was run with
+  experiment::BenchRun run;          ///< its samples; empty in a plan
+  std::vector<Edge> edges;           ///< in order of time
+  Edge mean;                         ///< over the edges; steady errors signed by the way of travel: negative where it falls short
 };
 
+/// One preset step and back: what was run, and what it shows.
 struct PresetStepResult {
-  experiment::PresetStepOptions options;
-  experiment::BenchRun run;
-  experiment::StepMeasures up, down;  ///< of the attained preset
-  Range load_Nm;                      ///< measured
+  experiment::PresetStepOptions options;  ///< that it was run with
+  experiment::BenchRun run;               ///< its samples; empty in a plan
+  experiment::StepMeasures up,            ///< of the attained preset, on the way up
+      down;                               ///< and back
+  Range load_Nm;                          ///< measured
 };
 
 /// Of the pinion that a linear actuator's output turns as a rack on the benches.
@@ -77,22 +90,22 @@ inline constexpr double kBenchPinion_m = 0.05;
 
 /// A plan where the results' runs are empty: their options say what is to be run.
 struct Characterization {
-  experiment::Specimen specimen;
-  config::ActuatorType actuator;
-  BenchFit fit;  ///< what of the benches it can bear
-  std::vector<StiffnessResult> stiffness;
-  std::vector<SpeedResult> speed;
-  std::vector<PresetStepResult> preset_step;
-  /// "rad" …; empty: the law has no stiffness preset.
+  experiment::Specimen specimen;              ///< the actuator, as it was asked for
+  config::ActuatorType actuator;              ///< the same, as it was read
+  BenchFit fit;                               ///< what of the benches it can bear
+  std::vector<StiffnessResult> stiffness;     ///< one a preset
+  std::vector<SpeedResult> speed;             ///< one a preset
+  std::vector<PresetStepResult> preset_step;  ///< without load, and with the lever held out
   /// What the bench's 1 N·m is at the specimen's output: 1, or of a linear actuator 1/m, in N.
   double load_scale = 1;
   /// Of a linear actuator, whose results are in m and N (named as those of others, in rad and N·m): it turns the bench as a rack on a
   /// pinion, and options of the plan are the bench's.
   [[nodiscard]] bool linear() const { return load_scale != 1; }
+  /// "rad" …; empty: the law has no stiffness preset.
   [[nodiscard]] std::string preset_unit() const { return std::string(actuator.unit.actuator.transmission->preset_unit()); }
 };
 
-/// Throws InputError with every problem: an unknown preset or override, a stiffness preset that the actuator doesn't have, accept or
+/// Throws InputError with every problem: an unknown type or override, a stiffness preset that the actuator doesn't have, accept or
 /// that stands there twice, a value out of range, an option of the sweep without the sweep. They name the options as
 /// `vsa characterize` does (--preset-rad).
 [[nodiscard]] Characterization plan_characterization(const CharacterizationOptions& options);
@@ -104,7 +117,9 @@ struct Characterization {
 /// Measures what a run shows. `run` must be one of `options`; `preset_unit` is the law's.
 [[nodiscard]] StiffnessResult measure(const experiment::StiffnessOptions& options, experiment::BenchRun run,
                                       const std::string& preset_unit);
+/// Of a speed test: edges of its square wave.
 [[nodiscard]] SpeedResult measure(const experiment::SpeedOptions& options, experiment::BenchRun run);
+/// Of a preset step.
 [[nodiscard]] PresetStepResult measure(const experiment::PresetStepOptions& options, experiment::BenchRun run);
 
 /// results.json: every measure, units in the keys; what couldn't be measured is null. `command`: what made it.
@@ -115,7 +130,9 @@ struct Characterization {
 /// "stiffness_preset_0.6903rad.csv", "speed_preset_0.1125rad.csv", "preset_step_loaded.csv"; an actuator without a preset has
 /// "stiffness.csv" and "speed.csv". results.json names them.
 [[nodiscard]] std::string csv_name(const Characterization& c, const StiffnessResult& r);
+/// Of a speed test.
 [[nodiscard]] std::string csv_name(const Characterization& c, const SpeedResult& r);
+/// Of a preset step.
 [[nodiscard]] std::string csv_name(const PresetStepResult& r);
 
 }  // namespace vsa::study

@@ -13,10 +13,12 @@ namespace vsa::study {
 
 /// A plan where the simulated part is one.
 struct DataSheet {
-  experiment::DataSheet computed;
-  Characterization simulated;  ///< speed and preset steps, as plan_characterization() has them
+  experiment::DataSheet computed;  ///< by law and drive alone
+  Characterization simulated;      ///< speed and preset steps, as plan_characterization() has them
 
+  /// "rad" …; empty: the law has no stiffness preset.
   [[nodiscard]] std::string preset_unit() const { return simulated.preset_unit(); }
+  /// Whether there are columns beside that of preset 0.
   [[nodiscard]] bool has_preset() const { return !preset_unit().empty() && computed.columns.size() > 1; }
   /// M g r of the load bench, N·m; none where nothing ran on it.
   [[nodiscard]] std::optional<double> nominal_load_Nm() const;

@@ -14,25 +14,31 @@
 
 namespace vsa::study {
 
+/// A record of `vsa identify`'s cross-validation.
 struct LeaveOneOut {
+  /// One preset left out.
   struct Row {
-    double preset = 0;
+    double preset = 0;         ///< that was left out
     double predicted_rad = 0;  ///< root mean square by the fit to the other presets
     double fitted_rad = 0;     ///< and by the fit to all
   };
+  /// A value of the identified type.
   struct Value {
-    std::string key, text;
+    std::string key,  ///< "drive.friction_Nm"
+        text;         ///< as a file has it
   };
   /// The 95 % interval of a parameter that was fitted; NaN where it isn't determined.
   struct Interval {
-    std::string key;
-    double low = 0, high = 0;
+    std::string key;  ///< "drive.friction_Nm"
+    double low = 0,   ///< end of the interval
+        high = 0;     ///< end of the interval
   };
-  std::string file, command;
+  std::string file,                 ///< where it lies
+      command;                      ///< what made it
   std::vector<std::string> fitted;  ///< parameters that were fitted again each time; all others were held
   std::vector<Interval> intervals;  ///< of each key of them, tied ones each
-  std::vector<Row> rows;
-  std::vector<Value> values;  ///< of every parameter of the identified type
+  std::vector<Row> rows;            ///< one a preset left out
+  std::vector<Value> values;        ///< of every parameter of the identified type
 };
 
 /// Where the record of a type is kept, below a data directory.

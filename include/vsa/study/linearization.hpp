@@ -15,34 +15,38 @@
 
 namespace vsa::study {
 
+/// What is to be made linear, and about which point.
 struct LinearizationOptions {
-  experiment::Specimen specimen;
-  linear::OperatingPoint point;
-  linear::Firmware firmware = linear::Firmware::averaged;
-  linear::DryFriction friction = linear::DryFriction::sliding;
+  experiment::Specimen specimen;                                ///< the actuator
+  linear::OperatingPoint point;                                 ///< where it stands
+  linear::Firmware firmware = linear::Firmware::averaged;       ///< how its program is taken
+  linear::DryFriction friction = linear::DryFriction::sliding;  ///< how dry friction is taken
 };
 
+/// One actuator about a point.
 struct Linearization {
-  config::ActuatorType actuator;
-  linear::Firmware firmware{};
-  linear::DryFriction friction{};
-  linear::Model model;
-  std::vector<linear::Pole> poles;
+  config::ActuatorType actuator;            ///< as it was read
+  linear::Firmware firmware{};              ///< as it was asked for
+  linear::DryFriction friction{};           ///< as it was asked for
+  linear::Model model;                      ///< matrices, and how it stands there
+  std::vector<linear::Pole> poles;          ///< by frequency
   std::vector<linear::Response> responses;  ///< 0.01 Hz … 1 kHz, 50 a decade; sampled: below half the loop's rate
 };
 
+/// A world of actuators about a point.
 struct WorldLinearization {
-  std::string name;  ///< the world's
-  linear::Firmware firmware{};
-  linear::DryFriction friction{};
-  linear_world::WorldModel world;
-  std::vector<linear::Pole> poles;
+  std::string name;                              ///< the world's
+  linear::Firmware firmware{};                   ///< as it was asked for
+  linear::DryFriction friction{};                ///< as it was asked for
+  linear_world::WorldModel world;                ///< matrices, and what carries the weights
+  std::vector<linear::Pole> poles;               ///< by frequency
   std::vector<std::string> moves;                ///< of each pole: the angle that swings farthest
   std::vector<linear::RobotResponse> responses;  ///< as above, 10 a decade
 };
 
 /// Words as the command has them: frozen, averaged, sampled; sliding, stuck.
 [[nodiscard]] std::string_view word(linear::Firmware firmware) noexcept;
+/// "sliding", "stuck".
 [[nodiscard]] std::string_view word(linear::DryFriction friction) noexcept;
 
 /// Throws InputError: an unknown type or override, and what linear::linearize() refuses.
@@ -52,6 +56,7 @@ struct WorldLinearization {
                                            linear::Firmware firmware, linear::DryFriction friction);
 /// Matrices by rows. A number that isn't finite is null.
 [[nodiscard]] std::string to_json(const Linearization& l, const std::string& command);
+/// Of a world.
 [[nodiscard]] std::string to_json(const WorldLinearization& l, const std::string& command);
 
 }  // namespace vsa::study

@@ -28,55 +28,61 @@
 
 namespace vsa::study {
 
+/// Which types are set the tasks, and by what scale.
 struct TaskOptions {
-  std::vector<std::string> types;  ///< empty: all of the library
-  config::TypeLibrary library{};
-  std::vector<config::Override> overrides;
-  std::optional<double> inertia_kgm2;  ///< J of every link, 1e-6 … 1e3
-  std::optional<double> load_Nm;       ///< to hold, 1e-6 … 1e5
-  double step_s = 0.25e-3;             ///< 1e-5 … 1e-3
+  std::vector<std::string> types;           ///< empty: all of the library
+  config::TypeLibrary library{};            ///< where the types are
+  std::vector<config::Override> overrides;  ///< of every type
+  std::optional<double> inertia_kgm2;       ///< J of every link, 1e-6 … 1e3
+  std::optional<double> load_Nm;            ///< to hold, 1e-6 … 1e5
+  double step_s = 0.25e-3;                  ///< 1e-5 … 1e-3
 };
 
 /// The best of the swings at a preset.
 struct ThrowResult {
-  double preset = 0;
-  double swing_back_s = 0;    ///< t
-  double link_rad_per_s = 0;  ///< largest q̇ on the way forward
-  [[nodiscard]] double distance_m() const;
+  double preset = 0;                        ///< in the law's unit
+  double swing_back_s = 0;                  ///< t
+  double link_rad_per_s = 0;                ///< largest q̇ on the way forward
+  [[nodiscard]] double distance_m() const;  ///< d
 };
 
+/// How soon the link rests after a blow, at one preset.
 struct SettleResult {
-  double preset = 0;
+  double preset = 0;     ///< in the law's unit
   double settled_s = 0;  ///< after the blow; NaN: not within 18 s
   double way_rad = 0;    ///< largest way from where it comes to rest
 };
 
+/// What holding the load costs, at one preset.
 struct HoldResult {
-  double preset = 0;
+  double preset = 0;    ///< in the law's unit
   double energy_J = 0;  ///< from the supply in 10 s; NaN: not held
   double sag_rad = 0;   ///< how far the shaft gives way
 };
 
+/// A type's results.
 struct TaskResults {
-  config::ActuatorType actuator;
-  double torque_Nm = 0;                  ///< τ_p
-  double no_load_speed_rad_per_s = 0;    ///< computed, softest
-  double inertia_kgm2 = 0, load_Nm = 0;  ///< NaN where the motors move nothing, and then no results
-  std::vector<double> presets;
-  std::vector<ThrowResult> throws;
-  std::vector<SettleResult> settles;
-  std::vector<HoldResult> holds;
+  config::ActuatorType actuator;       ///< as it was read
+  double torque_Nm = 0;                ///< τ_p
+  double no_load_speed_rad_per_s = 0;  ///< computed, softest
+  double inertia_kgm2 = 0,             ///< J; NaN where the motors move nothing, and then no results
+      load_Nm = 0;                     ///< to hold; NaN likewise
+  std::vector<double> presets;         ///< in the law's unit, upwards
+  std::vector<ThrowResult> throws;     ///< one a preset
+  std::vector<SettleResult> settles;   ///< one a preset
+  std::vector<HoldResult> holds;       ///< one a preset
 
+  /// "rad" …; empty: the law has no stiffness preset.
   [[nodiscard]] std::string preset_unit() const { return std::string(actuator.unit.actuator.transmission->preset_unit()); }
-  // None: no result that counts.
-  [[nodiscard]] std::optional<ThrowResult> farthest() const;
-  [[nodiscard]] std::optional<SettleResult> soonest() const;
-  [[nodiscard]] std::optional<HoldResult> cheapest() const;
+  /// None: no result that counts.
+  [[nodiscard]] std::optional<ThrowResult> farthest() const;  ///< of the throws that move
+  [[nodiscard]] std::optional<SettleResult> soonest() const;  ///< of those that settled
+  [[nodiscard]] std::optional<HoldResult> cheapest() const;   ///< of those that were held
 };
 
 /// A plan where the results are empty.
 struct Tasks {
-  double step_s = 0;
+  double step_s = 0;              ///< of all simulations
   std::vector<TaskResults> each;  ///< in the order asked for
 };
 

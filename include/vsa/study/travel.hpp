@@ -11,6 +11,7 @@
 
 namespace vsa::study {
 
+/// Averages a centre of mass over a gait period, and counts its way.
 class Travel {
  public:
   /// T and the time between two samples, s; at least one sample is averaged.
@@ -23,8 +24,8 @@ class Travel {
 
   /// The first period is full; before that both lengths are 0.
   [[nodiscard]] bool measured() const noexcept { return ring_.size() == window_; }
-  [[nodiscard]] double path_m() const noexcept { return path_; }
-  [[nodiscard]] double net_m() const noexcept;
+  [[nodiscard]] double path_m() const noexcept { return path_; }  ///< Σ since the first full period
+  [[nodiscard]] double net_m() const noexcept;                    ///< from there to now, as the crow flies
 
  private:
   using Point = std::array<double, 2>;

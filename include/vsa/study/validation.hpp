@@ -16,77 +16,89 @@
 
 namespace vsa::study {
 
+/// What is validated, beside which recordings.
 struct ValidationOptions {
-  experiment::Specimen specimen{"qbmove_maker_pro", {}, config::TypeLibrary(), {}};
-  std::vector<std::filesystem::path> recordings;  ///< directories beside data/
-  std::filesystem::path leave_one_out;            ///< results.json of `vsa identify`; empty: data/TYPE/leave_one_out.json if there
-  std::filesystem::path bounds;                   ///< TOML file; empty: data/bounds.toml
+  experiment::Specimen specimen{"qbmove_maker_pro", {}, config::TypeLibrary(), {}};  ///< the actuator
+  std::vector<std::filesystem::path> recordings;                                     ///< directories beside data/
+  std::filesystem::path leave_one_out;  ///< results.json of `vsa identify`; empty: data/TYPE/leave_one_out.json if there
+  std::filesystem::path bounds;         ///< TOML file; empty: data/bounds.toml
 };
 
 /// A load test's branch means.
 struct Recording {
-  std::string file;  ///< relative to the data directory, or as the user's directory leads to it
-  double preset = 0;
-  experiment::Branches data;
-  std::string origin;  ///< where it comes from, by origin.txt beside it: "digitised from …"; empty: nobody says
+  std::string file;           ///< relative to the data directory, or as the user's directory leads to it
+  double preset = 0;          ///< of the file's name
+  experiment::Branches data;  ///< as the file has them
+  std::string origin;         ///< where it comes from, by origin.txt beside it: "digitised from …"; empty: nobody says
 };
 
 /// What is compared with what, and what is to be run for it.
 struct ValidationPlan {
-  Characterization runs;
-  std::vector<Recording> recordings;
-  experiment::BoundsFile bounds;
-  std::optional<LeaveOneOut> left_out;
-  std::filesystem::path plugin_2015;  ///< directory with the 2015 program's curves
-  double step_command_s = 0;          ///< when its equilibrium steps in figure 4, on its clock
+  Characterization runs;                ///< what is to be simulated for it
+  std::vector<Recording> recordings;    ///< of data/ and of the user's directories
+  experiment::BoundsFile bounds;        ///< held to
+  std::optional<LeaveOneOut> left_out;  ///< the record of the type; none: there is none
+  std::filesystem::path plugin_2015;    ///< directory with the 2015 program's curves
+  double step_command_s = 0;            ///< when its equilibrium steps in figure 4, on its clock
 };
 
 /// One recording of the load test, and the simulation of it.
 struct RecordingCheck {
-  std::string file;    ///< relative to the data directory, or as the user named it
-  std::string origin;  ///< where it comes from; empty: nobody says
-  double preset = 0;
-  experiment::Kind kind = experiment::Kind::calibrated;
-  experiment::Branches data, ours;
-  experiment::Loop data_loop, our_loop;
-  experiment::Difference rms;
-  experiment::TorqueDifference torque;
-  std::optional<experiment::Published> published;
+  std::string file;                                      ///< relative to the data directory, or as the user named it
+  std::string origin;                                    ///< where it comes from; empty: nobody says
+  double preset = 0;                                     ///< of the recording
+  experiment::Kind kind = experiment::Kind::calibrated;  ///< whether the type was fitted to it
+  experiment::Branches data,                             ///< recorded
+      ours;                                              ///< simulated
+  experiment::Loop data_loop,                            ///< recorded
+      our_loop;                                          ///< simulated
+  experiment::Difference rms;                            ///< in deflection
+  experiment::TorqueDifference torque;                   ///< in torque
+  std::optional<experiment::Published> published;        ///< what others reach on it
 };
 
 /// The same at another period of the sweep.
 struct PeriodCheck {
-  double preset = 0, period_s = 0;
-  experiment::Difference rms;
-  experiment::Loop loop;
+  double preset = 0,           ///< of the recording
+      period_s = 0;            ///< of the sweep
+  experiment::Difference rms;  ///< in deflection
+  experiment::Loop loop;       ///< of the simulation
 };
 
 /// A step of the equilibrium, and the 2015 program's.
 struct SpeedCheck {
-  double preset = 0;
-  int percent = 0;
-  experiment::StepMeasures shaft, pulleys, shaft_2015;
-  experiment::TimeSeries ours, theirs;  ///< of the shaft, time from the command
+  double preset = 0;               ///< commanded
+  int percent = 0;                 ///< of the full preset, as the 2015 program's curves are named
+  experiment::StepMeasures shaft,  ///< simulated
+      pulleys,                     ///< the equilibrium's, simulated
+      shaft_2015;                  ///< the 2015 program's
+  experiment::TimeSeries ours,     ///< of the shaft, time from the command
+      theirs;                      ///< the 2015 program's
 };
 
 /// A step of the preset and back, and the 2015 program's.
 struct PresetStepCheck {
-  bool loaded = false;
-  experiment::StepMeasures up, down, up_2015, down_2015;
-  experiment::TimeSeries ours, theirs;  ///< of the attained preset, time from the command
+  bool loaded = false;          ///< with the lever held out
+  experiment::StepMeasures up,  ///< simulated
+      down,                     ///< and back, simulated
+      up_2015,                  ///< the 2015 program's
+      down_2015;                ///< and back, the 2015 program's
+  experiment::TimeSeries ours,  ///< of the attained preset, time from the command
+      theirs;                   ///< the 2015 program's
 };
 
+/// Everything that was compared, and what became of each bound.
 struct Validation {
-  config::ActuatorType actuator;
-  std::vector<config::Override> overrides;
-  std::optional<config::Evidence> evidence;  ///< the type's; none where it has none, or where overrides changed what it speaks of
-  std::optional<LeaveOneOut> left_out;       ///< the record of it, if there is one
-  std::vector<RecordingCheck> recordings;    ///< the predicted ones first
-  std::vector<PeriodCheck> periods;
-  std::vector<SpeedCheck> speeds;
-  std::vector<PresetStepCheck> preset_steps;
-  std::vector<experiment::Verdict> verdicts;
-  double wall_s = 0;
+  config::ActuatorType actuator;              ///< as it was read
+  std::vector<config::Override> overrides;    ///< what was changed in it
+  std::optional<config::Evidence> evidence;   ///< the type's; none where it has none, or where overrides changed what it speaks of
+  std::optional<LeaveOneOut> left_out;        ///< the record of it, if there is one
+  std::vector<RecordingCheck> recordings;     ///< the predicted ones first
+  std::vector<PeriodCheck> periods;           ///< at other periods of the sweep
+  std::vector<SpeedCheck> speeds;             ///< one a recorded percentage
+  std::vector<PresetStepCheck> preset_steps;  ///< without load, and with it
+  std::vector<experiment::Verdict> verdicts;  ///< in the file's order
+  double wall_s = 0;                          ///< of all runs
 };
 
 /// Everything that a bound may name: "stiffness.0.6903.rms_rad" and so on.

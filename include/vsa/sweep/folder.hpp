@@ -26,7 +26,7 @@ class Log {
   /// A new one in the folder. Throws InputError, OutputError.
   Log(const std::filesystem::path& folder, const Series& series);
   void add(const Outcome& outcome);  ///< throws OutputError; what was there stays whole
-  [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
+  [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }  ///< in the folder's log/
 
  private:
   std::mutex mutex_;
@@ -48,6 +48,6 @@ void claim(const std::filesystem::path& folder, const Series& series);
 [[nodiscard]] std::string csv(const Plan& plan, const Results& results);
 /// Writes it, and the same by columns (HDF5) where this build has that; each beside it first, then renamed. Returns the files.
 std::vector<std::filesystem::path> write_tables(const std::filesystem::path& folder, const Plan& plan, const Results& results);
-[[nodiscard]] bool has_hdf5() noexcept;
+[[nodiscard]] bool has_hdf5() noexcept;  ///< whether write_tables() writes HDF5
 
 }  // namespace vsa::sweep

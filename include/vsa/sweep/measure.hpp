@@ -22,27 +22,31 @@
 
 namespace vsa::sweep {
 
+/// One column of a sweep's table.
 struct Measure {
-  std::string name;
-  std::string value;  ///< of a study, in place of all below: a place in its results.json, or a quantity's name
-  std::string signal;
-  std::string statistic = "last";
-  std::string actuator, joint, link;  ///< at most one
-  double from_s = 0, to_s = std::numeric_limits<double>::infinity();
-  double band = 0;   ///< of settle_s: ± about the mean of the window's last tenth
-  double order = 0;  ///< of quantile, 0 … 1
+  std::string name;                ///< the column's name, with its unit
+  std::string value;               ///< of a study, in place of all below: a place in its results.json, or a quantity's name
+  std::string signal;              ///< one of signal_names()
+  std::string statistic = "last";  ///< one of statistic_names()
+  std::string actuator,            ///< whose signal, by name; at most one of the three, and none: of all actuators, or the world
+      joint,                       ///< likewise
+      link;                        ///< likewise
+  double from_s = 0,               ///< only from_s < t counts
+      to_s = std::numeric_limits<double>::infinity();  ///< only t ≤ to_s counts
+  double band = 0;                                     ///< of settle_s: ± about the mean of the window's last tenth
+  double order = 0;                                    ///< of quantile, 0 … 1
 };
 
 /// Of a measure with actuator or with nothing: "actuator"; else "joint", "link", "world".
 [[nodiscard]] std::vector<std::string> signal_names(const std::string& of);
-[[nodiscard]] const std::vector<std::string>& statistic_names();
+[[nodiscard]] const std::vector<std::string>& statistic_names();  ///< in the order of the documentation
 
 /// One number of many. A NaN among them makes a NaN of all but the first and the last.
 class Statistic {
  public:
   /// `measure`: its statistic, band and order.
   explicit Statistic(const Measure& measure);
-  void add(double time_s, double value);
+  void add(double time_s, double value);  ///< in order of time
   /// NaN: nothing was added; settle_s of what never settles.
   [[nodiscard]] double value() const;
 
@@ -68,8 +72,8 @@ class Observer {
   Observer(const Observer&) = delete;
   Observer& operator=(const Observer&) = delete;
 
-  void sample(const engine::World& world);  ///< after every step
-  [[nodiscard]] std::vector<double> values() const;
+  void sample(const engine::World& world);           ///< after every step
+  [[nodiscard]] std::vector<double> values() const;  ///< one a measure, in their order
 
  private:
   struct Impl;

@@ -25,6 +25,7 @@ namespace vsa::sweep {
 /// Whether this build has an optimiser.
 [[nodiscard]] bool has_optimizer() noexcept;
 
+/// What an optimisation found.
 struct Optimum {
   Plan plan;                                    ///< with all candidates that were tried, in their order
   std::vector<std::vector<double>> objectives;  ///< of each, as the plan asks; NaN: its runs failed
@@ -43,6 +44,7 @@ using Evaluate = std::function<std::vector<Outcome>(const Plan& with_candidates,
 
 /// A line a candidate: number, generation, searched values, objectives, whether it is among the best.
 [[nodiscard]] std::string candidates_csv(const Optimum& optimum);
+/// The candidates as a page: objectives by generation, searched values by objectives.
 [[nodiscard]] report::Report optimum_page(const Optimum& optimum, const std::string& command);
 
 }  // namespace vsa::sweep

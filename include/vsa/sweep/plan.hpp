@@ -23,14 +23,16 @@
 
 namespace vsa::sweep {
 
-using Value = std::variant<double, std::int64_t, bool, std::string>;
-[[nodiscard]] std::string value_text(const Value& value);
+using Value = std::variant<double, std::int64_t, bool, std::string>;  ///< as a plan has it
+[[nodiscard]] std::string value_text(const Value& value);             ///< as it stands in a scenario's file
 /// A switch: 0 or 1. Not for texts (std::bad_variant_access).
 [[nodiscard]] double number_of(const Value& value);
 
 /// What varies.
 struct Axis {
-  enum class Kind { listed, random, sobol, searched } kind = Kind::listed;
+  /// Where its values come from.
+  enum class Kind { listed, random, sobol, searched } kind = Kind::listed;  ///< of all its values
+  /// How random and searched ones are spread.
   enum class Law { uniform, log_uniform, normal } law = Law::uniform;  ///< of random and searched
   std::string name;                                                    ///< the column; else the first key
   std::vector<std::string>
@@ -39,52 +41,59 @@ struct Axis {
   bool parameter = false;  ///< key is a parameter of actuators or links (batch::Batch::set), not of the scenario
   bool factor = false;     ///< of parameters: times what the world has
   std::vector<Value> values;  ///< of listed ones, ranges and logs written out
-  double a = 0, b = 0;        ///< of the others: bounds, or mean and standard deviation (cut off at three)
+  /// Of the others: bounds, or mean and standard deviation (cut off at three).
+  double a = 0, b = 0;  ///< of the others: bounds, or mean and standard deviation (cut off at three)
 };
 
 /// Where a repetition begins: the first robot's model, if it flies free, is turned and moved by up to so much, each by chance.
 struct Start {
-  double yaw_deg = 0, xy_m = 0;
+  double yaw_deg = 0,  ///< turned by so much at most, each way
+      xy_m = 0;        ///< moved by so much at most
 };
 
 /// What an optimiser is to make of a plan's searched axes (vsa/sweep/optimize.hpp).
 struct Objective {
+  /// Over a candidate's repetitions.
   enum class Over { mean, median, worst } over = Over::median;  ///< of all runs of a candidate
-  std::size_t measure = 0;
-  bool maximize = false;
+  std::size_t measure = 0;                                      ///< into Plan::measures()
+  bool maximize = false;                                        ///< false: the smallest is best
 };
+/// What is searched for, and how long.
 struct Search {
-  std::string algorithm;
-  unsigned population = 24, generations = 20;
-  std::vector<Objective> objectives;
+  std::string algorithm;              ///< pso, gaco, nsga2, nspso or maco
+  unsigned population = 24,           ///< candidates of a generation
+      generations = 20;               ///< how many there are
+  std::vector<Objective> objectives;  ///< one: pso, gaco; several: the others
 };
 
+/// A plan: what is run, and what is measured. Immutable and cheap to copy.
 class Plan {
  public:
   /// Throws InputError with every problem that can be seen without a world.
   [[nodiscard]] static Plan load(const std::filesystem::path& file);
-  static constexpr double kMostRuns = 1e7;
+  static constexpr double kMostRuns = 1e7;  ///< points times repetitions
 
   /// Also what a world shows: each value of each list, and the ends of each range, beside the first value of all others. Loads a world
   /// for each. Throws InputError with every problem.
   void check() const;
 
-  [[nodiscard]] const std::string& title() const;
-  [[nodiscard]] const std::vector<Axis>& axes() const;
-  [[nodiscard]] const std::vector<Measure>& measures() const;
-  [[nodiscard]] std::size_t points() const;
-  [[nodiscard]] std::size_t repetitions() const;
+  [[nodiscard]] const std::string& title() const;              ///< for people
+  [[nodiscard]] const std::vector<Axis>& axes() const;         ///< in the plan's order
+  [[nodiscard]] const std::vector<Measure>& measures() const;  ///< in the plan's order, columns
+  [[nodiscard]] std::size_t points() const;                    ///< the product of all lists, times the samples
+  [[nodiscard]] std::size_t repetitions() const;               ///< of each point, from another start
   /// None: nothing is searched.
   [[nodiscard]] const std::optional<Search>& search() const;
   /// The plan with candidates for its searched axes: as many numbers each, 0 … 1 from end to end. Its points are those of the first
   /// candidate, then those of the next.
   [[nodiscard]] Plan with(std::vector<std::vector<double>> candidates) const;
   [[nodiscard]] std::size_t candidates() const;  ///< 1 where nothing is searched
+  /// The candidates that it was made with; empty: none.
   [[nodiscard]] const std::vector<std::vector<double>>& candidate_list() const;
-  [[nodiscard]] std::size_t most_runs() const;  ///< that a search comes to; else runs()
-  [[nodiscard]] std::size_t runs() const { return points() * repetitions(); }
-  [[nodiscard]] std::uint64_t seed() const;
-  [[nodiscard]] double limit_s() const;  ///< of a run, by the wall clock
+  [[nodiscard]] std::size_t most_runs() const;                                 ///< that a search comes to; else runs()
+  [[nodiscard]] std::size_t runs() const { return points() * repetitions(); }  ///< points() times repetitions()
+  [[nodiscard]] std::uint64_t seed() const;  ///< of starts, samples and faults without one of their own
+  [[nodiscard]] double limit_s() const;      ///< of a run, by the wall clock
   /// One an axis.
   [[nodiscard]] std::vector<Value> values(std::size_t point) const;
   /// Of its text and of the files that it names: equal plans give equal tables.
@@ -96,6 +105,7 @@ class Plan {
   /// Its runs, a column a measure.
   operator Series() const;  // NOLINT(google-explicit-constructor): a plan is one
 
+  /// Opaque.
   struct Impl;
 
  private:
@@ -107,7 +117,7 @@ class Plan {
 /// Runs of a plan, one after the other, in one thread. What it keeps between them (a world that was read) changes no bit.
 class Runner {
  public:
-  explicit Runner(const Plan& plan);
+  explicit Runner(const Plan& plan);  ///< keeps a copy of the plan
   ~Runner();
   Runner(const Runner&) = delete;
   Runner& operator=(const Runner&) = delete;

@@ -20,7 +20,9 @@ struct Work {
 
 /// Where the processors' time went, from the first run's beginning to the last one's end.
 struct Account {
-  std::size_t runs = 0, failed = 0, threads = 0;
+  std::size_t runs = 0,    ///< that were made
+      failed = 0,          ///< of these, with an error
+      threads = 0;         ///< of the pool
   double span_s = 0;       ///< by the wall clock
   double run_wall_s = 0;   ///< Σ over runs: span·threads, if nobody waited
   double run_cpu_s = 0;    ///< Σ over runs
@@ -37,6 +39,6 @@ Account run_pool(const Series& series, unsigned threads, const Work& work);
 /// How many runs the next chunk has: a part of what is left, so that few questions are asked at first and all end together.
 ///   max(1, left/(kShare·takers))
 [[nodiscard]] std::size_t guided_chunk(std::size_t left, std::size_t takers) noexcept;
-inline constexpr std::size_t kShare = 3;
+inline constexpr std::size_t kShare = 3;  ///< of a chunk
 
 }  // namespace vsa::sweep

@@ -13,11 +13,14 @@ namespace vsa::sweep {
 
 /// Quartiles, interpolated; NaN of nothing. What isn't finite doesn't count.
 struct Quartiles {
-  std::size_t count = 0;
-  double low = 0, median = 0, high = 0;
+  std::size_t count = 0;  ///< that are finite
+  double low = 0,         ///< a quarter lies below
+      median = 0,         ///< half of them lie below
+      high = 0;           ///< a quarter lies above
 };
-[[nodiscard]] Quartiles quartiles(std::vector<double> values);
+[[nodiscard]] Quartiles quartiles(std::vector<double> values);  ///< of the finite ones
 
+/// The results of a sweep as a page: each measure by each axis, maps, and all at once.
 [[nodiscard]] report::Report summary(const Plan& plan, const Results& results, const std::string& command);
 
 }  // namespace vsa::sweep

@@ -14,6 +14,7 @@
 
 namespace vsa::topics {
 
+/// A client of running robots, for one of them at a time.
 class CommandClient {
  public:
   CommandClient();

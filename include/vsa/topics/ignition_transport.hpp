@@ -21,11 +21,14 @@ class IgnitionTransport final : public host::TopicTransport {
   IgnitionTransport(const IgnitionTransport&) = delete;
   IgnitionTransport& operator=(const IgnitionTransport&) = delete;
 
-  host::Outcome on_double(const std::string& topic, std::function<void(double)> handler) override;
+  host::Outcome on_double(const std::string& topic, std::function<void(double)> handler) override;  ///< as ignition::msgs::Double
+  /// As ignition::msgs::JointTrajectory.
   host::Outcome on_trajectory(const std::string& topic, std::function<void(const host::Trajectory&)> handler) override;
+  /// As ignition::msgs::Actuators.
   host::Outcome on_actuators(const std::string& topic, std::function<void(const host::ActuatorsCmd&)> handler) override;
   host::Outcome serve_text(const std::string& service, Answer answer) override;  ///< StringMsg to StringMsg
   std::unique_ptr<host::Publisher<double>> advertise_double(const std::string& topic) override;
+  /// As ignition::msgs::Model.
   std::unique_ptr<host::Publisher<host::JointStates>> advertise_states(const std::string& topic) override;
 
   /// Messages and requests that came, taken or refused. From any thread.

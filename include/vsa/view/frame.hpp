@@ -21,10 +21,13 @@
 
 namespace vsa::view {
 
+/// What a frame says beside the world.
 struct FrameInfo {
-  double time_s = 0;
-  double factor = 0;
-  bool paused = false, recording = false, gait = false;
+  double time_s = 0;      ///< simulated
+  double factor = 0;      ///< simulated by wall time, lately
+  bool paused = false,    ///< flag 1
+      recording = false,  ///< flag 2
+      gait = false;       ///< flag 4: it plays
 };
 
 inline constexpr std::size_t kContactsMax = 256;  ///< the strongest are shown where there are more
@@ -32,7 +35,9 @@ inline constexpr std::size_t kContactsMax = 256;  ///< the strongest are shown w
 /// Makes frames of a world; keeps its buffers.
 class FrameMaker {
  public:
+  /// Of that world; the same for all frames.
   explicit FrameMaker(const record::RunInfo& info) : moving_(record::moving_links(info)) {}
+  /// At the world's present time, without the four bytes of the server.
   [[nodiscard]] std::shared_ptr<const std::string> make(const host::Simulation& world, const FrameInfo& info);
 
  private:

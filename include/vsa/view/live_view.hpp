@@ -27,8 +27,9 @@
 
 namespace vsa::view {
 
+/// A live view's server, pages and pace.
 struct LiveOptions {
-  ServerOptions server;
+  ServerOptions server;                   ///< port and limits
   std::filesystem::path page_template;    ///< empty: data_directory()/web/live.html
   std::filesystem::path replay_template;  ///< of recordings; empty: data_directory()/web/replay.html
   std::filesystem::path records = ".";    ///< where recordings go: a new directory recording-001, … each
@@ -45,8 +46,8 @@ class LiveView {
   LiveView(const LiveView&) = delete;
   LiveView& operator=(const LiveView&) = delete;
 
-  [[nodiscard]] std::string url() const;
-  [[nodiscard]] ServerCounts counts() const;
+  [[nodiscard]] std::string url() const;      ///< of the page, with its port
+  [[nodiscard]] ServerCounts counts() const;  ///< of viewers and frames so far
 
   /// Does what pages asked for. Before every decision of the loop.
   void serve();
@@ -56,7 +57,7 @@ class LiveView {
 
   /// Simulated by wall time that pages want; none: as fast as it can. `speed_changes` counts, so that a pace can be set anew.
   [[nodiscard]] std::optional<double> speed() const noexcept;
-  [[nodiscard]] std::uint64_t speed_changes() const noexcept;
+  [[nodiscard]] std::uint64_t speed_changes() const noexcept;  ///< how often pages have set the pace
 
   /// Ends a recording under way and tells the pages why the run is over. Returns the recordings' pages.
   std::vector<std::filesystem::path> finish(const std::string& why);

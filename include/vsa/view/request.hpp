@@ -32,22 +32,26 @@
 
 namespace vsa::view {
 
+/// Of a value, ends included.
 struct Span {
-  double min = 0, max = 0;
+  double min = 0,  ///< end included
+      max = 0;     ///< end included
 };
 
 /// What there is to ask for.
 struct Rules {
+  /// What a page may command of an actuator.
   struct Actuator {
-    Span equilibrium_rad, preset;
+    Span equilibrium_rad,  ///< that the controller lets it have
+        preset;            ///< in its law's unit
   };
-  std::vector<Actuator> actuators;
+  std::vector<Actuator> actuators;       ///< in the world's order
   std::vector<bool> moves;               ///< one a link
   std::vector<std::string> gait_groups;  ///< in the gait's order
-  bool gait = false;
-  bool control = false;   ///< play, pause, step, reset, speed
-  bool hands = false;     ///< pull
-  bool contacts = false;  ///< nothing to ask for: whether frames have any
+  bool gait = false;                     ///< whether there is a gait to play and change
+  bool control = false;                  ///< play, pause, step, reset, speed
+  bool hands = false;                    ///< pull
+  bool contacts = false;                 ///< nothing to ask for: whether frames have any
 };
 
 /// What the world, its gait and its loop allow.
@@ -55,40 +59,51 @@ struct Rules {
 
 struct Play {};
 struct Pause {};
+/// One step, or some.
 struct Step {
-  std::uint32_t steps = 1;
+  std::uint32_t steps = 1;  ///< 1 … 1000
 };
 struct Reset {};
+/// Another pace.
 struct Speed {
-  std::optional<double> factor;
+  std::optional<double> factor;  ///< simulated by wall time; none: as fast as it can
 };
+/// Commands by hand.
 struct Command {
-  std::vector<std::size_t> actuators;
-  std::optional<double> equilibrium_rad, preset;
+  std::vector<std::size_t> actuators;     ///< of the world
+  std::optional<double> equilibrium_rad,  ///< none: it keeps what it has
+      preset;                             ///< in the law's unit; none: it keeps what it has
 };
+/// A hand at a link.
 struct PullLink {
-  std::size_t link = 0;
-  std::array<double, 3> point_m{}, target_m{};
+  std::size_t link = 0;             ///< of the world
+  std::array<double, 3> point_m{},  ///< in the link's frame
+      target_m{};                   ///< in the world
 };
 struct Release {};
+/// Recording on or off.
 struct Record {
-  bool on = false;
+  bool on = false;  ///< whether one begins
 };
+/// Another gait, blended in.
 struct ChangeGait {
-  motion::GaitChange to;
+  motion::GaitChange to;  ///< all groups
 };
+/// The gait plays, or is held.
 struct PlayGait {
-  bool on = false;
+  bool on = false;  ///< false: the last commands stay
 };
 struct GiveBack {};
 struct Next {};
 
+/// Any request.
 using Request =
     std::variant<Play, Pause, Step, Reset, Speed, Command, PullLink, Release, Record, ChangeGait, PlayGait, GiveBack, Next>;
 
+/// A message, read.
 struct Parsed {
-  std::optional<Request> request;
-  std::string error;  ///< where there is no request
+  std::optional<Request> request;  ///< none: it was refused
+  std::string error;               ///< where there is no request
 };
 
 /// Any bytes; never throws for them.

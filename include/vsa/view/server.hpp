@@ -19,12 +19,13 @@
 
 namespace vsa::view {
 
-using ViewerId = std::uint64_t;
+using ViewerId = std::uint64_t;  ///< tells viewers apart
 
+/// What a path gives.
 struct Download {
-  std::string type;  ///< "text/html"
-  std::string name;  ///< for the browser's folder; empty: shown
-  std::string content;
+  std::string type;     ///< "text/html"
+  std::string name;     ///< for the browser's folder; empty: shown
+  std::string content;  ///< of any bytes
 };
 
 /// What the server serves. All of it is called in the server's thread.
@@ -37,26 +38,29 @@ class Host {
   virtual std::string greet(ViewerId viewer) = 0;
   /// A viewer's message; the answer, empty: none. `next` is set where the viewer asks for one more frame.
   virtual std::string hear(ViewerId viewer, std::string_view text, bool& next) = 0;
-  virtual void gone(ViewerId viewer) = 0;
+  virtual void gone(ViewerId viewer) = 0;  ///< its connection is closed
 };
 
+/// Where the server listens, and how much it takes.
 struct ServerOptions {
-  std::uint16_t port = 0;  ///< 0: any free one
-  double rate_Hz = 60;     ///< frames a wall second at most
-  std::size_t message_max = 4096;
-  std::size_t connections_max = 64;
-  std::size_t answers_max = 64;  ///< not yet read by a viewer
+  std::uint16_t port = 0;            ///< 0: any free one
+  double rate_Hz = 60;               ///< frames a wall second at most
+  std::size_t message_max = 4096;    ///< bytes of a viewer's message
+  std::size_t connections_max = 64;  ///< connections at once
+  std::size_t answers_max = 64;      ///< not yet read by a viewer
 };
 
 /// Since the start.
 struct ServerCounts {
-  std::uint64_t viewers_now = 0, viewers = 0;
-  std::uint64_t frames = 0;   ///< shown by the maker
-  std::uint64_t sent = 0;     ///< to viewers, summed
-  std::uint64_t dropped = 0;  ///< for viewers that weren't ready, summed
-  std::uint64_t refused = 0;  ///< connections: too many, wrong host or origin, no such page, no HTTP
+  std::uint64_t viewers_now = 0,  ///< now
+      viewers = 0;                ///< since the start
+  std::uint64_t frames = 0;       ///< shown by the maker
+  std::uint64_t sent = 0;         ///< to viewers, summed
+  std::uint64_t dropped = 0;      ///< for viewers that weren't ready, summed
+  std::uint64_t refused = 0;      ///< connections: too many, wrong host or origin, no such page, no HTTP
 };
 
+/// The server itself. Its thread calls Host; everything else may come from any.
 class Server {
  public:
   /// Listens from here on. Throws InputError where the port can't be had. `host` must outlive it.
@@ -66,8 +70,8 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  [[nodiscard]] std::uint16_t port() const noexcept;
-  [[nodiscard]] std::string url() const;  ///< "http://127.0.0.1:PORT/"
+  [[nodiscard]] std::uint16_t port() const noexcept;  ///< that it listens on, which 0 left open
+  [[nodiscard]] std::string url() const;              ///< "http://127.0.0.1:PORT/"
 
   /// True once for every frame that is due and that a viewer would get. Any thread.
   [[nodiscard]] bool wanted() noexcept;
@@ -75,9 +79,9 @@ class Server {
   void show(std::shared_ptr<const std::string> frame);
   /// Text to all viewers, or to one. Any thread.
   void tell(std::string text);
-  void tell(ViewerId viewer, std::string text);
+  void tell(ViewerId viewer, std::string text);  ///< to one, if it is still there
 
-  [[nodiscard]] ServerCounts counts() const;
+  [[nodiscard]] ServerCounts counts() const;  ///< so far
 
  private:
   struct Impl;
