@@ -20,6 +20,7 @@
 # make test-gz       the plug-in in a real gz-sim, where there is one (VSA_GZ_PREFIX)
 # make stiffness-uses   what stiffness is good for (docs/explanation/what-stiffness-is-good-for.md): pages in out/stiffness_uses; minutes
 # make snake-travel   how far the snake gets over its terrains (docs/explanation/snake.md), a sweep; about 15 minutes
+# make packages   Debian packages, in build/packages/packages (docs/howto/packages.md); make check-packages   installed, used, upgraded, purged in a bare Debian 12; as root
 JOBS ?= $(shell nproc)
 FUZZ_S ?= 300
 HOURS ?= 6
@@ -27,7 +28,7 @@ BUILD := build/release
 VSA := $(BUILD)/bin/vsa
 
 .PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage soak check-asan check-tsan tidy check-all format \
-  check-format stiffness-uses snake-travel clean
+  check-format stiffness-uses snake-travel packages check-packages clean
 
 all: build
 
@@ -183,6 +184,15 @@ stiffness-uses: setup
 # A minute from eight starts with each of the snake's gaits on each ground.
 snake-travel: build
 	@$(VSA) sweep examples/sweep/snake_gaits.toml --out out/snake_travel
+
+packages:
+	@sh scripts/setup.sh
+	@sh scripts/setup.sh packages
+	@JOBS=$(JOBS) sh scripts/packages.sh
+
+check-packages: packages
+	@sh scripts/setup.sh roots
+	@sh tests/packages/bare.sh build/packages/packages
 
 clean:
 	@rm -rf build out

@@ -40,16 +40,18 @@ for group in "$@"; do
     docs) packages="$packages doxygen python3-sphinx python3-myst-parser python3-sphinx-rtd-theme" ;;
     tidy) packages="$packages clang-format clang-tidy" ;;
     fuzz) packages="$packages clang-$clang libclang-rt-$clang-dev" ;;
-    classic) packages="$packages debootstrap" ;;
-    *) echo "setup.sh: unknown group '$group' (allowed: test, mpi, soak, coverage, docs, tidy, fuzz, classic)" >&2; exit 2 ;;
+    packages) packages="$packages dpkg-dev file lintian" ;;
+    classic | roots) packages="$packages debootstrap" ;;
+    *) echo "setup.sh: unknown group '$group' (allowed: test, mpi, soak, coverage, docs, tidy, fuzz, classic, packages, roots)" >&2; exit 2 ;;
   esac
 done
 missing=""
 for p in $packages; do
   dpkg-query -W -f='${Status}' "$p" 2>/dev/null | grep -q 'install ok installed' || missing="$missing $p"
 done
-# Node.js and npm: whatever is on the PATH serves; Debian's npm conflicts with other sources' Node.js.
-if ! command -v npm >/dev/null 2>&1 || ! command -v node >/dev/null 2>&1; then missing="$missing nodejs npm"; fi
+# Node.js and npm: whatever is on the PATH serves; Debian's npm conflicts with other sources' Node.js. A source archive has its pages.
+if [ -e "$(dirname "$0")/../web/prebuilt/replay.html" ]; then :
+elif ! command -v npm >/dev/null 2>&1 || ! command -v node >/dev/null 2>&1; then missing="$missing nodejs npm"; fi
 
 [ -n "$missing" ] || exit 0
 

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 std::string data_directory;  // what loaded_with() keeps a pointer to
 
 /// The module's own data: share/vsa in the package's folder (pip, the build tree), or below the prefix that it was installed to
-/// (PREFIX/lib/python3/dist-packages/vsasim). Neither: the source tree that it was built from.
+/// (PREFIX/lib/python3/dist-packages/vsasim). Neither: what the program that loads it finds.
 void find_data() {
   Dl_info self{};
   if (dladdr(reinterpret_cast<const void*>(&find_data), &self) == 0 || self.dli_fname == nullptr) return;

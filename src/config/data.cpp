@@ -26,8 +26,7 @@ std::vector<fs::path> data_directories() {
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   if (!error) directories.push_back((executable.parent_path() / ".." / "share" / "vsa").lexically_normal());
-  const char* installed = installation.load();
-  directories.emplace_back(installed != nullptr ? installed : VSA_SOURCE_DIR);
+  if (const char* installed = installation.load()) directories.emplace_back(installed);
   return directories;
 }
 

@@ -182,10 +182,13 @@ TEST(Characterize, ASignalStopsItAndNothingIsWritten) {
   EXPECT_FALSE(fs::exists(scratch / "out"));
 }
 
-// The program alone, away from its pages: runs that would take days end at once.
+// The program with its data, away from its pages: runs that would take days end at once.
 TEST(Report, WhoseTemplateIsNowhereIsToldBeforeTheWork) {
   const Scratch scratch;
   fs::create_directories(scratch / "bin");
+  fs::create_directories(scratch / "share/vsa");
+  for (const std::string data : {"actuators", "models", "data"})
+    fs::create_directory_symlink(std::string(VSA_SOURCE_DIR) + "/" + data, scratch / ("share/vsa/" + data));
   fs::copy_file(fs::path(VSA_BINARY_DIR) / "bin" / "vsa", scratch / "bin/vsa");
   Surroundings alone;
   alone.program = scratch / "bin/vsa";

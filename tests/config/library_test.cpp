@@ -202,7 +202,7 @@ TEST(TypeLibrary, OldSpellingsAreUnderstoodAndTold) {
   EXPECT_TRUE(shipped().notices().empty());
 }
 
-TEST(DataDirectory, IsFoundFromAnExecutableInTheBuildTreeThroughTheSourceTree) {
+TEST(DataDirectory, IsFoundFromAnExecutableInTheBuildTree) {
   EXPECT_TRUE(std::filesystem::exists(config::data_directory() / "actuators"));
   ASSERT_TRUE(config::find_data("actuators/sea_example.toml").has_value());
   EXPECT_FALSE(config::find_data("no such thing").has_value());
@@ -226,7 +226,7 @@ TEST(DataDirectory, OfAModuleIsItsOwnAndTheEnvironmentStillComesFirst) {
     EXPECT_EQ(config::data_directories(), std::vector<std::filesystem::path>{"/nowhere"});
   }
   config::loaded_with(nullptr);
-  EXPECT_GT(config::data_directories().size(), 1u);
+  EXPECT_NE(config::data_directories().front(), "/a/module");
 }
 
 /// A type that differs from its base, beside it or in the library.

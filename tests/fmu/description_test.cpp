@@ -186,7 +186,7 @@ Linked linked(const fs::path& library) {
 
 TEST(Package, LibrariesShowTheStandardsFunctionsOnlyAndAnActuatorsNeedsTheCLibraryOnly) {
   for (const char* name : {"libvsa-fmu.so", "libvsa-fmu-world.so"}) {
-    const Linked l = linked(fs::path(VSA_BINARY_DIR) / "lib/vsasim" / name);
+    const Linked l = linked(fs::path(VSA_BINARY_DIR) / "lib/vsasim/fmu" / name);
     for (const std::string& symbol : l.shown) EXPECT_TRUE(symbol.starts_with("fmi2") || symbol.starts_with("fmi3")) << symbol;
     EXPECT_EQ(l.shown.count("fmi2DoStep"), 1U);
     EXPECT_EQ(l.shown.count("fmi3DoStep"), 1U);

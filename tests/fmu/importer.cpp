@@ -179,7 +179,7 @@ fmu::PackagePlan plan_of(const std::string& name, fmu::Version version, const ch
   plan.name = name;
   plan.title = "of a test";
   plan.version = version;
-  plan.library = fs::path(VSA_BINARY_DIR) / "lib/vsasim" / library;
+  plan.library = fs::path(VSA_BINARY_DIR) / "lib/vsasim/fmu" / library;
   plan.licence = "of a test";
   return plan;
 }

@@ -4,7 +4,7 @@
 # gzserver with a world of models/, commanded and watched with Gazebo's own command-line client.  smoke.sh PLUGIN_DIRECTORY
 set -eu
 source_tree=$(cd "$(dirname "$0")/../.." && pwd)
-export GAZEBO_MODEL_PATH="$source_tree/models" GAZEBO_PLUGIN_PATH="$1" GAZEBO_MODEL_DATABASE_URI="" GAZEBO_IP=127.0.0.1 IGN_IP=127.0.0.1
+export VSA_DATA_DIR="$source_tree" GAZEBO_MODEL_PATH="$source_tree/models" GAZEBO_PLUGIN_PATH="$1" GAZEBO_MODEL_DATABASE_URI="" GAZEBO_IP=127.0.0.1 IGN_IP=127.0.0.1
 export GAZEBO_MASTER_URI="http://127.0.0.1:$((20000 + $$ % 20000))" IGN_PARTITION="vsa_smoke_$$"
 log=$(mktemp)
 gzserver "$source_tree/models/worlds/bench_load.sdf" >"$log" 2>&1 &

@@ -5,7 +5,7 @@
 # state.  worlds.sh PLUGIN_DIRECTORY
 set -eu
 source_tree=$(cd "$(dirname "$0")/../.." && pwd)
-export GAZEBO_MODEL_PATH="$source_tree/models" GAZEBO_PLUGIN_PATH="$1" GAZEBO_MODEL_DATABASE_URI="" GAZEBO_IP=127.0.0.1 IGN_IP=127.0.0.1
+export VSA_DATA_DIR="$source_tree" GAZEBO_MODEL_PATH="$source_tree/models" GAZEBO_PLUGIN_PATH="$1" GAZEBO_MODEL_DATABASE_URI="" GAZEBO_IP=127.0.0.1 IGN_IP=127.0.0.1
 export IGN_PARTITION="vsa_worlds_$$"
 log=$(mktemp)
 server=

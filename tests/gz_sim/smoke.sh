@@ -7,7 +7,7 @@ set -eu
 source_tree=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 export HOME="$work" GZ_IP=127.0.0.1 IGN_IP=127.0.0.1 GZ_PARTITION="vsa_smoke_$$" IGN_PARTITION="vsa_smoke_$$"
-export GZ_SIM_RESOURCE_PATH="$source_tree/models" GZ_SIM_SYSTEM_PLUGIN_PATH="$1"
+export VSA_DATA_DIR="$source_tree" GZ_SIM_RESOURCE_PATH="$source_tree/models" GZ_SIM_SYSTEM_PLUGIN_PATH="$1"
 export IGN_GAZEBO_RESOURCE_PATH="$source_tree/models" IGN_GAZEBO_SYSTEM_PLUGIN_PATH="$1"
 server=
 stop() {

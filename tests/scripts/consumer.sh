@@ -5,7 +5,7 @@ source=$1 build=$2
 work=$build/consumer
 rm -rf "$work"
 cmake --install "$build" --prefix "$work/prefix" > /dev/null
-test -s "$work/prefix/share/man/man1/vsa.1"
+test -s "$work/prefix/share/man/man1/vsa.1" || test -s "$work/prefix/share/man/man1/vsa.1.gz"  # compressed where packages are made
 cmp "$source/apps/vsa/vsa.bash" "$work/prefix/share/bash-completion/completions/vsa"
 cmake -S "$source/examples/library" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null 2> "$work/warnings"
 if [ -s "$work/warnings" ]; then echo "consumer.sh: find_package(vsasim) warns a user of what isn't his:" >&2; cat "$work/warnings" >&2; exit 1; fi

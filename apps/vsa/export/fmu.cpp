@@ -19,12 +19,11 @@ namespace vsa::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// Beside this program: in a build, or in an installation.
+/// Beside this program, in a build as in an installation.
 fs::path library_beside(const std::string& name) {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  const fs::path built = (folder / "../lib/vsasim" / name).lexically_normal();
-  return fs::exists(built, error) ? built : (folder / VSA_FMU_LIBRARIES / name).lexically_normal();
+  return (folder / "../lib/vsasim/fmu" / name).lexically_normal();
 }
 
 /// Known before the work, not after.

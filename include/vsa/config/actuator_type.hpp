@@ -173,14 +173,14 @@ class TypeLibrary {
 /// Where data (actuators/, models/, web/) are looked for, in this order:
 ///   1. $VSA_DATA_DIR, if set: then nowhere else
 ///   2. ../share/vsa beside the executable's directory: an installation, or build/PRESET/bin with build/PRESET/share/vsa
-///   3. of a program linked to an installation (find_package(vsasim)): that; else the source tree that the library was built from
+///   3. of a program linked to an installation (find_package(vsasim)): that
 [[nodiscard]] std::vector<std::filesystem::path> data_directories();
 
 /// The first of them that exists and has actuators/. Throws InputError where none has.
 [[nodiscard]] std::filesystem::path data_directory();
 
-/// The first data directory that has `relative` ("models", "web/replay.html"); none: empty. A build directory holds generated files
-/// only, the source tree the others, so ask for what you need.
+/// The first data directory that has `relative` ("models", "web/replay.html"); none: empty. Of the program's own
+/// directory and its installation's either may lack something, so ask for what you need.
 [[nodiscard]] std::optional<std::filesystem::path> find_data(const std::filesystem::path& relative);
 
 }  // namespace vsa::config

@@ -3,7 +3,7 @@
 
 namespace vsa::config {
 
-/// The program was linked to an installation whose data lie there: data_directories() ends with it instead of the source tree.
+/// The program was linked to an installation whose data lie there: data_directories() ends with it.
 /// Called before main() by a file that the CMake package adds to whoever links it. `directory` is kept as it is: a literal.
 void installed_in(const char* directory) noexcept;
 

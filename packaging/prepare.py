@@ -1,0 +1,63 @@
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+"""Copyright file and change logs of the Debian packages, from the repository's own files.
+
+prepare.py --version V --release R --maintainer M --out DIR   writes copyright, changelog.gz, changelog.Debian.gz
+prepare.py --epoch                                            prints the seconds since 1970 of the topmost version's day
+
+The day comes from CHANGELOG.md and not from the clock or git: the same sources make the same packages at any time, also from an
+archive. SOURCE_DATE_EPOCH, where it is set, is taken instead.
+"""
+import argparse
+import calendar
+import email.utils
+import gzip
+import os
+import pathlib
+import re
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+HEAD = re.compile(r"^## \[(\d+\.\d+\.\d+)\] - (\d{4}-\d\d-\d\d)$", re.M)
+
+
+def newest():
+    """(version, epoch) of the topmost dated heading."""
+    match = HEAD.search((ROOT / "CHANGELOG.md").read_text(encoding="utf-8"))
+    if not match:
+        sys.exit("prepare.py: CHANGELOG.md has no heading such as ## [1.2.3] - 2026-01-31")
+    given = os.environ.get("SOURCE_DATE_EPOCH")
+    return match.group(1), int(given) if given else calendar.timegm(time.strptime(match.group(2), "%Y-%m-%d"))
+
+
+def compressed(data):
+    """As gzip -9n: neither time nor name within."""
+    return gzip.compress(data, 9, mtime=0)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--epoch", action="store_true")
+    for name in ("version", "release", "maintainer", "out"):
+        parser.add_argument("--" + name)
+    given = parser.parse_args()
+    version, epoch = newest()
+    if given.epoch:
+        print(epoch)
+        return
+    if None in (given.version, given.release, given.maintainer, given.out):
+        parser.error("--version, --release, --maintainer and --out belong together")
+    if given.version != version:
+        sys.exit(f"prepare.py: CMakeLists.txt makes version {given.version}, CHANGELOG.md's topmost is {version}")
+    out = pathlib.Path(given.out)
+    out.mkdir(parents=True, exist_ok=True)
+    # What changed is in the other log: this one is of the packaging, as Debian asks for it.
+    entry = (f"vsasim ({version}-{given.release}) unstable; urgency=medium\n\n  * Version {version}; what changed: changelog.gz.\n\n"
+             f" -- {given.maintainer}  {email.utils.formatdate(epoch, localtime=False).replace('-0000', '+0000')}\n")
+    (out / "changelog.Debian.gz").write_bytes(compressed(entry.encode()))
+    (out / "changelog.gz").write_bytes(compressed((ROOT / "CHANGELOG.md").read_bytes()))
+    (out / "copyright").write_bytes((ROOT / "packaging" / "copyright").read_bytes())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,29 @@
+#!/bin/sh
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#
+# dist.sh [BUILD] [OUT]: the source archive OUT/vsasim-VERSION.tar.xz (build/dist unless said otherwise) of the last commit, with the
+# pages bundled in BUILD (build/release) in web/prebuilt, so that it is built without npm, and without git. The same commit makes the
+# same bytes: times are the version's day, names are sorted, nobody owns it.
+set -eu
+cd "$(dirname "$0")/.."
+build=${1:-build/release}
+out=${2:-build/dist}
+git rev-parse --git-dir >/dev/null 2>&1 || { echo "dist.sh: this isn't a git work tree: an archive is made of a commit" >&2; exit 1; }
+[ -z "$(git status --porcelain --untracked-files=no)" ] || { echo "dist.sh: commit first: the archive is of the last commit" >&2; exit 1; }
+for page in replay.html live.html report.html bundled.json; do
+  [ -s "$build/share/vsa/web/$page" ] || { echo "dist.sh: $build has no $page: cmake --build $build --target vsa_web" >&2; exit 1; }
+done
+version=$(sed -n 's/^project(vsasim VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+epoch=$(python3 packaging/prepare.py --epoch)
+name=vsasim-$version
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+umask 022
+git archive --format=tar --prefix="$name/" HEAD | tar -x -C "$work"
+mkdir "$work/$name/web/prebuilt"
+for page in replay.html live.html report.html bundled.json; do cp "$build/share/vsa/web/$page" "$work/$name/web/prebuilt"; done
+mkdir -p "$out"
+LC_ALL=C tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$epoch" --mode=u+rwX,go+rX,go-w --format=gnu -cf "$work/$name.tar" "$name"
+xz -9 -T1 -c "$work/$name.tar" >"$out/$name.tar.xz"
+(cd "$out" && sha256sum -- *.tar.xz >SHA256SUMS)
+echo "dist: $out/$name.tar.xz, $(($(wc -c <"$out/$name.tar.xz") / 1024)) KiB"

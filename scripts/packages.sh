@@ -1,0 +1,40 @@
+#!/bin/sh
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#
+# packages.sh [BUILD] [OUT]: the Debian packages of BUILD in OUT (build/packages and BUILD/packages unless said otherwise). A BUILD that
+# isn't there is made by the preset `packages`; one that is there, a release build that was tested say, is configured for /usr and
+# stays so. JOBS bounds the compilers.
+set -eu
+cd "$(dirname "$0")/.."
+build=${1:-build/packages}
+out=${2:-$build/packages}
+jobs=${JOBS:-$(nproc)}
+for tool in dpkg-deb dpkg-shlibdeps file python3; do
+  command -v "$tool" >/dev/null || { echo "packages.sh: $tool is missing: sh scripts/setup.sh packages" >&2; exit 1; }
+done
+# One time for all that is packed, the version's day, so that the same sources make the same packages whenever they are made.
+SOURCE_DATE_EPOCH=$(python3 packaging/prepare.py --epoch)
+export SOURCE_DATE_EPOCH
+export LC_ALL=C.UTF-8 TZ=UTC
+umask 022
+
+say() { echo "packages: $*"; }
+start=$(date +%s)
+# shellcheck disable=SC2086 # CMAKE_FLAGS is words
+if [ -f "$build/CMakeCache.txt" ]; then
+  cmake "$build" -DCMAKE_INSTALL_PREFIX=/usr -DVSA_PACKAGES=ON ${CMAKE_FLAGS:-} >/dev/null
+else
+  cmake --preset packages -B "$build" ${CMAKE_FLAGS:-} >/dev/null
+fi
+cmake --build "$build" -j "$jobs" -- --quiet
+say "built after $(($(date +%s) - start)) s"
+rm -rf "$build/packages" "$build/_CPack_Packages"
+(cd "$build" && cpack -G DEB >cpack.log 2>&1) || { tail -n 20 "$build/cpack.log" >&2; exit 1; }
+rm -rf "$build/_CPack_Packages"
+if [ "$(realpath -m "$out")" != "$(realpath "$build/packages")" ]; then
+  rm -rf "$out"
+  mkdir -p "$(dirname "$out")"
+  mv "$build/packages" "$out"
+fi
+(cd "$out" && sha256sum -- *.deb >SHA256SUMS)
+say "$(find "$out" -name '*.deb' | wc -l) packages in $out after $(($(date +%s) - start)) s"
