@@ -12,7 +12,7 @@
 
 namespace vsa::state {
 
-/// Into a span that has room for all of it. A fault: it has more of something than there is room for.
+/// A state's numbers into a span that has room for all of it. A fault: it has more of something than there is room for.
 class Writer : public Sink {
  public:
   static constexpr bool kWantsRoom = false;
@@ -53,7 +53,7 @@ class Writer : public Sink {
   StateFault fault_;
 };
 
-/// The first fault is kept; what is loaded after it is worth nothing.
+/// A state out of its numbers. The first fault is kept; what is loaded after it is worth nothing.
 class Reader : public Sink {
  public:
   static constexpr bool kWantsRoom = false;

@@ -177,7 +177,7 @@ std::size_t size_of(const E& v) noexcept {
   return sizer.size();
 }
 
-/// Writes a layout instead of numbers.
+/// The layout of a state: names, units and kinds instead of numbers.
 class Namer : public Sink {
  public:
   static constexpr bool kWantsRoom = true;

@@ -71,7 +71,8 @@ struct Done {
   bool operator==(const Done&) const = default;
 };
 
-/// Asks units over a Channel, one at a time, and blocks until the answer or its time-out. One thread.
+/// A client's side of the conversation: one request, one answer, on any Channel. Every call blocks until the answer or its
+/// time-out; one thread.
 class Client {
  public:
   Client(Channel& channel, ClientOptions options) : channel_(channel), options_(options) {}  ///< the channel must outlive it

@@ -96,12 +96,12 @@ inline constexpr int kFramesPerPoll = 6;  ///< after which the unit stops readin
 /// length: ≤ 1 or > 128 → hunt again, nothing is counted; the byte itself isn't looked at again.
 /// body: LEN bytes, without a time-out: a sender that dies half way swallows the next frame's beginning.
 struct UnitReceiver {
-  /// Where it is in a frame (see above).
+  /// Where it is in a frame.
   enum class Phase : std::uint8_t { hunt, id, length, body, skip };
 
   Frame frame{};                       ///< the frame under way, or the last
   std::array<std::uint8_t, 3> last{};  ///< of the bytes in hunt
-  Phase phase = Phase::hunt;           ///< see above
+  Phase phase = Phase::hunt;           ///< what the next byte is
   std::uint8_t wanted = 0;             ///< LEN of the frame under way
   std::uint8_t received = 0;           ///< body bytes so far, of this unit's or another's frame
   std::uint8_t pending_id = 0;         ///< of the frame under way

@@ -53,7 +53,7 @@ enum class Command : std::uint8_t {
   get_cycle_time = 150,           ///< dialect seven
 };
 
-/// How a unit's messages look: see above.
+/// Which firmware's messages: six is 6.1 (public source), seven what qbdevice-api 7.2.8 expects.
 enum class Dialect : std::uint8_t { six = 6, seven = 7 };
 
 /// How a unit speaks.

@@ -30,7 +30,7 @@ inline constexpr std::int64_t kMostBaud_Hz = 1'000'000'000;               ///< o
 /// Rounded up: a byte isn't there before its last bit.
 [[nodiscard]] constexpr std::int64_t to_ns(std::int64_t ps) noexcept { return (ps + kPsPerNs - 1) / kPsPerNs; }
 
-/// A line's rate, and the time that bits take there.
+/// A line's rate, and the time that bits and bytes take there, ps.
 struct LineRate {
   std::int64_t baud_Hz = kDefaultBaud_Hz;  ///< bits per second
 

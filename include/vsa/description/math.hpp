@@ -88,7 +88,7 @@ class Vec3 {
 };
 inline constexpr Vec3 Vec3::Zero{0, 0, 0}, Vec3::One{1, 1, 1};
 
-/// A rotation.
+/// A rotation as a quaternion w + xi + yj + zk: p = q·v·q⁻¹.
 class Quat {
  public:
   constexpr Quat() = default;
@@ -133,7 +133,7 @@ class Pose3 {
   Quat q_;
 };
 
-/// A 3 × 3, as inertias need it.
+/// A 3 × 3 matrix by rows, as inertias need it.
 class Mat3 {
  public:
   constexpr Mat3() = default;

@@ -128,8 +128,9 @@ struct UnitPlace {
 template <class T>
 struct UnitPhysics;
 
-/// One unit's parameters and what follows from them; the state is the owner's, so that equal units share a Unit. Not for two
-/// threads at once: it has scratch.
+/// One emulated unit: its controller (the qbmove's program, or a servo), its electronics and its physics, driven by a host's steps.
+/// Holds parameters and what follows from them; the state is the owner's, so that equal units share a Unit. Not for two threads at
+/// once: it has scratch.
 class Unit {
  public:
   explicit Unit(UnitConfig config);                                            ///< throws InputError with all that validate() finds

@@ -76,7 +76,9 @@ struct ParameterChanges {
   std::vector<std::pair<LinkHandle, LinkParameters>> links;             ///< each with the parameters that it is to have
 };
 
-/// A world that was moved from throws std::logic_error from everything but its destructor and assignment. A motion::Gait plays on it.
+/// The embedded simulator: bodies and contacts, actuators with their firmware and buses. It owns time; the same inputs give the
+/// same bits. One that was moved from throws std::logic_error from everything but its destructor and assignment. A motion::Gait
+/// plays on it.
 class World : public motion::Stage, public host::Simulation {
  public:
   /// A file, or the name of a built-in world ("snake_flat.sdf"). Throws InputError with all problems. Safe from several

@@ -12,7 +12,7 @@
 
 namespace vsa::firmware {
 
-/// The ring of 32 bytes between interrupt and program.
+/// The serial port's ring of 32 bytes between interrupt and program.
 struct ReceiveBuffer {
   static constexpr std::uint8_t kSize = 32;  ///< bytes
 

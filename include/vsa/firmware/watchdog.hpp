@@ -16,7 +16,7 @@ namespace vsa::firmware {
 
 inline constexpr std::int64_t kWatchdogClockNs = 40'960'000;  ///< of its counter
 
-/// The counter, its clock and what it has told.
+/// The 8-bit down counter, clocked every 40.96 ms, that tells the program that nobody has spoken for long.
 struct Watchdog {
   std::int64_t next_clock_ns = 0;  ///< of its clock, line time
   std::uint8_t period = 127;       ///< N: clocks until it goes off, less one

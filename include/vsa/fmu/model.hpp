@@ -17,7 +17,7 @@
 
 namespace vsa::fmu {
 
-/// A model of an FMU: values by reference, and a state of its own.
+/// What stands behind an FMU's instance, whatever version of FMI asks: values by reference, a step, and a state as numbers.
 class Model {
  public:
   virtual ~Model() = default;

@@ -87,13 +87,15 @@ struct Placement {
   std::optional<double> equilibrium_rad = std::nullopt;  ///< none: where the springs give no torque (the angle, if they are equal)
 };
 
-/// A command that was out of range is clamped as the device does and reported once per actuator.
+/// What a robot has to tell of a run. A command that was out of range is clamped as the device does and reported once per actuator.
 struct Notice {
   std::optional<std::size_t> actuator;  ///< none: of the robot as a whole
   std::string text;                     ///< one line, with the numbers
 };
 
-/// A robot that was moved from throws std::logic_error from everything but its destructor and assignment; advance() aborts.
+/// All that a simulator sees of a robot made of VSAs: shaft angles and speeds in, shaft torques out, with units, buses and firmware
+/// behind them. One that was moved from throws std::logic_error from everything but its destructor and assignment; advance()
+/// aborts.
 class Robot {
  public:
   /// Throws InputError for values that no unit could have (validate(); config:: makes valid ones) and for what only the whole

@@ -38,7 +38,7 @@ struct MotionTrack {
       preset;                          ///< times grow; may be empty
 };
 
-/// A motion as a file has it.
+/// A motion: keyframes of equilibrium and preset for named actuators.
 struct MotionParams {
   bool smooth = true;                 ///< false: linear
   double end_s = 0;                   ///< the last keyframe's time

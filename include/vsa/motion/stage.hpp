@@ -13,7 +13,7 @@
 
 namespace vsa::motion {
 
-/// What an actuator was last told, rad.
+/// What an actuator was last told.
 struct Commanded {
   double equilibrium_rad = 0,  ///< rad
       preset = 0;              ///< in the law's unit

@@ -54,7 +54,8 @@ class Bodies {
   [[nodiscard]] virtual std::span<const scene::LinkParameters> links() const = 0;  ///< by link
 };
 
-/// One world's bodies in an engine, in motion. One thread at a time; indices of links and joints are those of description::World.
+/// One world's bodies in an engine, in motion: prepare(), apply(), advance(). One thread at a time; indices of links and joints are
+/// those of description::World.
 class Physics {
  public:
   virtual ~Physics() = default;

@@ -13,7 +13,7 @@ namespace vsa::record {
 /// What stands around the numbers.
 struct PageText {
   std::string title;               ///< of the page
-  std::vector<Statistic> summary;  ///< below it
+  std::vector<Statistic> summary;  ///< lines below the title
   std::vector<std::string> notes;  ///< what a reader must know, e.g. why the run ended early
 };
 

@@ -14,7 +14,7 @@
 
 namespace vsa::report {
 
-/// One line, or points, of a chart.
+/// One curve of a chart: a line, markers, or a band.
 struct Curve {
   /// How it is drawn; band: an area of half the width that `error` gives.
   enum class Style { line, dashed, dotted, markers, band };
@@ -112,7 +112,7 @@ struct Section {
   std::vector<Block> blocks;  ///< charts of a section stand side by side where there is room
 };
 
-/// A page.
+/// A report: one self-contained HTML page of sections with text, tables and interactive curves.
 struct Report {
   std::string title,                                ///< of the page
       subtitle;                                     ///< below it; may be empty

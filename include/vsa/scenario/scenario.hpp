@@ -28,7 +28,8 @@ struct Command {
       preset_rad;                         ///< in the law's unit; none: keeps what it has
 };
 
-/// One run's numbers, and where they come from. As a file: docs/reference/scenario-files.md.
+/// What shapes a run's numbers: world, parameters, faults, motion, and commands in simulated time. As a file:
+/// docs/reference/scenario-files.md.
 struct Scenario {
   std::string scenario;               ///< the file that said so; empty: none did
   std::string world;                  ///< a file, or a built-in world's name
