@@ -40,7 +40,8 @@ class Writer : public Sink {
     out_[at_++] = static_cast<double>(count);
     return count;
   }
-  void blank(std::size_t n) noexcept {  ///< leaves room for n numbers, all zero
+  /// Leaves room for n numbers, all zero.
+  void blank(std::size_t n) noexcept {
     std::fill_n(out_.begin() + static_cast<std::ptrdiff_t>(at_), n, 0.0);
     at_ += n;
   }
@@ -83,7 +84,8 @@ class Reader : public Sink {
     items.resize(count);
     return count;
   }
-  void blank(std::size_t n) noexcept {  ///< n numbers that a state has not
+  /// n numbers that a state has not.
+  void blank(std::size_t n) noexcept {
     if (room(n)) {
       const auto rest = in_.subspan(at_, n);
       const auto it = std::find_if(rest.begin(), rest.end(), [](double v) { return bits_as<std::uint64_t>(v) != 0; });

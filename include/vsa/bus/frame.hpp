@@ -35,7 +35,8 @@ struct FrameBytes {
   std::uint8_t size = 0;                             ///< of `bytes`
   bool overflowed = false;                           ///< whether one was dropped
 
-  void push(std::uint8_t byte) noexcept {  ///< drops the byte if there is no room
+  /// Drops the byte if there is no room.
+  void push(std::uint8_t byte) noexcept {
     if (size < bytes.size())
       bytes[size++] = byte;
     else
@@ -67,7 +68,8 @@ struct Frame {
   [[nodiscard]] constexpr const char* impossible() const noexcept { return length <= kMaxLength ? nullptr : "a LEN of up to 128"; }
 
   [[nodiscard]] std::uint8_t command() const noexcept { return body[0]; }  ///< CMD
-  [[nodiscard]] std::span<const std::uint8_t> payload() const noexcept {   ///< without CMD and CHK; empty where LEN is too small
+  /// Without CMD and CHK; empty where LEN is too small.
+  [[nodiscard]] std::span<const std::uint8_t> payload() const noexcept {
     return {body.data() + 1, length < kMinLength ? 0U : length - kMinLength};
   }
   bool operator==(const Frame&) const = default;

@@ -59,7 +59,8 @@ struct Burst {
   std::span<const std::uint8_t> bytes;  ///< back to back
   LineRate rate{};                      ///< of the speaker
 
-  [[nodiscard]] constexpr std::int64_t end_ps() const noexcept {  ///< of the last bit
+  /// Of the last bit.
+  [[nodiscard]] constexpr std::int64_t end_ps() const noexcept {
     return start_ps + rate.bytes_ps(static_cast<std::int64_t>(bytes.size()));
   }
 };

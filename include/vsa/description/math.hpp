@@ -73,10 +73,12 @@ class Vec3 {
   [[nodiscard]] Vec3 Normalized() const { return std::abs(Length()) <= kNoLength ? *this : *this / Length(); }
   /// No coordinate is NaN or infinite.
   [[nodiscard]] bool IsFinite() const { return std::isfinite(v_[0]) && std::isfinite(v_[1]) && std::isfinite(v_[2]); }
-  void Min(const Vec3& o) {  ///< each coordinate the smaller of the two
+  /// Each coordinate the smaller of the two.
+  void Min(const Vec3& o) {
     for (std::size_t i = 0; i < 3; ++i) v_[i] = o[i] < v_[i] ? o[i] : v_[i];
   }
-  void Max(const Vec3& o) {  ///< each coordinate the larger of the two
+  /// Each coordinate the larger of the two.
+  void Max(const Vec3& o) {
     for (std::size_t i = 0; i < 3; ++i) v_[i] = o[i] > v_[i] ? o[i] : v_[i];
   }
 

@@ -25,12 +25,14 @@ struct Watchdog {
   bool reload = false;             ///< asked for; done at the next clock
   bool expired = false;            ///< until the next byte
 
-  void power_up(std::int64_t now_ns, bool on) noexcept {  ///< at the clock that begins then
+  /// At the clock that begins then.
+  void power_up(std::int64_t now_ns, bool on) noexcept {
     *this = {};
     enabled = on;
     next_clock_ns = now_ns + kWatchdogClockNs;
   }
-  void run_to(std::int64_t now_ns) noexcept {  ///< every clock up to then
+  /// Every clock up to then.
+  void run_to(std::int64_t now_ns) noexcept {
     for (; next_clock_ns <= now_ns; next_clock_ns += kWatchdogClockNs) {
       const bool out = enabled && !reload && count == 0;
       expired = expired || out;
@@ -38,7 +40,8 @@ struct Watchdog {
       reload = false;
     }
   }
-  void heard_byte() noexcept {  ///< reloads at the next clock
+  /// Reloads at the next clock.
+  void heard_byte() noexcept {
     reload = true;
     expired = false;
   }

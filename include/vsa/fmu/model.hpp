@@ -57,7 +57,8 @@ class Model {
   void add_variables(std::vector<Variable> variables);                                ///< in the constructor, once
   void make_start_values();                                                           ///< of the parameters as they are set now
   [[nodiscard]] double value(Reference variable) const { return values_[variable]; }  ///< as it was set or evaluated
-  void tell(const std::string& line) const {                                          ///< to whoever listens
+  /// To whoever listens.
+  void tell(const std::string& line) const {
     if (warn) warn(line);
   }
 
