@@ -15,7 +15,7 @@ namespace vsa::state {
 /// A state's numbers into a span that has room for all of it. A fault: it has more of something than there is room for.
 class Writer : public Sink {
  public:
-  static constexpr bool kWantsRoom = false;
+  static constexpr bool kWantsRoom = false;  ///< whether a walk enters the room that nothing takes
   explicit Writer(std::span<double> out) noexcept : out_(out) {}
   template <class T>
   void leaf(const char*, const char*, const T& v) noexcept {
@@ -57,7 +57,7 @@ class Writer : public Sink {
 /// A state out of its numbers. The first fault is kept; what is loaded after it is worth nothing.
 class Reader : public Sink {
  public:
-  static constexpr bool kWantsRoom = false;
+  static constexpr bool kWantsRoom = false;  ///< whether a walk enters the room that nothing takes
   explicit Reader(std::span<const double> in) noexcept : in_(in) {}
   template <class T>
   void leaf(const char*, const char*, T& v) noexcept {

@@ -44,7 +44,7 @@ class Instance {
 
   [[nodiscard]] Mode mode() const noexcept { return mode_; }             ///< which decides what calls are allowed
   [[nodiscard]] const Model& model() const noexcept { return *model_; }  ///< what it stands on
-  void set_logging(bool on) noexcept { talks_ = on; }                    ///< whether the log's other categories are told
+  void set_logging(bool on) noexcept { talks_ = on; }                    ///< whether what isn't wrong is told, too
 
   /// `call`: the standard's name of the function, for messages.
   Status set_up(const char* call, double start_s, bool has_stop, double stop_s) noexcept;  ///< `has_stop` false: no end is known

@@ -42,7 +42,7 @@ struct MotionTrack {
 struct MotionParams {
   bool smooth = true;                 ///< false: linear
   double end_s = 0;                   ///< the last keyframe's time
-  std::optional<double> loop_from_s;  ///< none: it ends
+  std::optional<double> loop_from_s;  ///< none: the last values are held
   std::vector<MotionTrack> tracks;    ///< one an actuator, in the file's order
 };
 

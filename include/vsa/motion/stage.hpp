@@ -30,7 +30,7 @@ class Stage {
   [[nodiscard]] virtual const std::string& model_of(std::size_t actuator) const = 0;  ///< scoped name, for steering
   /// What isn't given stays.
   virtual void send(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset) = 0;
-  [[nodiscard]] virtual Commanded commanded(std::size_t actuator) const = 0;                     ///< since the first sample
+  [[nodiscard]] virtual Commanded commanded(std::size_t actuator) const = 0;                     ///< last, by whoever did
   [[nodiscard]] virtual std::array<double, 3> center_of_mass(std::string_view model) const = 0;  ///< for steering, m
 };
 
