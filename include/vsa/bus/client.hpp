@@ -39,7 +39,7 @@ enum class ClientError : std::uint8_t {
   closed,     ///< the channel is gone
   refused,    ///< the unit answered "not done"
   malformed,  ///< an answer came, but not as this dialect has it
-  bad_value,  ///< the value isn't of the parameter's type; nothing was sent
+  bad_value,  ///< not of the parameter's type, or the dialect has no such parameter; nothing was sent
 };
 [[nodiscard]] const char* describe(ClientError error) noexcept;  ///< in words, for a user
 

@@ -6,7 +6,7 @@
 //   r(t)   = t/ramp_s below ramp_s, then 1: the body grows into the wave instead of jumping into it
 //
 // Commands are sent at every multiple of period_s: what is sent is a function of simulated time and, when steering, of where the
-// model has been. All memory is in GaitState, which is copyable; a copy of a Gait goes on exactly as the original.
+// model has been. What changes as it plays is in GaitState, which is copyable; a copy of a Gait goes on exactly as the original.
 //
 // Steering: the direction of travel is that of the model's centre of mass against where it was one gait period ago (so the wobble
 // of the cycle cancels). With ψ its angle about the world's z axis,
