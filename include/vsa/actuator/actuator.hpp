@@ -78,9 +78,8 @@ class Actuator {
   /// Whether several units of these parameters may go side by side (vsa/lanes.hpp). They do while all their motors are driven.
   [[nodiscard]] bool has_lanes() const noexcept;
 
-  /// The same in three parts, for one unit or several side by side. Until `finish` nothing else may be done with the state or begun on
-  // this actuator.
-  /// Prepares a segment of length h: what motors and frictions see at its start.
+  /// Prepares a segment of length h: what motors and frictions see at its start. segment() in three parts, begin, attempt and finish,
+  /// for one unit or several side by side. Until `finish` nothing else may be done with the state or begun on this actuator.
   template <class T>
   void begin(ActuatorStateOf<T>& state, SegmentOf<T>& segment, double h_s, const SegmentInputOf<T>& in) noexcept;
   /// The torque over the segment for dq = 0 and its slope, extrapolated from the last segment without a call of the law. The first

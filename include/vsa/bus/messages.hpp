@@ -130,7 +130,10 @@ struct CycleTimeReply {
   bool operator==(const CycleTimeReply&) const = default;
 };
 
-/// A request without a payload.
+// --------------------------------------------------------------------------------------------------------------------- requests
+
+/// A request without a payload. Of every request `code` is the command's number and `Reply` dialect six's answer, except where it says
+/// otherwise.
 template <Command C, class R>
 struct Request0 {
   static constexpr Command code = C;  ///< its number

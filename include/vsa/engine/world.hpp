@@ -186,9 +186,9 @@ class World : public motion::Stage, public host::Simulation {
   /// 6 × dof_count() by rows: velocity of a point of the link (in its frame), then angular velocity, both in world axes, a v.
   void jacobian(LinkHandle link, const std::array<double, 3>& point_m, std::span<double> out) const;
 
-  // Parameters: the actuators' and the links'. They aren't state: reset() and restore() keep them; clone() takes them along.
-  [[nodiscard]] const config::TypeLibrary& types() const;               ///< the actuators' types are from there
-  [[nodiscard]] LinkParameters link_parameters(LinkHandle link) const;  ///< in force
+  [[nodiscard]] const config::TypeLibrary& types() const;  ///< the actuators' types are from there
+  /// In force. Parameters, the actuators' and the links', aren't state: reset() and restore() keep them; clone() takes them along.
+  [[nodiscard]] LinkParameters link_parameters(LinkHandle link) const;
   /// From the next step on. What of it the engine derives follows; motion goes on. InputError: out of range, moments that no body has,
   /// another mass or inertia of a static link, friction of one without shapes. An actuator's: host::Robot::set_parameters.
   void set_link_parameters(LinkHandle link, const LinkParameters& to);
