@@ -58,9 +58,9 @@ struct ActuatorStateOf {
 };
 using ActuatorState = ActuatorStateOf<double>;  ///< of one unit
 
-/// The physics of one unit: motors, gearboxes, springs and frictions, advanced a segment at a time. Holds parameters at the pulley
-/// and the motor steps of the two step lengths used last, which is all that changes in it: not for two threads at once. A state
-/// belongs to whoever owns time.
+/// The physics of one unit: motors, gearboxes, springs and frictions, advanced a segment at a time. Holds parameters at the pulley,
+/// and what was prepared for the step lengths and duties used last; that is all that changes in it, so it isn't for two threads at
+/// once. A state belongs to whoever owns time.
 class Actuator {
  public:
   explicit Actuator(ActuatorParams params);  ///< parameters that validate() passes; no check here

@@ -99,8 +99,8 @@ class Physics {
   /// On a link, in world axes.
   virtual void push(std::size_t link, const scene::Wrench& wrench) = 0;
 
-  /// Of the present state; degrees of freedom as in engine::World.
-  [[nodiscard]] virtual std::size_t dofs() const = 0;                                       ///< degrees of freedom
+  /// How many degrees of freedom. As the next ones, of the present state and in engine::World's order.
+  [[nodiscard]] virtual std::size_t dofs() const = 0;
   [[nodiscard]] virtual std::optional<std::size_t> joint_dof(std::size_t joint) const = 0;  ///< the first of a joint; none: fixed
   /// The first of six of a link that flies free; else none.
   [[nodiscard]] virtual std::optional<std::size_t> free_dof(std::size_t link) const = 0;
