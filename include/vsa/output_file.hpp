@@ -42,7 +42,7 @@ class OutputFile {
 class DirectoryLock {
  public:
   DirectoryLock() = default;
-  /// Alone, or beside other readers.
+  /// Alone, or with others that share it.
   enum class Use { alone, shared };
   /// Throws InputError with `taken`, what the other one does, where another program holds it otherwise.
   DirectoryLock(const std::filesystem::path& directory, const char* taken, Use use = Use::alone);

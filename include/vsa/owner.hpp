@@ -29,7 +29,7 @@ class Owner {
   explicit Owner(const char* owner) noexcept : owner_(owner) {}  ///< `owner`: who it belongs to, for messages; a literal
   /// The same with something inside.
   Owner(const char* owner, std::unique_ptr<T> inside) noexcept : inside_(std::move(inside)), owner_(owner) {}
-  void take(std::unique_ptr<T> inside) noexcept { inside_ = std::move(inside); }  ///< takes what is inside
+  void take(std::unique_ptr<T> inside) noexcept { inside_ = std::move(inside); }  ///< from now on that is inside
   [[nodiscard]] bool there() const noexcept { return inside_ != nullptr; }        ///< false: it was moved from
   /// What is inside; throws std::logic_error where it was moved from.
   T& operator*() const {

@@ -19,7 +19,8 @@ namespace vsa {
 [[nodiscard]] std::string_view outermost(std::string_view scoped);
 /// ("lab", "lab::arm::shaft") → "arm::shaft"; none where it isn't below: ("lab", "lab"), ("la", "lab::arm").
 [[nodiscard]] std::optional<std::string_view> relative_to(std::string_view scope, std::string_view scoped);
-[[nodiscard]] inline bool is_below(std::string_view scoped, std::string_view scope) {  ///< whether relative_to() is one
+/// Whether relative_to() finds it.
+[[nodiscard]] inline bool is_below(std::string_view scoped, std::string_view scope) {
   return relative_to(scope, scoped).has_value();
 }
 /// ("lab::arm", "/") → "lab/arm", whatever else it holds: as topics spell it.

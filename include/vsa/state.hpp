@@ -26,7 +26,8 @@
 
 namespace vsa {
 
-/// What a number of the array is (see above).
+/// What one number of the array is, or two: a double, a float, an integer of up to 32 or of 64 bits, a flag, one of an enumeration,
+/// six bytes.
 enum class StateKind : std::uint8_t { real, single, whole, wide, flag, choice, bytes };
 [[nodiscard]] std::string_view name_of(StateKind kind) noexcept;  ///< "real", "single", …
 

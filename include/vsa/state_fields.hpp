@@ -73,7 +73,8 @@ constexpr std::size_t member_count() {
 /// Counts what fields() names.
 struct FieldCount {
   template <class... A>
-  constexpr auto operator()(A&&...) const {  ///< of one fields()
+  /// Of one fields().
+  constexpr auto operator()(A&&...) const {
     return std::integral_constant<std::size_t, sizeof...(A) / 3>{};
   }
 };

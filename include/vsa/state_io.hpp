@@ -12,10 +12,10 @@
 
 namespace vsa::state {
 
-/// Into a span that has room for all of it. A fault: it has more of something than there is room for.
+/// A state's numbers into a span that has room for all of it. A fault: it has more of something than there is room for.
 class Writer : public Sink {
  public:
-  static constexpr bool kWantsRoom = false;
+  static constexpr bool kWantsRoom = false;  ///< whether a walk enters the room that nothing takes
   explicit Writer(std::span<double> out) noexcept : out_(out) {}
   template <class T>
   void leaf(const char*, const char*, const T& v) noexcept {
@@ -40,7 +40,8 @@ class Writer : public Sink {
     out_[at_++] = static_cast<double>(count);
     return count;
   }
-  void blank(std::size_t n) noexcept {  ///< leaves room for n numbers, all zero
+  /// Leaves room for n numbers, all zero.
+  void blank(std::size_t n) noexcept {
     std::fill_n(out_.begin() + static_cast<std::ptrdiff_t>(at_), n, 0.0);
     at_ += n;
   }
@@ -53,10 +54,10 @@ class Writer : public Sink {
   StateFault fault_;
 };
 
-/// The first fault is kept; what is loaded after it is worth nothing.
+/// A state out of its numbers. The first fault is kept; what is loaded after it is worth nothing.
 class Reader : public Sink {
  public:
-  static constexpr bool kWantsRoom = false;
+  static constexpr bool kWantsRoom = false;  ///< whether a walk enters the room that nothing takes
   explicit Reader(std::span<const double> in) noexcept : in_(in) {}
   template <class T>
   void leaf(const char*, const char*, T& v) noexcept {
@@ -83,7 +84,8 @@ class Reader : public Sink {
     items.resize(count);
     return count;
   }
-  void blank(std::size_t n) noexcept {  ///< n numbers that a state has not
+  /// n numbers that a state has not.
+  void blank(std::size_t n) noexcept {
     if (room(n)) {
       const auto rest = in_.subspan(at_, n);
       const auto it = std::find_if(rest.begin(), rest.end(), [](double v) { return bits_as<std::uint64_t>(v) != 0; });

@@ -145,7 +145,7 @@ struct Sink {
 /// Counts the numbers that a state has.
 class Sizer : public Sink {
  public:
-  static constexpr bool kWantsRoom = true;
+  static constexpr bool kWantsRoom = true;  ///< whether a walk enters the room that nothing takes
   template <class T>
   void leaf(const char*, const char*, const T&) noexcept {
     size_ += kSlots<T>;
@@ -177,10 +177,10 @@ std::size_t size_of(const E& v) noexcept {
   return sizer.size();
 }
 
-/// Writes a layout instead of numbers.
+/// The layout of a state: names, units and kinds instead of numbers.
 class Namer : public Sink {
  public:
-  static constexpr bool kWantsRoom = true;
+  static constexpr bool kWantsRoom = true;                  ///< whether a walk enters the room that nothing takes
   explicit Namer(StateLayout& layout) : layout_(layout) {}  ///< its entries go there
   void enter(const char* name) { open(*name == '\0' ? prefix_ : prefix_ + name + "."); }
   void enter(const char* name, std::size_t i) { open(prefix_ + name + "[" + std::to_string(i) + "]."); }

@@ -7,26 +7,26 @@
 
 namespace vsa {
 
-/// The device's own integer units, as distinct types so that a tick can't be taken for a milliampere.
-/// Raw position: 65536 per turn. Reported position ("ticks"): raw >> resolution, 32768 per turn by default.
+/// A position as the device counts it: 65536 per turn. The device's integer units are distinct types, so that a tick can't be taken
+/// for a milliampere.
 struct Raw {
   std::int32_t value = 0;  ///< raw, of one turn in 65536
   constexpr bool operator==(const Raw&) const = default;
 };
 
-/// An angle as the bus carries it: raw >> resolution, 32768 to a turn by default, 16 bits.
+/// A position as the bus carries it: raw >> resolution, 32768 per turn by default, 16 bits.
 struct Ticks {
   std::int16_t value = 0;  ///< of that encoder
   constexpr bool operator==(const Ticks&) const = default;
 };
 
-/// A current as the program measures it.
+/// A current as the device reports it.
 struct MilliAmp {
   std::int32_t value = 0;  ///< mA
   constexpr bool operator==(const MilliAmp&) const = default;
 };
 
-/// A voltage as the program measures it.
+/// A voltage as the device reports it.
 struct MilliVolt {
   std::int32_t value = 0;  ///< mV
   constexpr bool operator==(const MilliVolt&) const = default;

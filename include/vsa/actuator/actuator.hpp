@@ -58,7 +58,9 @@ struct ActuatorStateOf {
 };
 using ActuatorState = ActuatorStateOf<double>;  ///< of one unit
 
-/// Parameters at the pulley and the prepared motor steps. Immutable but for prepare(); a state belongs to whoever owns time.
+/// The physics of one unit: motors, gearboxes, springs and frictions, advanced a segment at a time. Holds parameters at the pulley,
+/// and what was prepared for the step lengths and duties used last; that is all that changes in it, so it isn't for two threads at
+/// once. A state belongs to whoever owns time.
 class Actuator {
  public:
   explicit Actuator(ActuatorParams params);  ///< parameters that validate() passes; no check here
@@ -76,9 +78,8 @@ class Actuator {
   /// Whether several units of these parameters may go side by side (vsa/lanes.hpp). They do while all their motors are driven.
   [[nodiscard]] bool has_lanes() const noexcept;
 
-  /// The same in three parts, for one unit or several side by side. Until `finish` nothing else may be done with the state or begun on
-  // this actuator.
-  /// Prepares a segment of length h: what motors and frictions see at its start.
+  /// Prepares a segment of length h: what motors and frictions see at its start. segment() in three parts, begin, attempt and finish,
+  /// for one unit or several side by side. Until `finish` nothing else may be done with the state or begun on this actuator.
   template <class T>
   void begin(ActuatorStateOf<T>& state, SegmentOf<T>& segment, double h_s, const SegmentInputOf<T>& in) noexcept;
   /// The torque over the segment for dq = 0 and its slope, extrapolated from the last segment without a call of the law. The first

@@ -32,7 +32,7 @@ struct TendonParams {
 /// 0 ≤ μ < 1, and a presliding where there is friction.
 void validate(const TendonParams& params, std::string_view where, Problems& problems);
 
-/// One motor with what belongs to it.
+/// One side of an actuator: a motor with its gearbox, its bridge and the encoder on its driving pulley.
 struct SideParams {
   drive::MotorParams motor{};       ///< at the motor's shaft
   drive::GearboxParams gearbox{};   ///< between motor and pulley
@@ -44,7 +44,8 @@ struct SideParams {
 /// Keys as those of a file's [drive] and [sensor]; `number` is what these tables have behind their names: "" or "_2".
 void validate(const SideParams& params, std::string_view where, std::string_view number, Problems& problems);
 
-/// All parameters of an actuator's physics. At a linear actuator's shaft m, N, kg.
+/// All parameters of an actuator's physics: two sides, the law between them and the shaft, what rubs there. Of a linear actuator
+/// the shaft's numbers are in m, N and kg.
 struct ActuatorParams {
   std::shared_ptr<const elastic::Transmission> transmission;  ///< its inputs are the pulleys' angles
   std::array<SideParams, 2> side;                             ///< a law with one motor ignores side[1]

@@ -50,7 +50,7 @@ template <class T>
   return lanes::any(leads) ? lanes::where<T>(leads, (x4 - kResolved) / (16.0 + x4)) : T(0.0);
 }
 
-/// What acts in a segment: shaft path and terminals.
+/// What acts in a segment: the shaft's way and the motors' terminals, whose voltages are constant in it.
 template <class T>
 struct SegmentInputOf {
   T dq = 0;                    ///< shaft displacement along the path
@@ -61,7 +61,7 @@ struct SegmentInputOf {
 };
 using SegmentInput = SegmentInputOf<double>;  ///< of one unit
 
-/// What a trial finds for its dq.
+/// What a trial finds for its dq: the transmission's mean torque on the shaft, and how it changes with the step's Δy.
 template <class T>
 struct SegmentResultOf {
   T torque = 0;  ///< mean torque of the transmission on the shaft
@@ -81,7 +81,7 @@ struct PwmInSegment {
       current_at_rest = 0,                 ///< of the line, A
       h = 0;                               ///< length of the segment, s
 };
-/// Several lanes have none.
+/// Instead of it in lanes, which have no such motors.
 struct NoPwm {};
 
 /// A segment while it is solved: begun once, tried for as many shaft displacements as its owner needs, finished once.

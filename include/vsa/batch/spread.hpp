@@ -19,7 +19,7 @@ struct Setting {
   std::variant<double, std::string> value;  ///< a number, or a word
 };
 
-/// How a number is drawn.
+/// How a number is drawn: uniform, uniform in its logarithm, or normal with its ends cut off.
 struct Distribution {
   /// Of the draw.
   enum class Kind {

@@ -17,23 +17,27 @@ class ByteWriter {
  public:
   explicit constexpr ByteWriter(std::span<std::uint8_t> out) noexcept : out_(out) {}  ///< writes into `out`, which must outlive it
 
-  constexpr void u8(std::uint8_t v) noexcept {  ///< as it is
+  /// As it is.
+  constexpr void u8(std::uint8_t v) noexcept {
     if (size_ < out_.size())
       out_[size_++] = v;
     else
       overflowed_ = true;
   }
-  constexpr void u16(std::uint16_t v) noexcept {  ///< high byte first, as the next ones
+  /// High byte first, as the next ones.
+  constexpr void u16(std::uint16_t v) noexcept {
     u8(static_cast<std::uint8_t>(v >> 8));
     u8(static_cast<std::uint8_t>(v & 0xFF));
   }
-  constexpr void u32(std::uint32_t v) noexcept {  ///< high byte first
+  /// High byte first.
+  constexpr void u32(std::uint32_t v) noexcept {
     u16(static_cast<std::uint16_t>(v >> 16));
     u16(static_cast<std::uint16_t>(v & 0xFFFF));
   }
   constexpr void i16(std::int16_t v) noexcept { u16(static_cast<std::uint16_t>(v)); }  ///< two's complement
   constexpr void i32(std::int32_t v) noexcept { u32(static_cast<std::uint32_t>(v)); }  ///< two's complement
-  void f32(float v) noexcept {                                                         ///< IEEE-754 single precision
+  /// IEEE-754 single precision.
+  void f32(float v) noexcept {
     std::uint32_t bits = 0;
     std::memcpy(&bits, &v, sizeof bits);
     u32(bits);
@@ -52,22 +56,26 @@ class ByteReader {
  public:
   explicit constexpr ByteReader(std::span<const std::uint8_t> in) noexcept : in_(in) {}  ///< reads `in`, which must outlive it
 
-  constexpr std::uint8_t u8() noexcept {  ///< 0 past the end
+  /// 0 past the end.
+  constexpr std::uint8_t u8() noexcept {
     if (at_ < in_.size()) return in_[at_++];
     overran_ = true;
     return 0;
   }
-  constexpr std::uint16_t u16() noexcept {  ///< high byte first, as the next ones
+  /// High byte first, as the next ones.
+  constexpr std::uint16_t u16() noexcept {
     const std::uint8_t high = u8();
     return static_cast<std::uint16_t>((high << 8) | u8());
   }
-  constexpr std::uint32_t u32() noexcept {  ///< high byte first
+  /// High byte first.
+  constexpr std::uint32_t u32() noexcept {
     const std::uint32_t high = u16();
     return (high << 16) | u16();
   }
   constexpr std::int16_t i16() noexcept { return static_cast<std::int16_t>(u16()); }  ///< two's complement
   constexpr std::int32_t i32() noexcept { return static_cast<std::int32_t>(u32()); }  ///< two's complement
-  float f32() noexcept {                                                              ///< IEEE-754 single precision
+  /// IEEE-754 single precision.
+  float f32() noexcept {
     const std::uint32_t bits = u32();
     float v = 0;
     std::memcpy(&v, &bits, sizeof v);

@@ -12,7 +12,7 @@
 
 namespace vsa::bus {
 
-/// Where a Client writes and reads.
+/// A pipe of bytes to a bus, with a clock of its own: where a Client writes and reads.
 class Channel {
  public:
   using Time = std::chrono::nanoseconds;  ///< of now() and of time-outs

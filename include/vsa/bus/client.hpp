@@ -39,7 +39,7 @@ enum class ClientError : std::uint8_t {
   closed,     ///< the channel is gone
   refused,    ///< the unit answered "not done"
   malformed,  ///< an answer came, but not as this dialect has it
-  bad_value,  ///< the value isn't of the parameter's type; nothing was sent
+  bad_value,  ///< not of the parameter's type, or the dialect has no such parameter; nothing was sent
 };
 [[nodiscard]] const char* describe(ClientError error) noexcept;  ///< in words, for a user
 
@@ -71,7 +71,8 @@ struct Done {
   bool operator==(const Done&) const = default;
 };
 
-/// Asks units over a Channel, one at a time, and blocks until the answer or its time-out. One thread.
+/// A client's side of the conversation: one request, one answer, on any Channel. Every call blocks until the answer or its
+/// time-out; one thread.
 class Client {
  public:
   Client(Channel& channel, ClientOptions options) : channel_(channel), options_(options) {}  ///< the channel must outlive it

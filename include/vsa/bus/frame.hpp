@@ -35,7 +35,8 @@ struct FrameBytes {
   std::uint8_t size = 0;                             ///< of `bytes`
   bool overflowed = false;                           ///< whether one was dropped
 
-  void push(std::uint8_t byte) noexcept {  ///< drops the byte if there is no room
+  /// Drops the byte if there is no room.
+  void push(std::uint8_t byte) noexcept {
     if (size < bytes.size())
       bytes[size++] = byte;
     else
@@ -67,7 +68,8 @@ struct Frame {
   [[nodiscard]] constexpr const char* impossible() const noexcept { return length <= kMaxLength ? nullptr : "a LEN of up to 128"; }
 
   [[nodiscard]] std::uint8_t command() const noexcept { return body[0]; }  ///< CMD
-  [[nodiscard]] std::span<const std::uint8_t> payload() const noexcept {   ///< without CMD and CHK; empty where LEN is too small
+  /// Without CMD and CHK; empty where LEN is too small.
+  [[nodiscard]] std::span<const std::uint8_t> payload() const noexcept {
     return {body.data() + 1, length < kMinLength ? 0U : length - kMinLength};
   }
   bool operator==(const Frame&) const = default;
@@ -96,12 +98,12 @@ inline constexpr int kFramesPerPoll = 6;  ///< after which the unit stops readin
 /// length: ≤ 1 or > 128 → hunt again, nothing is counted; the byte itself isn't looked at again.
 /// body: LEN bytes, without a time-out: a sender that dies half way swallows the next frame's beginning.
 struct UnitReceiver {
-  /// Where it is in a frame (see above).
+  /// Where it is in a frame.
   enum class Phase : std::uint8_t { hunt, id, length, body, skip };
 
   Frame frame{};                       ///< the frame under way, or the last
   std::array<std::uint8_t, 3> last{};  ///< of the bytes in hunt
-  Phase phase = Phase::hunt;           ///< see above
+  Phase phase = Phase::hunt;           ///< what the next byte is
   std::uint8_t wanted = 0;             ///< LEN of the frame under way
   std::uint8_t received = 0;           ///< body bytes so far, of this unit's or another's frame
   std::uint8_t pending_id = 0;         ///< of the frame under way

@@ -58,7 +58,7 @@ struct Schedule {
 /// cycle_s none: automatic. A set cycle shorter than the wire time is the caller's error (config refuses it).
 [[nodiscard]] Schedule make_schedule(int units, double baud_Hz, std::optional<double> cycle_s) noexcept;
 
-/// For whom the master works.
+/// For whom the master works: gives references, and takes measurements. Called by the thread that runs the line.
 class MasterClient {
  public:
   virtual ~MasterClient() = default;
@@ -73,7 +73,7 @@ class MasterClient {
   MasterClient& operator=(const MasterClient&) = default;
 };
 
-/// Where a master is in its cycle.
+/// Where a master is in its cycle: copy it for a snapshot.
 struct MasterState {
   std::int64_t cycle_start_ps = 0;  ///< of the cycle under way
   int frame = 0;                    ///< of the cycle, the next to set out: two per unit
@@ -83,7 +83,8 @@ struct MasterState {
   }
 };
 
-/// Sends the schedule's frames and hands the client what units answer.
+/// The simulated bus master: sends SET_INPUTS and GET_MEASUREMENTS by the schedule's time table and hands the client what units
+/// answer.
 class Master final : public LineMaster {
  public:
   /// `ids` in the order of the cycle; as many as the schedule has units.

@@ -53,7 +53,7 @@ enum class Command : std::uint8_t {
   get_cycle_time = 150,           ///< dialect seven
 };
 
-/// How a unit's messages look: see above.
+/// Which firmware's messages: six is 6.1 (public source), seven what qbdevice-api 7.2.8 expects.
 enum class Dialect : std::uint8_t { six = 6, seven = 7 };
 
 /// How a unit speaks.
@@ -130,7 +130,10 @@ struct CycleTimeReply {
   bool operator==(const CycleTimeReply&) const = default;
 };
 
-/// A request without a payload.
+// --------------------------------------------------------------------------------------------------------------------- requests
+
+/// A request without a payload. Of every request `code` is the command's number and `Reply` dialect six's answer, except where it says
+/// otherwise.
 template <Command C, class R>
 struct Request0 {
   static constexpr Command code = C;  ///< its number

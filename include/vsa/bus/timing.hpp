@@ -30,7 +30,7 @@ inline constexpr std::int64_t kMostBaud_Hz = 1'000'000'000;               ///< o
 /// Rounded up: a byte isn't there before its last bit.
 [[nodiscard]] constexpr std::int64_t to_ns(std::int64_t ps) noexcept { return (ps + kPsPerNs - 1) / kPsPerNs; }
 
-/// A line's rate, and the time that bits take there.
+/// A line's rate, and the time that bits and bytes take there, ps.
 struct LineRate {
   std::int64_t baud_Hz = kDefaultBaud_Hz;  ///< bits per second
 
@@ -59,7 +59,8 @@ struct Burst {
   std::span<const std::uint8_t> bytes;  ///< back to back
   LineRate rate{};                      ///< of the speaker
 
-  [[nodiscard]] constexpr std::int64_t end_ps() const noexcept {  ///< of the last bit
+  /// Of the last bit.
+  [[nodiscard]] constexpr std::int64_t end_ps() const noexcept {
     return start_ps + rate.bytes_ps(static_cast<std::int64_t>(bytes.size()));
   }
 };

@@ -56,7 +56,7 @@ struct Entry {
       max = 0;               ///< upper bound, included
 };
 
-/// A type as it was read: what a unit of it is made of, and what can be told of it.
+/// A type as it was read from its TOML file: the unit that it describes, and all that can be told of its values.
 struct ActuatorType {
   std::string name;            ///< its file's stem
   std::string title;           ///< one line for people
@@ -100,7 +100,7 @@ class LawReader {
 /// Makes a law of what it reads. It may be called by several threads at once.
 using LawFactory = std::function<std::shared_ptr<const elastic::Transmission>(LawReader&)>;
 
-/// The laws a type may name; users add their own.
+/// The laws that a type's file may name, by name; users add their own.
 class LawRegistry {
  public:
   /// The library's (elastic::laws()) and those of the shared libraries that $VSA_LAW_PATH names (vsa/elastic/law_module.hpp).

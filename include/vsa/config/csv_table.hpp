@@ -20,7 +20,7 @@ struct WantedColumn {
   bool empty_allowed = false;  ///< an empty cell reads as NaN
 };
 
-/// The columns asked for; every row has a number in each that is there.
+/// A CSV file of numbers, column by column; every row has a number in each that is there.
 struct CsvTable {
   std::vector<std::vector<double>> columns;  ///< in the order they were wanted; empty for an optional one that is absent
   std::vector<std::size_t> lines;            ///< line number of each row

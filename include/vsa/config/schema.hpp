@@ -47,7 +47,8 @@ struct Parameter {
   std::string_view controllers{};   ///< which controllers have it: "position_servo|torque_servo"; empty: all
   std::string_view shaft{};         ///< whose shaft's unit this is: "rad" or, of linear actuators, "m"; empty: all
 
-  void apply(device::UnitConfig& to, double value) const;  ///< both sides where it is theirs and has no second value
+  void apply(device::UnitConfig& to,
+             double value) const;  ///< by `set`, or by `set_side`: on both sides, or on the second where it is that one's
 };
 
 /// A type's controllers (`control.kind`): "qbmove|position_servo|…". Keys of firmware.… are of the first.

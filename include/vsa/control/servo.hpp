@@ -50,11 +50,11 @@ inline constexpr double kTick_s = 1e-3;  ///< T
 /// Beyond it a double has no counts left to tell; states of integers have more.
 inline constexpr double kFarthest_rad = 1e9;
 
-/// Which of the controllers above a unit has.
+/// Which servo: a cascade on each motor's position, one on the spring's torque, or none, voltages as they are commanded.
 enum class ServoKind : std::uint8_t { position_servo, torque_servo, motor_voltages };
 [[nodiscard]] std::string_view name_of(ServoKind kind) noexcept;  ///< as files write it
 
-/// A position servo's gains and limits, for both motors.
+/// A position servo's gains and limit: ω* = clamp(k_x (x* − x̂), ±ω_max), τ_w = k_ω (ω* − ω̂) + ξ; for both motors, at the pulley.
 struct PositionServoParams {
   double gain_per_s = 0;              ///< k_x
   double speed_max_rad_per_s = 0;     ///< ω_max
@@ -63,7 +63,7 @@ struct PositionServoParams {
   bool operator==(const PositionServoParams&) const = default;
 };
 
-/// A torque servo's gains and limits.
+/// A torque servo's gains, and the joint that it makes: τ* = −k (q̂ − θ) − d ω̂_q + τ_c, k = max(k₀ + preset, 0).
 struct TorqueServoParams {
   double gain = 0;                       ///< k_τ
   double integral_per_s = 0;             ///< k_ξ; 0: none
@@ -88,7 +88,7 @@ struct ServoParams {
 /// Adds what is out of range of the kind's own parameters; `where` leads each key.
 void validate(const ServoParams& params, std::string_view where, Problems& problems);
 
-/// What a unit was told last.
+/// What a unit with a servo was told last.
 struct ServoCommand {
   double equilibrium = 0,          ///< rad
       preset = 0;                  ///< in the law's unit; of a torque servo added to k₀, N·m/rad
@@ -98,7 +98,7 @@ struct ServoCommand {
   }
 };
 
-/// All that changes of a servo.
+/// All that changes of a servo, from tick to tick.
 struct ServoState {
   ServoCommand command;               ///< in force
   std::array<std::int64_t, 3> raw{};  ///< motor 1, motor 2, shaft as counted, 65536 per turn
@@ -135,7 +135,8 @@ struct ServoMotor {
       1;  ///< how far the shaft goes with a radian of the pulley where the spring doesn't give (elastic/travel.hpp)
 };
 
-/// One unit's controller; a state belongs to whoever owns time.
+/// One unit's servo drive: once a tick of 1 ms it turns encoders and command into the motors' voltages. A state belongs to whoever
+/// owns time.
 class Servo {
  public:
   /// Parameters that validate() takes, torque constants above 0.

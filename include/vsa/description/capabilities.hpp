@@ -15,7 +15,7 @@
 
 namespace vsa::description {
 
-/// What an engine can do. Default: nothing but the joints and shapes that it names.
+/// What an engine can honour of a description, so that a reader refuses the rest. Default: nothing.
 struct Capabilities {
   std::string engine;                  ///< its name, for messages
   std::vector<Geometry::Kind> shapes;  ///< that collide

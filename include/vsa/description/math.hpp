@@ -73,10 +73,12 @@ class Vec3 {
   [[nodiscard]] Vec3 Normalized() const { return std::abs(Length()) <= kNoLength ? *this : *this / Length(); }
   /// No coordinate is NaN or infinite.
   [[nodiscard]] bool IsFinite() const { return std::isfinite(v_[0]) && std::isfinite(v_[1]) && std::isfinite(v_[2]); }
-  void Min(const Vec3& o) {  ///< each coordinate the smaller of the two
+  /// Each coordinate the smaller of the two.
+  void Min(const Vec3& o) {
     for (std::size_t i = 0; i < 3; ++i) v_[i] = o[i] < v_[i] ? o[i] : v_[i];
   }
-  void Max(const Vec3& o) {  ///< each coordinate the larger of the two
+  /// Each coordinate the larger of the two.
+  void Max(const Vec3& o) {
     for (std::size_t i = 0; i < 3; ++i) v_[i] = o[i] > v_[i] ? o[i] : v_[i];
   }
 
@@ -88,7 +90,7 @@ class Vec3 {
 };
 inline constexpr Vec3 Vec3::Zero{0, 0, 0}, Vec3::One{1, 1, 1};
 
-/// A rotation.
+/// A rotation as a quaternion w + xi + yj + zk: p = q·v·q⁻¹.
 class Quat {
  public:
   constexpr Quat() = default;
@@ -133,7 +135,7 @@ class Pose3 {
   Quat q_;
 };
 
-/// A 3 × 3, as inertias need it.
+/// A 3 × 3 matrix by rows, as inertias need it.
 class Mat3 {
  public:
   constexpr Mat3() = default;

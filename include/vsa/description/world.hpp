@@ -50,7 +50,7 @@ struct Geometry {
 
 inline constexpr std::uint32_t kAllCollisions = 0xFFFF;  ///< SDF's default
 
-/// How a shape touches others.
+/// How a shape touches others: friction, restitution, the contact's spring.
 struct Surface {
   double mu = 1;                        ///< Coulomb friction; a pair has the smaller of its two
   std::optional<double> mu2;            ///< across `first`, where it isn't mu
@@ -70,7 +70,7 @@ struct Collision {
   Surface surface;    ///< of this shape
 };
 
-/// A body. A static one has no joint that moves it and stays where it is.
+/// A body: mass, inertia, place and what of it collides.
 struct Link {
   std::string name;                   ///< scoped
   std::string model;                  ///< top-level
@@ -134,7 +134,7 @@ class Native {
   Native& operator=(const Native&) = delete;
 };
 
-/// A world as read: what an engine makes steps of, and what readers and pages need.
+/// A world as a physics engine needs it, whatever file it came from and whatever engine will run it: m, kg, rad, all at the start.
 struct World {
   std::string name;                      ///< the world's name
   Vec3 gravity{0, 0, -9.8};              ///< m/s²

@@ -91,7 +91,7 @@ struct ChainState {
       return visit("receiver", "", s.receiver, "free", "ps", s.free_ps, "wiring", "", s.wiring, "dice", "", s.dice);
     }
   };
-  /// How exactly the line is simulated now: whole frames handed over, byte by byte, or bit by bit (see above).
+  /// How exactly the line is simulated now: whole frames handed over, byte by byte, or, where several speak, bit by bit.
   enum class Mode : std::uint8_t { frames, bytes, bits };
 
   std::int64_t now_ps = 0;          ///< the line's time
@@ -114,7 +114,8 @@ struct ChainState {
 };
 [[nodiscard]] constexpr int choices(ChainState::Mode) noexcept { return 3; }  ///< for the walk over states
 
-/// Units on one line: carries bytes between their programs and a master, in simulated time. One thread; nothing is thrown.
+/// Units on one line: carries bytes between their programs and a master at the line's rate, in simulated time, collisions and
+/// faults included. One thread.
 class Chain {
  public:
   Chain(const LineConfig& config, std::vector<Station> stations);  ///< stations that are powered and hear, time 0

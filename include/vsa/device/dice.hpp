@@ -12,7 +12,8 @@ struct Dice {
   std::uint64_t state = 0;  ///< the seed; each throw moves it on
   static auto fields(auto& s, auto&& visit) { return visit("state", "", s.state); }
 
-  std::uint64_t next() noexcept {  ///< 64 bits, each 0 or 1 with equal chance
+  /// 64 bits, each 0 or 1 with equal chance.
+  std::uint64_t next() noexcept {
     std::uint64_t z = state += 0x9E3779B97F4A7C15ULL;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;

@@ -29,7 +29,7 @@ struct EmulatedUnit {
   double shaft_rad = 0;  ///< where it begins
 };
 
-/// Units that a client meets as if they were hardware, without world and robot (`vsa emulate`).
+/// Units on a line without a robot, each shaft free or held, which a client meets as if they were hardware (`vsa emulate`).
 class Emulation {
  public:
   /// Throws InputError: no unit, an id out of range or given twice, a shaft that isn't a number.

@@ -34,7 +34,8 @@ inline constexpr int kEarly = 8;  ///< rounds before kOvershootLater holds
 inline constexpr double kLeft = 1e-3, kLeft_Nm = 1e-4;  ///< of a torque; N·m
 }  // namespace solver
 
-/// Solves one tree's step. One thread; after the constructor nothing is allocated.
+/// Solves one tree's step: the Δy of all its joints with the torques that they cause in each other. One thread; after the
+/// constructor nothing is allocated.
 class JointSolver {
  public:
   /// Everything that a step needs is allocated here. `instructions`: as JointTrials has them.

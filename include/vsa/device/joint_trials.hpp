@@ -52,7 +52,8 @@ struct TrialColumns {
   std::vector<ShaftTorque> carried;  ///< what the last attempt foretells of a move from there
 };
 
-/// Tries the units of joints in lanes and by themselves. Kept from step to step for its memory; one thread.
+/// Tries the units of a tree's joints for one displacement after another, in lanes where they are alike, else one by one. One
+/// thread.
 class JointTrials {
  public:
   /// Everything that a step needs is allocated here, for so many joints that are solved together (0: all for solve_each).

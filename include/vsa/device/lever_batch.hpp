@@ -17,14 +17,14 @@
 
 namespace vsa::device {
 
-/// What a unit turns: a body with a mass below or above the shaft.
+/// What a unit turns: inertia J, damping d, and gravity's G sin q.
 struct Lever {
   double inertia_kgm2 = 1e-3;      ///< J > 0
   double damping_Nms_per_rad = 0;  ///< d ≥ 0
   double gravity_Nm = 0;           ///< G = m g l: pulls towards q = 0 where positive, away where negative
 };
 
-/// Units with levers, stepped together. One thread.
+/// Many units of one type with a lever on each shaft, J q̈ = τ − d q̇ − G sin q + push, stepped together. One thread.
 class LeverBatch {
  public:
   /// InputError as UnitBatch; a lever that is out of range.

@@ -34,7 +34,8 @@
 
 namespace vsa::device {
 
-/// A chain behind a serial port. Its locks keep the port's thread and the stepping thread apart; the chain is nobody else's.
+/// A chain of units as an external client meets it, in real time, while another thread steps the simulation. Its lock keeps the two
+/// apart; the chain is nobody else's.
 class PortLine final : public bus::SerialLine, private bus::LineMaster {
  public:
   static constexpr std::int64_t kAheadNs = 500'000;       ///< how far the line is simulated ahead of its clock

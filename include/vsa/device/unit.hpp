@@ -128,8 +128,9 @@ struct UnitPlace {
 template <class T>
 struct UnitPhysics;
 
-/// One unit's parameters and what follows from them; the state is the owner's, so that equal units share a Unit. Not for two
-/// threads at once: it has scratch.
+/// One emulated unit: its controller (the qbmove's program, or a servo), its electronics and its physics, driven by a host's steps.
+/// Holds parameters and what follows from them; the state is the owner's, so that equal units share a Unit. Not for two threads at
+/// once: it has scratch.
 class Unit {
  public:
   explicit Unit(UnitConfig config);                                            ///< throws InputError with all that validate() finds
@@ -163,16 +164,12 @@ class Unit {
   void begin_step(UnitState& state, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept;
   /// Goes to the next tick, at `at_ns`, and reads the sensors there.
   firmware::TickInputs sample(UnitState& state, StepPlan& plan, std::int64_t at_ns) noexcept;
-  /// After the program's tick: what the bridges do until the next.
-  void hold(UnitState& state, StepPlan& plan) const noexcept;
-  /// All three of a unit with a servo.
-  void run_servo(UnitState& state, StepPlan& plan, std::int64_t at_ns) noexcept;
-  /// Solves a unit alone and ends its step; returns the torque.
-  double end_step(UnitState& state, StepPlan& plan) noexcept;
+  void hold(UnitState& state, StepPlan& plan) const noexcept;  ///< after the program's tick: what the bridges do until the next
+  void run_servo(UnitState& state, StepPlan& plan, std::int64_t at_ns) noexcept;  ///< all three of a unit with a servo
+  double end_step(UnitState& state, StepPlan& plan) noexcept;  ///< solves a unit alone and ends its step; the torque
 
-  /// For whoever solves: expect (before the ticks) | begin_trials, foresee, attempt as often as needed, finish.
-
-  /// The torque for a small Δy, from what the last step left.
+  /// The torque for a small Δy, from what the last step left. Whoever solves calls this (before the ticks), then begin_trials,
+  /// foresee, attempt as often as needed, finish.
   [[nodiscard]] ShaftTorque expect(const UnitState& state, const StepPlan& plan, double dy) const noexcept;
   void begin_trials(UnitState& state, StepPlan& plan) noexcept;  ///< sets out from the Δy that is known by then
   /// Instead of them, of units that have lanes: whether this step is one for src/device/lanes/kernel.hpp.
@@ -190,8 +187,7 @@ class Unit {
   void command(UnitState& state, double equilibrium_rad, double preset) const noexcept;
   /// What a servo takes besides: motor_voltages V for each motor, torque_servo N·m for the first. Any other has no use for it.
   static void command_direct(UnitState& state, const std::array<double, 2>& values) noexcept;
-  /// As if SET_INPUTS had just arrived.
-  void set_inputs(UnitState& state, std::array<Ticks, 2> inputs) const noexcept;
+  void set_inputs(UnitState& state, std::array<Ticks, 2> inputs) const noexcept;  ///< as if SET_INPUTS had just arrived
   /// Motor references of a command as the bus carries them; the preset is clamped to preset_max, the rest to 16 bits.
   [[nodiscard]] std::array<Ticks, 2> inputs_for(double equilibrium_rad, double preset) const noexcept;
 

@@ -24,7 +24,8 @@
 
 namespace vsa::device {
 
-/// Units of one type, stepped together in lanes. One thread calls.
+/// Many units of one type, each alone on a shaft of its own and without a line, stepped together in lanes: bit for bit as
+/// Unit::step would take them. One thread calls.
 class UnitBatch {
  public:
   /// All begin at time 0, at rest at equilibrium 0 and preset 0, the shaft at 0 (Unit::initial). `instructions`: "avx512", "avx2" or

@@ -27,7 +27,8 @@ enum class PwmPin {
   enable  ///< open: the current runs out through the diodes against the supply (fast decay), the motor coasts at duty 0
 };
 
-/// An H-bridge and the PWM that drives it, as the equations above need them.
+/// An H-bridge and its PWM: from a controller's output to a duty d, and to the mean voltage V̄ = d · supply where the inputs are
+/// modulated.
 struct BridgeParams {
   double dead_band = 0;        ///< [0, 1); none, as in the published firmware (the paper's Table I has 0.3)
   bool brake_when_off = true;  ///< off, inputs modulated: terminals shorted (true) or open (false). UNKNOWN for the maker pro.

@@ -14,7 +14,8 @@
 
 namespace vsa::drive {
 
-/// The step above for one motor, droop g and length h. Copyable, no allocation.
+/// The exact step of a motor whose mean current falls with its speed: J ω̇ = K_τ (I₀ − g ω) − b ω + T over h. Copyable, no
+/// allocation.
 class DroopStepper {
  public:
   DroopStepper() = default;

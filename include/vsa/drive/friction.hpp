@@ -22,7 +22,8 @@ class Problems;
 
 namespace vsa::drive {
 
-/// Hayward's and Armstrong's friction: the equations above.
+/// Hayward and Armstrong's friction: τ_f = −τ_c u/z_max, u the bend of its bristle, at most z_max. Without presliding it is
+/// Coulomb's.
 struct FrictionParams {
   double coulomb_Nm = 0;      ///< τ_c ≥ 0
   double presliding_rad = 0;  ///< z_max ≥ 0

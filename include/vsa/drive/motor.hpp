@@ -36,7 +36,7 @@ struct MotorParams {
 /// Numbers that aren't finite, J or R that isn't above 0, negative ones.
 void validate(const MotorParams& params, std::string_view where, Problems& problems);
 
-/// A gearbox between motor and pulley, and what rubs in it.
+/// A gearbox between motor and pulley, θ = n q, and what rubs in it.
 struct GearboxParams {
   double ratio = 1.0;         ///< n = motor turns per pulley turn, > 0
   FrictionParams friction{};  ///< loss torque at the motor's shaft (eq. 5) and its presliding at the PULLEY
@@ -52,7 +52,7 @@ void validate(const GearboxParams& params, std::string_view where, Problems& pro
 /// Presliding is the pulley's already and stays.
 [[nodiscard]] FrictionParams at_pulley(const FrictionParams& loss, double ratio) noexcept;
 
-/// Where a motor is and how it moves, told at its pulley.
+/// Where a motor is, told at its pulley: all that its step changes.
 template <class T>
 struct MotorStateOf {
   T angle = 0;    ///< pulley, rad

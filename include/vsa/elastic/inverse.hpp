@@ -23,14 +23,14 @@ namespace vsa::elastic {
 [[nodiscard]] std::optional<double> equilibrium_for(const Transmission& law, double q, double torque_Nm, double preset,
                                                     double reach_rad = 6.283185307179586) noexcept;
 
-/// What a command is to bring about at a shaft that stands.
+/// What a command is to bring about at a standing shaft: τ(q; e, p) and σ(q; e, p).
 struct Wanted {
   double q = 0;                     ///< where the shaft is, rad
   double torque_Nm = 0;             ///< that the actuator is to give it, about +q
   double stiffness_Nm_per_rad = 0;  ///< > 0
 };
 
-/// What command_for() found.
+/// What command_for() found: equilibrium and preset, or why there are none.
 struct Command {
   /// Why there is no command, if there is none.
   enum class Outcome {

@@ -49,8 +49,8 @@ struct LawFault {
   std::optional<std::size_t> row = std::nullopt;  ///< of the law's file
 };
 
-/// A law as files, tables and factories know it. One const object a law; who uses it keeps a pointer, so it lives as long as the
-/// process.
+/// A law that actuator types may name: its parameters with their bounds, and what makes it. One const object a law; who uses it
+/// keeps a pointer, so it lives as long as the process.
 struct Law {
   std::string_view name;                     ///< as files write it
   std::string_view title;                    ///< for tables: "lever with a movable pivot"

@@ -11,12 +11,12 @@
 
 namespace vsa::elastic {
 
-/// One motor and one linear spring: the law above.
+/// A series elastic actuator's law, one motor and one linear spring: H = ½ k (q − x₀)², J; σ = k, N·m/rad, at every preset.
 class SeriesSpring final : public Transmission {
  public:
   explicit SeriesSpring(double stiffness_Nm_per_rad) noexcept : stiffness_(stiffness_Nm_per_rad) {}  ///< k > 0
 
-  [[nodiscard]] Response evaluate(const Positions& at) const noexcept override;  ///< the law above, load₁ = 0
+  [[nodiscard]] Response evaluate(const Positions& at) const noexcept override;  ///< input 1's load and slopes are 0
   [[nodiscard]] SegmentMean mean_over(const Positions& from, const Positions& to) const noexcept override;
   [[nodiscard]] std::array<double, 2> references(const EquilibriumPreset& command) const noexcept override;
   [[nodiscard]] EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept override;

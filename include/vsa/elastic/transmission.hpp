@@ -98,8 +98,9 @@ struct EquilibriumPreset {
   double preset = 0;       ///< p, in the law's unit
 };
 
-/// A law: what stores energy between motors and shaft. Immutable, so that units and threads share one; everything is pure,
-/// allocates nothing and throws nothing. An override is called millions of times a second.
+/// An elastic transmission: one potential H(q, x) between motors and shaft, from which torque, loads and stiffness follow.
+/// Immutable, so that units and threads share one; everything is pure, allocates nothing and throws nothing. An override is called
+/// millions of times a second.
 class Transmission {
  public:
   virtual ~Transmission() = default;

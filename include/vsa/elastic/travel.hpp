@@ -27,7 +27,8 @@ struct Leads {
   bool operator==(const Leads&) const = default;
 };
 
-/// A law behind leads and a pinion: the equations above, so that all outside sees angles.
+/// A law behind ball screws, racks or winches: H'(ψ, φ) = H(ρ ψ, h φ), so that what has a lead, or a pinion, turns as seen from
+/// outside.
 class Travel final : public Transmission {
  public:
   /// The leads as they are: validate() looks at them.

@@ -24,7 +24,7 @@
 
 namespace vsa::elastic {
 
-/// Numbers of the two springs.
+/// Two hardening springs: T_i(δ) = k_i sinh(a_i δ) + c_i δ, N·m, and beyond d along its tangent.
 struct TwoSinhParams {
   std::array<double, 2> k_Nm{};                                        ///< torque scale of each spring, > 0
   std::array<double, 2> a_per_rad{};                                   ///< hardening rate of each spring, > 0
@@ -35,7 +35,8 @@ struct TwoSinhParams {
 /// Keys as files have them: "k1_Nm".
 void validate(const TwoSinhParams& params, std::string_view where, Problems& problems);
 
-/// The law above, from its closed forms. For a symmetric pair command_exactly() has one, too.
+/// The qbmove's law, one hardening spring to each driving pulley: H = Σ_i (k_i/a_i) (cosh(a_i δ_i) − 1) + ½ c_i δ_i², δ_i = q −
+/// x_i. All in closed form; for a symmetric pair command_exactly() too.
 class TwoSinh final : public Transmission {
  public:
   explicit TwoSinh(const TwoSinhParams& params) noexcept;  ///< unchecked: validate() is the caller's

@@ -76,15 +76,16 @@ struct ParameterChanges {
   std::vector<std::pair<LinkHandle, LinkParameters>> links;             ///< each with the parameters that it is to have
 };
 
-/// A world that was moved from throws std::logic_error from everything but its destructor and assignment. A motion::Gait plays on it.
+/// The embedded simulator: bodies and contacts, actuators with their firmware and buses. It owns time; the same inputs give the
+/// same bits. One that was moved from throws std::logic_error from everything but its destructor and assignment. A motion::Gait
+/// plays on it.
 class World : public motion::Stage, public host::Simulation {
  public:
   /// A file, or the name of a built-in world ("snake_flat.sdf"). Throws InputError with all problems. Safe from several
   /// threads at once (reading takes turns); a World itself belongs to one thread, but for commands. The second World of a file
   /// that hasn't changed takes milliseconds: what was read is kept (docs/explanation/8-engine.md). Actuator types are read each time.
   [[nodiscard]] static World load(const std::filesystem::path& sdf, WorldOptions options = {});
-  /// The same from a file's text.
-  [[nodiscard]] static World load_string(std::string_view sdf, WorldOptions options = {});
+  [[nodiscard]] static World load_string(std::string_view sdf, WorldOptions options = {});  ///< from a file's text
   ~World() override;
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
@@ -114,20 +115,17 @@ class World : public motion::Stage, public host::Simulation {
   bool command(const ActuatorRef& actuator, double equilibrium_rad, double preset);  ///< by reference
   /// Puts an actuator and its joint somewhere without a kick: see host::Robot::place. InputError beyond the joint's limits, too.
   void place(std::string_view actuator, double angle_rad, double preset, double speed_rad_per_s = 0);
-  void place(const ActuatorRef& actuator, const host::Placement& at);  ///< by reference
-  /// At the end of the last step; InputError with the names there are.
-  [[nodiscard]] host::ActuatorReading read(std::string_view actuator) const;
+  void place(const ActuatorRef& actuator, const host::Placement& at);           ///< by reference
+  [[nodiscard]] host::ActuatorReading read(std::string_view actuator) const;    ///< at the end of the last step
   [[nodiscard]] host::ActuatorReading read(const ActuatorRef& actuator) const;  ///< by reference
   [[nodiscard]] std::size_t robot_count() const override;                       ///< one per plug-in element
   /// From 0 to robot_count() − 1; else InputError.
   [[nodiscard]] host::Robot& robot(std::size_t index) override;
-  /// The same to look at.
-  [[nodiscard]] const host::Robot& robot(std::size_t index) const override;
+  [[nodiscard]] const host::Robot& robot(std::size_t index) const override;        ///< to look at
   [[nodiscard]] const std::string& robot_model(std::size_t index) const override;  ///< scoped model name
   /// A robot's ports, topics and faults (vsa/seat/seat.hpp). Its steps, joints, snapshots and reset are the world's.
   [[nodiscard]] seat::Seat& seat(std::size_t index);
 
-  // Bodies
   [[nodiscard]] const std::vector<LinkInfo>& links() const override;  ///< in the file's order; static ones, too
   void poses(std::span<Pose> out) const override;                     ///< one an entry of links(); another size: InputError
   /// Of the links below that model (scoped name), m, world axes. InputError: no such model.
@@ -148,8 +146,7 @@ class World : public motion::Stage, public host::Simulation {
   [[nodiscard]] Twist velocity(LinkHandle link) const;            ///< now, in world axes
   /// Moves a model that isn't fixed to the world (initial conditions): adds a yaw about the world's z axis and a translation, ±1e6.
   void displace_model(std::string_view model, double yaw_rad, std::array<double, 3> translation);
-  /// Makes the present state the one that reset() returns to.
-  void make_initial();
+  void make_initial();  ///< the present state becomes the one that reset() returns to
 
   /// Kinetic and gravitational energy of all bodies and that of the SDF's own joint springs, J, co-located with the actuators'
   /// ledger (see host/robot.hpp): velocities v with positions q − (dt/2)·v.
@@ -189,9 +186,9 @@ class World : public motion::Stage, public host::Simulation {
   /// 6 × dof_count() by rows: velocity of a point of the link (in its frame), then angular velocity, both in world axes, a v.
   void jacobian(LinkHandle link, const std::array<double, 3>& point_m, std::span<double> out) const;
 
-  // Parameters: the actuators' and the links'. They aren't state: reset() and restore() keep them; clone() takes them along.
-  [[nodiscard]] const config::TypeLibrary& types() const;               ///< the actuators' types are from there
-  [[nodiscard]] LinkParameters link_parameters(LinkHandle link) const;  ///< in force
+  [[nodiscard]] const config::TypeLibrary& types() const;  ///< the actuators' types are from there
+  /// In force. Parameters, the actuators' and the links', aren't state: reset() and restore() keep them; clone() takes them along.
+  [[nodiscard]] LinkParameters link_parameters(LinkHandle link) const;
   /// From the next step on. What of it the engine derives follows; motion goes on. InputError: out of range, moments that no body has,
   /// another mass or inertia of a static link, friction of one without shapes. An actuator's: host::Robot::set_parameters.
   void set_link_parameters(LinkHandle link, const LinkParameters& to);
@@ -209,8 +206,7 @@ class World : public motion::Stage, public host::Simulation {
   /// Goes on with those and leaves the state as it is, for one that came from a world with them. Each copy of a Batch is stepped so.
   void use(const Parameters& to);
 
-  /// Opaque, copyable: all of a world's state, without hands and parameters.
-  struct Snapshot;
+  struct Snapshot;  ///< opaque, copyable: all of a world's state, without hands and parameters
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;  ///< allocates; exact to the bit
   /// Of this world or of another of the same file (the same links, joints and robots; the step may differ): between those it is as
   /// exact as within one. Any other: InputError, and nothing changed.
@@ -224,16 +220,14 @@ class World : public motion::Stage, public host::Simulation {
   ///   save     throws InputError where more is under way than the layout has room for (host/robot.hpp), as snapshot() never does
   ///   restore  throws InputError for another size and for numbers that no state has, and nothing has changed
   [[nodiscard]] StateLayout state_layout() const;
-  [[nodiscard]] std::size_t state_size() const;  ///< how many numbers save() gives
-  void save(std::span<double> out) const;        ///< fills state_size() numbers
-  /// As restore() of a snapshot, from numbers that save() gave.
-  void restore(std::span<const double> in);
+  [[nodiscard]] std::size_t state_size() const;    ///< how many numbers save() gives
+  void save(std::span<double> out) const;          ///< fills state_size() numbers
+  void restore(std::span<const double> in);        ///< as restore() of a snapshot, from numbers that save() gave
   [[nodiscard]] std::uint64_t state_hash() const;  ///< of the numbers that save() gives; allocates
   /// A file of 40 bytes that tell version and layout, and the numbers. restore_file throws InputError for a file of another layout,
   /// version or length and a damaged one, and nothing has changed; save_file OutputError, and what was there stays.
   void save_file(const std::filesystem::path& file) const;
-  /// As restore(), from such a file.
-  void restore_file(const std::filesystem::path& file);
+  void restore_file(const std::filesystem::path& file);  ///< as restore(), from such a file
 
   [[nodiscard]] const std::vector<std::string>& warnings() const override;  ///< what the SDF has and the engine leaves out
 

@@ -38,7 +38,7 @@ struct Watch {
   std::atomic<bool> stop{false};              ///< true: they end by throwing Stopped
 };
 
-/// What Watch::stop ends.
+/// What a run throws that Watch::stop ended.
 class Stopped : public std::runtime_error {
  public:
   Stopped() : std::runtime_error("the experiment was stopped") {}

@@ -121,7 +121,7 @@ struct LawPoint {
       stiffness_Nm_per_rad = 0;  ///< σ
 };
 
-/// What an actuator can do at constant speed (see above), worked out from its parameters alone.
+/// Which torque, speed and stiffness an actuator reaches together at constant speed, from its law and its drive alone.
 class Workspace {
  public:
   explicit Workspace(const device::UnitConfig& unit);  ///< parameters that device::validate() passes

@@ -9,13 +9,16 @@
 
 namespace vsa::firmware {
 
-constexpr std::int32_t wrap_add(std::int32_t a, std::int32_t b) noexcept {  ///< a + b in two's complement, as the next ones
+/// A + b in two's complement, as the next ones.
+constexpr std::int32_t wrap_add(std::int32_t a, std::int32_t b) noexcept {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
-constexpr std::int32_t wrap_sub(std::int32_t a, std::int32_t b) noexcept {  ///< a − b
+/// A − b.
+constexpr std::int32_t wrap_sub(std::int32_t a, std::int32_t b) noexcept {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
 }
-constexpr std::int32_t wrap_mul(std::int32_t a, std::int32_t b) noexcept {  ///< a · b, its lower 32 bits
+/// A · b, its lower 32 bits.
+constexpr std::int32_t wrap_mul(std::int32_t a, std::int32_t b) noexcept {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b));
 }
 /// The processor shifts bit by bit, so that any count has a meaning: 32 and more leave nothing …

@@ -42,7 +42,7 @@ namespace vsa::firmware {
 
 inline constexpr std::int64_t kTickNs = 1'000'000;  ///< of the program
 
-/// What the program holds: the modes of the equations above. Others give no output.
+/// What the program's loop holds: a position, a PWM, a current, a deflection, or one through another. Other values give no output.
 enum class ControlMode : std::uint8_t {
   position = 0,
   pwm = 1,

@@ -15,7 +15,8 @@ namespace vsa::firmware {
 
 inline constexpr std::uint32_t kEncoderWordMask = 0x3FFFF;  ///< of the 18 bits
 
-[[nodiscard]] constexpr bool parity_even(std::uint32_t word) noexcept {  ///< whether the number of ones is even
+/// Whether the number of ones is even.
+[[nodiscard]] constexpr bool parity_even(std::uint32_t word) noexcept {
   word &= kEncoderWordMask;
   for (int half = 16; half > 0; half /= 2) word ^= word >> half;
   return (word & 1) == 0;

@@ -42,7 +42,8 @@ inline bool follow_word(std::int32_t sample, bool whole_jump, std::int32_t& last
 /// Raw over turns.
 inline std::int32_t unwrapped(std::int32_t sample, std::int32_t turns) noexcept { return wrap_add(sample, wrap_shl(turns, 16)); }
 
-inline std::int32_t proportional(std::int32_t k, std::int32_t error) noexcept {  ///< P(k) of a gain in 16.16
+/// P(k) of a gain in 16.16.
+inline std::int32_t proportional(std::int32_t k, std::int32_t error) noexcept {
   const bool far = error > kFarError || error < -kFarError;
   return far ? wrap_mul(k, error >> 8) >> 8 : wrap_mul(k, error) >> 16;
 }
@@ -54,7 +55,8 @@ inline std::int32_t position_pwm(std::int32_t p, std::int32_t i, std::int32_t d,
   return wrap_add(wrap_add(proportional(p, error), integral), derivative);
 }
 
-inline std::int32_t limited_sum(std::int32_t sum, std::int32_t error, std::int32_t most) noexcept {  ///< Σ, cut to ± most
+/// Σ, cut to ± most.
+inline std::int32_t limited_sum(std::int32_t sum, std::int32_t error, std::int32_t most) noexcept {
   return std::clamp(wrap_add(sum, error), -most, most);
 }
 

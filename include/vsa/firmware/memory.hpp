@@ -38,7 +38,7 @@ struct Gains {
   bool operator==(const Gains&) const = default;
 };
 
-/// One set of parameters, as the EEPROM has them. Angles are raw; gains 16.16.
+/// One set of the unit's parameters, as its EEPROM has them. Angles are raw, 65536 per turn; gains 16.16 fixed point.
 struct Memory {
   bool valid = false;                        ///< false: never written (an empty EEPROM page)
   std::uint8_t id = 0;                       ///< 1…; 0 is broadcast
@@ -78,7 +78,7 @@ struct Memory {
 /// What a device's own EEPROM could hold for its program to work; keys are those of files ("limit_low_raw").
 void validate(const Memory& memory, std::string_view where, Problems& problems);
 
-/// The four copies.
+/// The four copies that a unit has of its parameters: two in memory, two in the EEPROM.
 struct MemoryState {
   Memory stored,  ///< what commands write
       current;    ///< what the loop uses

@@ -17,7 +17,7 @@ struct Reply {
   std::int64_t delay_ns = 0;  ///< after the call's time: EEPROM and earlier replies; the turn-around is the bus's
 };
 
-/// What a call of the program gave out. The caller clears it and hands the bytes on.
+/// What a call of the program gave out: bytes for the bus, and events. The caller clears it and hands the bytes on.
 struct Output {
   /// Enough for all that 32 buffered bytes can ask for: ten info texts, or six frames.
   static constexpr std::size_t kBytes = 16384;

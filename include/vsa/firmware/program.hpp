@@ -102,8 +102,8 @@ struct ProgramState {
   bus::UnitReceiver receiver;      ///< of frames
   ReceiveBuffer buffer;            ///< bytes that came while it was busy
   Watchdog watchdog;               ///< see firmware/watchdog.hpp
-  Calibration calibration;         ///< see above
-  Counters counters;               ///< see above
+  Calibration calibration;         ///< of CALIBRATE
+  Counters counters;               ///< of GET_COUNTERS
   std::int64_t busy_until_ns = 0;  ///< stores and answers: nothing else is done until then
   std::uint8_t enable = 0;         ///< enable pins: bit 0 motor 1, bit 1 motor 2
   std::uint8_t baud_divider = 3;   ///< of 6 MHz: 2 Mbaud
@@ -159,7 +159,7 @@ class Program {
   /// When `poll` has something to do; none: nothing waits.
   [[nodiscard]] std::optional<std::int64_t> wake_ns(const ProgramState& s) const noexcept;
 
-  /// Encoders and motors; see above.
+  /// The first half of a tick: samples the encoders, drives the motors.
   void begin_tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, Output& out) const noexcept;
   /// Supply, currents, calibration, references.
   void end_tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, Output& out) const noexcept;

@@ -12,7 +12,7 @@
 
 namespace vsa::firmware {
 
-/// The ring of 32 bytes between interrupt and program.
+/// The serial port's ring of 32 bytes between interrupt and program.
 struct ReceiveBuffer {
   static constexpr std::uint8_t kSize = 32;  ///< bytes
 
@@ -30,7 +30,8 @@ struct ReceiveBuffer {
     full = full || read == write;
   }
   [[nodiscard]] bool empty() const noexcept { return read == write && !full; }  ///< nothing waits
-  std::uint8_t pop() noexcept {                                                 ///< the next, whether or not one waits
+  /// The next, whether or not one waits.
+  std::uint8_t pop() noexcept {
     const std::uint8_t byte = bytes[read];
     read = static_cast<std::uint8_t>((read + 1) % kSize);
     full = false;
@@ -38,7 +39,8 @@ struct ReceiveBuffer {
   }
   /// `count` bytes came and were taken; the buffer is empty before and after.
   void pass(std::size_t count) noexcept { read = write = static_cast<std::uint8_t>((write + count) % kSize); }
-  void clear() noexcept {  ///< as the main loop does when it ran over
+  /// As the main loop does when it ran over.
+  void clear() noexcept {
     read = write = 0;
     full = overflow = false;
   }

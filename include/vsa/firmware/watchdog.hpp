@@ -16,7 +16,7 @@ namespace vsa::firmware {
 
 inline constexpr std::int64_t kWatchdogClockNs = 40'960'000;  ///< of its counter
 
-/// The counter, its clock and what it has told.
+/// The 8-bit down counter, clocked every 40.96 ms, that tells the program that nobody has spoken for long.
 struct Watchdog {
   std::int64_t next_clock_ns = 0;  ///< of its clock, line time
   std::uint8_t period = 127;       ///< N: clocks until it goes off, less one
@@ -25,12 +25,14 @@ struct Watchdog {
   bool reload = false;             ///< asked for; done at the next clock
   bool expired = false;            ///< until the next byte
 
-  void power_up(std::int64_t now_ns, bool on) noexcept {  ///< at the clock that begins then
+  /// At the clock that begins then.
+  void power_up(std::int64_t now_ns, bool on) noexcept {
     *this = {};
     enabled = on;
     next_clock_ns = now_ns + kWatchdogClockNs;
   }
-  void run_to(std::int64_t now_ns) noexcept {  ///< every clock up to then
+  /// Every clock up to then.
+  void run_to(std::int64_t now_ns) noexcept {
     for (; next_clock_ns <= now_ns; next_clock_ns += kWatchdogClockNs) {
       const bool out = enabled && !reload && count == 0;
       expired = expired || out;
@@ -38,7 +40,8 @@ struct Watchdog {
       reload = false;
     }
   }
-  void heard_byte() noexcept {  ///< reloads at the next clock
+  /// Reloads at the next clock.
+  void heard_byte() noexcept {
     reload = true;
     expired = false;
   }

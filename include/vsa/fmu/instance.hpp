@@ -24,7 +24,7 @@ namespace vsa::fmu {
 
 /// What the standard's calls return, in its own order.
 enum class Status { ok, warning, discard, error, fatal };
-/// Where the instance is (see above).
+/// How far an instance is, which decides what calls are allowed.
 enum class Mode { instantiated, initialization, stepping, terminated, failed };
 
 /// Names of the log's categories, as both versions of the standard have them.
@@ -32,7 +32,8 @@ inline constexpr const char* kLogInfo = "logAll";
 inline constexpr const char* kLogWarning = "logStatusWarning";  ///< of the log's categories
 inline constexpr const char* kLogError = "logStatusError";      ///< of the log's categories
 
-/// An instance as the standard's functions see it. One thread.
+/// One instance of an FMU: which of the standard's calls is allowed when, what is wrong with its arguments, time and saved states.
+/// Nothing throws. One thread.
 class Instance {
  public:
   /// Gets every line that the importer asked for.
@@ -41,9 +42,9 @@ class Instance {
   /// `token`: the one of modelDescription.xml, for states.
   Instance(std::unique_ptr<Model> model, std::uint64_t token, Logger logger);
 
-  [[nodiscard]] Mode mode() const noexcept { return mode_; }             ///< see above
+  [[nodiscard]] Mode mode() const noexcept { return mode_; }             ///< which decides what calls are allowed
   [[nodiscard]] const Model& model() const noexcept { return *model_; }  ///< what it stands on
-  void set_logging(bool on) noexcept { talks_ = on; }                    ///< whether the log's other categories are told
+  void set_logging(bool on) noexcept { talks_ = on; }                    ///< whether what isn't wrong is told, too
 
   /// `call`: the standard's name of the function, for messages.
   Status set_up(const char* call, double start_s, bool has_stop, double stop_s) noexcept;  ///< `has_stop` false: no end is known

@@ -17,7 +17,7 @@
 
 namespace vsa::fmu {
 
-/// A model of an FMU: values by reference, and a state of its own.
+/// What stands behind an FMU's instance, whatever version of FMI asks: values by reference, a step, and a state as numbers.
 class Model {
  public:
   virtual ~Model() = default;
@@ -57,7 +57,8 @@ class Model {
   void add_variables(std::vector<Variable> variables);                                ///< in the constructor, once
   void make_start_values();                                                           ///< of the parameters as they are set now
   [[nodiscard]] double value(Reference variable) const { return values_[variable]; }  ///< as it was set or evaluated
-  void tell(const std::string& line) const {                                          ///< to whoever listens
+  /// To whoever listens.
+  void tell(const std::string& line) const {
     if (warn) warn(line);
   }
 

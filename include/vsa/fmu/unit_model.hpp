@@ -28,7 +28,7 @@
 
 namespace vsa::fmu {
 
-/// Who moves the shaft within a step (see above).
+/// Who moves the shaft within a communication step: the importer, or the unit's own foresight with the inertia behind it.
 enum class Coupling { prescribed, implicit };
 
 /// What an FMU begins with, unless its importer says otherwise.
@@ -43,7 +43,7 @@ inline constexpr double kExplicitLimit = 0.3;
 /// An angle or a speed that no shaft has, rad and rad/s.
 inline constexpr double kFarthest = 1e6;
 
-/// One actuator: the type's parameters, commands and shaft in; torque, stiffness, motors out.
+/// One actuator behind FMI: parameters, commands and the shaft's motion in; torque, stiffness and motors out.
 class UnitModel final : public Model {
  public:
   /// Throws InputError as TypeFile::make.

@@ -27,7 +27,7 @@ enum class Variability { fixed, tunable, continuous };
 
 /// One variable, as modelDescription.xml lists it.
 struct Variable {
-  std::string name;                                   ///< unique; letters, digits, '_', '[', ']'
+  std::string name;                                   ///< unique in the model
   std::string unit;                                   ///< "N.m/rad", as unit_name() has it; empty: a number without one
   std::string description;                            ///< one line
   Kind kind = Kind::real;                             ///< of its values

@@ -20,7 +20,7 @@
 
 namespace vsa::fmu {
 
-/// A world: every actuator's commands in, its joint, torques, motors and the robots' places out.
+/// A whole world behind FMI: every actuator's commands in; its joint, torques, motors and the robots' places out.
 class WorldModel final : public Model {
  public:
   explicit WorldModel(engine::World world);  ///< parameters of actuators and world stay as they are

@@ -14,7 +14,8 @@
 
 namespace vsa::host {
 
-/// Tells a host when B is due (see above). Part of its state: without it a restored run would work B out at other steps.
+/// Tells a host when B = (M⁻¹)_aa is due: a driven joint has turned by 0.02 rad, or 16 steps have passed. It is part of a host's
+/// state: a restored run works B out at the same steps.
 class MobilityWatch {
  public:
   MobilityWatch() = default;

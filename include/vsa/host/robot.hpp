@@ -87,13 +87,15 @@ struct Placement {
   std::optional<double> equilibrium_rad = std::nullopt;  ///< none: where the springs give no torque (the angle, if they are equal)
 };
 
-/// A command that was out of range is clamped as the device does and reported once per actuator.
+/// What a robot has to tell of a run. A command that was out of range is clamped as the device does and reported once per actuator.
 struct Notice {
   std::optional<std::size_t> actuator;  ///< none: of the robot as a whole
   std::string text;                     ///< one line, with the numbers
 };
 
-/// A robot that was moved from throws std::logic_error from everything but its destructor and assignment; advance() aborts.
+/// All that a simulator sees of a robot made of VSAs: shaft angles and speeds in, shaft torques out, with units, buses and firmware
+/// behind them. One that was moved from throws std::logic_error from everything but its destructor and assignment; advance()
+/// aborts.
 class Robot {
  public:
   /// Throws InputError for values that no unit could have (validate(); config:: makes valid ones) and for what only the whole
@@ -108,8 +110,7 @@ class Robot {
 
   [[nodiscard]] const RobotConfig& config() const;  ///< as it is now: set_parameters() changes it
   [[nodiscard]] std::size_t size() const;           ///< number of actuators
-  /// Its index, in config order; none: no such name.
-  [[nodiscard]] std::optional<std::size_t> find(std::string_view actuator_name) const;
+  [[nodiscard]] std::optional<std::size_t> find(std::string_view actuator_name) const;  ///< its index; none: no such name
 
   /// Which actuators' joints move each other: those of one kinematic tree. An actuator that is in none moves its own joint only.
   /// Before the first step; throws InputError for an index twice or out of range.
@@ -131,7 +132,6 @@ class Robot {
 
   /// From any thread; taken at the next step's start in order of arrival. NaN or infinity: refused (false). None: keep.
   bool command(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset);
-
   /// Past the law, from the next tick on: motor_voltages V for each motor; torque_servo N·m on the shaft (the first number), added to
   /// what its stiffness gives. InputError: another controller, a number that isn't finite. The stepping thread's.
   void command_direct(std::size_t actuator, const std::array<double, 2>& values);
@@ -144,7 +144,6 @@ class Robot {
   };
   /// Several at once, from any thread: all take effect in the same step, or none where one is refused (false).
   bool command(std::span<const Command> commands);
-
   /// A point of a trajectory.
   struct Knot {
     double time_s = 0;  ///< after the trajectory's start, ≥ 0
@@ -153,11 +152,9 @@ class Robot {
   };
   /// What of an actuator a trajectory leads.
   enum class Channel { equilibrium, preset };
-  /// A trajectory in simulated time, from any thread; it starts with the next step: knots (time after its start, value), linear
-  /// between, last value held. It replaces what that channel had. Empty or non-increasing knots or non-finite numbers: refused
-  /// (false).
+  /// From the next step on, from any thread: linear between knots in simulated time, the last value held; it replaces what that
+  /// channel had. No knots, times that don't grow from 0 on, numbers that aren't finite: refused (false).
   bool follow(std::size_t actuator, Channel channel, std::vector<Knot> knots);
-
   /// One channel's part of several trajectories that belong together.
   struct Path {
     std::size_t actuator = 0;                ///< an index below size()
@@ -167,10 +164,8 @@ class Robot {
   /// Several at once: all begin with the same step, or none where one is refused (false).
   bool follow(std::vector<Path> paths);
 
-  /// As it is now. InputError, here and below: an actuator that isn't there.
-  [[nodiscard]] ActuatorReading read(std::size_t actuator) const;
-  /// The references that the unit received last, as they came over its bus.
-  [[nodiscard]] std::array<Ticks, 2> received_inputs(std::size_t actuator) const;
+  [[nodiscard]] ActuatorReading read(std::size_t actuator) const;  ///< now. InputError, here and below: no such actuator
+  [[nodiscard]] std::array<Ticks, 2> received_inputs(std::size_t actuator) const;  ///< references that came over its bus last
   [[nodiscard]] actuator::Ledger ledger(std::size_t actuator) const;  ///< energy ledger since the start or the last reset
   [[nodiscard]] actuator::Ledger ledger() const;                      ///< summed over all actuators
   [[nodiscard]] std::vector<Notice> take_notices();                   ///< since the last call

@@ -39,7 +39,7 @@
 
 namespace vsa::host {
 
-/// A trajectory message, whatever its transport calls it: for the channels in `names` their values at each point.
+/// A trajectory message: channels by name, and their values at each point. One point acts at once, several are followed linearly.
 struct Trajectory {
   /// One line of the table: a value for each name, and when.
   struct Point {
@@ -55,7 +55,7 @@ struct ActuatorsCmd {
   std::vector<double> positions;  ///< all equilibria, rad, then all presets
 };
 
-/// Simulation truth, not the unit's readings.
+/// The states of one robot at one instant. Simulation truth, not the unit's readings.
 struct JointStates {
   /// A shaft or a pulley.
   struct Joint {
@@ -94,7 +94,8 @@ enum class Outcome {
   refused,      ///< the transport takes no such topic name
 };
 
-/// What a host supplies. Handlers may be called from any thread, and no more once the transport is gone.
+/// What a host supplies so that RobotTopics can subscribe and publish. Handlers may be called from any thread, and no more once the
+/// transport is gone.
 class TopicTransport {
  public:
   virtual ~TopicTransport() = default;
@@ -107,7 +108,7 @@ class TopicTransport {
   virtual Outcome serve_text(const std::string& service, Answer answer) = 0;
   /// Null: unsupported or refused.
   virtual std::unique_ptr<Publisher<double>> advertise_double(const std::string& topic) = 0;
-  /// Null, as above.
+  /// Null: unsupported or refused.
   virtual std::unique_ptr<Publisher<JointStates>> advertise_states(const std::string& topic) = 0;
 };
 
@@ -119,8 +120,8 @@ class TopicTransport {
 /// The same of an actuator's topics: "cmd_equilibrium", "stiffness", …
 [[nodiscard]] std::string joint_topic(std::string_view model, std::string_view actuator, std::string_view leaf);
 
-/// Subscribes and publishes for one robot, which must outlive it. Commands that come once it is gone, or whose constructor threw,
-/// do nothing.
+/// One robot's topics: takes commands, publishes states, reports what is refused. The robot must outlive it. Commands that come
+/// once it is gone, or whose constructor threw, do nothing.
 class RobotTopics {
  public:
   /// One readable line. Called from any thread.

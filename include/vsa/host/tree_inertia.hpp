@@ -34,7 +34,7 @@ struct TreeBody {
   std::array<double, 9> inertia_kgm2{};    ///< about the centre of mass, world axes, by rows
 };
 
-/// Works B out for one set of bodies, step after step, without allocating.
+/// Works out B = (M⁻¹)_aa of joints of a tree of rigid bodies, 1/(kg·m²), step after step without allocating.
 class TreeInertia {
  public:
   static constexpr std::size_t kBlock = 4;  ///< columns that are worked out together

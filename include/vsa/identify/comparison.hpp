@@ -114,7 +114,7 @@ struct FitRecord {
 /// See the top of this file; NaN: none.
 [[nodiscard]] double aicc(double weighted_squares, double points, double independent, std::size_t parameters);
 
-/// One row of the table.
+/// One hypothesis's row of the table.
 struct Judgement {
   std::vector<double> rms_rad,  ///< of each recording
       left_out_rms_rad;         ///< of each recording, predicted; empty with one recording

@@ -55,7 +55,7 @@ struct Turn {
   std::optional<double> amplitude_rad;  ///< given: it decides, and `shaft_rad` is the farthest that is tried
 };
 
-/// The load test without dynamics, of one unit (see above).
+/// The load test of one unit without dynamics: springs, frictions and the motors' static torque along the sweep.
 class QuasiStatic {
  public:
   /// `load_peak_Nm`: M g r of the bench. The unit must not be unsupported().

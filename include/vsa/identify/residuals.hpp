@@ -21,7 +21,7 @@ struct Point {
 /// A model whose branch has fewer than two points counts as this far off.
 inline constexpr double kMissing_rad = 0.2;
 
-/// A task's residuals: which points count, and the model's values there. Threads only inside; evaluate from one at a time.
+/// A task's residuals: which points count, and the model's values there, evaluated on several threads. The task must outlive it.
 class Residuals {
  public:
   /// `threads` 0: all that the machine has. Throws InputError where an observation has no points.

@@ -41,9 +41,9 @@
 
 namespace vsa::linear {
 
-/// How the program is taken (see above).
+/// How the unit's program is taken: not at all, voltages being the inputs; as a loop in continuous time; or from loop to loop.
 enum class Firmware { frozen, averaged, sampled };
-/// How dry friction is taken (see above).
+/// How dry friction, which has no slope, is taken: left out, or each bristle as a spring.
 enum class DryFriction { sliding, stuck };
 
 /// Where a unit stands when it is made linear.
@@ -88,7 +88,7 @@ struct System {
   std::vector<std::string> notices;  ///< what a user should know of this point
 };
 
-/// One unit about its point.
+/// One unit about a point: the system, and how it stands there.
 struct Model : System {
   Rest rest;                               ///< how it stands there
   double inertia_kgm2 = 0,                 ///< M
@@ -103,7 +103,7 @@ struct Model : System {
 [[nodiscard]] Model linearize(const device::UnitConfig& unit, const OperatingPoint& point, Firmware firmware,
                               DryFriction friction = DryFriction::sliding);
 
-/// One pole.
+/// A pole of a system, with its frequency and damping ratio.
 struct Pole {
   std::complex<double> s;    ///< 1/s; sampled: ln(z)/T
   double frequency_Hz = 0;   ///< |s|/2π
@@ -118,7 +118,7 @@ struct Pole {
 /// loops. Throws InputError for a frequency that isn't above 0, sampled: and below 1/(2T).
 [[nodiscard]] Eigen::MatrixXcd answers(const System& system, double frequency_Hz);
 
-/// What answers a sinusoidal torque at the shaft.
+/// What answers a sinusoidal torque at the shaft: impedance, compliance, and the actuator's own stiffness and damping.
 struct Response {
   double frequency_Hz = 0;          ///< of the torque
   std::complex<double> impedance;   ///< Z = τ_load/q̇, N·m·s/rad, inertia and damping of the shaft included

@@ -43,7 +43,7 @@ struct MountedUnit {
   std::size_t joint = 0;    ///< into Bodies::joints; at most one unit a joint
 };
 
-/// Units and bodies about a point.
+/// Units on the joints of one set of bodies, about a point: M q̈ + D q̇ + (K + C) q = τ_load + τ_units.
 struct RobotModel : System {
   Bodies bodies;  ///< as they were given
   /// How one of the units stands there.

@@ -37,7 +37,7 @@ struct WorldPoint {
       equilibria_rad{};            ///< of single actuators
 };
 
-/// A world about that point.
+/// A world of actuators about a point: the system, and what carries its weights there.
 struct WorldModel {
   linear::RobotModel model;            ///< joints go by their actuators' names, those without by their own
   std::vector<double> gravity_torque;  ///< of each joint of the model: what its weight asks for, N·m or N

@@ -6,7 +6,7 @@
 //   r(t)   = t/ramp_s below ramp_s, then 1: the body grows into the wave instead of jumping into it
 //
 // Commands are sent at every multiple of period_s: what is sent is a function of simulated time and, when steering, of where the
-// model has been. All memory is in GaitState, which is copyable; a copy of a Gait goes on exactly as the original.
+// model has been. What changes as it plays is in GaitState, which is copyable; a copy of a Gait goes on exactly as the original.
 //
 // Steering: the direction of travel is that of the model's centre of mass against where it was one gait period ago (so the wobble
 // of the cycle cancels). With ψ its angle about the world's z axis,
@@ -59,7 +59,7 @@
 
 namespace vsa::motion {
 
-/// A wave over actuators that move one after the other: the equation above.
+/// A wave over actuators: y_n(t) = D + A r(t) sin(ω t + n π/λ + δ + s), rad, n of each, s of the group that steers.
 struct GaitGroup {
   std::string name;                    ///< of the file's [group.NAME]
   std::vector<std::string> actuators;  ///< "joint_1", or "model/joint_1" where several models have it
@@ -71,7 +71,8 @@ struct GaitGroup {
   double preset_rad = 0;               ///< p, of every actuator in it
 };
 
-/// Turns the model as it travels: the law above.
+/// Turns a model as it travels: s goes towards clamp(gain · wrap(ψ_target − ψ), ±limit_rad), ψ its direction, by at most
+/// slew_rad_per_s.
 struct SteeringParams {
   std::string group;                 ///< whose s it changes
   double gain = 1;                   ///< rad/rad; negative turns the other way
@@ -121,13 +122,13 @@ struct WaveParams {
       delta_rad = 0,         ///< δ
       preset_rad = 0;        ///< p
 };
-/// Values that change() goes to, or came from.
+/// What change() goes to: ω, and the wave of each group.
 struct GaitChange {
   double frequency_rad_per_s = 0;  ///< ω
   std::vector<WaveParams> groups;  ///< as many as the gait has, in its order
 };
 
-/// Where steering stands.
+/// Where steering stands: the way travelled, and the present s.
 struct SteeringState {
   std::vector<std::array<double, 2>> trail;  ///< the last period's centres of mass, oldest first
   std::optional<double> heading_rad;         ///< direction of travel

@@ -38,11 +38,11 @@ struct MotionTrack {
       preset;                          ///< times grow; may be empty
 };
 
-/// A motion as a file has it.
+/// A motion: keyframes of equilibrium and preset for named actuators.
 struct MotionParams {
   bool smooth = true;                 ///< false: linear
   double end_s = 0;                   ///< the last keyframe's time
-  std::optional<double> loop_from_s;  ///< none: it ends
+  std::optional<double> loop_from_s;  ///< none: the last values are held
   std::vector<MotionTrack> tracks;    ///< one an actuator, in the file's order
 };
 

@@ -13,7 +13,7 @@
 
 namespace vsa::motion {
 
-/// What an actuator was last told, rad.
+/// What an actuator was last told.
 struct Commanded {
   double equilibrium_rad = 0,  ///< rad
       preset = 0;              ///< in the law's unit
@@ -30,7 +30,7 @@ class Stage {
   [[nodiscard]] virtual const std::string& model_of(std::size_t actuator) const = 0;  ///< scoped name, for steering
   /// What isn't given stays.
   virtual void send(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset) = 0;
-  [[nodiscard]] virtual Commanded commanded(std::size_t actuator) const = 0;                     ///< since the first sample
+  [[nodiscard]] virtual Commanded commanded(std::size_t actuator) const = 0;                     ///< last, by whoever did
   [[nodiscard]] virtual std::array<double, 3> center_of_mass(std::string_view model) const = 0;  ///< for steering, m
 };
 

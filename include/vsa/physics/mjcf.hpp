@@ -49,7 +49,6 @@ struct MjcfRead {
 
 /// A file that write_mjcf_files() makes.
 struct WrittenFile {
-  /// Without a directory; and what is in it.
   std::string name,  ///< without a directory
       bytes;         ///< what is in it
 };

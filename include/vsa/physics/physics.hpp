@@ -54,7 +54,8 @@ class Bodies {
   [[nodiscard]] virtual std::span<const scene::LinkParameters> links() const = 0;  ///< by link
 };
 
-/// One world's bodies in an engine, in motion. One thread at a time; indices of links and joints are those of description::World.
+/// One world's bodies in an engine, in motion: prepare(), apply(), advance(). One thread at a time; indices of links and joints are
+/// those of description::World.
 class Physics {
  public:
   virtual ~Physics() = default;
@@ -98,8 +99,8 @@ class Physics {
   /// On a link, in world axes.
   virtual void push(std::size_t link, const scene::Wrench& wrench) = 0;
 
-  /// Of the present state; degrees of freedom as in engine::World.
-  [[nodiscard]] virtual std::size_t dofs() const = 0;                                       ///< degrees of freedom
+  /// How many degrees of freedom. As the next ones, of the present state and in engine::World's order.
+  [[nodiscard]] virtual std::size_t dofs() const = 0;
   [[nodiscard]] virtual std::optional<std::size_t> joint_dof(std::size_t joint) const = 0;  ///< the first of a joint; none: fixed
   /// The first of six of a link that flies free; else none.
   [[nodiscard]] virtual std::optional<std::size_t> free_dof(std::size_t link) const = 0;

@@ -15,7 +15,7 @@ namespace vsa::ports {
 
 using Report = std::function<void(const std::string&)>;  ///< gets one readable line
 
-/// A robot's open ports; they close with the object.
+/// The open serial ports of a robot's buses; they close with the object.
 class RobotPorts {
  public:
   /// Opens the robot's ports; `report` gets a line a port. Throws InputError with every one that can't be had. The robot must

@@ -13,7 +13,7 @@ namespace vsa::record {
 /// What stands around the numbers.
 struct PageText {
   std::string title;               ///< of the page
-  std::vector<Statistic> summary;  ///< below it
+  std::vector<Statistic> summary;  ///< lines below the title
   std::vector<std::string> notes;  ///< what a reader must know, e.g. why the run ended early
 };
 
@@ -38,7 +38,7 @@ class PageData {
   PageData(const RunInfo& info, double rate_Hz, std::size_t frames_max);  ///< rate in (0, 1e6] Hz; at least 2 frames
 
   [[nodiscard]] bool due(std::int64_t time_ns) const noexcept { return cadence_.due(time_ns); }  ///< at the page's present rate
-  void add(const Sample& sample);                                             ///< halves the rate where it is the last that fits
+  void add(const Sample& sample);                                             ///< halves the rate where there are frames_max
   void restart();                                                             ///< without frames, at the first rate
   [[nodiscard]] std::size_t frames() const noexcept { return time_.size(); }  ///< so far
 

@@ -56,7 +56,7 @@ struct Sample {
 
 /// A line of the summary, as the command line prints it and the page shows it.
 struct Statistic {
-  std::string label;  ///< one or two words
+  std::string label;  ///< what it is
   std::string value;  ///< with its unit
 };
 

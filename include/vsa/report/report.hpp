@@ -14,13 +14,13 @@
 
 namespace vsa::report {
 
-/// One line, or points, of a chart.
+/// One curve of a chart: a line, markers, or a band.
 struct Curve {
-  /// How it is drawn; band: an area of half the width that `error` gives.
+  /// How it is drawn; band: an area `error` to both sides.
   enum class Style { line, dashed, dotted, markers, band };
-  std::string name;  ///< for the legend
-  /// Equally long; what isn't finite is a gap.
-  std::vector<double> x, y;   ///< equally long; what isn't finite is a gap
+  std::string name;           ///< for the legend
+  std::vector<double> x,      ///< as long as y
+      y;                      ///< as long as x; what isn't finite is a gap
   std::vector<double> error;  ///< empty, or one a point: error bars (band: half width, needed)
   Style style = Style::line;  ///< how it is drawn
   int color = 0;      ///< index into the page's colour-blind-safe palette; equal index, equal colour; −1: grey, for references
@@ -112,7 +112,7 @@ struct Section {
   std::vector<Block> blocks;  ///< charts of a section stand side by side where there is room
 };
 
-/// A page.
+/// A report: one self-contained HTML page of sections with text, tables and interactive curves.
 struct Report {
   std::string title,                                ///< of the page
       subtitle;                                     ///< below it; may be empty

@@ -14,7 +14,7 @@
 
 namespace vsa::scenario {
 
-/// Plays a scenario's commands. One world's; before every step.
+/// Plays what a scenario commands, its gait and its commands, on one world, before every step.
 class Player {
  public:
   /// Throws InputError: the motion's problems, and every actuator that isn't there or that keyframes command.

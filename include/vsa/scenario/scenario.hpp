@@ -28,7 +28,8 @@ struct Command {
       preset_rad;                         ///< in the law's unit; none: keeps what it has
 };
 
-/// One run's numbers, and where they come from. As a file: docs/reference/scenario-files.md.
+/// What shapes a run's numbers: world, parameters, faults, motion, and commands in simulated time. As a file:
+/// docs/reference/scenario-files.md.
 struct Scenario {
   std::string scenario;               ///< the file that said so; empty: none did
   std::string world;                  ///< a file, or a built-in world's name
@@ -47,9 +48,8 @@ struct Scenario {
 /// Adds what no run could have, by the keys of a file. Names of files, types and gaits are looked up where they are used.
 void validate(const Scenario& scenario, std::string_view where, Problems& problems);
 
-/// Each throws InputError with every problem.
-
-[[nodiscard]] engine::World load_world(const Scenario& scenario);  ///< the world with its step, its types and its actuators
+/// The world with its step, its types and its actuators. Throws InputError with every problem, as the next ones do.
+[[nodiscard]] engine::World load_world(const Scenario& scenario);
 /// The gait or motion of a run, with the scenario's changes; none: it has none.
 [[nodiscard]] std::optional<motion::Gait> load_motion(const Scenario& scenario);
 /// Its faults, with the scenario's seed in every text that has none.

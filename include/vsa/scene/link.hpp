@@ -29,7 +29,7 @@ struct Shape {
 struct LinkInfo {
   std::string name;            ///< scoped: "model::link"
   std::string model;           ///< top-level model
-  double mass_kg = 0;          ///< 0 of a static link
+  double mass_kg = 0;          ///< as its file has it
   bool is_static = false;      ///< it never moves
   std::vector<Shape> visuals;  ///< the SDF's visuals (collisions where a link has none)
 };

@@ -19,7 +19,7 @@
 
 namespace vsa::reader {
 
-/// The directories above, as the environment gives them now.
+/// Where files are looked for, as the environment gives it now.
 struct SearchPath {
   /// Read of the environment once, here; `more`: the caller's own.
   explicit SearchPath(const std::vector<std::filesystem::path>& more);

@@ -20,7 +20,7 @@
 
 namespace vsa::reader {
 
-/// For whom it is read, and how much is bent to fit.
+/// For which engine a file is read, and what becomes of meshes that it would fill.
 struct ReadOptions {
   description::Capabilities engine;   ///< that the description is for
   Concave concave = Concave::refuse;  ///< what becomes of meshes that aren't convex

@@ -67,8 +67,8 @@ struct Options {
   bool watches_pace = true;            ///< tells once where a robot with a serial port falls behind the wall clock
 };
 
-/// A robot in a simulator: host::Robot with its clock, B, ports, topics, faults and snapshots. Neither copied nor moved; see
-/// clone().
+/// What every simulator does with a robot: host::Robot with its clock, B, ports, topics, faults and snapshots; its host only
+/// carries numbers in and out. Neither copied nor moved; see clone().
 class Seat {
  public:
   using Report = host::RobotTopics::Report;  ///< who reads the seat's lines

@@ -53,7 +53,8 @@ namespace detail {
 }
 }  // namespace detail
 
-[[nodiscard]] inline int current_adc(double magnitude_A) noexcept {  ///< counts, cut at the ends of the scale
+/// Counts, cut at the ends of the scale.
+[[nodiscard]] inline int current_adc(double magnitude_A) noexcept {
   return detail::to_counts(std::abs(magnitude_A) * 1e3, 8192.0 / 25771.0);
 }
 [[nodiscard]] MilliAmp current_from_adc(int counts) noexcept;  ///< as the program reads them, mA

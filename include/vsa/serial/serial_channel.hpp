@@ -11,7 +11,7 @@
 
 namespace vsa::serial {
 
-/// One open port. Closes it when it goes.
+/// A client's end of a serial port, virtual or real, opened for this program alone.
 class SerialChannel final : public bus::Channel {
  public:
   /// Opens the port for this program alone: raw, eight bits, no parity, pending input thrown away. Two locks: flock, which our own

@@ -29,7 +29,7 @@ struct VirtualPortOptions {
   std::size_t most_held_bytes = 64 << 10;  ///< answers kept for a client that doesn't read
 };
 
-/// Since the port was made.
+/// What a port has done since it was made.
 struct PortCounters {
   std::uint64_t exchanges = 0;           ///< times that bytes went to the line, or that the line spoke unasked
   std::uint64_t bytes_in = 0;            ///< from clients
@@ -40,7 +40,8 @@ struct PortCounters {
   std::int64_t longest_service_ns = 0;   ///< from a request's arrival in our thread to its answer in the terminal
 };
 
-/// One port with one line behind it, served until the object goes.
+/// A serial port that software for the hardware opens: a pseudo-terminal under a stable name, with units behind it, served by a
+/// thread of its own.
 class VirtualPort {
  public:
   /// Serves at once. `line` must outlive the port, and may be locked by others for microseconds only. Throws InputError for a path

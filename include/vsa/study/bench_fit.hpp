@@ -10,7 +10,7 @@
 
 namespace vsa::study {
 
-/// How the paper's benches are set for an actuator: presets in its law's unit.
+/// What of the paper's benches an actuator can bear: their mass, and presets in its law's unit.
 struct BenchFit {
   bool papers_law = false;  ///< two_sinh, or a law whose name begins so
   double full = 0;  ///< the preset that counts as stiff: the paper's for its own law, else the largest that the motors wind to

@@ -39,7 +39,7 @@ struct CharacterizationOptions {
   std::optional<double> load_kg;        ///< on the load bench's lever, 0.001 … 1000; none: by fit_bench()
 };
 
-/// Of one quantity in a run.
+/// The ends of what one quantity went through in a run.
 struct Range {
   double least = 0,  ///< of its samples
       most = 0;      ///< of its samples
@@ -88,7 +88,8 @@ struct PresetStepResult {
 /// Of the pinion that a linear actuator's output turns as a rack on the benches.
 inline constexpr double kBenchPinion_m = 0.05;
 
-/// A plan where the results' runs are empty: their options say what is to be run.
+/// An actuator measured on the paper's benches, run by run. A plan where the results' runs are empty: their options say what is to
+/// be run.
 struct Characterization {
   experiment::Specimen specimen;              ///< the actuator, as it was asked for
   config::ActuatorType actuator;              ///< the same, as it was read

@@ -11,7 +11,7 @@
 
 namespace vsa::study {
 
-/// A plan where the simulated part is one.
+/// A data sheet: what law and drive tell, and what the benches show. A plan where the simulated part is one.
 struct DataSheet {
   experiment::DataSheet computed;  ///< by law and drive alone
   Characterization simulated;      ///< speed and preset steps, as plan_characterization() has them

@@ -23,7 +23,7 @@ struct LinearizationOptions {
   linear::DryFriction friction = linear::DryFriction::sliding;  ///< how dry friction is taken
 };
 
-/// One actuator about a point.
+/// One actuator as a linear system about a point, with its poles and frequency response.
 struct Linearization {
   config::ActuatorType actuator;            ///< as it was read
   linear::Firmware firmware{};              ///< as it was asked for
@@ -33,7 +33,7 @@ struct Linearization {
   std::vector<linear::Response> responses;  ///< 0.01 Hz … 1 kHz, 50 a decade; sampled: below half the loop's rate
 };
 
-/// A world of actuators about a point.
+/// A world of actuators as a linear system about a point, with its poles and frequency response.
 struct WorldLinearization {
   std::string name;                              ///< the world's
   linear::Firmware firmware{};                   ///< as it was asked for

@@ -60,7 +60,7 @@ struct HoldResult {
   double sag_rad = 0;   ///< how far the shaft gives way
 };
 
-/// A type's results.
+/// What one type did in the three tasks.
 struct TaskResults {
   config::ActuatorType actuator;       ///< as it was read
   double torque_Nm = 0;                ///< τ_p
@@ -80,7 +80,7 @@ struct TaskResults {
   [[nodiscard]] std::optional<HoldResult> cheapest() const;   ///< of those that were held
 };
 
-/// A plan where the results are empty.
+/// The three tasks for some types. A plan where the results are empty.
 struct Tasks {
   double step_s = 0;              ///< of all simulations
   std::vector<TaskResults> each;  ///< in the order asked for

@@ -11,7 +11,7 @@
 
 namespace vsa::study {
 
-/// Averages a centre of mass over a gait period, and counts its way.
+/// How far a robot went without its wriggling: the centre of mass, averaged over a gait period.
 class Travel {
  public:
   /// T and the time between two samples, s; at least one sample is averaged.

@@ -57,7 +57,7 @@ struct RecordingCheck {
   std::optional<experiment::Published> published;        ///< what others reach on it
 };
 
-/// The same at another period of the sweep.
+/// A recording beside the simulation at another period of the sweep.
 struct PeriodCheck {
   double preset = 0,           ///< of the recording
       period_s = 0;            ///< of the sweep

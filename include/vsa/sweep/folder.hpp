@@ -33,7 +33,7 @@ class Log {
   OutputFile file_;
 };
 
-/// Of each run what the logs tell of it.
+/// What a folder's logs tell of its runs.
 struct Results {
   std::vector<Outcome> outcomes;  ///< by run; only those that are there
   std::size_t damaged = 0;        ///< lines that were left out

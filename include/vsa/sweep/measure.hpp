@@ -22,7 +22,7 @@
 
 namespace vsa::sweep {
 
-/// One column of a sweep's table.
+/// One column of a sweep's table: a signal of the world, and a statistic of it.
 struct Measure {
   std::string name;                ///< the column's name, with its unit
   std::string value;               ///< of a study, in place of all below: a place in its results.json, or a quantity's name
@@ -63,7 +63,7 @@ class Statistic {
   std::vector<double> times_, values_;  // where the statistic needs all of them
 };
 
-/// All measures of a run.
+/// Takes all measures of a run, sample by sample.
 class Observer {
  public:
   /// Throws InputError with every measure that this world hasn't. `window_s`: of travel (vsa/study/travel.hpp).

@@ -25,7 +25,7 @@ namespace vsa::sweep {
 /// Whether this build has an optimiser.
 [[nodiscard]] bool has_optimizer() noexcept;
 
-/// What an optimisation found.
+/// What an optimisation found: all candidates that were tried, and which are the best.
 struct Optimum {
   Plan plan;                                    ///< with all candidates that were tried, in their order
   std::vector<std::vector<double>> objectives;  ///< of each, as the plan asks; NaN: its runs failed

@@ -28,7 +28,7 @@ using Value = std::variant<double, std::int64_t, bool, std::string>;  ///< as a 
 /// A switch: 0 or 1. Not for texts (std::bad_variant_access).
 [[nodiscard]] double number_of(const Value& value);
 
-/// What varies.
+/// One thing that varies from point to point.
 struct Axis {
   /// Where its values come from.
   enum class Kind { listed, random, sobol, searched } kind = Kind::listed;  ///< of all its values
@@ -51,14 +51,14 @@ struct Start {
       xy_m = 0;        ///< moved by so much at most
 };
 
-/// What an optimiser is to make of a plan's searched axes (vsa/sweep/optimize.hpp).
+/// A number that an optimiser is to make small or large.
 struct Objective {
   /// Over a candidate's repetitions.
   enum class Over { mean, median, worst } over = Over::median;  ///< of all runs of a candidate
   std::size_t measure = 0;                                      ///< into Plan::measures()
   bool maximize = false;                                        ///< false: the smallest is best
 };
-/// What is searched for, and how long.
+/// What an optimiser is to make of a plan's searched axes (vsa/sweep/optimize.hpp).
 struct Search {
   std::string algorithm;              ///< pso, gaco, nsga2, nspso or maco
   unsigned population = 24,           ///< candidates of a generation
@@ -66,7 +66,8 @@ struct Search {
   std::vector<Objective> objectives;  ///< one: pso, gaco; several: the others
 };
 
-/// A plan: what is run, and what is measured. Immutable and cheap to copy.
+/// A plan of many runs: a scenario, what varies in it, how often each is repeated, and what is measured. A run follows from the
+/// plan and its number alone. Immutable and cheap to copy.
 class Plan {
  public:
   /// Throws InputError with every problem that can be seen without a world.

@@ -11,9 +11,10 @@
 
 namespace vsa::topics {
 
-/// What is published is packed and sent by a thread of its own, within about a millisecond of wall time and in order; it also asks
-/// the transport who listens, 50 times a second: until then nobody is taken to listen. A publisher is for one thread at a time.
-/// Once the transport is destroyed, with all sent, no handler runs any more; publishers that outlive it say that nobody listens.
+/// host::TopicTransport on ignition-transport 11. What is published is packed and sent by a thread of its own, within about a
+/// millisecond of wall time and in order; it also asks the transport who listens, 50 times a second: until then nobody is taken to
+/// listen. A publisher is for one thread at a time. Once the transport is destroyed, with all sent, no handler runs any more;
+/// publishers that outlive it say that nobody listens.
 class IgnitionTransport final : public host::TopicTransport {
  public:
   IgnitionTransport();

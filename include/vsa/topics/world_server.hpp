@@ -17,7 +17,8 @@
 
 namespace vsa::topics {
 
-/// World and control must outlive it. All but the constructor's `report` stays in the thread that calls.
+/// A world on the transport: its robots' topics, its clock and statistics, and the services that pause, step and reset it. World
+/// and control must outlive it. All but the constructor's `report` stays in the thread that calls.
 class WorldServer {
  public:
   /// Throws InputError for names that can't be topics. `report` gets readable lines, from any thread: all that the robots' seats

@@ -36,8 +36,9 @@ struct LiveOptions {
   std::optional<double> speed = 1.0;      ///< at the start
 };
 
-/// World, gait and control must outlive it. All but the pages' side belongs to the loop's thread. A page offers what there is: no
-/// gait, no play, pause, step, reset and speed without `control`, no hands where the world has none.
+/// A running world in any number of browsers: does what pages ask for between two steps, and shows them frames. World, gait and
+/// control must outlive it. All but the pages' side belongs to the loop's thread. A page offers what there is: no gait, no play,
+/// pause, step, reset and speed without `control`, no hands where the world has none.
 class LiveView {
  public:
   /// Throws InputError: no such template, no such port. `gait` and `control` may be null.

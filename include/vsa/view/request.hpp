@@ -32,7 +32,7 @@
 
 namespace vsa::view {
 
-/// Of a value, ends included.
+/// The ends of what a value may be.
 struct Span {
   double min = 0,  ///< end included
       max = 0;     ///< end included
@@ -57,29 +57,33 @@ struct Rules {
 /// What the world, its gait and its loop allow.
 [[nodiscard]] Rules rules_of(const host::Simulation& world, const motion::Gait* gait, bool control);
 
+/// The world runs.
 struct Play {};
+/// It stands.
 struct Pause {};
 /// One step, or some.
 struct Step {
   std::uint32_t steps = 1;  ///< 1 … 1000
 };
+/// Back to the first sample.
 struct Reset {};
-/// Another pace.
+/// How fast simulated time is to go.
 struct Speed {
   std::optional<double> factor;  ///< simulated by wall time; none: as fast as it can
 };
-/// Commands by hand.
+/// Equilibrium, preset or both by hand, for some actuators.
 struct Command {
   std::vector<std::size_t> actuators;     ///< of the world
   std::optional<double> equilibrium_rad,  ///< none: it keeps what it has
       preset;                             ///< in the law's unit; none: it keeps what it has
 };
-/// A hand at a link.
+/// A hand that pulls at a link, from now on.
 struct PullLink {
   std::size_t link = 0;             ///< of the world
   std::array<double, 3> point_m{},  ///< in the link's frame
       target_m{};                   ///< in the world
 };
+/// The hand lets go.
 struct Release {};
 /// Recording on or off.
 struct Record {
@@ -93,7 +97,9 @@ struct ChangeGait {
 struct PlayGait {
   bool on = false;  ///< false: the last commands stay
 };
+/// Commands given by hand go back to the gait.
 struct GiveBack {};
+/// A frame has been drawn: one more may come.
 struct Next {};
 
 /// Any request.

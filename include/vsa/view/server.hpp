@@ -21,7 +21,7 @@ namespace vsa::view {
 
 using ViewerId = std::uint64_t;  ///< tells viewers apart
 
-/// What a path gives.
+/// What a path gives to a browser.
 struct Download {
   std::string type;     ///< "text/html"
   std::string name;     ///< for the browser's folder; empty: shown
@@ -50,7 +50,7 @@ struct ServerOptions {
   std::size_t answers_max = 64;      ///< not yet read by a viewer
 };
 
-/// Since the start.
+/// What a server has done since its start.
 struct ServerCounts {
   std::uint64_t viewers_now = 0,  ///< now
       viewers = 0;                ///< since the start
@@ -60,7 +60,8 @@ struct ServerCounts {
   std::uint64_t refused = 0;      ///< connections: too many, wrong host or origin, no such page, no HTTP
 };
 
-/// The server itself. Its thread calls Host; everything else may come from any.
+/// A page and its live connections on this machine's loopback: HTTP and WebSocket in a thread of its own, which calls Host;
+/// everything else may come from any.
 class Server {
  public:
   /// Listens from here on. Throws InputError where the port can't be had. `host` must outlive it.
