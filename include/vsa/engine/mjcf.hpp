@@ -19,6 +19,7 @@ struct ExportedFile {
 /// bit as this one. NAME is the stem of the file, or "world" for a text. Throws InputError with all problems.
 [[nodiscard]] std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const WorldOptions& options = {});
 
+/// A world for MuJoCo with the plug-in, as export_plugin_mjcf() writes it.
 struct PluginMjcf {
   ExportedFile file;               ///< NAME_plugin.xml
   std::vector<std::string> notes;  ///< what of the robots' elements MuJoCo can't be told
