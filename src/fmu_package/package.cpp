@@ -1,8 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/fmu_package/package.hpp"
 
-#include <cstdlib>
-
 #include "fmu_package/licences.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/files.hpp"
@@ -27,19 +25,6 @@ void write_package(const Model& model, const Resources& resources, const Package
   files["documentation/licenses/third_party.txt"] = third_party_licences();
   files[two ? "model.png" : "terminalsAndIcons/icon.png"] = icon_png();
   write_zip(files, file);
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::error_code error;
-  const fs::path below = fs::temp_directory_path(error);
-  std::string name = (below / "vsa-fmu-XXXXXX").string();
-  if (error || mkdtemp(name.data()) == nullptr) throw OutputError(name + ": can't be made");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
 }
 
 }  // namespace vsa::fmu

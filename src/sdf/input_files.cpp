@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <fstream>
 
 #include "vsa/errors.hpp"
@@ -20,26 +17,11 @@ std::string key_of(const fs::path& file) {
   return fs::weakly_canonical(file, ignored).string();
 }
 
-fs::path make_directory() {
-  std::error_code error;
-  const fs::path base = fs::temp_directory_path(error);
-  std::string name = (base / "vsasim-XXXXXX").string();
-  if (error || mkdtemp(name.data()) == nullptr)
-    throw InputError(Problem{name, "", "", std::string("can't be made: ") + (error ? error.message() : std::strerror(errno)),
-                             "a writable TMPDIR"});
-  return name;
-}
-
 }  // namespace
 
-InputFiles::~InputFiles() {
-  std::error_code ignored;
-  if (!directory_.empty()) fs::remove_all(directory_, ignored);
-}
-
 void InputFiles::replace(const fs::path& file, const std::string& text) {
-  if (directory_.empty()) directory_ = make_directory();
-  const fs::path copy = directory_ / fmt::format("{}_{}", copy_of_.size(), file.filename().string());
+  if (!directory_) directory_.emplace();
+  const fs::path copy = directory_->path() / fmt::format("{}_{}", copy_of_.size(), file.filename().string());
   std::ofstream out(copy, std::ios::binary);
   out << text;
   out.close();

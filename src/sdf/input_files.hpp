@@ -11,15 +11,13 @@
 #include <vector>
 
 #include "sdf/urdf_file.hpp"
+#include "vsa/temporary_folder.hpp"
 
 namespace vsa::reader {
 
 class InputFiles {
  public:
   InputFiles() = default;
-  ~InputFiles();
-  InputFiles(const InputFiles&) = delete;
-  InputFiles& operator=(const InputFiles&) = delete;
 
   /// `text` stands in for an included file. Throws InputError where no copy can be written.
   void replace(const std::filesystem::path& file, const std::string& text);
@@ -37,7 +35,7 @@ class InputFiles {
   std::vector<Urdf> urdfs;  ///< of all files; <vsa:urdf id="…"> of a model is an index into them
 
  private:
-  std::filesystem::path directory_;
+  std::optional<TemporaryFolder> directory_;
   std::map<std::string, std::string> copy_of_, original_of_;
 };
 

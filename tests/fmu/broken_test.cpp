@@ -9,6 +9,7 @@
 #include "vsa/errors.hpp"
 #include "vsa/files.hpp"
 #include "vsa/output_file.hpp"
+#include "vsa/temporary_folder.hpp"
 
 namespace vsa::test {
 namespace {
@@ -74,7 +75,7 @@ TEST(Broken, ResourceFoldersWithBlanksAreFound) {
 }
 
 TEST(Broken, AZipThatIsDamagedIsNoPackage) {
-  const fmu::TemporaryFolder folder;
+  const vsa::TemporaryFolder folder;
   const fs::path file = folder.path() / "x.fmu";
   fmu::write_zip({{"modelDescription.xml", std::string(5000, 'x')}}, file);
   const std::string whole = read_file(file).value();
@@ -85,7 +86,7 @@ TEST(Broken, AZipThatIsDamagedIsNoPackage) {
 }
 
 TEST(Broken, WhatCannotBeWrittenLeavesNothing) {
-  const fmu::TemporaryFolder folder;
+  const vsa::TemporaryFolder folder;
   const fs::path there = folder.path() / "there";
   fs::create_directories(there / "x.fmu");  // a directory in the way
   EXPECT_THROW(fmu::write_zip({{"a", "b"}}, there / "x.fmu"), OutputError);
@@ -99,7 +100,7 @@ TEST(Broken, TypesAndLibrariesThatAreNotThereAreNamed) {
   EXPECT_THROW(static_cast<void>(fmu::unit_resources(library, {.type = "qbmove"})), InputError);
   EXPECT_THROW(static_cast<void>(fmu::unit_resources(library, {.type = "sea_example", .start = {.set = {{"drive.wheels", "4"}}}})),
                InputError);
-  const fmu::TemporaryFolder folder;
+  const vsa::TemporaryFolder folder;
   const auto resources = fmu::unit_resources(library, {.type = "sea_example"});
   fmu::write_resources(resources, folder.path() / "r");
   const auto model = fmu::open_unit(folder.path() / "r");
@@ -115,7 +116,7 @@ TEST(Broken, TypesAndLibrariesThatAreNotThereAreNamed) {
 TEST(Broken, ALawOfALibraryOfItsOwnIsNotExported) {
   config::LawRegistry laws = fmu::built_in_laws();
   laws.add("mine", *laws.find("series_spring"));
-  const fmu::TemporaryFolder folder;
+  const vsa::TemporaryFolder folder;
   std::string text = read_file(config::TypeLibrary().find("sea_example")).value();
   for (const auto& [from, to] : {std::pair<std::string, std::string>{"name = \"sea_example\"", "name = \"mine\""},
                                  {"law = \"series_spring\"", "law = \"mine\""}}) {

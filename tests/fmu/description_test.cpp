@@ -11,6 +11,7 @@
 #include "importer.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/files.hpp"
+#include "vsa/temporary_folder.hpp"
 
 namespace vsa::test {
 namespace {
@@ -79,7 +80,7 @@ TEST(Description, IsConsistentForEveryTypeThatShips) {
   for (const std::string& type : config::TypeLibrary().names()) {
     SCOPED_TRACE(type);
     for (const auto version : {fmu::Version::fmi2, fmu::Version::fmi3}) {
-      const fmu::TemporaryFolder folder;
+      const vsa::TemporaryFolder folder;
       const auto resources = fmu::unit_resources(config::TypeLibrary(), {.type = type});
       fmu::write_resources(resources, folder.path());
       const auto model = fmu::open_unit(folder.path());
@@ -132,7 +133,7 @@ TEST(Package, HasAllPartsAndTheSameBytesAgain) {
                            "resources/unit.toml", "resources/actuators/qbmove_maker_pro_6_1.toml"})
     EXPECT_TRUE(fs::is_regular_file(package->folder() / name)) << name;
   EXPECT_EQ(read_file(package->folder() / "model.png").value().substr(1, 3), "PNG");
-  const fmu::TemporaryFolder folder;
+  const vsa::TemporaryFolder folder;
   fmu::write_zip({{"a", "x"}, {"b/c", std::string(1000, 'y')}}, folder.path() / "1");
   fmu::write_zip({{"a", "x"}, {"b/c", std::string(1000, 'y')}}, folder.path() / "2");
   EXPECT_EQ(read_file(folder.path() / "1"), read_file(folder.path() / "2"));

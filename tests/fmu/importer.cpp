@@ -12,6 +12,7 @@
 
 #include "vsa/files.hpp"
 #include "vsa/fmu_world/world_model.hpp"
+#include "vsa/temporary_folder.hpp"
 
 namespace vsa::test {
 namespace {
@@ -186,7 +187,7 @@ fmu::PackagePlan plan_of(const std::string& name, fmu::Version version, const ch
 
 std::unique_ptr<Package> exported(const UnitExport& o) {
   const fmu::Resources resources = fmu::unit_resources(config::TypeLibrary(), {o.type, o.start, o.names});
-  const fmu::TemporaryFolder folder;
+  const vsa::TemporaryFolder folder;
   fmu::write_resources(resources, folder.path() / "resources");
   const auto model = fmu::open_unit(folder.path() / "resources");
   fmu::write_package(*model, resources, plan_of(o.type, o.version, "libvsa-fmu.so"), folder.path() / "a unit.fmu");
@@ -195,7 +196,7 @@ std::unique_ptr<Package> exported(const UnitExport& o) {
 
 std::unique_ptr<Package> exported_world(const std::string& world, fmu::Version version) {
   const fmu::Resources resources = fmu::world_resources(config::TypeLibrary(), {world, {}});
-  const fmu::TemporaryFolder folder;
+  const vsa::TemporaryFolder folder;
   fmu::write_resources(resources, folder.path() / "resources");
   const auto model = fmu::open_world(folder.path() / "resources");
   fmu::write_package(*model, resources, plan_of(world, version, "libvsa-fmu-world.so"), folder.path() / "world.fmu");

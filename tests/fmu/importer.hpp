@@ -13,6 +13,7 @@
 
 #include "fmi2.hpp"
 #include "vsa/fmu_package/package.hpp"
+#include "vsa/temporary_folder.hpp"
 
 namespace vsa::test {
 
@@ -50,7 +51,7 @@ class Package {
  private:
   void read_description();
 
-  fmu::TemporaryFolder folder_;
+  vsa::TemporaryFolder folder_;
   std::string text_, token_, identifier_;
   std::vector<Described> variables_;
   mutable void* library_ = nullptr;

@@ -12,6 +12,7 @@
 #include "importer.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/fmu_world/world_model.hpp"
+#include "vsa/temporary_folder.hpp"
 
 namespace vsa::test {
 namespace {
@@ -130,7 +131,7 @@ TEST(World, OneInMjcfTakesItsActuatorsAndTerrainAlong) {
 }
 
 TEST(World, AnMjcfWhoseFilesCantGoAlongIsRefused) {
-  const fmu::TemporaryFolder folder;
+  const vsa::TemporaryFolder folder;
   const auto refused = [&](const std::string& inside) {
     const auto file = folder.path() / "w.xml";
     std::ofstream(file) << "<mujoco>" << inside << "<worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>";
@@ -143,7 +144,7 @@ TEST(World, AnMjcfWhoseFilesCantGoAlongIsRefused) {
 }
 
 TEST(World, FilesThatOnlyThisMachineFindsAreRefused) {
-  const fmu::TemporaryFolder folder;
+  const vsa::TemporaryFolder folder;
   const auto resources = fmu::world_resources(config::TypeLibrary(), {"snake_hills", {}});
   EXPECT_EQ(resources.count("models/terrain_hills/height.png"), 1U);
   EXPECT_EQ(resources.at("world.sdf").find("model://"), std::string::npos);

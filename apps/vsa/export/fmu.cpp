@@ -14,6 +14,7 @@
 #include "vsa/files.hpp"
 #include "vsa/fmu_package/package.hpp"
 #include "vsa/fmu_world/world_model.hpp"
+#include "vsa/temporary_folder.hpp"
 
 namespace vsa::app {
 namespace fs = std::filesystem;
@@ -68,7 +69,7 @@ int export_unit(const FmuOptions& o, const config::TypeLibrary& library, const f
     throw InputError({"", "--coupling", "implicit", "foresees how the shaft moves", "--load-inertia-kgm2 beside it, above 0"});
   const fmu::Resources resources = fmu::unit_resources(library, plan);
   // The model that describes itself is made of what goes into the file, as its library will make it.
-  const fmu::TemporaryFolder folder;
+  const vsa::TemporaryFolder folder;
   fmu::write_resources(resources, folder.path());
   const auto model = fmu::open_unit(folder.path());
   fmu::write_package(*model, resources, unit_package(o, model->type()), file);
@@ -80,7 +81,7 @@ int export_world(const FmuOptions& o, const config::TypeLibrary& library, const 
   if (o.names != "vsasim" || o.coupling != "prescribed" || o.load_inertia_kgm2)
     throw InputError({"", "--names, --coupling, --load-inertia-kgm2", o.fmu, "are for one actuator: this is a world", ""});
   const fmu::Resources resources = fmu::world_resources(library, {o.fmu, config::parse_overrides(o.set, "--set")});
-  const fmu::TemporaryFolder folder;
+  const vsa::TemporaryFolder folder;
   fmu::write_resources(resources, folder.path());
   const auto model = fmu::open_world(folder.path());
   fmu::PackagePlan plan;

@@ -45,17 +45,4 @@ void write_zip(const std::map<std::string, std::string>& files, const std::files
 /// Throws InputError where the library isn't there, else OutputError.
 void write_package(const Model& model, const Resources& resources, const PackagePlan& plan, const std::filesystem::path& file);
 
-/// A folder of its own below the system's for temporary files, removed with all in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder();  ///< throws OutputError
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }  ///< of the folder, which is empty at first
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace vsa::fmu
