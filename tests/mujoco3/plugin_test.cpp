@@ -197,6 +197,50 @@ TEST(Model, AnInstanceWithinItsOnlyActuatorWillDo) {
   EXPECT_NE(error.find("vsasim.unit knee: actuator = 1 of this instance"), std::string::npos) << error;
 }
 
+#if mjVERSION_HEADER >= 3011000
+TEST(Controls, StandBehindThoseOfAnActuatorWithThree) {
+  std::string mjcf = one_joint(kType, kActuators), error;
+  const std::string ball = R"(<body><joint name="ball" type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/></body>)";
+  mjcf.insert(mjcf.find("</worldbody>"), ball);
+  mjcf.insert(mjcf.find("<actuator>") + 10, R"(<orientation joint="ball" kp="1"/>)");
+  const ModelPtr m = load(mjcf, error), plain = load(one_joint(kType, kActuators), error);
+  ASSERT_TRUE(m) << error;
+  ASSERT_GT(m->nu, m->nactuator) << "the first actuator has but one control";
+  const DataPtr d(mj_makeData(m.get())), other(mj_makeData(plain.get()));
+  const int at = m->actuator_ctrladr[1];
+  ASSERT_NE(at, 1);
+  d->ctrl[at] = other->ctrl[0] = 0.5;
+  d->ctrl[at + 1] = other->ctrl[1] = 0.3;
+  for (int k = 0; k < 1000; ++k) {
+    mj_step(m.get(), d.get());
+    mj_step(plain.get(), other.get());
+  }
+  EXPECT_NEAR(d->qpos[0], 0.5, 0.05);
+  EXPECT_NEAR(d->qpos[0], other->qpos[0], 1e-9);
+}
+#endif
+
+#if mjVERSION_HEADER >= 3005000
+TEST(Controls, ComeLateWhereTheModelSaysSo) {
+  std::string late = kActuators, error;
+  late.insert(late.find("instance="), "delay=\"0.05\" nsample=\"50\" ");
+  const ModelPtr m = load(one_joint(kType, late), error), plain = load(one_joint(kType, kActuators), error);
+  ASSERT_TRUE(m) << error;
+  const DataPtr d(mj_makeData(m.get())), other(mj_makeData(plain.get()));
+  d->ctrl[0] = 0.5;
+  for (int k = 0; k < 400; ++k) {
+    if (k == 50) other->ctrl[0] = 0.5;
+    mj_step(m.get(), d.get());
+    mj_step(plain.get(), other.get());
+    if (k == 48) {
+      EXPECT_NEAR(d->qpos[0], 0, 1e-6);
+    }
+  }
+  EXPECT_GT(d->qpos[0], 0.1);
+  EXPECT_NEAR(d->qpos[0], other->qpos[0], 0.02);
+}
+#endif
+
 struct Wrong {
   const char *name, *config, *actuators, *option, *says;
 };
