@@ -186,6 +186,17 @@ TEST(Model, GoesWhereItsControlsSayWithEveryIntegratorThatItTakes) {
   }
 }
 
+TEST(Model, IsTakenOfEveryKindOfBuiltInWorld) {
+  for (const char* world : {"bench_pole", "frank_ball", "gripper_soft", "manipulator_3r", "snake_hills", "snake_rubble"}) {
+    const mjModel& m = exported(world);
+    const DataPtr d(mj_makeData(&m));
+    mj_resetDataKeyframe(&m, d.get(), 0);
+    for (int k = 0; k < 200; ++k) mj_step(&m, d.get());
+    EXPECT_NEAR(d->time, 0.2, 1e-9) << world << " was reset: it blew up";
+    for (const mjWarningStat& w : d->warning) EXPECT_EQ(w.number, 0) << world;
+  }
+}
+
 TEST(Model, AnInstanceWithinItsOnlyActuatorWillDo) {
   std::string error;
   const ModelPtr m = load(R"(<mujoco><extension><plugin plugin="vsasim.unit"/></extension><worldbody><body>
