@@ -147,7 +147,7 @@ TEST(Data, FiniteDifferencesLeaveItWhereItWas) {
   const DataPtr d(mj_makeData(&m)), other(mj_makeData(&m));
   rollout(m, *d, 200, 0);
   rollout(m, *other, 200, 0);
-  const auto nx = static_cast<std::size_t>(2 * m.nv + m.na), nu = static_cast<std::size_t>(m.nu);
+  const auto nx = 2 * static_cast<std::size_t>(m.nv) + static_cast<std::size_t>(m.na), nu = static_cast<std::size_t>(m.nu);
   std::vector<double> a(nx * nx), b(nx * nu);
   mjd_transitionFD(&m, d.get(), 1e-6, 1, a.data(), b.data(), nullptr, nullptr);
   EXPECT_LT(a[nx], 0) << "the springs pull the shaft back: ∂v'/∂q";
