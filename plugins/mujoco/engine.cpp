@@ -13,14 +13,14 @@ namespace {
 // What the units call of MuJoCo, as it declares them.
 struct Called {
   decltype(&::mj_id2name) id2name = nullptr;
-  decltype(&::mj_solveM) solveM = nullptr;
-  decltype(&::mj_fullM) fullM = nullptr;
-  decltype(&::mj_mulJacVec) mulJacVec = nullptr;
-  decltype(&::mj_mulJacTVec) mulJacTVec = nullptr;
-  decltype(&::mju_cholFactor) cholFactor = nullptr;
-  decltype(&::mju_cholSolve) cholSolve = nullptr;
+  decltype(&::mj_solveM) solve_m = nullptr;
+  decltype(&::mj_fullM) full_m = nullptr;
+  decltype(&::mj_mulJacVec) mul_jac_vec = nullptr;
+  decltype(&::mj_mulJacTVec) mul_jac_t_vec = nullptr;
+  decltype(&::mju_cholFactor) chol_factor = nullptr;
+  decltype(&::mju_cholSolve) chol_solve = nullptr;
 #if mjVERSION_HEADER >= 3005000
-  decltype(&::mj_readCtrl) readCtrl = nullptr;
+  decltype(&::mj_readCtrl) read_ctrl = nullptr;
 #endif
 };
 
@@ -32,19 +32,19 @@ constinit vsa::mujoco::Engine of_program;
 // Under MuJoCo's names, so that units.cpp is compiled as it is for a program that links MuJoCo; seen inside this library only.
 extern "C" {
 const char* mj_id2name(const mjModel* m, int type, int id) { return called.id2name(m, type, id); }
-void mj_solveM(const mjModel* m, mjData* d, mjtNum* x, const mjtNum* y, int n) { called.solveM(m, d, x, y, n); }
+void mj_solveM(const mjModel* m, mjData* d, mjtNum* x, const mjtNum* y, int n) { called.solve_m(m, d, x, y, n); }
 #if mjVERSION_HEADER >= 3010000
-void mj_fullM(const mjModel* m, const mjData* d, mjtNum* dst) { called.fullM(m, d, dst); }
+void mj_fullM(const mjModel* m, const mjData* d, mjtNum* dst) { called.full_m(m, d, dst); }
 #else
-void mj_fullM(const mjModel* m, mjtNum* dst, const mjtNum* M) { called.fullM(m, dst, M); }
+void mj_fullM(const mjModel* m, mjtNum* dst, const mjtNum* M) { called.full_m(m, dst, M); }
 #endif
-void mj_mulJacVec(const mjModel* m, const mjData* d, mjtNum* res, const mjtNum* vec) { called.mulJacVec(m, d, res, vec); }
-void mj_mulJacTVec(const mjModel* m, const mjData* d, mjtNum* res, const mjtNum* vec) { called.mulJacTVec(m, d, res, vec); }
-int mju_cholFactor(mjtNum* mat, int n, mjtNum mindiag) { return called.cholFactor(mat, n, mindiag); }
-void mju_cholSolve(mjtNum* res, const mjtNum* mat, const mjtNum* vec, int n) { called.cholSolve(res, mat, vec, n); }
+void mj_mulJacVec(const mjModel* m, const mjData* d, mjtNum* res, const mjtNum* vec) { called.mul_jac_vec(m, d, res, vec); }
+void mj_mulJacTVec(const mjModel* m, const mjData* d, mjtNum* res, const mjtNum* vec) { called.mul_jac_t_vec(m, d, res, vec); }
+int mju_cholFactor(mjtNum* mat, int n, mjtNum mindiag) { return called.chol_factor(mat, n, mindiag); }
+void mju_cholSolve(mjtNum* res, const mjtNum* mat, const mjtNum* vec, int n) { called.chol_solve(res, mat, vec, n); }
 #if mjVERSION_HEADER >= 3005000
 mjtNum mj_readCtrl(const mjModel* m, const mjData* d, int id, mjtNum time, int interp) {
-  return called.readCtrl(m, d, id, time, interp);
+  return called.read_ctrl(m, d, id, time, interp);
 }
 #endif
 }
@@ -79,12 +79,12 @@ bool take(void* library) {
   Engine& e = of_program;
   bool all = find(library, "mjp_registerPlugin", e.mjp_registerPlugin) && find(library, "mjp_getPlugin", e.mjp_getPlugin) &&
              find(library, "mj_getPluginConfig", e.mj_getPluginConfig) && find(library, "mju_warning", e.mju_warning) &&
-             find(library, "mj_id2name", called.id2name) && find(library, "mj_solveM", called.solveM) &&
-             find(library, "mj_fullM", called.fullM) && find(library, "mj_mulJacVec", called.mulJacVec) &&
-             find(library, "mj_mulJacTVec", called.mulJacTVec) && find(library, "mju_cholFactor", called.cholFactor) &&
-             find(library, "mju_cholSolve", called.cholSolve);
+             find(library, "mj_id2name", called.id2name) && find(library, "mj_solveM", called.solve_m) &&
+             find(library, "mj_fullM", called.full_m) && find(library, "mj_mulJacVec", called.mul_jac_vec) &&
+             find(library, "mj_mulJacTVec", called.mul_jac_t_vec) && find(library, "mju_cholFactor", called.chol_factor) &&
+             find(library, "mju_cholSolve", called.chol_solve);
 #if mjVERSION_HEADER >= 3005000
-  all = all && find(library, "mj_readCtrl", called.readCtrl);
+  all = all && find(library, "mj_readCtrl", called.read_ctrl);
 #endif
   if (!all) e = {};
   return all;

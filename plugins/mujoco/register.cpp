@@ -96,8 +96,8 @@ struct Robot {
 };
 
 Robot* robot_of(const mjData& d, int instance) {
-  return reinterpret_cast<Robot*>(d.plugin_data[instance]);
-}  // NOLINT: MuJoCo's way
+  return reinterpret_cast<Robot*>(d.plugin_data[instance]);  // NOLINT(performance-no-int-to-ptr): MuJoCo's way
+}
 
 /// Units that were never stepped, for mjData of one model to be made from: the model's files are read once, and an edited type is of
 /// effect in the next model, not between two mjData of one.
@@ -176,7 +176,7 @@ int init(const mjModel* m, mjData* d, int instance) {
     if (const auto room = static_cast<std::size_t>(m->plugin_statenum[instance]); room != robot->units->state_size())
       throw InputError(
           {kName, "state", std::to_string(room), "a type's file was changed since the model was loaded", "load it again"});
-    d->plugin_data[instance] = reinterpret_cast<uintptr_t>(robot.release());  // NOLINT: MuJoCo's way
+    d->plugin_data[instance] = reinterpret_cast<uintptr_t>(robot.release());
     return 0;
   } catch (const std::exception& error) {
     warn(one_line(error));

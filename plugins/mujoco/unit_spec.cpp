@@ -96,7 +96,7 @@ class Reader {
   /// The name of its line, to which it adds what it says of it.
   std::string line_of(const UnitSpec& unit) {
     const std::string_view given = unit.get("bus");
-    const std::string name = given.empty() ? "line:" + actuator_name(unit) : std::string(given);
+    std::string name = given.empty() ? "line:" + actuator_name(unit) : std::string(given);
     Line& line = lines_[name];
     line.draft.name = name;
     line.draft.path = "bus " + name;
@@ -154,7 +154,7 @@ std::string_view UnitSpec::get(std::string_view key) const {
 std::string where(const UnitSpec& unit) { return "vsasim.unit " + unit.name; }
 
 config::TypeLibrary library_for(std::span<const UnitSpec> units) {
-  const config::TypeLibrary standard;
+  config::TypeLibrary standard;
   std::vector<fs::path> directories;
   for (const UnitSpec& unit : units) {
     const std::string type(unit.get("type"));

@@ -35,6 +35,28 @@ device::Faults faults_of(const UnitSpec& spec) { return config::read_faults(spec
 
 bool is_broken(const UnitSpec& spec) { return !spec.get("faults").empty(); }
 
+/// The parts of [head, the seat's numbers] that a state has, first and count of each.
+std::vector<std::pair<std::size_t, std::size_t>> parts_of(const seat::Seat& seat, std::size_t head) {
+  std::vector<std::pair<std::size_t, std::size_t>> out{{0, head}};
+  const StateLayout layout = seat.state_layout();
+  for (const StateEntry& e : layout.entries()) {
+    if (e.name.find(".knot[") != std::string::npos) continue;
+    const std::size_t first = head + e.offset;
+    if (out.back().first + out.back().second == first) {
+      out.back().second += e.count;
+    } else {
+      out.emplace_back(first, e.count);
+    }
+  }
+  return out;
+}
+
+std::size_t size_of(const std::vector<std::pair<std::size_t, std::size_t>>& parts) {
+  std::size_t out = 0;
+  for (const auto& part : parts) out += part.second;
+  return out;
+}
+
 std::int64_t step_ns(const mjModel& m) { return std::llround(m.opt.timestep * 1e9); }
 
 }  // namespace
@@ -71,9 +93,11 @@ Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units
   for (std::size_t i = 0; i < units_.size(); ++i) {
     if (is_broken(specs[i])) seat_->robot().set_faults(i, faults_of(specs[i]));  // throws here what no unit of that type can have
   }
-  first_.assign(size_, 0);
-  seat_->save(std::span(first_).subspan(head()).first(seat_->state_size()));
-  go_to(first_);
+  parts_ = parts_of(*seat_, head());
+  first_.assign(head() + seat_->state_size(), 0);
+  seat_->save(std::span(first_).subspan(head()));
+  here_ = first_;
+  there_ = true;
 }
 
 Units::Units(const Units& other, std::unique_ptr<seat::Seat> seat)
@@ -83,9 +107,10 @@ Units::Units(const Units& other, std::unique_ptr<seat::Seat> seat)
       tree_dofs_(other.tree_dofs_),
       seat_(std::move(seat)),
       size_(other.size_),
-      first_(other.first_) {
-  go_to(first_);
-}
+      parts_(other.parts_),
+      first_(other.first_),
+      here_(other.first_),
+      there_(true) {}
 
 Units::~Units() = default;
 
@@ -107,18 +132,39 @@ std::size_t Units::state_size(std::span<const UnitSpec> specs) {
   std::vector<std::size_t> all(specs.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   seat->join({all});
-  return 1 + 2 * specs.size() + seat->state_size();
+  return size_of(parts_of(*seat, 1 + 2 * specs.size()));
 }
 
-void Units::reset(std::span<double> state) const { std::copy(first_.begin(), first_.end(), state.begin()); }
+void Units::reset(std::span<double> state) const {
+  std::fill(state.begin(), state.end(), 0.0);
+  put(first_, state);
+}
 
-/// By bits: the seat is there, or is put there.
+void Units::put(std::span<const double> all, std::span<double> state) const {
+  double* to = state.data();
+  for (const auto& [first, count] : parts_) to = std::copy_n(&all[first], count, to);
+}
+
+/// By bits.
+bool Units::is_at(std::span<const double> state) const {
+  const double* from = state.data();
+  for (const auto& [first, count] : parts_) {
+    if (std::memcmp(&here_[first], from, count * sizeof(double)) != 0) return false;
+    from += count;
+  }
+  return there_;
+}
+
 void Units::go_to(std::span<const double> state) {
-  const std::span<const double> mine = state.first(used());
-  if (!here_.empty() && std::memcmp(here_.data(), mine.data(), mine.size_bytes()) == 0) return;
-  here_.clear();  // should restore() throw
-  seat_->restore(mine.subspan(head()));
-  here_.assign(mine.begin(), mine.end());
+  if (is_at(state)) return;
+  there_ = false;  // should restore() throw
+  const double* from = state.data();
+  for (const auto& [first, count] : parts_) {
+    std::copy_n(from, count, &here_[first]);
+    from += count;
+  }
+  seat_->restore(std::span<const double>(here_).subspan(head()));
+  there_ = true;
 }
 
 /// The first step: what is broken breaks, and where the model has a joint is neither work nor acceleration.
@@ -176,7 +222,7 @@ void Units::compute(const mjModel& m, mjData& d, std::span<const double> state) 
 void Units::advance(std::span<double> state) {
   if (!computed_) return;
   computed_ = false;
-  std::copy(here_.begin(), here_.end(), state.begin());
+  put(here_, state);
   seat_->publish(0);
 }
 
@@ -194,8 +240,10 @@ void Units::observe(const mjData& d, std::span<const double> state) {
 void Units::copy_step(const Units& other) {
   computed_ = false;
   if (!other.computed_) return;
-  go_to(other.here_);
-  computed_ = true;
+  here_ = other.here_;
+  there_ = false;
+  seat_->restore(std::span<const double>(here_).subspan(head()));
+  there_ = computed_ = true;
 }
 
 void Units::read(std::size_t unit, std::span<double> out) const {

@@ -14,7 +14,7 @@
 // likes. So a MuJoCo that steps several mjData needs one object each, and none of them knows of another.
 //
 // STATE of n units: [begun, which controls were taken as commands (n × 2), the seat's (vsa/seat/seat.hpp, with room for one tree of
-// all), 0 …].
+// all), 0 …]. Left out of the seat's: the knots of trajectories, which nobody can command here.
 //
 // CONTROLS say where a unit shall be, from the first step on: equilibrium (rad; m of a linear actuator) and preset (the type's unit);
 // or the voltages of its motors. A number that isn't finite leaves the command as it is. They become commands on the unit's line at
@@ -101,7 +101,8 @@ class Units {
   void begin();
   void command(const mjModel& m, const mjData& d);
   void step(const mjModel& m, mjData& d);
-  [[nodiscard]] std::size_t used() const { return head() + seat_->state_size(); }
+  [[nodiscard]] bool is_at(std::span<const double> state) const;
+  void put(std::span<const double> all, std::span<double> state) const;  ///< head and the seat's numbers → state
   [[nodiscard]] std::size_t head() const { return 1 + 2 * units_.size(); }
 
   std::vector<Unit> units_;
@@ -110,9 +111,11 @@ class Units {
   std::vector<std::vector<int>> tree_dofs_;  ///< as the seat joins them
   std::unique_ptr<seat::Seat> seat_;
   std::size_t size_ = 0;
-  std::vector<double> first_;  ///< the state of the first sample
+  std::vector<std::pair<std::size_t, std::size_t>> parts_;  ///< of head and the seat's numbers, first and count: what the state has
+  std::vector<double> first_;                               ///< head and the seat's numbers, of the first sample
   Mobility mobility_;
-  std::vector<double> here_;  ///< the state at which the seat is; empty: unknown
+  std::vector<double> here_;  ///< the same, where the seat is
+  bool there_ = false;        ///< it is
   bool computed_ = false;     ///< here_ is where the step that compute() foresaw leads
 };
 

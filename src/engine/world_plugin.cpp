@@ -138,7 +138,7 @@ std::string mjcf_text(const std::filesystem::path& path, const WorldOptions& opt
 
 }  // namespace
 
-PluginMjcf export_plugin_mjcf(const std::filesystem::path& file, const WorldOptions& options) {
+PluginMjcf export_plugin_mjcf(const std::filesystem::path& file, const WorldOptions& options, std::string mjcf) {
   const std::filesystem::path path = config::find_file(file.string(), "world", "models/worlds", ".sdf");
   const World world = World::load(path, options);
   if (world.robot_count() == 0) throw InputError({path.string(), "plugin", "", "there is no robot in it", "a vsa::Robot"});
@@ -147,7 +147,8 @@ PluginMjcf export_plugin_mjcf(const std::filesystem::path& file, const WorldOpti
                       "no <substeps>, and a step of that length"});
   PluginMjcf out;
   out.file.name = path.stem().string() + "_plugin.xml";
-  out.file.bytes = Writer(world, mjcf_text(path, options)).text(out.notes, path.string());
+  if (mjcf.empty()) mjcf = mjcf_text(path, options);
+  out.file.bytes = Writer(world, std::move(mjcf)).text(out.notes, path.string());
   return out;
 }
 

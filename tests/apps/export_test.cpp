@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "subprocess.hpp"
 
@@ -41,6 +42,39 @@ TEST(Export, WritesAWorldAsMjcfWhichRunsWhereItStands) {
   EXPECT_NE(run_vsa({"export", "--mjcf", "bench_load", "--fmu", "sea_example"}).exit_code, 0);
   EXPECT_NE(run_vsa({"export", "--mjcf", "bench_load", "--out", (scratch / "x").string(), "--fmi", "2"}).exit_code, 0);
   EXPECT_FALSE(fs::exists(scratch / "x"));
+}
+
+TEST(Export, WritesAnMjcfForThePluginBesideTheOthers) {
+  const Scratch scratch;
+  const Result r = run_vsa({"export", "--mjcf", "bench_load", "--plugin", "--out", (scratch / "out").string()});
+  EXPECT_EQ(r.exit_code, 0) << r.err;
+  for (const char* file : {"bench_load.xml", "bench_load.vsa.xml", "bench_load_plugin.xml"})
+    EXPECT_TRUE(fs::exists(scratch / "out" / file)) << file;
+  // Of an MJCF that is there already only its own: tests/mujoco moves it.
+  const Result again =
+      run_vsa({"export", "--mjcf", (scratch / "out/bench_load.xml").string(), "--plugin", "--out", (scratch / "two").string()});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.out, (scratch / "two/bench_load_plugin.xml").string() + "\n");
+  EXPECT_EQ(read_file(scratch / "two/bench_load_plugin.xml"), read_file(scratch / "out/bench_load_plugin.xml"));
+  EXPECT_NE(run_vsa({"export", "--plugin", "--fmu", "sea_example"}).exit_code, 0);
+}
+
+TEST(Export, TellsWhatOfARobotMujocoCannotBeTold) {
+  const Scratch scratch;
+  const fs::path w = scratch / "w";
+  (void)run_vsa({"export", "--mjcf", "bench_load", "--out", w.string()});
+  std::string beside = read_file(w / "bench_load.vsa.xml");
+  const std::string end = "<state_rate_Hz>";
+  beside.insert(beside.find(end), "<record directory='r'/>");
+  std::ofstream(w / "bench_load.vsa.xml") << beside;
+  const Result r = run_vsa({"export", "--mjcf", (w / "bench_load.xml").string(), "--plugin", "--out", w.string()});
+  EXPECT_EQ(r.exit_code, 0) << r.err;
+  EXPECT_NE(r.err.find("<record> isn't for MuJoCo: left out"), std::string::npos) << r.err;
+  beside.insert(beside.find(end), "<substeps>2</substeps>");
+  std::ofstream(w / "bench_load.vsa.xml") << beside;
+  const Result refused = run_vsa({"export", "--mjcf", (w / "bench_load.xml").string(), "--plugin", "--out", w.string()});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("MuJoCo makes its steps itself"), std::string::npos) << refused.err;
 }
 
 TEST(Export, BadInputIsOneLineAndExitCodeTwoAndLeavesNoFile) {

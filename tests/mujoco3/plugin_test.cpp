@@ -147,7 +147,7 @@ TEST(Data, FiniteDifferencesLeaveItWhereItWas) {
   const DataPtr d(mj_makeData(&m)), other(mj_makeData(&m));
   rollout(m, *d, 200, 0);
   rollout(m, *other, 200, 0);
-  const auto nx = static_cast<std::size_t>(2 * m.nv + m.na), nu = static_cast<std::size_t>(m.nu);
+  const auto nx = 2 * static_cast<std::size_t>(m.nv) + static_cast<std::size_t>(m.na), nu = static_cast<std::size_t>(m.nu);
   std::vector<double> a(nx * nx), b(nx * nu);
   mjd_transitionFD(&m, d.get(), 1e-6, 1, a.data(), b.data(), nullptr, nullptr);
   EXPECT_LT(a[nx], 0) << "the springs pull the shaft back: ∂v'/∂q";
@@ -186,6 +186,17 @@ TEST(Model, GoesWhereItsControlsSayWithEveryIntegratorThatItTakes) {
   }
 }
 
+TEST(Model, IsTakenOfEveryKindOfBuiltInWorld) {
+  for (const char* world : {"bench_pole", "frank_ball", "gripper_soft", "manipulator_3r", "snake_hills", "snake_rubble"}) {
+    const mjModel& m = exported(world);
+    const DataPtr d(mj_makeData(&m));
+    mj_resetDataKeyframe(&m, d.get(), 0);
+    for (int k = 0; k < 200; ++k) mj_step(&m, d.get());
+    EXPECT_NEAR(d->time, 0.2, 1e-9) << world << " was reset: it blew up";
+    for (const mjWarningStat& w : d->warning) EXPECT_EQ(w.number, 0) << world;
+  }
+}
+
 TEST(Model, AnInstanceWithinItsOnlyActuatorWillDo) {
   std::string error;
   const ModelPtr m = load(R"(<mujoco><extension><plugin plugin="vsasim.unit"/></extension><worldbody><body>
@@ -196,6 +207,50 @@ TEST(Model, AnInstanceWithinItsOnlyActuatorWillDo) {
   EXPECT_FALSE(m);
   EXPECT_NE(error.find("vsasim.unit knee: actuator = 1 of this instance"), std::string::npos) << error;
 }
+
+#if mjVERSION_HEADER >= 3011000
+TEST(Controls, StandBehindThoseOfAnActuatorWithThree) {
+  std::string mjcf = one_joint(kType, kActuators), error;
+  const std::string ball = R"(<body><joint name="ball" type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/></body>)";
+  mjcf.insert(mjcf.find("</worldbody>"), ball);
+  mjcf.insert(mjcf.find("<actuator>") + 10, R"(<orientation joint="ball" kp="1"/>)");
+  const ModelPtr m = load(mjcf, error), plain = load(one_joint(kType, kActuators), error);
+  ASSERT_TRUE(m) << error;
+  ASSERT_GT(m->nu, m->nactuator) << "the first actuator has but one control";
+  const DataPtr d(mj_makeData(m.get())), other(mj_makeData(plain.get()));
+  const int at = m->actuator_ctrladr[1];
+  ASSERT_NE(at, 1);
+  d->ctrl[at] = other->ctrl[0] = 0.5;
+  d->ctrl[at + 1] = other->ctrl[1] = 0.3;
+  for (int k = 0; k < 1000; ++k) {
+    mj_step(m.get(), d.get());
+    mj_step(plain.get(), other.get());
+  }
+  EXPECT_NEAR(d->qpos[0], 0.5, 0.05);
+  EXPECT_NEAR(d->qpos[0], other->qpos[0], 1e-9);
+}
+#endif
+
+#if mjVERSION_HEADER >= 3005000
+TEST(Controls, ComeLateWhereTheModelSaysSo) {
+  std::string late = kActuators, error;
+  late.insert(late.find("instance="), "delay=\"0.05\" nsample=\"50\" ");
+  const ModelPtr m = load(one_joint(kType, late), error), plain = load(one_joint(kType, kActuators), error);
+  ASSERT_TRUE(m) << error;
+  const DataPtr d(mj_makeData(m.get())), other(mj_makeData(plain.get()));
+  d->ctrl[0] = 0.5;
+  for (int k = 0; k < 400; ++k) {
+    if (k == 50) other->ctrl[0] = 0.5;
+    mj_step(m.get(), d.get());
+    mj_step(plain.get(), other.get());
+    if (k == 48) {
+      EXPECT_NEAR(d->qpos[0], 0, 1e-6);
+    }
+  }
+  EXPECT_GT(d->qpos[0], 0.1);
+  EXPECT_NEAR(d->qpos[0], other->qpos[0], 0.02);
+}
+#endif
 
 struct Wrong {
   const char *name, *config, *actuators, *option, *says;

@@ -50,7 +50,7 @@ int export_mjcf(const ExportOptions& o) {
   // An MJCF stays what it is: only the plug-in's is written.
   if (!o.plugin || engine::mjcf_of(o.mjcf).empty()) files = engine::export_mjcf(o.mjcf);
   if (o.plugin) {
-    engine::PluginMjcf more = engine::export_plugin_mjcf(o.mjcf);
+    engine::PluginMjcf more = engine::export_plugin_mjcf(o.mjcf, {}, files.empty() ? "" : files.front().bytes);
     for (const std::string& note : more.notes) std::cerr << "note: " << note << '\n';
     files.push_back(std::move(more.file));
   }

@@ -28,7 +28,9 @@ struct PluginMjcf {
 /// A world for a MuJoCo with vsasim's plug-in (docs/howto/mujoco.md): its MJCF, which names the same files as export_mjcf()'s, and for
 /// each actuator an instance of vsasim.unit, its actuators and a sensor; a key "start" with the joints and controls of the first
 /// sample. Of an SDF, a URDF or an MJCF. Throws InputError with all problems.
-[[nodiscard]] PluginMjcf export_plugin_mjcf(const std::filesystem::path& file, const WorldOptions& options = {});
+/// `mjcf`: the MJCF of export_mjcf(), where that was made already.
+[[nodiscard]] PluginMjcf export_plugin_mjcf(const std::filesystem::path& file, const WorldOptions& options = {},
+                                            std::string mjcf = {});
 
 /// The MJCF that World::load() reads of this path: the file itself or, in a build without SDF, the one that stands beside the SDF.
 /// Empty: it reads SDF or URDF.
