@@ -64,7 +64,7 @@ class MujocoPhysics final : public Physics {
     int q = -1, v = -1;
   };
   void make_data();
-  void grow();
+  bool grow();  ///< false: it is as large as it may be
   void changed();
   const mjData& view() const;
   std::optional<Refusal> find_fault() const;
