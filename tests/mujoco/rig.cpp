@@ -195,7 +195,7 @@ void Data::set_all(const std::vector<double>& all) {
   const mjModel& m = rig_->model();
   const double* from = all.data();
   data_->time = *from++;
-  const auto take = [&](double* to, int n) {
+  const auto take = [&](double* to, auto n) {
     std::copy_n(from, n, to);
     from += n;
   };
