@@ -111,8 +111,12 @@ mjModel* compiled(const std::string& xml, const std::vector<std::pair<std::strin
   const auto vfs = std::make_unique<mjVFS>();
   mj_defaultVFS(vfs.get());
   const auto add = [&](const std::string& name, const std::string& bytes) {
+#if mjVERSION_HEADER >= 300
+    mj_addBufferVFS(vfs.get(), name.c_str(), bytes.data(), static_cast<int>(bytes.size()));
+#else
     mj_makeEmptyFileVFS(vfs.get(), name.c_str(), static_cast<int>(bytes.size()));
     std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), name.c_str())], bytes.data(), bytes.size());
+#endif
   };
   add("world.xml", xml);
   for (const auto& [name, bytes] : files) add(name, bytes);
@@ -191,7 +195,7 @@ void Data::set_all(const std::vector<double>& all) {
   const mjModel& m = rig_->model();
   const double* from = all.data();
   data_->time = *from++;
-  const auto take = [&](double* to, int n) {
+  const auto take = [&](double* to, auto n) {
     std::copy_n(from, n, to);
     from += n;
   };

@@ -11,7 +11,7 @@ namespace {
 
 struct Field {
   mjtNum* begin;
-  int count;
+  std::ptrdiff_t count;
 };
 
 /// Where the masses and what follows from them stand.

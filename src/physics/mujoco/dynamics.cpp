@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "physics/mujoco/physics.hpp"
+#include "physics/mujoco/versions.hpp"
 
 namespace vsa::physics {
 
@@ -74,8 +75,8 @@ scene::Twist MujocoPhysics::velocity(std::size_t link) const {
 
 void MujocoPhysics::mass_matrix(std::span<double> out) const {
   static_cast<void>(view());
-  mj_crb(model_.get(), view_.get());
-  mj_fullM(model_.get(), out.data(), view_->qM);
+  make_mass(*model_, *view_);
+  full_mass(*model_, *view_, out.data());
 }
 
 void MujocoPhysics::bias(std::span<double> out, bool moving) const {

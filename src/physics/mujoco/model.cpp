@@ -2,9 +2,9 @@
 #include "physics/mujoco/model.hpp"
 
 #include <array>
-#include <cstring>
 #include <mutex>
 
+#include "physics/mujoco/versions.hpp"
 #include "vsa/physics/error.hpp"
 
 namespace vsa::physics {
@@ -22,13 +22,6 @@ struct VfsDeleter {
     delete vfs;
   }
 };
-
-bool add(mjVFS& vfs, const VirtualFile& file) {
-  if (mj_makeEmptyFileVFS(&vfs, file.name.c_str(), static_cast<int>(file.bytes.size())) != 0) return false;
-  const int index = mj_findFileVFS(&vfs, file.name.c_str());
-  std::memcpy(vfs.filedata[index], file.bytes.data(), file.bytes.size());
-  return true;
-}
 
 void take_hooks() {
   mju_user_warning = on_warning;
@@ -50,8 +43,8 @@ ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, 
   take_hooks();
   const std::unique_ptr<mjVFS, VfsDeleter> vfs(new mjVFS);
   mj_defaultVFS(vfs.get());
-  bool all = add(*vfs, {"world.xml", xml});
-  for (const VirtualFile& file : named) all = all && add(*vfs, file);
+  bool all = add_file(*vfs, "world.xml", xml);
+  for (const VirtualFile& file : named) all = all && add_file(*vfs, file.name, file.bytes);
   if (!all) {
     reason = "the world is too large for MuJoCo's virtual files";
     return nullptr;

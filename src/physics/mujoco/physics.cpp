@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/mujoco/versions.hpp"
+
 namespace vsa::physics {
 namespace {
-
-constexpr int kMaxRows = 12000;  // 12000² doubles of MuJoCo's dual matrix: 1.2 GB, touched only as far as used
 
 const char* warning_text(int kind) {
   switch (kind) {
@@ -57,11 +57,11 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::
   unit_.resize(static_cast<std::size_t>(m->nv));
   column_.resize(unit_.size());
   damped_ = std::any_of(m->dof_damping, m->dof_damping + m->nv, [](mjtNum d) { return d > 0; });
-  if (damped_) mass_matrix_.resize(static_cast<std::size_t>(m->nM));
   jacobian_.resize(3 * unit_.size());
   mobility_.resize(3 * unit_.size());
   bodies_ = std::make_shared<const MujocoBodies>(*m, objects_);
   make_data();
+  if (damped_) mass_matrix_.resize(mass_numbers(*m, *data_).size());
   before_.resize(state_size());
   save(before_);
 }
@@ -73,19 +73,19 @@ void MujocoPhysics::make_data() {
   view_stale_ = true;
 }
 
-void MujocoPhysics::grow() {
+bool MujocoPhysics::grow() {
+  ModelPtr larger(mj_copyModel(nullptr, model_.get()));
+  if (!larger) throw SimulationError("MuJoCo: no memory for a larger world");
+  if (!grow_memory(*larger)) return false;
   std::vector<double> state(state_size());
   save(state);
-  model_ = ModelPtr(mj_copyModel(nullptr, model_.get()));
-  if (!model_) throw SimulationError("MuJoCo: no memory for a larger world");
+  model_ = std::move(larger);
   own_ = true;
-  model_->njmax *= 2;
-  model_->nconmax *= 2;
-  model_->nstack *= 4;
   data_.reset();  // before the new ones: they are large
   view_.reset();
   make_data();
   restore(state);
+  return true;
 }
 
 void MujocoPhysics::changed() { view_stale_ = true; }
@@ -96,8 +96,7 @@ void MujocoPhysics::prepare() {
   for (;;) {
     mj_fwdPosition(m, data_.get());
     const bool full = data_->warning[mjWARN_CONTACTFULL].number > 0 || data_->warning[mjWARN_CNSTRFULL].number > 0;
-    if (!full || m->njmax * 2 > kMaxRows) break;
-    grow();
+    if (!full || !grow()) break;
     m = model_.get();  // another
   }
   mj_fwdVelocity(m, data_.get());
@@ -127,7 +126,7 @@ void MujocoPhysics::tie(std::span<const std::size_t> joints, std::span<double> o
   const mjModel* m = model_.get();
   const auto rows = static_cast<std::size_t>(data_->ne), nv = static_cast<std::size_t>(m->nv), n = joints.size();
   if (rows == 0) return;
-  row_.resize(static_cast<std::size_t>(m->njmax));  // once: equalities stay as many as they are
+  row_.resize(std::max(row_.size(), row_room(*m, *data_)));
   tied_.resize(rows * nv);
   ties_.resize(rows * rows);
   of_joint_.resize(2 * rows);
@@ -161,8 +160,9 @@ void MujocoPhysics::tie(std::span<const std::size_t> joints, std::span<double> o
 void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<double> out) {
   const mjModel* m = model_.get();
   if (damped_) {
-    std::copy(data_->qM, data_->qM + m->nM, mass_matrix_.begin());
-    for (int i = 0; i < m->nv; ++i) data_->qM[m->dof_Madr[i]] += m->opt.timestep * m->dof_damping[i];
+    const std::span<mjtNum> mass = mass_numbers(*m, *data_);
+    std::copy(mass.begin(), mass.end(), mass_matrix_.begin());
+    for (int i = 0; i < m->nv; ++i) mass_of_dof(*m, *data_, i) += m->opt.timestep * m->dof_damping[i];
     mj_factorM(m, data_.get());
   }
   const std::size_t n = joints.size();
@@ -175,7 +175,7 @@ void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<doub
   }
   tie(joints, out);
   if (damped_) {
-    std::copy(mass_matrix_.begin(), mass_matrix_.end(), data_->qM);
+    std::copy(mass_matrix_.begin(), mass_matrix_.end(), mass_numbers(*m, *data_).begin());
     mj_factorM(m, data_.get());
   }
 }

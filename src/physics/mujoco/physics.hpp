@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Physics on MuJoCo 2.2.2. A step is its pipeline without mj_step's silent repair (which resets a bad state and goes on):
+// Physics on MuJoCo (versions.hpp tells of which). A step is its pipeline without mj_step's silent repair (which resets a bad state and goes on):
 //
 //   prepare()  mj_fwdPosition, mj_fwdVelocity          poses, M = LᵀDL, contacts; nothing of it is computed twice
 //   advance()  mj_fwdActuation … mj_fwdConstraint      v̇ with the applied torques
@@ -64,7 +64,7 @@ class MujocoPhysics final : public Physics {
     int q = -1, v = -1;
   };
   void make_data();
-  void grow();
+  bool grow();  ///< false: it is as large as it may be
   void changed();
   const mjData& view() const;
   std::optional<Refusal> find_fault() const;

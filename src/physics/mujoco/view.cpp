@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/mujoco/physics.hpp"
+#include "physics/mujoco/versions.hpp"
 
 namespace vsa::physics {
 
@@ -77,7 +78,7 @@ scene::Energy MujocoPhysics::energy() const {
   mj_integratePos(m, d->qpos, d->qvel, -m->opt.timestep / 2);
   mj_kinematics(m, d);
   mj_comPos(m, d);
-  mj_crb(m, d);
+  make_mass(*m, *d);
   std::vector<mjtNum> momentum(static_cast<std::size_t>(m->nv));
   mj_mulM(m, d, momentum.data(), d->qvel);
   scene::Energy out;
@@ -107,7 +108,7 @@ void MujocoPhysics::contacts(std::vector<scene::Contact>& out) const {
     if (c.efc_address < 0) continue;
     mjtNum wrench[6], force[3];
     mj_contactForce(model_.get(), d, i, wrench);  // on the second body, in the contact's frame, whose axes are rows
-    mju_rotVecMatT(force, wrench, c.frame);
+    turned_back(force, wrench, c.frame);
     scene::Contact contact{{c.pos[0], c.pos[1], c.pos[2]},
                            {force[0], force[1], force[2]},
                            objects_.geoms[static_cast<std::size_t>(c.geom2)],

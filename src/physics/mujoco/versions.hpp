@@ -1,0 +1,100 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Where MuJoCo's versions differ in what the engine needs: 2.2.2, as Debian has it, and those from 3.2 on.
+//   mass matrix   qM by the tree's chains; later M by rows (CSR), and mj_factorM() takes that
+//   memory        rows, contacts and stack by number; later one arena
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace vsa::physics {
+
+#if mjVERSION_HEADER >= 333
+#define VSA_MUJOCO_M_BY_ROWS
+#endif
+
+/// What mj_factorM() takes.
+inline std::span<mjtNum> mass_numbers(const mjModel& m, mjData& d) {
+#ifdef VSA_MUJOCO_M_BY_ROWS
+  return {d.M, static_cast<std::size_t>(m.nC)};
+#else
+  return {d.qM, static_cast<std::size_t>(m.nM)};
+#endif
+}
+
+/// Of it, the number on the diagonal.
+inline mjtNum& mass_of_dof(const mjModel& m, mjData& d, int dof) {
+#ifdef VSA_MUJOCO_M_BY_ROWS
+  return d.M[m.M_rowadr[dof] + m.M_rownnz[dof] - 1];
+#else
+  return d.qM[m.dof_Madr[dof]];
+#endif
+}
+
+/// M at the positions that `d` has, from mj_comPos() on; and the same, nv × nv.
+inline void make_mass(const mjModel& m, mjData& d) {
+#ifdef VSA_MUJOCO_M_BY_ROWS
+  mj_makeM(&m, &d);
+#else
+  mj_crb(&m, &d);
+#endif
+}
+inline void full_mass(const mjModel& m, const mjData& d, mjtNum* out) {
+#if mjVERSION_HEADER >= 3010000
+  mj_fullM(&m, &d, out);
+#else
+  mj_fullM(&m, out, d.qM);
+#endif
+}
+
+/// matᵀ vec
+inline void turned_back(mjtNum* out, const mjtNum* vec, const mjtNum* mat) {
+#if mjVERSION_HEADER >= 300
+  mju_mulMatTVec3(out, mat, vec);
+#else
+  mju_rotVecMatT(out, vec, mat);
+#endif
+}
+
+/// Room for a number for each row of constraints: 2.2.2 tells how many there may ever be.
+inline std::size_t row_room([[maybe_unused]] const mjModel& m, [[maybe_unused]] const mjData& d) {
+#if mjVERSION_HEADER >= 300
+  return static_cast<std::size_t>(d.nefc);
+#else
+  return static_cast<std::size_t>(m.njmax);
+#endif
+}
+
+/// More room for contacts and their rows. False: the model has as much as it may have.
+inline bool grow_memory(mjModel& m) {
+#if mjVERSION_HEADER >= 300
+  constexpr auto kMost = std::size_t{1} << 32;  // bytes, touched only as far as used
+  if (static_cast<std::size_t>(m.narena) >= kMost) return false;
+  m.narena *= 4;
+#else
+  constexpr int kMostRows = 12000;  // 12000² doubles of MuJoCo's dual matrix: 1.2 GB, touched only as far as used
+  if (m.njmax * 2 > kMostRows) return false;
+  m.njmax *= 2;
+  m.nconmax *= 2;
+  m.nstack *= 4;
+#endif
+  return true;
+}
+
+/// False: no room among the virtual files.
+inline bool add_file(mjVFS& vfs, const std::string& name, const std::string& bytes) {
+#if mjVERSION_HEADER >= 300
+  return mj_addBufferVFS(&vfs, name.c_str(), bytes.data(), static_cast<int>(bytes.size())) == 0;
+#else
+  if (mj_makeEmptyFileVFS(&vfs, name.c_str(), static_cast<int>(bytes.size())) != 0) return false;
+  std::copy(bytes.begin(), bytes.end(), static_cast<char*>(vfs.filedata[mj_findFileVFS(&vfs, name.c_str())]));
+  return true;
+#endif
+}
+
+}  // namespace vsa::physics
