@@ -36,5 +36,6 @@ if [ "$(realpath -m "$out")" != "$(realpath "$build/packages")" ]; then
   mkdir -p "$(dirname "$out")"
   mv "$build/packages" "$out"
 fi
-(cd "$out" && sha256sum -- *.deb >SHA256SUMS)
+python3 packaging/sbom.py "$out" "$build"
+(cd "$out" && sha256sum -- *.deb *.spdx.json >SHA256SUMS)
 say "$(find "$out" -name '*.deb' | wc -l) packages in $out after $(($(date +%s) - start)) s"
