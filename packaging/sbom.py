@@ -165,7 +165,8 @@ def add_package(document, deb, builds, ours, tree):
         "externalRefs": [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
                           "referenceLocator": f"pkg:deb/vsasim/{name}@{version}?arch={architecture}"}]}
     document.relate("SPDXRef-DOCUMENT", "DESCRIBES", key)
-    for path in sorted(p for p in tree.rglob("*") if p.is_file() and (p.suffix in (".so", ".a") or p.parent.name == "bin")):
+    compiled = re.compile(r".*(\.a|\.so(\.[0-9.]+)?)|.*/bin/[^/]+")
+    for path in sorted(p for p in tree.rglob("*") if p.is_file() and not p.is_symlink() and compiled.fullmatch(p.as_posix())):
         for build in builds:
             for package in sorted(build.packages_in(path.name)):
                 other = document.foreign("Debian", package, build.debian.version(package), licence_of(package),

@@ -22,7 +22,7 @@ say() { echo "packages: $*"; }
 start=$(date +%s)
 # shellcheck disable=SC2086 # CMAKE_FLAGS is words
 if [ -f "$build/CMakeCache.txt" ]; then
-  cmake "$build" -DCMAKE_INSTALL_PREFIX=/usr -DVSA_PACKAGES=ON ${CMAKE_FLAGS:-} >/dev/null
+  cmake "$build" -DCMAKE_INSTALL_PREFIX=/usr -DVSA_PACKAGES=ON -DVSA_SHARED=ON ${CMAKE_FLAGS:-} >/dev/null
 else
   cmake --preset packages -B "$build" ${CMAKE_FLAGS:-} >/dev/null
 fi

@@ -27,7 +27,8 @@ import tarfile
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-ALWAYS = ["libvsasim-dev", "vsasim", "vsasim-data", "vsasim-doc", "vsasim-doctor"]
+ABI = ".".join(re.search(r"^project\(vsasim VERSION (\d+)\.(\d+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.M).groups())
+ALWAYS = ["libvsasim-dev", "libvsasim" + ABI, "vsasim", "vsasim-data", "vsasim-doc", "vsasim-doctor"]
 # Files that tell a package's purpose; ARCH is the multiarch folder or nothing.
 HAS = {
     "vsasim": ["usr/bin/vsa", "usr/share/man/man1/vsa.1.gz", "usr/share/bash-completion/completions/vsa",
@@ -36,7 +37,8 @@ HAS = {
                     "usr/share/vsa/data/README.md", "usr/share/vsa/web/replay.html", "usr/share/vsa/LICENSE"],
     "vsasim-doctor": ["usr/bin/vsa-doctor", "usr/share/man/man1/vsa-doctor.1.gz", "usr/share/vsa/setup.sh"],
     "libvsasim-dev": ["usr/include/vsa/engine/world.hpp", "usr/libARCH/libvsa_engine.a", "usr/libARCH/cmake/vsasim/vsasimConfig.cmake",
-                      "usr/libARCH/cmake/vsasim/vsasimConfigVersion.cmake", "usr/libARCH/cmake/vsasim/installed_data.cpp"],
+                      "usr/libARCH/libvsasim.so", "usr/libARCH/cmake/vsasim/vsasimConfigVersion.cmake", "usr/libARCH/cmake/vsasim/installed_data.cpp"],
+    "libvsasim" + ABI: [f"usr/libARCH/libvsasim.so.{ABI}"],
     "python3-vsasim": ["usr/lib/python3/dist-packages/vsasim/__init__.py", "usr/lib/python3/dist-packages/vsasim/py.typed"],
     "vsasim-doc": ["usr/share/doc/vsasim-doc/README.md", "usr/share/doc/vsasim-doc/docs/README.md",
                    "usr/share/doc/vsasim-doc/examples/library/CMakeLists.txt"],
@@ -45,7 +47,7 @@ HAS = {
     "gz-sim-plugin-vsasim": ["usr/libARCH/gz-sim/plugins/libvsa-robot.so"],
 }
 MAY_BE_IN = re.compile(r"^usr/(bin|include/vsa|lib|share/(bash-completion/completions|doc|lintian/overrides|man/man1|vsa))(/|$)")
-WITH_SCRIPTS = {"python3-vsasim": {"postinst", "prerm"}}
+WITH_SCRIPTS = {"python3-vsasim": {"postinst", "prerm"}, "libvsasim" + ABI: {"postinst", "postrm", "shlibs", "triggers"}}
 problems = []
 
 
@@ -209,7 +211,7 @@ def check_sbom(packages, folder, files):
         if e["versionInfo"] != p.version or sums.get("SHA256") != hashlib.sha256(p.file.read_bytes()).hexdigest():
             wrong(f"sbom: {p.name} is of another version or sum")
         of_file = {by_id[i]["fileName"]: by_id[i] for i in related.get((e["SPDXID"], "CONTAINS"), []) if "fileName" in by_id[i]}
-        real = {"./" + f for f in p.files()}
+        real = {"./" + f for f in p.files() if not (p.tree / f).is_symlink()}
         for f in sorted(real ^ set(of_file)):
             wrong(f"sbom: {p.name}: {f} is {'missing' if f in real else 'not in the package'}")
         sha1 = []
@@ -222,7 +224,8 @@ def check_sbom(packages, folder, files):
         if e["packageVerificationCode"]["packageVerificationCodeValue"] != hashlib.sha1("".join(sorted(sha1)).encode()).hexdigest():
             wrong(f"sbom: {p.name}: its verification code isn't that of its files")
         inside = {by_id[i]["name"] for i in related.get((e["SPDXID"], "STATIC_LINK"), [])}
-        programs = b"".join((p.tree / f).read_bytes() for f in p.files() if (p.tree / f).read_bytes()[:4] == b"\x7fELF")
+        contents = ((p.tree / f).read_bytes() for f in p.files() if not (p.tree / f).is_symlink())
+        programs = b"".join(c for c in contents if c[:4] == b"\x7fELF")
         for name, mark in MARKS.items():
             if re.search(mark, programs) and not any(re.fullmatch(name, i) for i in inside):
                 wrong(f"sbom: {p.name} holds code of {name}, which isn't told")
@@ -274,6 +277,19 @@ def check_use(packages, folder):
     run("cmake", "--build", work / "build", "--target", "move_a_joint")
     if (work / "build/move_a_joint").exists() and not re.search(r"^shaft (0\.9|1\.0)", run(work / "build/move_a_joint"), re.M):
         wrong("use: a program with find_package(vsasim) doesn't move its joint")
+    run("cmake", "-S", ROOT / "tests/packages/shared", "-B", work / "shared", "-DCMAKE_BUILD_TYPE=Release",
+        f"-DCMAKE_PREFIX_PATH={everything}/usr", "-Wno-dev")
+    run("cmake", "--build", work / "shared")
+    if (work / "shared/move_a_joint").exists():
+        if not re.search(r"^shaft (0\.9|1\.0)", run(work / "shared/move_a_joint"), re.M):
+            wrong("use: a program with the shared library doesn't move its joint")
+        if f"libvsasim.so.{ABI}]" not in output("readelf", "-d", work / "shared/move_a_joint"):
+            wrong("use: a program that links vsa::shared doesn't load it")
+    library = next(everything.glob(f"usr/lib/**/libvsasim.so.{ABI}"))
+    shown = output("nm", "-D", "--defined-only", "--format=posix", library).split("\n")
+    strange = [s for s in shown if s and not re.match(r"_Z(T[ISVT]|GV|Thn\d+_)?N[KRO]*3vsa|VSASIM_", s)]
+    if strange or len(shown) < 1000:
+        wrong(f"use: of {len(shown)} symbols that the shared library shows {len(strange)} aren't of namespace vsa: {strange[:3]}")
     later = folder / "later"
     later.mkdir()
     (later / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.18)\nproject(later CXX)\nfind_package(vsasim 0.99 REQUIRED)\n")
@@ -311,7 +327,7 @@ def main():
         if len(versions) != 1:
             wrong(f"packages have different versions: {sorted(versions)}")
         owner = {}
-        secret = [str(p).encode() for p in [ROOT, *given.built_in]]
+        secret = [str(p.resolve()).encode() for p in [ROOT, *given.built_in]]
         for p in packages.values():
             check_contents(p)
             check_documents(p, p.version)
