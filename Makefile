@@ -21,14 +21,17 @@
 # make stiffness-uses   what stiffness is good for (docs/explanation/what-stiffness-is-good-for.md): pages in out/stiffness_uses; minutes
 # make snake-travel   how far the snake gets over its terrains (docs/explanation/snake.md), a sweep; about 15 minutes
 # make packages   Debian packages, in build/packages/packages (docs/howto/packages.md); make check-packages   installed, used, upgraded, purged in a bare Debian 12; as root
+# make dist   the source archive, built without npm and git; in build/dist; make check-dist   builds and runs it so
+# make check-reproducible   both made again in a clone elsewhere: the same bytes (REPRODUCIBLE_IN keeps the clone); make sign   signs SIGN/SHA256SUMS, with KEY
 JOBS ?= $(shell nproc)
 FUZZ_S ?= 300
 HOURS ?= 6
 BUILD := build/release
+SIGN ?= build/packages/packages
 VSA := $(BUILD)/bin/vsa
 
 .PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage soak check-asan check-tsan tidy check-all format \
-  check-format stiffness-uses snake-travel packages check-packages clean
+  check-format stiffness-uses snake-travel packages check-packages dist check-dist check-reproducible sign clean
 
 all: build
 
@@ -190,7 +193,24 @@ packages:
 	@sh scripts/setup.sh packages
 	@JOBS=$(JOBS) sh scripts/packages.sh
 
+dist: setup
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@cmake --build $(BUILD) --target vsa_web -- --quiet
+	@sh scripts/dist.sh $(BUILD)
+
+check-dist: dist
+	@JOBS=$(JOBS) sh tests/packages/archive.sh build/dist/*.tar.xz
+
+# Once more elsewhere, which takes as long as compiling all of it.
+check-reproducible: setup
+	@sh scripts/setup.sh packages
+	@JOBS=$(JOBS) sh scripts/reproducible.sh $(REPRODUCIBLE_IN)
+
+sign:
+	@sh scripts/sign.sh $(SIGN) $(KEY)
+
 check-packages: packages
+	@python3 tests/packages/check.py build/packages/packages --built-in build/packages
 	@sh scripts/setup.sh roots
 	@sh tests/packages/bare.sh build/packages/packages
 

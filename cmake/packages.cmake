@@ -105,8 +105,20 @@ if(VSA_SIMULATOR)
   vsa_package(tools vsasim "simulator of variable stiffness actuator robots" SECTION science
     DEPENDS "vsasim-data ${same}" "vsasim-doctor ${same}" SUGGESTS "vsasim-doc"
     TEXT ${what} "." "This package has the command vsa with its embedded simulator. It runs worlds," "shows them in a browser, measures actuators, identifies their parameters," "and stands in for the hardware on a serial port.")
+  set(library_needs "")
+  if(TARGET vsa_shared)
+    set(abi ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+    set(library_needs "libvsasim${abi} ${same}")
+    vsa_package(library libvsasim${abi} "simulator of variable stiffness actuators: shared library" SECTION libs
+      DEPENDS "vsasim-data ${same}"
+      TEXT ${what} "." "This package has the shared library, for programs that were linked to it.")
+    # Who links it depends on this minor version of it, from its first release on.
+    file(WRITE ${PROJECT_BINARY_DIR}/packaging/shlibs "libvsasim ${abi} libvsasim${abi} (>= ${abi}.0)\n")
+    file(WRITE ${PROJECT_BINARY_DIR}/packaging/triggers "activate-noawait ldconfig\n")
+    set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/packaging/shlibs ${PROJECT_BINARY_DIR}/packaging/triggers)
+  endif()
   vsa_package(development libvsasim-dev "simulator of variable stiffness actuators: C++ library" SECTION libdevel
-    DEPENDS "vsasim-data ${same}" ${development_needs} SUGGESTS "vsasim-doc"
+    DEPENDS "vsasim-data ${same}" ${library_needs} ${development_needs} SUGGESTS "vsasim-doc"
     TEXT ${what} "." "This package has headers, static libraries and a CMake package of the library," "from one actuator that needs the C++ standard library alone to whole worlds.")
   vsa_package(documentation vsasim-doc "simulator of variable stiffness actuators: manual and examples" ALL SECTION doc
     TEXT ${what} "." "This package has the manual, as Markdown, and examples in C++ and Python.")

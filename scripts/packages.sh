@@ -22,7 +22,7 @@ say() { echo "packages: $*"; }
 start=$(date +%s)
 # shellcheck disable=SC2086 # CMAKE_FLAGS is words
 if [ -f "$build/CMakeCache.txt" ]; then
-  cmake "$build" -DCMAKE_INSTALL_PREFIX=/usr -DVSA_PACKAGES=ON ${CMAKE_FLAGS:-} >/dev/null
+  cmake "$build" -DCMAKE_INSTALL_PREFIX=/usr -DVSA_PACKAGES=ON -DVSA_SHARED=ON ${CMAKE_FLAGS:-} >/dev/null
 else
   cmake --preset packages -B "$build" ${CMAKE_FLAGS:-} >/dev/null
 fi
@@ -36,5 +36,6 @@ if [ "$(realpath -m "$out")" != "$(realpath "$build/packages")" ]; then
   mkdir -p "$(dirname "$out")"
   mv "$build/packages" "$out"
 fi
-(cd "$out" && sha256sum -- *.deb >SHA256SUMS)
+python3 packaging/sbom.py "$out" "$build"
+(cd "$out" && sha256sum -- *.deb *.spdx.json >SHA256SUMS)
 say "$(find "$out" -name '*.deb' | wc -l) packages in $out after $(($(date +%s) - start)) s"

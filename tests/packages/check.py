@@ -6,13 +6,16 @@ dependencies  ours on each other at the same version; each shared library that a
 paths         nothing names the tree or the folder that it was built in
 scripts       only the Python package has maintainer scripts
 use           unpacked into a folder, the command runs a shipped world, a C++ program is built with find_package, Python imports the module
+sbom          the SPDX document is of these packages, and tells what their programs show of other projects' code
 lintian       nothing to say, where it is installed
 
 Prints what is wrong, a line each; exit code 1 where anything is.
 """
 import argparse
+import functools
 import gzip
 import hashlib
+import json
 import os
 import pathlib
 import re
@@ -24,7 +27,8 @@ import tarfile
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-ALWAYS = ["libvsasim-dev", "vsasim", "vsasim-data", "vsasim-doc", "vsasim-doctor"]
+ABI = ".".join(re.search(r"^project\(vsasim VERSION (\d+)\.(\d+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.M).groups())
+ALWAYS = ["libvsasim-dev", "libvsasim" + ABI, "vsasim", "vsasim-data", "vsasim-doc", "vsasim-doctor"]
 # Files that tell a package's purpose; ARCH is the multiarch folder or nothing.
 HAS = {
     "vsasim": ["usr/bin/vsa", "usr/share/man/man1/vsa.1.gz", "usr/share/bash-completion/completions/vsa",
@@ -33,7 +37,8 @@ HAS = {
                     "usr/share/vsa/data/README.md", "usr/share/vsa/web/replay.html", "usr/share/vsa/LICENSE"],
     "vsasim-doctor": ["usr/bin/vsa-doctor", "usr/share/man/man1/vsa-doctor.1.gz", "usr/share/vsa/setup.sh"],
     "libvsasim-dev": ["usr/include/vsa/engine/world.hpp", "usr/libARCH/libvsa_engine.a", "usr/libARCH/cmake/vsasim/vsasimConfig.cmake",
-                      "usr/libARCH/cmake/vsasim/vsasimConfigVersion.cmake", "usr/libARCH/cmake/vsasim/installed_data.cpp"],
+                      "usr/libARCH/libvsasim.so", "usr/libARCH/cmake/vsasim/vsasimConfigVersion.cmake", "usr/libARCH/cmake/vsasim/installed_data.cpp"],
+    "libvsasim" + ABI: [f"usr/libARCH/libvsasim.so.{ABI}"],
     "python3-vsasim": ["usr/lib/python3/dist-packages/vsasim/__init__.py", "usr/lib/python3/dist-packages/vsasim/py.typed"],
     "vsasim-doc": ["usr/share/doc/vsasim-doc/README.md", "usr/share/doc/vsasim-doc/docs/README.md",
                    "usr/share/doc/vsasim-doc/examples/library/CMakeLists.txt"],
@@ -42,7 +47,7 @@ HAS = {
     "gz-sim-plugin-vsasim": ["usr/libARCH/gz-sim/plugins/libvsa-robot.so"],
 }
 MAY_BE_IN = re.compile(r"^usr/(bin|include/vsa|lib|share/(bash-completion/completions|doc|lintian/overrides|man/man1|vsa))(/|$)")
-WITH_SCRIPTS = {"python3-vsasim": {"postinst", "prerm"}}
+WITH_SCRIPTS = {"python3-vsasim": {"postinst", "prerm"}, "libvsasim" + ABI: {"postinst", "postrm", "shlibs", "triggers"}}
 problems = []
 
 
@@ -116,6 +121,19 @@ def check_documents(p, version):
             wrong(f"{p.name}: {f.relative_to(p.tree)} holds a name or a time")
 
 
+@functools.lru_cache(maxsize=None)
+def owners_of(library):
+    """The packages that this library is of, and what these provide."""
+    # /lib is a link to /usr/lib, and dpkg may know either.
+    real = os.path.realpath(library)
+    found = subprocess.run(["dpkg-query", "-S", real, real.removeprefix("/usr"), library, "/usr" + library], capture_output=True, text=True)
+    owners = {line.split(":")[0] for line in found.stdout.splitlines()}
+    if not owners:
+        return owners
+    provided = output("dpkg-query", "-W", "-f", "${Provides},", *owners).split(",")
+    return owners | {w.split()[0] for w in provided if w.strip()}
+
+
 def check_dependencies(p, packages):
     for field in ("Depends", "Recommends", "Pre-Depends"):
         for one in p.fields.get(field, "").split(","):
@@ -137,14 +155,8 @@ def check_dependencies(p, packages):
         for library in needed:
             if library not in places or library.startswith("ld-linux"):
                 continue
-            # /lib is a link to /usr/lib where dpkg may know either.
-            real = os.path.realpath(places[library])
-            names = [real, real.removeprefix("/usr"), places[library], "/usr" + places[library]]
-            found = [subprocess.run(["dpkg-query", "-S", n], capture_output=True, text=True).stdout for n in names]
-            owners = {line.split(":")[0] for out in found for line in out.splitlines()}
-            provides = {w.strip().split()[0] for o in owners
-                        for w in output("dpkg-query", "-W", "-f", "${Provides}", o).split(",") if w.strip()}
-            if owners and not (owners | provides) & known:
+            owners = owners_of(places[library])
+            if owners and not owners & known:
                 wrong(f"{p.name}: {f} needs {library} of {', '.join(sorted(owners))}, on which it doesn't depend")
 
 
@@ -157,6 +169,85 @@ def check_paths(p, secret):
         for s in secret:
             if s in data:
                 wrong(f"{p.name}: {f} names {s.decode()}")
+
+
+# What a library leaves in a program even when it is stripped: names of its types, of its functions or texts of its own.
+MARKS = {
+    "libeigen3-dev": rb"N5Eigen\d", "libceres-dev": rb"N5ceres\d", "nlohmann-json3-dev": rb"N8nlohmann", "libcli11-dev": rb"N3CLI\d",
+    "libfmt-dev": rb"N3fmt2v\d|invalid format string", "libtomlplusplus-dev": rb"N4toml2v\d", "pybind11-dev": rb"pybind11_",
+    r"libboost[0-9.]*-dev": rb"N5boost\d", "libpagmo-dev": rb"N5pagmo\d",
+}
+
+
+def check_sbom(packages, folder, files):
+    """The SPDX document against the packages themselves: sums, files, what programs show of other projects' code, libraries they load."""
+    found = sorted(folder.glob("*.spdx.json"))
+    if len(found) != 1:
+        wrong(f"sbom: {len(found)} SPDX documents")
+        return
+    d = json.loads(found[0].read_text(encoding="utf-8"))
+    for key, value in (("spdxVersion", "SPDX-2.3"), ("dataLicense", "CC0-1.0"), ("SPDXID", "SPDXRef-DOCUMENT")):
+        if d.get(key) != value:
+            wrong(f"sbom: {key} is {d.get(key)}")
+    if not re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", d["creationInfo"]["created"]) or not re.match(r"\w+:", d["documentNamespace"]):
+        wrong("sbom: no time or namespace as SPDX wants them")
+    ids = [e["SPDXID"] for e in d["packages"] + d["files"]]
+    if len(ids) != len(set(ids)) or not all(re.fullmatch(r"SPDXRef-[A-Za-z0-9.-]+", i) for i in ids):
+        wrong("sbom: identifiers come twice or aren't SPDX's")
+    known = {*ids, "SPDXRef-DOCUMENT"}
+    related = {}
+    for r in d["relationships"]:
+        if r["spdxElementId"] not in known or r["relatedSpdxElement"] not in known:
+            wrong(f"sbom: a relationship of what isn't there: {r}")
+        related.setdefault((r["spdxElementId"], r["relationshipType"]), []).append(r["relatedSpdxElement"])
+    by_id = {e["SPDXID"]: e for e in d["packages"] + d["files"]}
+    described = {by_id[i]["name"]: by_id[i] for i in related.get(("SPDXRef-DOCUMENT", "DESCRIBES"), [])}
+    if set(described) != set(packages):
+        wrong(f"sbom: describes {sorted(described)}, here are {sorted(packages)}")
+        return
+    for p in packages.values():
+        e = described[p.name]
+        sums = {c["algorithm"]: c["checksumValue"] for c in e["checksums"]}
+        if e["versionInfo"] != p.version or sums.get("SHA256") != hashlib.sha256(p.file.read_bytes()).hexdigest():
+            wrong(f"sbom: {p.name} is of another version or sum")
+        of_file = {by_id[i]["fileName"]: by_id[i] for i in related.get((e["SPDXID"], "CONTAINS"), []) if "fileName" in by_id[i]}
+        real = {"./" + f for f in p.files() if not (p.tree / f).is_symlink()}
+        for f in sorted(real ^ set(of_file)):
+            wrong(f"sbom: {p.name}: {f} is {'missing' if f in real else 'not in the package'}")
+        sha1 = []
+        for f in sorted(real & set(of_file)):
+            data = (p.tree / f).read_bytes()
+            sha1.append(hashlib.sha1(data).hexdigest())
+            if {c["algorithm"]: c["checksumValue"] for c in of_file[f]["checksums"]} != {
+                    "SHA1": sha1[-1], "SHA256": hashlib.sha256(data).hexdigest()}:
+                wrong(f"sbom: {p.name}: another sum of {f}")
+        if e["packageVerificationCode"]["packageVerificationCodeValue"] != hashlib.sha1("".join(sorted(sha1)).encode()).hexdigest():
+            wrong(f"sbom: {p.name}: its verification code isn't that of its files")
+        inside = {by_id[i]["name"] for i in related.get((e["SPDXID"], "STATIC_LINK"), [])}
+        contents = ((p.tree / f).read_bytes() for f in p.files() if not (p.tree / f).is_symlink())
+        programs = b"".join(c for c in contents if c[:4] == b"\x7fELF")
+        for name, mark in MARKS.items():
+            if re.search(mark, programs) and not any(re.fullmatch(name, i) for i in inside):
+                wrong(f"sbom: {p.name} holds code of {name}, which isn't told")
+        needed = {by_id[i]["name"] for i in related.get((e["SPDXID"], "DEPENDS_ON"), [])}
+        if needed != {dependency.split()[0] for dependency in p.depends}:
+            wrong(f"sbom: {p.name} depends on others than its control file says: {sorted(needed)}")
+    pages = packages["vsasim-data"].tree / "usr/share/vsa/web"
+    bundled = {(x["name"], x["versionInfo"]) for i in related.get((described["vsasim-data"]["SPDXID"], "CONTAINS"), [])
+               for x in [by_id[i]] if "versionInfo" in x}
+    lock = json.loads((ROOT / "web/package-lock.json").read_text(encoding="utf-8"))["packages"]
+    shipped = {(n, lock["node_modules/" + n]["version"]) for n in lock[""]["dependencies"]}
+    if bundled != shipped:
+        wrong(f"sbom: pages hold {sorted(shipped)} by the lock file, the document says {sorted(bundled)}")
+    for p in d["packages"]:
+        if p["SPDXID"].startswith(("SPDXRef-Debian-", "SPDXRef-npm-")) and p["licenseDeclared"] in ("", "NOASSERTION"):
+            wrong(f"sbom: no licence of {p['name']}")
+    if "Permission is hereby granted" not in (pages / "replay.html").read_text(encoding="utf-8"):
+        wrong("sbom: the replay page has no licence text")
+    sums = dict(reversed(line.split("  ", 1)) for line in (folder / "SHA256SUMS").read_text(encoding="utf-8").splitlines())
+    for f in [*files, found[0]]:
+        if sums.get(f.name) != hashlib.sha256(f.read_bytes()).hexdigest():
+            wrong(f"SHA256SUMS: nothing or another sum of {f.name}")
 
 
 def check_use(packages, folder):
@@ -186,6 +277,19 @@ def check_use(packages, folder):
     run("cmake", "--build", work / "build", "--target", "move_a_joint")
     if (work / "build/move_a_joint").exists() and not re.search(r"^shaft (0\.9|1\.0)", run(work / "build/move_a_joint"), re.M):
         wrong("use: a program with find_package(vsasim) doesn't move its joint")
+    run("cmake", "-S", ROOT / "tests/packages/shared", "-B", work / "shared", "-DCMAKE_BUILD_TYPE=Release",
+        f"-DCMAKE_PREFIX_PATH={everything}/usr", "-Wno-dev")
+    run("cmake", "--build", work / "shared")
+    if (work / "shared/move_a_joint").exists():
+        if not re.search(r"^shaft (0\.9|1\.0)", run(work / "shared/move_a_joint"), re.M):
+            wrong("use: a program with the shared library doesn't move its joint")
+        if f"libvsasim.so.{ABI}]" not in output("readelf", "-d", work / "shared/move_a_joint"):
+            wrong("use: a program that links vsa::shared doesn't load it")
+    library = next(everything.glob(f"usr/lib/**/libvsasim.so.{ABI}"))
+    shown = output("nm", "-D", "--defined-only", "--format=posix", library).split("\n")
+    strange = [s for s in shown if s and not re.match(r"_Z(T[ISVT]|GV|Thn\d+_)?N[KRO]*3vsa|VSASIM_", s)]
+    if strange or len(shown) < 1000:
+        wrong(f"use: of {len(shown)} symbols that the shared library shows {len(strange)} aren't of namespace vsa: {strange[:3]}")
     later = folder / "later"
     later.mkdir()
     (later / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.18)\nproject(later CXX)\nfind_package(vsasim 0.99 REQUIRED)\n")
@@ -223,7 +327,7 @@ def main():
         if len(versions) != 1:
             wrong(f"packages have different versions: {sorted(versions)}")
         owner = {}
-        secret = [str(p).encode() for p in [ROOT, *given.built_in]]
+        secret = [str(p.resolve()).encode() for p in [ROOT, *given.built_in]]
         for p in packages.values():
             check_contents(p)
             check_documents(p, p.version)
@@ -236,6 +340,7 @@ def main():
                     wrong(f"{f} is of {owner[f]} and of {p.name}")
         if not given.skip_use and not problems:
             check_use(packages, folder)
+        check_sbom(packages, given.packages, files)
         check_lintian(files)
         files_of_all = sum(len(p.files()) for p in packages.values())
     print(f"packages: {len(files)} with {files_of_all} files: {len(problems)} problem{'s' * (len(problems) != 1)}")

@@ -60,6 +60,9 @@ quiet cmake -S /usr/share/doc/vsasim-doc/examples/library -B /root/work/build -D
 quiet cmake --build /root/work/build
 /root/work/build/move_a_joint | grep -qE '^shaft (0.9|1.0)' || fail "a program of a user's own"
 /root/work/build/one_actuator >/dev/null
+quiet cmake -S /tests/shared -B /root/work/shared -DCMAKE_BUILD_TYPE=Release
+quiet cmake --build /root/work/shared
+/root/work/shared/move_a_joint | grep -qE '^shaft (0.9|1.0)' || fail "a program with the shared library"
 echo "a C++ program with find_package(vsasim): $(since "$start") s"
 
 # What is a user's: types, a world, recordings, settings, compiled programs. None is a package's to touch.
@@ -78,7 +81,9 @@ mine | diff /tmp/mine - || fail "the upgrade changed what is a user's"
 test ! -e /usr/share/vsa/actuators/of_the_first_version.toml || fail "the first version's file is still there"
 for p in $(dpkg-query -W -f '${Package} ${Version}\n' '*vsasim*' | awk '$2 == "0.0.9-1" { print $1 }'); do fail "$p was not upgraded"; done
 VSA_ACTUATOR_PATH=/root/types vsa actuators mine | grep -q mine || fail "a user's type isn't read any more"
-/root/work/build/move_a_joint >/dev/null || fail "a program that was compiled before the upgrade"
+for program in build shared; do
+  /root/work/$program/move_a_joint >/dev/null || fail "a program that was compiled before the upgrade ($program)"
+done
 python3 -c 'import vsasim, importlib.metadata as m; assert m.version("vsasim") == vsasim.__version__' || fail "the Python module after the upgrade"
 cmp -s /usr/share/vsa/LICENSE /usr/share/common-licenses/Apache-2.0 || grep -q Apache /usr/share/vsa/LICENSE
 

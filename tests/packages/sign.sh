@@ -1,0 +1,31 @@
+#!/bin/sh
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#
+# sign.sh ROOT: what scripts/sign.sh signs is verified, and what was changed afterwards isn't; files that the sums don't tell of or that
+# differ aren't signed. With a key made for the test. 77: no GnuPG here.
+set -eu
+command -v gpg >/dev/null || { echo "signing left out: gpg isn't installed (Debian: gnupg)"; exit 77; }
+root=$1
+work=$(mktemp -d)
+# The agent that gpg starts is of this folder alone, and ends with it.
+trap 'GNUPGHOME="$work/keys" gpgconf --kill all 2>/dev/null || true; rm -rf "$work"' EXIT
+fail() { echo "sign.sh: $*" >&2; exit 1; }
+export GNUPGHOME="$work/keys"
+mkdir -m 700 "$work/keys"
+mkdir "$work/out"
+gpg --batch --quiet --pinentry-mode loopback --passphrase '' --quick-generate-key 'A test <test@localhost>' ed25519 sign 1d 2>"$work/log" ||
+  { cat "$work/log"; fail "no key"; }
+cd "$work/out"
+echo one >one.deb
+sha256sum -- *.deb >SHA256SUMS
+sh "$root/scripts/sign.sh" "$work/out" test@localhost 2>"$work/log" || { cat "$work/log"; fail "not signed"; }
+gpg --quiet --verify SHA256SUMS.asc SHA256SUMS 2>/dev/null || fail "not verified"
+echo more >>SHA256SUMS
+if gpg --quiet --verify SHA256SUMS.asc SHA256SUMS 2>/dev/null; then fail "changed sums are verified"; fi
+sha256sum -- *.deb >SHA256SUMS
+echo two >two.deb
+if sh "$root/scripts/sign.sh" "$work/out" test@localhost 2>/dev/null; then fail "signed beside a file that nobody summed"; fi
+rm two.deb
+echo other >one.deb
+if sh "$root/scripts/sign.sh" "$work/out" test@localhost >/dev/null 2>&1; then fail "signed a wrong sum"; fi
+echo "signed, verified, and refused where it should be"
