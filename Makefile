@@ -115,21 +115,7 @@ bench: setup
 	@sh scripts/bench.sh $(BUILD)
 
 # The rooms that need no engine, in a debug build.
-check-# What of include and src the tests run, by rooms; fails below 90 % of the lines.
-coverage:
-	@sh scripts/setup.sh test coverage
-	@cmake --preset coverage > /dev/null
-	@cmake --build build/coverage -j $(JOBS) -- --quiet
-	@ctest --test-dir build/coverage --output-on-failure -j 1 -LE 'long|browser'
-	@python3 scripts/coverage.py build/coverage 90
-
-soak:
-	@sh scripts/setup.sh test soak
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
-	@cmake --build $(BUILD) -j $(JOBS) --target vsa vsasim_python vsa_web -- --quiet
-	@/usr/bin/python3 scripts/soak.py $(BUILD) $(HOURS) out/soak
-
-asan:
+check-asan:
 	@sh scripts/setup.sh test
 	@cmake --preset asan > /dev/null
 	@cmake --build build/asan -j $(JOBS) --target core-tests -- --quiet
