@@ -25,9 +25,9 @@ if gz sim --versions >/dev/null 2>&1; then
 elif version=$(ign gazebo --versions 2>/dev/null); then
   gazebo="ign gazebo" messages=ignition.msgs
   if timeout 20 ign topic -l >/dev/null 2>&1; then topic="ign topic"; elif [ -x "$debians_topic" ]; then topic=$debians_topic; else topic=; fi
-  # Before 6.8 a world whose models have plug-ins gets no systems by itself: those of the README, then.
+  # Before 6.8 a world whose models have plug-ins gets no systems by itself: those of the how-to, then.
   if [ "$(printf '%s\n' 6.8 "$(echo "$version" | head -n 1)" | sort -V | head -n 1)" != 6.8 ]; then
-    { sed '/<world /q' "$world"; grep '<plugin filename="ignition-gazebo-' "$source_tree/README.md"; sed '1,/<world /d' "$world"; } >"$work/world.sdf"
+    { sed '/<world /q' "$world"; grep '<plugin filename="ignition-gazebo-' "$source_tree/docs/howto/gazebo.md"; sed '1,/<world /d' "$world"; } >"$work/world.sdf"
     world="$work/world.sdf"
   fi
 else
