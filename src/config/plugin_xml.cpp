@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "config/older_plugins.hpp"
-#include "vsa/config/plugin_draft.hpp"
 #include "config/xml_reader.hpp"
+#include "vsa/config/plugin_draft.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::config {

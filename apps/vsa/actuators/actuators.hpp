@@ -7,8 +7,8 @@
 namespace vsa::app {
 
 struct ActuatorsOptions {
-  std::string name;  ///< empty: list all
-  bool all = false;  ///< repairs that are off, too
+  std::string name;      ///< empty: list all
+  bool all = false;      ///< repairs that are off, too
   bool laws = false;     ///< the elastic laws instead of types
   std::string markdown;  ///< where to write their tables; empty: nowhere
 };
