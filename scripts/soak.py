@@ -9,10 +9,7 @@ viewers of the page that come, vanish and send garbage; commands by topics; faul
 Looks at memory, descriptors and threads of the three, at the round trips of the port's clients, and at whether equal runs gave equal
 bytes. Writes OUT/soak.html and OUT/soak.json; prints the verdicts; exit code 1 where one is broken, 2 for wrong use.
 """
-import base64
 import hashlib
-import html
-import io
 import json
 import os
 import pathlib
@@ -24,74 +21,18 @@ import statistics
 import struct
 import subprocess
 import sys
-import termios
 import threading
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import soak_page
+
+CLIENT = pathlib.Path(__file__).resolve().parent / "soak_client.py"
 SERVICE = "/usr/libexec/ignition/transport11/ign-transport-service"  # Debian's client of ignition-transport
 UNITS = 12
 WORLD_MODEL = "qbmove_snake"
 FAULTS = ["off", "lost_byte=0.02", "flipped_byte=0.02", "late_s=0.0005", "stuck=motor_1", "noise_rad=0.01", "supply_V=18", "unplugged=2"]
 GROWTH = 1.05  # of resident memory, last quarter over second: what a program may gain
 SLACK = (0, 5, 0)  # memory, descriptors, threads after the visitors, over before them: ZeroMQ's connections to clients that have gone
-
-
-# ---- a client of the serial port, a process of its own that may be killed -------------------------------------------------------
-
-
-def frame(unit, command, payload=b""):
-    body = bytes([command]) + payload
-    check = 0
-    for byte in body:
-        check ^= byte
-    return b"::" + bytes([unit, len(body) + 1]) + body + bytes([check])
-
-
-def open_port(path):
-    port = os.open(path, os.O_RDWR | os.O_NOCTTY)
-    settings = termios.tcgetattr(port)
-    settings[0] = settings[1] = settings[3] = 0
-    settings[2] = termios.CS8 | termios.CREAD | termios.CLOCAL
-    settings[4] = settings[5] = termios.B2000000
-    settings[6][termios.VMIN], settings[6][termios.VTIME] = 0, 1
-    termios.tcsetattr(port, termios.TCSANOW, settings)
-    return port
-
-
-def client(path, seed):
-    """Commands and asks units at random; a line per exchange: microseconds, or - where no answer came."""
-    chance, port = random.Random(seed), open_port(path)
-    for _ in range(chance.randint(20, 400)):
-        unit = chance.randint(1, UNITS)
-        os.write(port, frame(unit, 130, struct.pack(">hh", chance.randint(-4000, 4000), chance.randint(-4000, 4000))))
-        begin = time.perf_counter()
-        os.write(port, frame(unit, 132))
-        answer = b""
-        while len(answer) < 12:
-            more = os.read(port, 12 - len(answer))
-            if not more:
-                break
-            answer += more
-        print(f"{1e6 * (time.perf_counter() - begin):.0f}" if len(answer) == 12 else "-", flush=True)
-        time.sleep(chance.uniform(0, 0.02))
-
-
-def batch(seed):
-    """The same eight randomised copies again and again; a line per round: what they came to."""
-    import vsasim  # of the build tree; the parent has no need of it
-
-    signal.signal(signal.SIGINT, lambda *_: sys.exit(0))
-    world = vsasim.World.load("bench_load")
-    while True:
-        copies = vsasim.Batch(world, 8, threads=2)
-        copies.equilibrium = [[0.1 * i] for i in range(8)]
-        copies.step(1000)
-        print(hashlib.sha256(b"".join(copies.state(i).tobytes() for i in range(8))).hexdigest(), flush=True)
-        time.sleep(0.5)
-
-
-# ---- what is looked at ----------------------------------------------------------------------------------------------------------
 
 
 def usage(pid):
@@ -173,7 +114,7 @@ class Soak:
         return thread
 
     def port_client(self, chance):
-        process = subprocess.Popen([sys.executable, __file__, "client", self.port, str(chance.getrandbits(32))],
+        process = subprocess.Popen([sys.executable, CLIENT, "port", self.port, str(chance.getrandbits(32)), str(UNITS)],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         killed = chance.random() < 0.5
         try:
@@ -249,7 +190,7 @@ def start(soak, out, subjects):
     subjects.append(Subject("emulate", [soak.vsa, "emulate", "qbmove_maker_pro_6_1", "--units", str(UNITS), "--port", soak.port, "--active",
                                 "--fault", f"all lost_byte=0.0003 flipped_byte=0.0003 seed={soak.seed}"], out))
     subjects.append(Subject("run", [soak.vsa, "run", "snake_flat", "--gait", "sidewind", "--realtime", "--view"], out, mine))
-    subjects.append(Subject("batch", ["/usr/bin/python3", __file__, "batch", str(soak.seed)], out, mine))
+    subjects.append(Subject("batch", ["/usr/bin/python3", CLIENT, "batch"], out, mine))
     units, world, rounds = subjects
     units.wait_for(re.escape(soak.port))
     soak.view_port = int(world.wait_for(r"127\.0\.0\.1:(\d+)").group(1))
@@ -283,41 +224,6 @@ def verdicts(soak, subjects, idle, ends):
     return out
 
 
-def chart(subjects, column, label):
-    import matplotlib
-
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-
-    figure, axes = pyplot.subplots(figsize=(8, 2.6))
-    for s in subjects:
-        axes.plot([row[0] / 60 for row in s.samples], [row[column] for row in s.samples], label=s.name)
-    axes.set_xlabel("time [min]")
-    axes.set_ylabel(label)
-    axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
-    axes.set_ylim(bottom=0)
-    text = io.BytesIO()
-    figure.savefig(text, format="svg", bbox_inches="tight")
-    pyplot.close(figure)
-    return "data:image/svg+xml;base64," + base64.b64encode(text.getvalue()).decode()
-
-
-def write_page(soak, subjects, found, seconds, out):
-    rows = "".join(f"<tr class={'good' if held else 'bad'}><td>{html.escape(what)}<td>{'holds' if held else 'BROKEN'}<td>{html.escape(figure)}"
-                   for what, held, figure in found)
-    counts = "".join(f"<tr><td>{html.escape(k)}<td>{v}" for k, v in sorted(soak.counts.items()))
-    charts = "".join(f'<img alt="{label}" src="{chart(subjects, k, label)}">'
-                     for k, label in ((1, "resident memory [MB]"), (2, "descriptors"), (3, "threads")))
-    (out / "soak.html").write_text(f"""<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>vsasim soak</title>
-<style>body{{font:15px/1.5 sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem}}table{{border-collapse:collapse;margin:1rem 0}}
-td{{padding:.25rem .8rem;border-bottom:1px solid #ddd;vertical-align:top}}.good td:nth-child(2){{color:#0a7d33}}.bad td{{color:#b00020}}
-img{{max-width:100%;display:block}}</style>
-<h1>Everything at once, {seconds / 3600:.2f} hours</h1><p>Seed {soak.seed}; {time.strftime("%Y-%m-%d %H:%M", time.gmtime())} UTC;
-{os.cpu_count()} processors, load {os.getloadavg()[2]:.1f} in the last quarter of an hour.
-<table>{rows}</table>{charts}<h2>What came by</h2><table>{counts}</table></html>
-""", encoding="utf-8")
-
-
 def main(build, hours, out, seed):
     out.mkdir(parents=True, exist_ok=True)
     begin = time.monotonic()
@@ -347,7 +253,7 @@ def main(build, hours, out, seed):
     idle.append({s.name: usage(s.process.pid) or (0, 1 << 20, 1 << 20) for s in subjects})
     ends = {s.name: s.stop() for s in subjects}
     found = verdicts(soak, subjects, idle, ends)
-    write_page(soak, subjects, found, time.monotonic() - begin, out)
+    soak_page.write_page(soak, subjects, found, time.monotonic() - begin, out)
     (out / "soak.json").write_text(json.dumps({"hours": hours, "seed": seed, "verdicts": found, "counts": soak.counts, "wrong": soak.wrong,
                                                "samples": {s.name: s.samples for s in subjects}}, indent=1), encoding="utf-8")
     for what, held, figure in found:
@@ -358,15 +264,11 @@ def main(build, hours, out, seed):
 
 if __name__ == "__main__":
     given = sys.argv[1:]
-    if given[:1] == ["client"] and len(given) == 3:
-        sys.exit(client(given[1], int(given[2])))
-    if given[:1] == ["batch"] and len(given) == 2:
-        sys.exit(batch(int(given[1])))
     try:
         if len(given) not in (3, 4) or not os.path.exists(given[0] + "/bin/vsa"):
             raise ValueError("not BUILD HOURS OUT [SEED], BUILD with bin/vsa")
         tree, long, where, number = pathlib.Path(given[0]).resolve(), float(given[1]), pathlib.Path(given[2]).resolve(), int((given[3:] or ["1"])[0])
-        if not 0 < long <= 1000:
+        if not 0 < long <= 1000:  # not of NaN either
             raise ValueError(f"HOURS = {long:g} (allowed: up to 1000)")
     except ValueError as problem:
         print(f"soak.py: {problem}", file=sys.stderr)

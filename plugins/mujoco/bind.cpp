@@ -2,10 +2,10 @@
 #include "bind.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "versions.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/grouped.hpp"
 #include "vsa/host/robot_config.hpp"
 
 namespace vsa::mujoco {
@@ -90,20 +90,12 @@ void check_options(const mjModel& m, Problems& problems) {
 }
 
 std::vector<std::vector<std::size_t>> trees_of(const mjModel& m, const std::vector<int>& joints) {
-  std::vector<std::pair<int, std::vector<std::size_t>>> found;
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    int root = m.jnt_dofadr[joints[i]];
-    while (m.dof_parentid[root] >= 0) root = m.dof_parentid[root];
-    const auto same = std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.first == root; });
-    if (same == found.end()) {
-      found.push_back({root, {i}});
-    } else {
-      same->second.push_back(i);
-    }
+  std::vector<int> roots;
+  for (const int joint : joints) {
+    roots.push_back(m.jnt_dofadr[joint]);
+    while (m.dof_parentid[roots.back()] >= 0) roots.back() = m.dof_parentid[roots.back()];
   }
-  std::vector<std::vector<std::size_t>> out;
-  for (auto& tree : found) out.push_back(std::move(tree.second));
-  return out;
+  return grouped(roots);
 }
 
 }  // namespace vsa::mujoco

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "physics/mujoco/versions.hpp"
+#include "vsa/grouped.hpp"
 
 namespace vsa::physics {
 namespace {
@@ -104,20 +105,12 @@ void MujocoPhysics::prepare() {
 }
 
 std::vector<std::vector<std::size_t>> MujocoPhysics::trees(std::span<const std::size_t> joints) const {
-  std::vector<std::pair<int, std::vector<std::size_t>>> found;
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    int root = joint_[joints[i]].v;
-    while (model_->dof_parentid[root] >= 0) root = model_->dof_parentid[root];
-    const auto same = std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.first == root; });
-    if (same == found.end()) {
-      found.push_back({root, {i}});
-    } else {
-      same->second.push_back(i);
-    }
+  std::vector<int> roots;
+  for (const std::size_t joint : joints) {
+    roots.push_back(joint_[joint].v);
+    while (model_->dof_parentid[roots.back()] >= 0) roots.back() = model_->dof_parentid[roots.back()];
   }
-  std::vector<std::vector<std::size_t>> out;
-  for (auto& [root, members] : found) out.push_back(std::move(members));
-  return out;
+  return grouped(roots);
 }
 
 /// What equalities take from B: with J of their rows (mimics, closures of loops) and R, by which MuJoCo softens them,
