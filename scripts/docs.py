@@ -70,7 +70,7 @@ class Stage:
         self.into, self.extra, self.headers = into, into.parent / "extra", headers
         self.extra.mkdir(parents=True, exist_ok=True)
         self.wanted = []  # pages outside docs/ that a page links to
-        self.done = set()
+        self.done, self.wrong = set(), []
 
     def place(self, path):
         """Where a page of the repository is in the copy."""
@@ -117,6 +117,9 @@ class Stage:
         target, _, anchor = target.partition("#")
         path = (page.parent / urllib.parse.unquote(target)).resolve()
         here = self.place(page)
+        if not path.exists():
+            self.wrong.append(f"{page.relative_to(ROOT)}: {match.group(3)} leads nowhere")
+            return text
         if path.is_dir() and (path / "README.md").is_file():
             path = path / "README.md"
         if path.suffix == ".md":
@@ -237,7 +240,7 @@ def main(build):
     for page in sorted((ROOT / "scripts/site").glob("*.md")):
         shutil.copyfile(page, stage.into / page.name)
     record_replay(build, stage)
-    wrong += sphinx(build, stage, site, version) + dead_links(site)
+    wrong += stage.wrong + sphinx(build, stage, site, version) + dead_links(site)
     for line in wrong:
         print(line, file=sys.stderr)
     print(f"{site}/index.html")

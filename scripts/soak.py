@@ -209,10 +209,10 @@ def verdicts(soak, subjects, idle, ends):
         out.append((f"{s.name} lives to the end and ends well by Ctrl-C", ends[s.name] == 0, f"exit code {ends[s.name]}"))
         before, after = (statistics.median([m for _, m, _, _ in quarter(s.samples, k)] or [0]) for k in (1, 3))
         out.append((f"{s.name}: memory, last quarter over second, at most {GROWTH}", after <= GROWTH * before, f"{before:.1f} → {after:.1f} MB"))
+        first, now = (place[s.name] for place in idle)
         for k, what in ((1, "descriptors"), (2, "threads")):
             out.append((f"{s.name}: {what} once the visitors have gone, at most {SLACK[k]} more than before they came",
-                        idle[1][s.name][k] <= idle[0][s.name][k] + SLACK[k],
-                        f"{idle[0][s.name][k]} → {idle[1][s.name][k]}"))
+                        now is not None and now[k] <= first[k] + SLACK[k], f"{first[k]} → {'it has gone' if now is None else now[k]}"))
     digests = len(soak.digests)
     out.append(("recorded runs have the same bytes", digests == 1, f"{soak.counts.get('recorded runs', 0)} runs, {digests} contents"))
     rounds = set(re.findall(r"[0-9a-f]{64}", subjects[2].said()))
@@ -250,7 +250,7 @@ def main(build, hours, out, seed):
     for thread in threads:
         thread.join()
     time.sleep(15)
-    idle.append({s.name: usage(s.process.pid) or (0, 1 << 20, 1 << 20) for s in subjects})
+    idle.append({s.name: usage(s.process.pid) for s in subjects})
     ends = {s.name: s.stop() for s in subjects}
     found = verdicts(soak, subjects, idle, ends)
     soak_page.write_page(soak, subjects, found, time.monotonic() - begin, out)
