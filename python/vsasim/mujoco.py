@@ -183,7 +183,7 @@ def attach(
     sensor: bool = True,
 ) -> Any:
     """As add(), to a mujoco.MjSpec that isn't compiled yet; load() comes before. Returns the instance, whose `config` may be
-    changed. RuntimeError: a MuJoCo whose MjSpec can't activate plug-ins (before 3.3): use add() there."""
+    changed. RuntimeError: a MuJoCo whose MjSpec can't activate plug-ins (before 3.3.1): use add() there."""
     if not hasattr(spec, "activate_plugin"):
         raise RuntimeError("this MuJoCo's MjSpec can't activate plug-ins: vsasim.mujoco.add() works on the MJCF's text")
     import mujoco

@@ -83,6 +83,19 @@ TEST(Identify, RefusesAsManyParametersAsPoints) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }
 
+/// A second pass over the same weights is one more recording of the same experiment.
+TEST(Identify, TakesTwoPassesOfOneSpring) {
+  const Scratch scratch;
+  write_file(scratch / "first_points.csv", "load_torque_Nm,deflection_rad\n-2,-0.1\n-1,-0.051\n1,0.05\n2,0.1\n");
+  write_file(scratch / "second_points.csv", "load_torque_Nm,deflection_rad\n-2,-0.1\n-1,-0.05\n1,0.049\n2,0.1\n");
+  const auto r =
+      run_vsa({"identify", scratch / "first_points.csv", scratch / "second_points.csv", "--type", "sea_example", "--set",
+               "elastic.stiffness_Nm_per_rad=11", "--parameters", "elastic.stiffness_Nm_per_rad", "--out", scratch / "out"});
+  EXPECT_EQ(r.exit_code, 0) << r.err;
+  const std::string type = vsa::test::read_file(scratch / "out" / "identified.toml");
+  EXPECT_NE(type.find("calibrated_on = { value = [\"stiffness.0.0000\"]"), std::string::npos) << type.substr(0, 800);
+}
+
 TEST(Identify, FindsTheSpringOfALinearActuator) {
   const Scratch scratch;
   const std::string points = scratch / "ram_points.csv";

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "identify/output.hpp"
@@ -278,8 +280,11 @@ std::string identified_type(const Identification& r, const config::TypeLibrary& 
     for (const std::string& key : r.found.task.parameters[k].keys) changes.push_back({key, r.found.fit.values[k], source});
   }
   config::Evidence fitted{{}, r.command};
-  for (const identify::Observation& o : r.found.task.observations)
-    fitted.calibrated_on.push_back(config::experiment_name("stiffness", o.preset));
+  std::set<std::string> named;  // two recordings of one preset are one experiment
+  for (const identify::Observation& o : r.found.task.observations) {
+    std::string experiment = config::experiment_name("stiffness", o.preset);
+    if (named.insert(experiment).second) fitted.calibrated_on.push_back(std::move(experiment));
+  }
   return identify::type_text(r.type, r.name, changes, fitted, library);
 }
 
