@@ -12,11 +12,14 @@
 
 namespace vsa::state {
 
+/// What becomes of the room that nothing takes: as many zeros, or nothing, so that what follows moves up.
+enum class Room { kept, left_out };
+
 /// A state's numbers into a span that has room for all of it. A fault: it has more of something than there is room for.
 class Writer : public Sink {
  public:
   static constexpr bool kWantsRoom = false;  ///< whether a walk enters the room that nothing takes
-  explicit Writer(std::span<double> out) noexcept : out_(out) {}
+  explicit Writer(std::span<double> out, Room room = Room::kept) noexcept : out_(out), room_(room) {}
   template <class T>
   void leaf(const char*, const char*, const T& v) noexcept {
     put(&out_[at_], v);
@@ -42,6 +45,7 @@ class Writer : public Sink {
   }
   /// Leaves room for n numbers, all zero.
   void blank(std::size_t n) noexcept {
+    if (room_ == Room::left_out) return;
     std::fill_n(out_.begin() + static_cast<std::ptrdiff_t>(at_), n, 0.0);
     at_ += n;
   }
@@ -50,6 +54,7 @@ class Writer : public Sink {
 
  private:
   std::span<double> out_;
+  Room room_;
   std::size_t at_ = 0;
   StateFault fault_;
 };
@@ -58,7 +63,7 @@ class Writer : public Sink {
 class Reader : public Sink {
  public:
   static constexpr bool kWantsRoom = false;  ///< whether a walk enters the room that nothing takes
-  explicit Reader(std::span<const double> in) noexcept : in_(in) {}
+  explicit Reader(std::span<const double> in, Room room = Room::kept) noexcept : in_(in), room_(room) {}
   template <class T>
   void leaf(const char*, const char*, T& v) noexcept {
     if (room(kSlots<T>)) note(get(&in_[at_], v));
@@ -70,7 +75,7 @@ class Reader : public Sink {
   }
   template <class A>
   void bytes(const char*, A& v, std::size_t count, std::size_t most) noexcept {
-    if (room(packed(most))) note(get_bytes(&in_[at_], {v.data(), count}));
+    if (room(packed(count))) note(get_bytes(&in_[at_], {v.data(), count}));
     at_ += packed(count);
     blank(packed(most) - packed(count));
   }
@@ -86,6 +91,7 @@ class Reader : public Sink {
   }
   /// n numbers that a state has not.
   void blank(std::size_t n) noexcept {
+    if (room_ == Room::left_out) return;
     if (room(n)) {
       const auto rest = in_.subspan(at_, n);
       const auto it = std::find_if(rest.begin(), rest.end(), [](double v) { return bits_as<std::uint64_t>(v) != 0; });
@@ -102,13 +108,18 @@ class Reader : public Sink {
   [[nodiscard]] std::size_t at() const noexcept { return at_; }              ///< numbers read so far
 
  private:
-  [[nodiscard]] bool room(std::size_t n) const noexcept { return !fault_.there() && at_ + n <= in_.size(); }
+  [[nodiscard]] bool room(std::size_t n) noexcept {
+    if (at_ + n > in_.size() && !fault_.there())
+      fault_ = {in_.size(), static_cast<double>(in_.size()), "numbers are too few for this state", "as many as it says it has"};
+    return !fault_.there();
+  }
   void note(StateFault fault) noexcept {
     if (fault_.there() || !fault.there()) return;
     fault.offset += at_;
     fault_ = fault;
   }
   std::span<const double> in_;
+  Room room_;
   std::size_t at_ = 0;
   StateFault fault_;
 };

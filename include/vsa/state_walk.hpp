@@ -83,15 +83,14 @@ void walk_optional(Sink& sink, const char* name, const char* unit, T& v) {
   E value = given ? *v : E{};
   sink.enter(name);
   sink.leaf("given", "", given);
-  if constexpr (std::is_const_v<T>) {
+  if constexpr (Sink::kWantsRoom) {
     sink.leaf("value", unit, value);
   } else if (given) {
     sink.leaf("value", unit, value);
-    v = value;
   } else {
     sink.blank(kSlots<E>);
-    v = std::nullopt;
   }
+  if constexpr (!std::is_const_v<T>) v = given ? std::optional(value) : std::nullopt;
   sink.leave();
 }
 

@@ -240,6 +240,22 @@ void Seat::restore(std::span<const double> in) {
   set_own(loaded_);
 }
 
+std::size_t Seat::save_tight(std::span<double> out) const {
+  check_state_size(out.size(), state_size());
+  state::Writer writer(out, state::Room::left_out);
+  state::walk_fields(writer, own_);
+  return writer.at() + robot_.save_tight(out.subspan(writer.at(), robot_.state_size()));
+}
+
+std::size_t Seat::restore_tight(std::span<const double> in) {
+  state::Reader reader(in, state::Room::left_out);
+  state::walk_fields(reader, loaded_);
+  throw_if_any(reader.fault(), {});
+  const std::size_t count = reader.at() + robot_.restore_tight(in.subspan(reader.at()));
+  set_own(loaded_);
+  return count;
+}
+
 void Seat::keep() {
   robot_.keep();
   kept_ = own_;

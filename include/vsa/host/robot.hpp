@@ -234,6 +234,10 @@ class Robot {
   void save(std::span<double> out) const;          ///< fills state_size() numbers
   void restore(std::span<const double> in);        ///< as restore() of a snapshot, from such numbers
   void check(std::span<const double> in) const;    ///< throws what restore() would
+  /// The same less the room that nothing takes (state_io.hpp): the state says how many they are. They fill the front of state_size()
+  /// numbers, and are taken from the front of any; both return the count.
+  std::size_t save_tight(std::span<double> out) const;
+  std::size_t restore_tight(std::span<const double> in);  ///< as restore()
   [[nodiscard]] std::uint64_t state_hash() const;  ///< of the numbers that save() gives; allocates
 
   /// For a host whose step may fail: keep() before it notes what snapshot() would hold, in memory that the robot has for it, so that
