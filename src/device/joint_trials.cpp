@@ -20,11 +20,14 @@ JointTrials::JointTrials(std::size_t joints, std::size_t together, std::string_v
   if (instructions != "none") {
     const LaneTable& first = lane_table(instructions);
     for (const LaneTable& table : lane_tables())
-      if (table.width <= first.width) tables_.push_back(&table);
+      if (table.width <= first.width) {
+        tables_.push_back({&table, std::vector<Line>(lines(table.plan_bytes))});
+        table.begin_plan(tables_.back().plan.data());
+      }
   }
   // A block's lanes are at most twice its units, whichever table serves it.
   std::size_t lines_a_lane = 0;
-  for (const LaneTable* table : tables_)
+  for (const auto& [table, plan] : tables_)
     lines_a_lane = std::max(lines_a_lane, lines(table->trials_bytes) / static_cast<std::size_t>(table->width) + 1);
   const std::size_t at_once = std::max(together, std::min(joints, kWidest));
   if (joints > 1) memory_.resize(2 * at_once * lines_a_lane);
@@ -32,11 +35,11 @@ JointTrials::JointTrials(std::size_t joints, std::size_t together, std::string_v
 }
 
 /// The fewest lanes that hold so many units, or the most that there are.
-const LaneTable* JointTrials::table_for(std::size_t units) const noexcept {
-  const LaneTable* best = nullptr;
-  for (const LaneTable* table : tables_)
-    if (best == nullptr || static_cast<std::size_t>(table->width) >= units) best = table;
-  return best;
+JointTrials::Lanes& JointTrials::lanes_for(std::size_t units) noexcept {
+  Lanes* best = &tables_.front();
+  for (Lanes& lanes : tables_)
+    if (static_cast<std::size_t>(lanes.table->width) >= units) best = &lanes;
+  return *best;
 }
 
 void JointTrials::group(std::span<const JointInStep> joints) noexcept {
@@ -50,15 +53,15 @@ void JointTrials::group(std::span<const JointInStep> joints) noexcept {
     if (!tables_.empty() && beside(first))
       while (end < joints.size() && joints[end].unit == joints[first].unit && beside(end)) ++end;
     if (end - first == 1) {
-      groups_.push_back({first++, 1, nullptr, nullptr});
+      groups_.push_back({first++, 1});
       continue;
     }
     while (first < end) {
-      const LaneTable* const table = table_for(end - first);
+      auto& [table, plan] = lanes_for(end - first);
       const std::size_t count = std::min(end - first, static_cast<std::size_t>(table->width));
       const std::size_t needs = lines(table->trials_bytes);
       if (used + needs > memory_.size()) used = 0;  // of solve_each: one block after the other
-      groups_.push_back({first, count, table, &memory_[used]});
+      groups_.push_back({first, count, table, &memory_[used], plan.data()});
       used += needs;
       first += count;
     }
@@ -209,7 +212,7 @@ std::size_t JointTrials::solve_each(std::span<const JointInStep> joints, std::sp
     const Inputs in(g, joints);
     Row torque;
     std::array<Row, 2> motor_angle, motor_speed;
-    const unsigned open = g.lanes->step(*first.unit, g.block,
+    const unsigned open = g.lanes->step(*first.unit, g.block, g.plan,
                                         {in.dt_s,
                                          in.angle.data(),
                                          in.speed.data(),

@@ -35,6 +35,8 @@ struct UnitBatch::Impl {
     prepare_ticks();
     memory.reset(static_cast<std::byte*>(::operator new[](blocks* table.block_bytes, std::align_val_t{kAlignment})));
     for (std::size_t b = 0; b < blocks; ++b) table.begin(block(b));
+    plan.reset(static_cast<std::byte*>(::operator new[](table.plan_bytes, std::align_val_t{kAlignment})));
+    table.begin_plan(plan.get());
     for (auto* column : {&angle, &speed, &inverse_inertia, &torque, &voltage[0], &voltage[1], &motor_angle[0], &motor_angle[1],
                          &motor_speed[0], &motor_speed[1]})
       column->assign(padded, 0.0);
@@ -77,7 +79,7 @@ struct UnitBatch::Impl {
   bool laned = false;
   std::vector<UnitState> states;  // of blocks in lanes: all but the physics
   std::vector<char> in_lanes;
-  std::unique_ptr<std::byte[], FreeBlocks> memory;
+  std::unique_ptr<std::byte[], FreeBlocks> memory, plan;
   std::vector<char> ticks_in_lanes;  // only of blocks whose physics are
   std::size_t loop_bytes = 0;
   std::unique_ptr<std::byte[], FreeBlocks> loops;

@@ -113,7 +113,7 @@ void UnitBatch::Impl::step_in_lanes(std::size_t b, std::int64_t dt_ns) noexcept 
     io.motor_angle[m] = &motor_angle[m][first];
     io.motor_speed[m] = &motor_speed[m][first];
   }
-  unsettled += static_cast<std::size_t>(std::popcount(table.step(unit, block(b), io)));
+  unsettled += static_cast<std::size_t>(std::popcount(table.step(unit, block(b), plan.get(), io)));
 }
 
 void UnitBatch::Impl::step_block(std::size_t b, std::int64_t dt_ns) noexcept {

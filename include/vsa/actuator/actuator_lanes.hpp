@@ -112,10 +112,12 @@ void Actuator::begin(ActuatorStateOf<T>& s, SegmentOf<T>& seg, double h_s, const
     if constexpr (lanes::kScalar<T>) seg.pwm[i].cycle = nullptr;
   }
   seg.tried = false;
-  seg.found.rub = {};
-  seg.found.straight_J = {step::kFar, step::kFar};
-  seg.found.tension = {1.0, 1.0};
-  seg.found.stick = {};
+  if (tendon_.coulomb_Nm <= 0 || springs<T>() < 2) {  // else add_tendon_friction fills them before anybody reads them
+    seg.found.rub = {};
+    seg.found.straight_J = {step::kFar, step::kFar};
+    seg.found.tension = {1.0, 1.0};
+    seg.found.stick = {};
+  }
   seg.damping = params_.tendon.damping_s / h_s;
   const T own = in.lead.share + 3.0 * in.lead.spring;
   seg.whole = own + 2.0 * in.lead.before;
@@ -277,15 +279,18 @@ void Actuator::drive_motors(ActuatorStateOf<T>& s, const SegmentOf<T>& seg) cons
     const T torque = t.mean.load[i] + t.friction[i].torque;
     const T voltage = seg.in.terminal[i] == drive::Terminal::driven ? seg.in.voltage[i] : T(0.0);
     const bool pwm = seg.chopped(i);
-    drive::MotorStepOf<T> step;
     if constexpr (lanes::kScalar<T>) {
       if (seg.in.terminal[i] == drive::Terminal::open && side.motor.inductance_H) {
         l.copper += 0.5 * *side.motor.inductance_H * m.current * m.current;  // an opened winding burns what it stored
         m.current = 0;
       }
-      if (pwm) step = pwm_step(l, side, seg.pwm[i], torque);
     }
-    if (!pwm) step = seg.stepper[i]->step(m, voltage, torque);
+    const drive::MotorStepOf<T> step = [&] {
+      if constexpr (lanes::kScalar<T>) {
+        if (pwm) return pwm_step(l, side, seg.pwm[i], torque);
+      }
+      return seg.stepper[i]->step(m, voltage, torque);
+    }();
     l.motor_friction += drive::friction_heat(seg.gear[i], seg.gear_u[i], t.friction[i]);
     if (!pwm) {
       l.supply += voltage * step.charge;

@@ -84,7 +84,12 @@ class JointTrials {
   struct Group {
     std::size_t first = 0, count = 1;
     const LaneTable* lanes = nullptr;
-    Line* block = nullptr;
+    Line *block = nullptr, *plan = nullptr;
+  };
+  /// The kernel for so many lanes.
+  struct Lanes {
+    const LaneTable* table = nullptr;
+    std::vector<Line> plan;  // of solve_each
   };
   static constexpr std::size_t kWidest = 8;
   using Row = std::array<double, kWidest>;  // a number for each lane
@@ -94,9 +99,9 @@ class JointTrials {
   static void put(const Group& group, std::span<const JointInStep> joints) noexcept;
   static void take(const Group& group, std::span<const JointInStep> joints) noexcept;
   struct Inputs;
-  [[nodiscard]] const LaneTable* table_for(std::size_t units) const noexcept;
+  [[nodiscard]] Lanes& lanes_for(std::size_t units) noexcept;
 
-  std::vector<const LaneTable*> tables_;  // the widest first
+  std::vector<Lanes> tables_;  // the widest first
   std::vector<Line> memory_;
   std::vector<Group> groups_;
 };

@@ -29,11 +29,11 @@ template <class Turns, class Rejected>
 inline bool follow_word(std::int32_t sample, bool whole_jump, std::int32_t& last, Turns& turns, Rejected& rejected) noexcept {
   const std::int32_t jump = sample - last;
   const std::int32_t size = whole_jump ? (jump < 0 ? -jump : jump) : low_16(low_16(jump) < 0 ? -low_16(jump) : low_16(jump));
-  const std::int32_t down = jump > kTurnJump ? 1 : 0, up = jump < -kTurnJump ? 1 : 0;
-  const bool suspect = down + up == 0 && size > kSuspectJump;
-  const std::int32_t refused = suspect ? rejected + 1 : 0;
-  const bool believed = refused == 0 || refused >= kBelieveAfter;
-  turns = static_cast<Turns>(wrap_shl(turns + up - down, 24) >> 24);  // it wraps as the firmware's own 8 bits
+  const std::int32_t wraps = static_cast<std::int32_t>(jump < -kTurnJump) - static_cast<std::int32_t>(jump > kTurnJump);
+  const std::int32_t suspect = static_cast<std::int32_t>(wraps == 0) & static_cast<std::int32_t>(size > kSuspectJump);
+  const std::int32_t refused = (rejected + 1) & -suspect;
+  const bool believed = (static_cast<std::int32_t>(refused == 0) | static_cast<std::int32_t>(refused >= kBelieveAfter)) != 0;
+  turns = static_cast<Turns>(wrap_shl(turns + wraps, 24) >> 24);  // it wraps as the firmware's own 8 bits
   rejected = static_cast<Rejected>(believed ? 0 : refused);
   last = believed ? sample : last;
   return believed;
@@ -64,8 +64,13 @@ inline std::int32_t limited_sum(std::int32_t sum, std::int32_t error, std::int32
 inline std::int32_t limited_pwm(std::int32_t pwm, std::int32_t limit_pct) noexcept {
   return (((pwm * 1024) / kPwmMax) * limit_pct) >> 10;
 }
+/// −1 where negative, else 0.
+inline std::int32_t negative(std::int32_t a) noexcept { return a >> 31; }
 /// Signed by the direction.
-inline std::int32_t signed_duty(bool forward, std::int32_t out) noexcept { return forward ? std::abs(out) : -std::abs(out); }
+inline std::int32_t signed_duty(bool forward, std::int32_t out) noexcept {
+  const std::int32_t back = static_cast<std::int32_t>(forward) - 1;
+  return (std::abs(out) ^ back) - back;
+}
 
 /// The filter's memory, mA << 6, after one more reading.
 inline std::int32_t filtered(std::int32_t filter, std::int32_t sign, std::int32_t adc) noexcept {

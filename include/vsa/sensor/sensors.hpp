@@ -14,6 +14,7 @@
 #include <limits>
 #include <string_view>
 
+#include "vsa/lanes.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa {
@@ -30,36 +31,50 @@ struct EncoderParams {
 };
 void validate(const EncoderParams& params, std::string_view where, Problems& problems);  ///< 1 … 16 bits
 
+/// Counts of an encoder's turn, from where it reads zero, not yet cut to whole ones; 0 beyond 1e15, where a double has none left to tell.
+/// One angle, or several side by side (vsa/lanes.hpp).
+template <class T>
+[[nodiscard]] T encoder_counts(const EncoderParams& p, T angle_rad) noexcept {
+  constexpr double kFarthest = 1e15;
+  const T counts = (angle_rad + p.zero_rad) * (static_cast<double>(1 << p.bits) / (2.0 * kPi));
+  return lanes::where<T>(lanes::abs(counts) < kFarthest, counts);
+}
+/// The raw word of |counts| < 1e15, floored, within its turn.
+[[nodiscard]] inline std::int32_t encoder_word(const EncoderParams& p, double counts) noexcept {
+  const auto cut = static_cast<std::int64_t>(counts);
+  const std::int64_t floored = cut - (static_cast<double>(cut) > counts ? 1 : 0);
+  // A turn's bits moved to the top: what overflows is other turns, and the first is the sign.
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(floored) << (32 - p.bits)) >> 16;
+}
+
 /// Position within the turn in raw units (65536 per turn), as a signed 16-bit number: −32768…32767.
 [[nodiscard]] inline std::int32_t encoder_sample(const EncoderParams& p, double angle_rad) noexcept {
-  constexpr double kFarthest = 1e15;  // counts; beyond it a double has no counts left to tell
-  const double counts = (angle_rad + p.zero_rad) * (static_cast<double>(1 << p.bits) / (2.0 * kPi));
-  const double near = std::abs(counts) < kFarthest ? counts : 0.0;
-  const auto cut = static_cast<std::int64_t>(near);
-  const std::int64_t floored = cut - (static_cast<double>(cut) > near ? 1 : 0);
-  const auto count = static_cast<std::int32_t>(floored & ((std::int64_t{1} << p.bits) - 1));
-  const std::int32_t raw = count << (16 - p.bits);
-  return raw >= 32768 ? raw - 65536 : raw;
+  return encoder_word(p, encoder_counts(p, angle_rad));
 }
 
 inline constexpr int kAdcMax = 4095;     ///< of 12 bits
 inline constexpr int kAdcOffset = 1638;  ///< of both sensors, at no current and no voltage
 
 namespace detail {
-[[nodiscard]] inline int to_counts(double milli, double counts_per_milli) noexcept {
-  const bool finite = std::abs(milli) <= std::numeric_limits<double>::max();
-  const int counts = static_cast<int>(std::clamp(finite ? milli * counts_per_milli : 1e6, -1e6, 1e6));
-  return std::clamp(counts + kAdcOffset, 0, kAdcMax);
+template <class T>
+[[nodiscard]] T to_counts(T milli, double counts_per_milli) noexcept {
+  const lanes::Truth<T> finite = lanes::abs(milli) <= std::numeric_limits<double>::max();
+  return lanes::clamp(lanes::select(finite, milli * counts_per_milli, T(1e6)), -1e6, 1e6);
 }
 }  // namespace detail
 
-/// Counts, cut at the ends of the scale.
-[[nodiscard]] inline int current_adc(double magnitude_A) noexcept {
-  return detail::to_counts(std::abs(magnitude_A) * 1e3, 8192.0 / 25771.0);
+/// An ADC's whole counts, its offset added, cut at the ends of its scale.
+[[nodiscard]] inline int adc(double counts) noexcept { return std::clamp(static_cast<int>(counts) + kAdcOffset, 0, kAdcMax); }
+/// Counts of a current, without the offset and not yet cut to whole ones. One current, or several side by side (vsa/lanes.hpp).
+template <class T>
+[[nodiscard]] T current_counts(T magnitude_A) noexcept {
+  return detail::to_counts<T>(lanes::abs(magnitude_A) * 1e3, 8192.0 / 25771.0);
 }
+/// Counts, cut at the ends of the scale.
+[[nodiscard]] inline int current_adc(double magnitude_A) noexcept { return adc(current_counts(magnitude_A)); }
 [[nodiscard]] MilliAmp current_from_adc(int counts) noexcept;  ///< as the program reads them, mA
 /// Counts, cut at the ends of the scale.
-[[nodiscard]] inline int supply_adc(double volts) noexcept { return detail::to_counts(volts * 1e3, 128.0 / 1952.0); }
+[[nodiscard]] inline int supply_adc(double volts) noexcept { return adc(detail::to_counts(volts * 1e3, 128.0 / 1952.0)); }
 [[nodiscard]] MilliVolt supply_from_adc(int counts) noexcept;  ///< as the program reads them, mV
 
 }  // namespace vsa::sensor

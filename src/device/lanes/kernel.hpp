@@ -5,7 +5,6 @@
 // the same function of another set: no containers here, memory comes from the caller.
 #pragma once
 
-#include <cstring>
 #include <new>
 
 #include "device/lanes/loop.hpp"
@@ -13,17 +12,6 @@
 #include "device/unit_lanes.hpp"
 
 namespace vsa::device::lane_kernel {
-
-template <class T>
-[[nodiscard]] T load(const double* from) noexcept {
-  T p;
-  std::memcpy(&p.v, from, sizeof p.v);
-  return p;
-}
-template <class T>
-void store(T p, double* to) noexcept {
-  std::memcpy(to, &p.v, sizeof p.v);
-}
 
 template <class T>
 struct ShaftInOf {
@@ -63,11 +51,11 @@ void set_out(Unit& unit, const UnitPhysics<T>& physics, Block<T>& s, Plan<T>& pl
 }
 
 template <class T>
-[[gnu::flatten]] unsigned step(Unit& unit, void* memory, const BlockStep& io) noexcept {
+[[gnu::flatten]] unsigned step(Unit& unit, void* memory, void* scratch, const BlockStep& io) noexcept {
   Block<T>& s = *std::launder(static_cast<Block<T>*>(memory));
+  Plan<T>& plan = *std::launder(static_cast<Plan<T>*>(scratch));
   const UnitPhysics<T> physics = unit.template steps<T>();
   const double dt = io.dt_s;
-  Plan<T> plan;
   plan.in = {load<T>(io.angle), load<T>(io.speed), load<T>(io.inverse_inertia)};
   set_out<T>(unit, physics, s, plan, dt, {load<T>(io.voltage[0]), load<T>(io.voltage[1])});
   T torque;
@@ -178,6 +166,10 @@ template <class T>
 void begin(void* memory) noexcept {
   new (memory) Block<T>();
 }
+template <class T>
+void begin_plan(void* memory) noexcept {
+  new (memory) Plan<T>();
+}
 
 template <class T>
 [[nodiscard]] LaneTable table(const char* name) noexcept {
@@ -189,6 +181,8 @@ template <class T>
           begin<T>,
           put<T>,
           take<T>,
+          sizeof(Plan<T>),
+          begin_plan<T>,
           step<T>,
           sizeof(Trials<T>),
           begin_trials<T>,

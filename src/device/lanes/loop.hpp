@@ -5,14 +5,36 @@
 // state.
 #pragma once
 
+#include <cstring>
+
 #include "device/lanes/table.hpp"
 #include "vsa/device/unit.hpp"
 #include "vsa/firmware/loop_steps.hpp"
 
+// Lanes of a loop don't depend on each other, and its W rounds are to become one of vectors, not W of single numbers. Only AVX-512 has
+// the conversions that make it worth it.
+#if defined(__AVX512DQ__) && defined(__GNUC__) && !defined(__clang__)
+#define VSA_LANES _Pragma("GCC ivdep") _Pragma("GCC unroll 1")
+#else
+#define VSA_LANES
+#endif
+
 namespace vsa::device::lane_kernel {
+
+template <class T>
+[[nodiscard]] T load(const double* from) noexcept {
+  T p;
+  std::memcpy(&p.v, from, sizeof p.v);
+  return p;
+}
+template <class T>
+void store(T p, double* to) noexcept {
+  std::memcpy(to, &p.v, sizeof p.v);
+}
 
 template <int W, class Isa>
 struct Loop {
+  using T = lanes::Pack<W, Isa>;
   using Row = std::int32_t[W];
   Row meas[3], meas_old[3], last_sample[3], turns[3], rejected[3], offset[3], word[3];
   Row ref[2], ref_old[2], ref_new[2], error_sum[2], pwm[2], duty[2], forward[2], sign[2], filter[2], current_old[2],
@@ -80,12 +102,20 @@ struct Loop {
     c.loop_phase = 0;
   }
 
+  // The loops over lanes work on copies, of which a compiler knows that nothing else points at them.
+
   void read_encoders(const TickStep& io) noexcept {
     const double* angle[3] = {io.motor_angle[0], io.motor_angle[1], io.angle};
     for (int e = 0; e < 3; ++e) {
+      const sensor::EncoderParams encoder = io.encoder[e];
       const double zero = e == 2 ? io.shaft_zero_rad : 0.0;
+      double counts[W];
       // The shaft's zero is added as Unit::read_sensors does; a motor's angle plus 0 would lose the sign of −0 only.
-      for (int l = 0; l < W; ++l) word[e][l] = sensor::encoder_sample(io.encoder[e], e == 2 ? angle[e][l] + zero : angle[e][l]);
+      const T at = load<T>(angle[e]);
+      store(sensor::encoder_counts<T>(encoder, e == 2 ? at + zero : at), counts);
+      VSA_LANES
+      for (int l = 0; l < W; ++l) word[e][l] = sensor::encoder_word(encoder, counts[l]);
+      VSA_LANES
       for (int l = 0; l < W; ++l) {
         const std::int32_t sample = firmware::steps::low_16(firmware::wrap_add(word[e][l], offset[e][l]));
         const bool believed = firmware::steps::follow_word(sample, false, last_sample[e][l], turns[e][l], rejected[e][l]);
@@ -94,30 +124,35 @@ struct Loop {
     }
   }
 
-  void drive(int m, const TickStep& io) noexcept {
+  void drive(int m, std::int32_t limit_pct) noexcept {
     using namespace firmware;
+    VSA_LANES
     for (int l = 0; l < W; ++l) {
       const std::int32_t error = wrap_sub(ref[m][l], meas[m][l]);
       error_sum[m][l] = steps::limited_sum(error_sum[m][l], error, loop_facts(Generation::v6).sum_max);
       const std::int32_t asked =
           steps::position_pwm(p[l], i[l], d[l], error, error_sum[m][l], wrap_sub(meas_old[m][l], meas[m][l]));
-      forward[m][l] = asked >= 0 ? 1 : 0;
+      forward[m][l] = 1 + steps::negative(asked);
       pwm[m][l] = std::clamp(asked, -steps::kPwmMax, steps::kPwmMax);
-      const std::int32_t out = steps::limited_pwm(pwm[m][l], io.limit_pct);
-      sign[m][l] = out >= 0 ? 1 : -1;
+      const std::int32_t out = steps::limited_pwm(pwm[m][l], limit_pct);
+      sign[m][l] = 1 | steps::negative(out);
       duty[m][l] = steps::signed_duty(forward[m][l] != 0, out);
     }
   }
 
   void tick(const TickStep& io) noexcept {
     std::int32_t adc[2][W];
-    for (int m = 0; m < 2; ++m)
-      for (int l = 0; l < W; ++l)
-        adc[m][l] =
-            sensor::current_adc((io.voltage[m][l] - io.back_emf_Vs_per_rad[m] * io.motor_speed[m][l]) / io.resistance_Ohm[m]);
+    for (int m = 0; m < 2; ++m) {
+      double counts[W];
+      const T back_emf = io.back_emf_Vs_per_rad[m] * load<T>(io.motor_speed[m]);
+      store(sensor::current_counts<T>((load<T>(io.voltage[m]) - back_emf) / io.resistance_Ohm[m]), counts);
+      VSA_LANES
+      for (int l = 0; l < W; ++l) adc[m][l] = sensor::adc(counts[l]);
+    }
     read_encoders(io);
     for (int m = 0; m < 2; ++m) {
-      drive(m, io);
+      drive(m, io.limit_pct);
+      VSA_LANES
       for (int l = 0; l < W; ++l) {
         filter[m][l] = firmware::steps::filtered(filter[m][l], sign[m][l], adc[m][l]);
         current_before[m][l] = current_old[m][l];
@@ -151,3 +186,5 @@ void refer(void* memory, int lane, const std::int32_t* refs) noexcept {
 }
 
 }  // namespace vsa::device::lane_kernel
+
+#undef VSA_LANES
