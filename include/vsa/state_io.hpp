@@ -4,8 +4,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <span>
+#include <type_traits>
+#include <vector>
 
 #include "vsa/bits.hpp"
 #include "vsa/state_walk.hpp"
@@ -52,11 +57,74 @@ class Writer : public Sink {
   [[nodiscard]] const StateFault& fault() const noexcept { return fault_; }  ///< none: what was written is a state
   [[nodiscard]] std::size_t at() const noexcept { return at_; }              ///< numbers written so far
 
+ protected:
+  void begin_at(std::span<double> out, std::size_t at) noexcept {
+    out_ = out;
+    at_ = at;
+    fault_ = {};
+  }
+  void pass(std::size_t n) noexcept { at_ += n; }
+
  private:
   std::span<double> out_;
   Room room_;
   std::size_t at_ = 0;
   StateFault fault_;
+};
+
+/// A Writer that fills numbers of its own again and again, of one object's states, without the room that nothing takes. It leaves
+/// those of a struct that changes seldom (vsa/state_fields.hpp) where they stand and are still right, by the struct's bytes.
+class Rewriter : public Writer {
+ public:
+  /// For states of up to `most` numbers; before them stand `own` ones, which are whoever's it is.
+  Rewriter(std::size_t own, std::size_t most) : Writer({}, Room::left_out), own_(own), numbers_(own + most) { begin(); }
+  ~Rewriter() = default;
+  Rewriter(const Rewriter&) = delete;
+  Rewriter& operator=(const Rewriter&) = delete;
+  Rewriter(Rewriter&&) noexcept = default;
+  Rewriter& operator=(Rewriter&&) noexcept = default;
+
+  void begin() noexcept {
+    begin_at(numbers_, own_);
+    next_ = 0;
+  }
+  /// All up to at(), from elsewhere.
+  void assign(std::span<const double> numbers) noexcept {
+    std::copy(numbers.begin(), numbers.end(), numbers_.begin());
+    begin_at(numbers_, numbers.size());
+    seen_.clear();
+    bytes_.clear();
+  }
+  [[nodiscard]] std::span<double> own() noexcept { return std::span(numbers_).first(own_); }
+  [[nodiscard]] std::span<const double> numbers() const noexcept { return std::span(numbers_).first(at()); }  ///< own ones, too
+
+  template <class S>
+  [[nodiscard]] bool unchanged(const S& s) {
+    static_assert(std::is_trivially_copyable_v<S>);
+    if (next_ < seen_.size() && seen_[next_].size != sizeof(S)) seen_.resize(next_);
+    if (next_ == seen_.size()) {
+      seen_.push_back({kNowhere, next_ == 0 ? 0 : seen_.back().bytes + seen_.back().size, sizeof(S)});
+      bytes_.resize(seen_.back().bytes + sizeof(S));
+    }
+    Seen& last = seen_[next_++];
+    if (last.at == at() && std::memcmp(&bytes_[last.bytes], &s, sizeof(S)) == 0) {
+      pass(size_of(s));
+      return true;
+    }
+    std::memcpy(&bytes_[last.bytes], &s, sizeof(S));
+    last.at = at();
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+  struct Seen {
+    std::size_t at, bytes, size;  ///< its numbers; in bytes_
+  };
+  std::size_t own_, next_ = 0;
+  std::vector<double> numbers_;
+  std::vector<Seen> seen_;  ///< of each such struct, in the walk's order, what its numbers were made of
+  std::vector<std::byte> bytes_;
 };
 
 /// A state out of its numbers. The first fault is kept; what is loaded after it is worth nothing.

@@ -48,11 +48,7 @@ std::size_t size_of(const seat::Seat& seat, std::size_t units) {
   return out;
 }
 
-/// Of one that was saved here.
-std::span<const double> counting(std::span<const double> state) { return state.first(static_cast<std::size_t>(state[kCount])); }
-
-void put(std::span<const double> from, std::span<double> state) {
-  const std::span<const double> now = counting(from);
+void put(std::span<const double> now, std::span<double> state) {
   if (now.size() > state.size())
     throw InputError({"vsasim.unit", "state", std::to_string(now.size()) + " numbers", "is more than there is room for",
                       "up to " + std::to_string(state.size()) + ": no trajectories"});
@@ -98,9 +94,9 @@ Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units
   for (std::size_t i = 0; i < units_.size(); ++i) {
     if (is_broken(specs[i])) seat_->robot().set_faults(i, faults_of(specs[i]));  // throws here what no unit of that type can have
   }
-  here_.assign(head(units_.size()) + seat_->state_size(), 0);
+  here_ = state::Rewriter(head(units_.size()), seat_->state_size());
   note();
-  first_ = here_;
+  first_.assign(here_.numbers().begin(), here_.numbers().end());
 }
 
 Units::Units(const Units& other, std::unique_ptr<seat::Seat> seat)
@@ -110,9 +106,11 @@ Units::Units(const Units& other, std::unique_ptr<seat::Seat> seat)
       tree_dofs_(other.tree_dofs_),
       seat_(std::move(seat)),
       size_(other.size_),
-      first_(other.first_),
-      here_(other.first_),
-      there_(true) {}
+      here_(head(units_.size()), seat_->state_size()),
+      there_(true),
+      first_(other.first_) {
+  here_.assign(first_);
+}
 
 Units::~Units() = default;
 
@@ -144,7 +142,7 @@ void Units::reset(std::span<double> state) const {
 
 /// By bits.
 bool Units::is_at(std::span<const double> state) const {
-  const std::span<const double> here = counting(here_);
+  const std::span<const double> here = here_.numbers();
   return there_ && here.size() <= state.size() && std::memcmp(here.data(), state.data(), here.size_bytes()) == 0;
 }
 
@@ -154,13 +152,14 @@ void Units::take(std::span<const double> state) {
   if (state[kCount] != static_cast<double>(count))
     throw InputError({"vsasim.unit", "state", std::to_string(state[kCount]), "isn't how many of its numbers count",
                       std::to_string(count)});
-  std::copy_n(state.begin(), count, here_.begin());
+  here_.assign(state.first(count));
   there_ = true;
 }
 
 void Units::note() {
-  const std::size_t first = head(units_.size());
-  here_[kCount] = static_cast<double>(first + seat_->save_tight(std::span(here_).subspan(first)));
+  here_.begin();
+  seat_->save_tight(here_);
+  here_.own()[kCount] = static_cast<double>(here_.at());
   there_ = true;
 }
 
@@ -174,11 +173,12 @@ void Units::begin() {
 }
 
 void Units::command(const mjModel& m, const mjData& d) {
-  const bool first = here_[kBegun] == 0;
+  const std::span<double> head = here_.own();
+  const bool first = head[kBegun] == 0;
   for (std::size_t i = 0; i < units_.size(); ++i) {
     const std::vector<int>& actuators = units_[i].actuators;
     std::array<std::optional<double>, 2> said;
-    double* taken = &here_[kTaken + 2 * i];
+    double* taken = &head[kTaken + 2 * i];
     for (std::size_t k = 0; k < actuators.size(); ++k) {
       const double u = control(m, d, actuators[k]);
       if (!std::isfinite(u) || (u == taken[k] && !first)) continue;
@@ -204,14 +204,14 @@ void Units::step(const mjModel& m, mjData& d) {
     }
   }
   seat_->step(step_ns(m));
-  here_[kBegun] = 1;
+  here_.own()[kBegun] = 1;
   note();
 }
 
 void Units::compute(const mjModel& m, mjData& d, std::span<const double> state) {
   observe(d, state);
   there_ = false;  // should anything throw
-  if (here_[kBegun] == 0) begin();
+  if (here_.own()[kBegun] == 0) begin();
   command(m, d);
   step(m, d);
   computed_ = true;
@@ -220,7 +220,7 @@ void Units::compute(const mjModel& m, mjData& d, std::span<const double> state) 
 void Units::advance(std::span<double> state) {
   if (!computed_) return;
   computed_ = false;
-  put(here_, state);
+  put(here_.numbers(), state);
   seat_->publish(0);
 }
 
@@ -238,7 +238,7 @@ void Units::observe(const mjData& d, std::span<const double> state) {
 void Units::copy_step(const Units& other) {
   computed_ = false;
   if (!other.computed_) return;
-  take(counting(other.here_));
+  take(other.here_.numbers());
   computed_ = true;
 }
 

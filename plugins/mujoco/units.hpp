@@ -33,6 +33,7 @@
 #include "mobility.hpp"
 #include "unit_spec.hpp"
 #include "vsa/seat/seat.hpp"
+#include "vsa/state_io.hpp"
 
 namespace vsa::mujoco {
 
@@ -110,10 +111,10 @@ class Units {
   std::vector<std::vector<int>> tree_dofs_;  ///< as the seat joins them
   std::unique_ptr<seat::Seat> seat_;
   std::size_t size_ = 0;
-  std::vector<double> first_;  ///< a state, and room for all that the seat may save: the first sample
   Mobility mobility_;
-  std::vector<double> here_;  ///< the same: where the seat is
-  bool there_ = false;        ///< it is
+  state::Rewriter here_{0, 0};  ///< the state that the seat is at
+  bool there_ = false;         ///< it is
+  std::vector<double> first_;  ///< that of the first sample
   bool computed_ = false;     ///< here_ is where the step that compute() foresaw leads
 };
 

@@ -199,7 +199,8 @@ struct Robot::Impl {
   /// Into `loaded`; how many it took. Throws what Robot::restore does.
   std::size_t read_numbers(std::span<const double> in, state::Room room);
   std::size_t restore_numbers(std::span<const double> in, state::Room room);
-  std::size_t write_numbers(std::span<double> out, state::Room room) const;
+  template <class Writer>
+  void write_numbers(Writer& writer) const;
 
   RobotConfig config;
   std::shared_ptr<const RobotConfig> made_of;  ///< the same, for snapshots

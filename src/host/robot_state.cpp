@@ -73,23 +73,27 @@ std::size_t Robot::Impl::read_numbers(std::span<const double> in, state::Room ro
   return reader.at();
 }
 
-std::size_t Robot::Impl::write_numbers(std::span<double> out, state::Room room) const {
-  check_state_size(out.size(), numbers);
-  state::Writer writer(out, room);
-  {
-    const QuietBuses quiet(buses);
-    state::walk_fields(writer, state);
-    for (const auto& bus : buses) walk_bus(writer, *bus);
-  }
-  if (writer.fault().there()) throw_if_any(writer.fault(), room == state::Room::kept ? layout() : StateLayout{});
-  return writer.at();
+template <class Writer>
+void Robot::Impl::write_numbers(Writer& writer) const {
+  const QuietBuses quiet(buses);
+  state::walk_fields(writer, state);
+  for (const auto& bus : buses) walk_bus(writer, *bus);
 }
 
 StateLayout Robot::state_layout() const { return impl_->layout(); }
 std::size_t Robot::state_size() const { return impl_->numbers; }
 
-void Robot::save(std::span<double> out) const { impl_->write_numbers(out, state::Room::kept); }
-std::size_t Robot::save_tight(std::span<double> out) const { return impl_->write_numbers(out, state::Room::left_out); }
+void Robot::save(std::span<double> out) const {
+  check_state_size(out.size(), impl_->numbers);
+  state::Writer writer(out);
+  impl_->write_numbers(writer);
+  if (writer.fault().there()) throw_if_any(writer.fault(), impl_->layout());
+}
+
+void Robot::save_tight(state::Rewriter& out) const {
+  impl_->write_numbers(out);
+  throw_if_any(out.fault(), {});
+}
 
 void Robot::check(std::span<const double> in) const { impl_->read_numbers(in, state::Room::kept); }
 

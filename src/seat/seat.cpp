@@ -240,11 +240,9 @@ void Seat::restore(std::span<const double> in) {
   set_own(loaded_);
 }
 
-std::size_t Seat::save_tight(std::span<double> out) const {
-  check_state_size(out.size(), state_size());
-  state::Writer writer(out, state::Room::left_out);
-  state::walk_fields(writer, own_);
-  return writer.at() + robot_.save_tight(out.subspan(writer.at(), robot_.state_size()));
+void Seat::save_tight(state::Rewriter& out) const {
+  state::walk_fields(out, own_);
+  robot_.save_tight(out);
 }
 
 std::size_t Seat::restore_tight(std::span<const double> in) {

@@ -12,6 +12,7 @@
 #include "vsa/bus/codec.hpp"
 #include "vsa/elastic/series_spring.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/state_io.hpp"
 
 long allocation_count();  // allocation_count.cpp
 
@@ -31,9 +32,9 @@ Numbers numbers_of(const Robot& robot) {
 
 /// Without the room that nothing takes.
 Numbers tight_of(const Robot& robot) {
-  Numbers out(robot.state_size());
-  out.resize(robot.save_tight(out));
-  return out;
+  vsa::state::Rewriter out(0, robot.state_size());
+  robot.save_tight(out);
+  return {out.numbers().begin(), out.numbers().end()};
 }
 
 RobotConfig some_robot(std::mt19937& random) {

@@ -146,7 +146,7 @@ class Seat {
   void restore(std::span<const double> in);  ///< as restore() of a snapshot, from such numbers
   void check(std::span<const double> in);    ///< throws what restore() would
   /// As host::Robot has them; the seat's own numbers come first.
-  std::size_t save_tight(std::span<double> out) const;
+  void save_tight(state::Rewriter& out) const;
   std::size_t restore_tight(std::span<const double> in);
   /// For a host whose step may fail: keep() before it, and go_back() to there. Nothing is allocated.
   void keep();
