@@ -9,7 +9,8 @@
 //
 // and everything else follows: layout, size, saving, loading with its checks. A member that isn't named doesn't compile. A struct
 // with bounds of its own says what is wrong with it: `const char* impossible() const noexcept`, null where nothing is. An
-// enumeration tells how many values it has, `constexpr int choices(E)`.
+// enumeration tells how many values it has, `constexpr int choices(E)`. One that changes seldom may say so, `static constexpr bool
+// kSeldom = true`: it is trivially copyable and has no Capped, and who writes states again and again then passes it by.
 //
 // Members: numbers, flags, enumerations, the quantities of vsa/units.hpp, such structs, std::array and std::optional of them;
 // std::vector, whose length is the object's own and stays; Capped, whose length is part of the state.
@@ -55,6 +56,12 @@ struct AnyMember {
   template <class T>
   requires(!kOptional<T>) operator T() const;  // never called
 };
+/// Says that it changes seldom.
+template <class T>
+inline constexpr bool kSeldom = requires {
+  requires T::kSeldom;
+};
+
 /// Whether an aggregate takes so many members.
 template <class T, std::size_t... I>
 constexpr bool takes(std::index_sequence<I...>) {

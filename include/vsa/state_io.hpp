@@ -4,19 +4,27 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <span>
+#include <type_traits>
+#include <vector>
 
 #include "vsa/bits.hpp"
 #include "vsa/state_walk.hpp"
 
 namespace vsa::state {
 
+/// What becomes of the room that nothing takes: as many zeros, or nothing, so that what follows moves up.
+enum class Room { kept, left_out };
+
 /// A state's numbers into a span that has room for all of it. A fault: it has more of something than there is room for.
 class Writer : public Sink {
  public:
   static constexpr bool kWantsRoom = false;  ///< whether a walk enters the room that nothing takes
-  explicit Writer(std::span<double> out) noexcept : out_(out) {}
+  explicit Writer(std::span<double> out, Room room = Room::kept) noexcept : out_(out), room_(room) {}
   template <class T>
   void leaf(const char*, const char*, const T& v) noexcept {
     put(&out_[at_], v);
@@ -42,23 +50,88 @@ class Writer : public Sink {
   }
   /// Leaves room for n numbers, all zero.
   void blank(std::size_t n) noexcept {
+    if (room_ == Room::left_out) return;
     std::fill_n(out_.begin() + static_cast<std::ptrdiff_t>(at_), n, 0.0);
     at_ += n;
   }
   [[nodiscard]] const StateFault& fault() const noexcept { return fault_; }  ///< none: what was written is a state
   [[nodiscard]] std::size_t at() const noexcept { return at_; }              ///< numbers written so far
 
+ protected:
+  void begin_at(std::span<double> out, std::size_t at) noexcept {
+    out_ = out;
+    at_ = at;
+    fault_ = {};
+  }
+  void pass(std::size_t n) noexcept { at_ += n; }
+
  private:
   std::span<double> out_;
+  Room room_;
   std::size_t at_ = 0;
   StateFault fault_;
+};
+
+/// A Writer that fills numbers of its own again and again, of one object's states, without the room that nothing takes. It leaves
+/// those of a struct that changes seldom (vsa/state_fields.hpp) where they stand and are still right, by the struct's bytes.
+class Rewriter : public Writer {
+ public:
+  /// For states of up to `most` numbers; before them stand `own` ones, which are whoever's it is.
+  Rewriter(std::size_t own, std::size_t most) : Writer({}, Room::left_out), own_(own), numbers_(own + most) { begin(); }
+  ~Rewriter() = default;
+  Rewriter(const Rewriter&) = delete;
+  Rewriter& operator=(const Rewriter&) = delete;
+  Rewriter(Rewriter&&) noexcept = default;
+  Rewriter& operator=(Rewriter&&) noexcept = default;
+
+  void begin() noexcept {
+    begin_at(numbers_, own_);
+    next_ = 0;
+  }
+  /// All up to at(), from elsewhere.
+  void assign(std::span<const double> numbers) noexcept {
+    std::copy(numbers.begin(), numbers.end(), numbers_.begin());
+    begin_at(numbers_, numbers.size());
+    seen_.clear();
+    bytes_.clear();
+  }
+  [[nodiscard]] std::span<double> own() noexcept { return std::span(numbers_).first(own_); }
+  [[nodiscard]] std::span<const double> numbers() const noexcept { return std::span(numbers_).first(at()); }  ///< own ones, too
+
+  template <class S>
+  [[nodiscard]] bool unchanged(const S& s) {
+    static_assert(std::is_trivially_copyable_v<S>);
+    if (next_ < seen_.size() && seen_[next_].size != sizeof(S)) seen_.resize(next_);
+    if (next_ == seen_.size()) {
+      seen_.push_back({kNowhere, next_ == 0 ? 0 : seen_.back().bytes + seen_.back().size, sizeof(S)});
+      bytes_.resize(seen_.back().bytes + sizeof(S));
+    }
+    Seen& last = seen_[next_++];
+    if (last.at == at() && std::memcmp(&bytes_[last.bytes], &s, sizeof(S)) == 0) {
+      pass(size_of(s));
+      return true;
+    }
+    std::memcpy(&bytes_[last.bytes], &s, sizeof(S));
+    last.at = at();
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+  struct Seen {
+    std::size_t at, bytes, size;  ///< its numbers; in bytes_
+  };
+  std::size_t own_, next_ = 0;
+  std::vector<double> numbers_;
+  std::vector<Seen> seen_;  ///< of each such struct, in the walk's order, what its numbers were made of
+  std::vector<std::byte> bytes_;
 };
 
 /// A state out of its numbers. The first fault is kept; what is loaded after it is worth nothing.
 class Reader : public Sink {
  public:
   static constexpr bool kWantsRoom = false;  ///< whether a walk enters the room that nothing takes
-  explicit Reader(std::span<const double> in) noexcept : in_(in) {}
+  explicit Reader(std::span<const double> in, Room room = Room::kept) noexcept : in_(in), room_(room) {}
   template <class T>
   void leaf(const char*, const char*, T& v) noexcept {
     if (room(kSlots<T>)) note(get(&in_[at_], v));
@@ -70,7 +143,7 @@ class Reader : public Sink {
   }
   template <class A>
   void bytes(const char*, A& v, std::size_t count, std::size_t most) noexcept {
-    if (room(packed(most))) note(get_bytes(&in_[at_], {v.data(), count}));
+    if (room(packed(count))) note(get_bytes(&in_[at_], {v.data(), count}));
     at_ += packed(count);
     blank(packed(most) - packed(count));
   }
@@ -86,6 +159,7 @@ class Reader : public Sink {
   }
   /// n numbers that a state has not.
   void blank(std::size_t n) noexcept {
+    if (room_ == Room::left_out) return;
     if (room(n)) {
       const auto rest = in_.subspan(at_, n);
       const auto it = std::find_if(rest.begin(), rest.end(), [](double v) { return bits_as<std::uint64_t>(v) != 0; });
@@ -102,13 +176,18 @@ class Reader : public Sink {
   [[nodiscard]] std::size_t at() const noexcept { return at_; }              ///< numbers read so far
 
  private:
-  [[nodiscard]] bool room(std::size_t n) const noexcept { return !fault_.there() && at_ + n <= in_.size(); }
+  [[nodiscard]] bool room(std::size_t n) noexcept {
+    if (at_ + n > in_.size() && !fault_.there())
+      fault_ = {in_.size(), static_cast<double>(in_.size()), "numbers are too few for this state", "as many as it says it has"};
+    return !fault_.there();
+  }
   void note(StateFault fault) noexcept {
     if (fault_.there() || !fault.there()) return;
     fault.offset += at_;
     fault_ = fault;
   }
   std::span<const double> in_;
+  Room room_;
   std::size_t at_ = 0;
   StateFault fault_;
 };

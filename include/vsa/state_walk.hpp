@@ -33,6 +33,8 @@ template <class Sink, class S>
 void walk_fields(Sink& sink, S& s) {
   using T = std::remove_const_t<S>;
   static_assert(names_all<T>(), "a member isn't named in fields(), or not where it stands");
+  if constexpr (kSeldom<T>)
+    if (sink.unchanged(s)) return;
   T::fields(s, [&sink](auto&&... members) {
     const auto all = std::forward_as_tuple(members...);
     [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -83,15 +85,14 @@ void walk_optional(Sink& sink, const char* name, const char* unit, T& v) {
   E value = given ? *v : E{};
   sink.enter(name);
   sink.leaf("given", "", given);
-  if constexpr (std::is_const_v<T>) {
+  if constexpr (Sink::kWantsRoom) {
     sink.leaf("value", unit, value);
   } else if (given) {
     sink.leaf("value", unit, value);
-    v = value;
   } else {
     sink.blank(kSlots<E>);
-    v = std::nullopt;
   }
+  if constexpr (!std::is_const_v<T>) v = given ? std::optional(value) : std::nullopt;
   sink.leave();
 }
 
@@ -137,6 +138,11 @@ struct Sink {
   void enter(const char*, std::size_t) noexcept {}  ///< element i of a member that is an array of structs
   void enter(std::size_t) noexcept {}               ///< item i of a Capped
   void leave() noexcept {}                          ///< what was entered last
+  /// A struct that changes seldom comes. True: it is gone past.
+  template <class S>
+  [[nodiscard]] bool unchanged(const S&) noexcept {
+    return false;
+  }
   /// A struct that has impossible() is complete.
   template <class S>
   void judge(const S&) noexcept {}

@@ -35,26 +35,27 @@ device::Faults faults_of(const UnitSpec& spec) { return config::read_faults(spec
 
 bool is_broken(const UnitSpec& spec) { return !spec.get("faults").empty(); }
 
-/// The parts of [head, the seat's numbers] that a state has, first and count of each.
-std::vector<std::pair<std::size_t, std::size_t>> parts_of(const seat::Seat& seat, std::size_t head) {
-  std::vector<std::pair<std::size_t, std::size_t>> out{{0, head}};
+// In a state.
+constexpr std::size_t kCount = 0, kBegun = 1, kTaken = 2;
+std::size_t head(std::size_t units) { return kTaken + 2 * units; }
+
+/// What a state has at most.
+std::size_t size_of(const seat::Seat& seat, std::size_t units) {
+  std::size_t out = head(units);
   const StateLayout layout = seat.state_layout();
-  for (const StateEntry& e : layout.entries()) {
-    if (e.name.find(".knot[") != std::string::npos) continue;
-    const std::size_t first = head + e.offset;
-    if (out.back().first + out.back().second == first) {
-      out.back().second += e.count;
-    } else {
-      out.emplace_back(first, e.count);
-    }
-  }
+  for (const StateEntry& e : layout.entries())
+    if (e.name.find(".knot[") == std::string::npos) out += e.count;
   return out;
 }
 
-std::size_t size_of(const std::vector<std::pair<std::size_t, std::size_t>>& parts) {
-  std::size_t out = 0;
-  for (const auto& part : parts) out += part.second;
-  return out;
+void put(std::span<const double> now, std::span<double> state) {
+  if (now.size() > state.size())
+    throw InputError({"vsasim.unit", "state", std::to_string(now.size()) + " numbers", "is more than there is room for",
+                      "up to " + std::to_string(state.size()) + ": no trajectories"});
+  const double before = state[kCount], most = static_cast<double>(state.size());
+  std::copy(now.begin(), now.end(), state.begin());
+  const std::span<double> rest = state.first(before >= 0 && before <= most ? static_cast<std::size_t>(before) : state.size());
+  if (rest.size() > now.size()) std::fill(rest.begin() + static_cast<std::ptrdiff_t>(now.size()), rest.end(), 0.0);
 }
 
 std::int64_t step_ns(const mjModel& m) { return std::llround(m.opt.timestep * 1e9); }
@@ -93,11 +94,9 @@ Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units
   for (std::size_t i = 0; i < units_.size(); ++i) {
     if (is_broken(specs[i])) seat_->robot().set_faults(i, faults_of(specs[i]));  // throws here what no unit of that type can have
   }
-  parts_ = parts_of(*seat_, head());
-  first_.assign(head() + seat_->state_size(), 0);
-  seat_->save(std::span(first_).subspan(head()));
-  here_ = first_;
-  there_ = true;
+  here_ = state::Rewriter(head(units_.size()), seat_->state_size());
+  note();
+  first_.assign(here_.numbers().begin(), here_.numbers().end());
 }
 
 Units::Units(const Units& other, std::unique_ptr<seat::Seat> seat)
@@ -107,10 +106,11 @@ Units::Units(const Units& other, std::unique_ptr<seat::Seat> seat)
       tree_dofs_(other.tree_dofs_),
       seat_(std::move(seat)),
       size_(other.size_),
-      parts_(other.parts_),
-      first_(other.first_),
-      here_(other.first_),
-      there_(true) {}
+      here_(head(units_.size()), seat_->state_size()),
+      there_(true),
+      first_(other.first_) {
+  here_.assign(first_);
+}
 
 Units::~Units() = default;
 
@@ -132,7 +132,7 @@ std::size_t Units::state_size(std::span<const UnitSpec> specs) {
   std::vector<std::size_t> all(specs.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   seat->join({all});
-  return size_of(parts_of(*seat, 1 + 2 * specs.size()));
+  return size_of(*seat, specs.size());
 }
 
 void Units::reset(std::span<double> state) const {
@@ -140,30 +140,26 @@ void Units::reset(std::span<double> state) const {
   put(first_, state);
 }
 
-void Units::put(std::span<const double> all, std::span<double> state) const {
-  double* to = state.data();
-  for (const auto& [first, count] : parts_) to = std::copy_n(&all[first], count, to);
-}
-
 /// By bits.
 bool Units::is_at(std::span<const double> state) const {
-  const double* from = state.data();
-  for (const auto& [first, count] : parts_) {
-    if (std::memcmp(&here_[first], from, count * sizeof(double)) != 0) return false;
-    from += count;
-  }
-  return there_;
+  const std::span<const double> here = here_.numbers();
+  return there_ && here.size() <= state.size() && std::memcmp(here.data(), state.data(), here.size_bytes()) == 0;
 }
 
-void Units::go_to(std::span<const double> state) {
-  if (is_at(state)) return;
-  there_ = false;  // should restore() throw
-  const double* from = state.data();
-  for (const auto& [first, count] : parts_) {
-    std::copy_n(from, count, &here_[first]);
-    from += count;
-  }
-  seat_->restore(std::span<const double>(here_).subspan(head()));
+void Units::take(std::span<const double> state) {
+  there_ = false;  // should anything throw
+  const std::size_t first = head(units_.size()), count = first + seat_->restore_tight(state.subspan(first));
+  if (state[kCount] != static_cast<double>(count))
+    throw InputError({"vsasim.unit", "state", std::to_string(state[kCount]), "isn't how many of its numbers count",
+                      std::to_string(count)});
+  here_.assign(state.first(count));
+  there_ = true;
+}
+
+void Units::note() {
+  here_.begin();
+  seat_->save_tight(here_);
+  here_.own()[kCount] = static_cast<double>(here_.at());
   there_ = true;
 }
 
@@ -177,11 +173,12 @@ void Units::begin() {
 }
 
 void Units::command(const mjModel& m, const mjData& d) {
-  const bool first = here_[0] == 0;
+  const std::span<double> head = here_.own();
+  const bool first = head[kBegun] == 0;
   for (std::size_t i = 0; i < units_.size(); ++i) {
     const std::vector<int>& actuators = units_[i].actuators;
     std::array<std::optional<double>, 2> said;
-    double* taken = &here_[1 + 2 * i];
+    double* taken = &head[kTaken + 2 * i];
     for (std::size_t k = 0; k < actuators.size(); ++k) {
       const double u = control(m, d, actuators[k]);
       if (!std::isfinite(u) || (u == taken[k] && !first)) continue;
@@ -207,13 +204,14 @@ void Units::step(const mjModel& m, mjData& d) {
     }
   }
   seat_->step(step_ns(m));
-  here_[0] = 1;
-  seat_->save(std::span(here_).subspan(head()));
+  here_.own()[kBegun] = 1;
+  note();
 }
 
 void Units::compute(const mjModel& m, mjData& d, std::span<const double> state) {
   observe(d, state);
-  if (here_[0] == 0) begin();
+  there_ = false;  // should anything throw
+  if (here_.own()[kBegun] == 0) begin();
   command(m, d);
   step(m, d);
   computed_ = true;
@@ -222,13 +220,13 @@ void Units::compute(const mjModel& m, mjData& d, std::span<const double> state) 
 void Units::advance(std::span<double> state) {
   if (!computed_) return;
   computed_ = false;
-  put(here_, state);
+  put(here_.numbers(), state);
   seat_->publish(0);
 }
 
 void Units::observe(const mjData& d, std::span<const double> state) {
   computed_ = false;
-  go_to(state);
+  if (!is_at(state)) take(state);
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     host::JointIn& in = seat_->in()[i];
     in.angle_rad = d.qpos[joints_[i].q];
@@ -240,10 +238,8 @@ void Units::observe(const mjData& d, std::span<const double> state) {
 void Units::copy_step(const Units& other) {
   computed_ = false;
   if (!other.computed_) return;
-  here_ = other.here_;
-  there_ = false;
-  seat_->restore(std::span<const double>(here_).subspan(head()));
-  there_ = computed_ = true;
+  take(other.here_.numbers());
+  computed_ = true;
 }
 
 void Units::read(std::size_t unit, std::span<double> out) const {

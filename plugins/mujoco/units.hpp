@@ -13,8 +13,9 @@
 // and whatever was computed between. What decides the future is `state`: numbers without pointers, which MuJoCo copies and sets as it
 // likes. So a MuJoCo that steps several mjData needs one object each, and none of them knows of another.
 //
-// STATE of n units: [begun, which controls were taken as commands (n × 2), the seat's (vsa/seat/seat.hpp, with room for one tree of
-// all), 0 …]. Left out of the seat's: the knots of trajectories, which nobody can command here.
+// STATE of n units: [how many numbers of it count, begun, which controls were taken as commands (n × 2), the seat's without the room
+// that nothing takes (vsa/seat/seat.hpp), 0 …]. There is room for one tree of all, and for no knots of trajectories, which nobody can
+// command here. Before anything is made of a state, all of it that counts is compared with the one that this object is at.
 //
 // CONTROLS say where a unit shall be, from the first step on: equilibrium (rad; m of a linear actuator) and preset (the type's unit);
 // or the voltages of its motors. A number that isn't finite leaves the command as it is. They become commands on the unit's line at
@@ -27,12 +28,12 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "mobility.hpp"
 #include "unit_spec.hpp"
 #include "vsa/seat/seat.hpp"
+#include "vsa/state_io.hpp"
 
 namespace vsa::mujoco {
 
@@ -97,13 +98,12 @@ class Units {
     double start = 0;
   };
   Units(const Units& other, std::unique_ptr<seat::Seat> seat);
-  void go_to(std::span<const double> state);
   void begin();
   void command(const mjModel& m, const mjData& d);
   void step(const mjModel& m, mjData& d);
   [[nodiscard]] bool is_at(std::span<const double> state) const;
-  void put(std::span<const double> all, std::span<double> state) const;  ///< head and the seat's numbers → state
-  [[nodiscard]] std::size_t head() const { return 1 + 2 * units_.size(); }
+  void take(std::span<const double> state);
+  void note();  ///< here_, of the seat
 
   std::vector<Unit> units_;
   std::vector<Joint> joints_;
@@ -111,11 +111,10 @@ class Units {
   std::vector<std::vector<int>> tree_dofs_;  ///< as the seat joins them
   std::unique_ptr<seat::Seat> seat_;
   std::size_t size_ = 0;
-  std::vector<std::pair<std::size_t, std::size_t>> parts_;  ///< of head and the seat's numbers, first and count: what the state has
-  std::vector<double> first_;                               ///< head and the seat's numbers, of the first sample
   Mobility mobility_;
-  std::vector<double> here_;  ///< the same, where the seat is
-  bool there_ = false;        ///< it is
+  state::Rewriter here_{0, 0};  ///< the state that the seat is at
+  bool there_ = false;         ///< it is
+  std::vector<double> first_;  ///< that of the first sample
   bool computed_ = false;     ///< here_ is where the step that compute() foresaw leads
 };
 

@@ -14,6 +14,7 @@
 add() does the same to the text of an MJCF, and needs no MuJoCo.
 """
 import ctypes
+import dataclasses
 import os
 import pathlib
 import xml.etree.ElementTree as ElementTree
@@ -21,7 +22,7 @@ from typing import Any, Dict, List, Mapping, Optional, Union
 
 from . import ActuatorType
 
-__all__ = ["PLUGIN", "READINGS", "add", "attach", "library", "load"]
+__all__ = ["PLUGIN", "READINGS", "Unit", "add", "attach", "library", "load"]
 
 #: As a model names the plug-in.
 PLUGIN = "vsasim.unit"
@@ -103,51 +104,64 @@ def load(version: Optional[str] = None) -> str:
     return path
 
 
-def _config(given: Mapping[str, Any], override: Optional[Mapping[str, Any]]) -> Dict[str, str]:
-    out = {key: value if isinstance(value, str) else repr(value) for key, value in given.items() if value is not None}
-    if override:
-        out["override"] = " ".join(f"{k}={v if isinstance(v, str) else repr(v)}" for k, v in override.items())
-    return out
+@dataclasses.dataclass
+class Unit:
+    """A unit as add() and attach() take it, and as the plug-in's `config` has it (docs/howto/mujoco.md)."""
+
+    joint: str  #: it drives
+    type: str  #: of actuator: a name, or with `controls` a file
+    name: str = ""  #: of its instance, its sensor and its first actuator; the second is `name`_preset. Empty: the joint's
+    override: Optional[Mapping[str, Union[bool, _Number, str]]] = None  #: values that replace the type's
+    equilibrium: Optional[_Number] = None  #: where it begins
+    preset: Optional[_Number] = None  #: with which it begins
+    bus: Optional[str] = None  #: the line that it shares with others that name it
+    id: Optional[int] = None  #: its id there
+    faults: Optional[str] = None  #: "noise_rad=0.001 seed=3"
+    controls: Optional[int] = None  #: how many actuators; None: as many as its type takes
+    sensor: bool = True  #: it has one
+
+    def __post_init__(self) -> None:
+        self.name = self.name or self.joint
+
+    def config(self) -> Dict[str, str]:
+        """What its instance of the plug-in says."""
+        given = {key: getattr(self, key) for key in ("type", "equilibrium", "preset", "bus", "id", "faults")}
+        out = {key: _text(value) for key, value in given.items() if value is not None}
+        if self.override:
+            out["override"] = " ".join(f"{key}={_text(value)}" for key, value in self.override.items())
+        return out
+
+    def actuators(self) -> List[str]:
+        """Their names, one a control. InputError: no such type; ValueError: a file, whose controls nobody told."""
+        if self.controls is not None:
+            endings = ["", "_preset"][: self.controls]
+        elif "/" in self.type or self.type.endswith(".toml"):
+            raise ValueError(
+                f"{self.type!r} is a file: say how many controls it takes (controls=2: equilibrium and preset; 1: equilibrium)"
+            )
+        else:
+            made = ActuatorType.load(self.type, dict(self.override or {}))
+            if made.controller == "motor_voltages":
+                endings = ["_motor_1", "_motor_2"][: len(made.references(0.0, 0.0))]
+            else:
+                endings = ["", "_preset"] if made.preset_unit or made.controller == "torque_servo" else [""]
+        return [f"{self.name}{ending}" for ending in endings]
 
 
-def _endings(type: str, override: Optional[Mapping[str, Any]], controls: Optional[int]) -> List[str]:
-    """Of the names of a unit's actuators, one a control."""
-    if controls is not None:
-        return ["", "_preset"][:controls]
-    if "/" in type or type.endswith(".toml"):
-        raise ValueError(f"{type!r} is a file: say how many controls it takes (controls=2: equilibrium and preset; 1: equilibrium)")
-    made = ActuatorType.load(type, dict(override or {}))
-    if made.controller == "motor_voltages":
-        return ["_motor_1", "_motor_2"][: len(made.references(0.0, 0.0))]
-    return ["", "_preset"] if made.preset_unit or made.controller == "torque_servo" else [""]
+def _text(value: Any) -> str:
+    return value if isinstance(value, str) else repr(value)
 
 
-def add(
-    mjcf: str,
-    joint: str,
-    type: str,
-    *,
-    name: Optional[str] = None,
-    override: Optional[Mapping[str, Union[bool, _Number, str]]] = None,
-    equilibrium: Optional[_Number] = None,
-    preset: Optional[_Number] = None,
-    bus: Optional[str] = None,
-    id: Optional[int] = None,
-    faults: Optional[str] = None,
-    controls: Optional[int] = None,
-    sensor: bool = True,
-) -> str:
-    """An MJCF's text with a unit of that actuator type on a joint: an instance of vsasim.unit, its actuators (`name`, and
-    `name`_preset where the type takes a preset; default: the joint's name) and a sensor `name`. `type` is a name, or with `controls`
-    (how many actuators) a file; the other arguments are the plug-in's (docs/howto/mujoco.md). ValueError: no such joint, or a unit
-    of this name; InputError: no such type."""
+def add(mjcf: str, joint: str, type: str, **more: Any) -> str:
+    """An MJCF's text with a unit of that actuator type on a joint: an instance of vsasim.unit, its actuators and a sensor. `more`: the
+    other members of Unit. ValueError: no such joint, or a unit of this name; InputError: no such type."""
+    unit = Unit(joint, type, **more)
     root = ElementTree.fromstring(mjcf)
     if not any(j.get("name") == joint for j in root.iter("joint")):
         names = sorted({j.get("name") for j in root.iter("joint")} - {None})
         raise ValueError(f"no joint {joint!r} in the MJCF (there are {', '.join(names) or 'none with a name'})")
-    name = name or joint
-    if any(i.get("name") == name for i in root.iter("instance")):
-        raise ValueError(f"the MJCF has an instance {name!r} already")
+    if any(i.get("name") == unit.name for i in root.iter("instance")):
+        raise ValueError(f"the MJCF has an instance {unit.name!r} already")
 
     def child(of: ElementTree.Element, tag: str, **attributes: str) -> ElementTree.Element:
         for found in of.findall(tag):
@@ -155,52 +169,36 @@ def add(
                 return found
         return ElementTree.SubElement(of, tag, attributes)
 
-    instances = child(child(root, "extension"), "plugin", plugin=PLUGIN)
-    instance = ElementTree.SubElement(instances, "instance", name=name)
-    given = dict(type=type, equilibrium=equilibrium, preset=preset, bus=bus, id=id, faults=faults)
-    for key, value in _config(given, override).items():
+    instance = ElementTree.SubElement(child(child(root, "extension"), "plugin", plugin=PLUGIN), "instance", name=unit.name)
+    for key, value in unit.config().items():
         ElementTree.SubElement(instance, "config", key=key, value=value)
-    for ending in _endings(type, override, controls):
-        ElementTree.SubElement(child(root, "actuator"), "plugin", name=name + ending, joint=joint, plugin=PLUGIN, instance=name)
-    if sensor:
-        ElementTree.SubElement(child(root, "sensor"), "plugin", name=name, plugin=PLUGIN, instance=name)
+    for name in unit.actuators():
+        ElementTree.SubElement(child(root, "actuator"), "plugin", name=name, joint=joint, plugin=PLUGIN, instance=unit.name)
+    if unit.sensor:
+        ElementTree.SubElement(child(root, "sensor"), "plugin", name=unit.name, plugin=PLUGIN, instance=unit.name)
     return ElementTree.tostring(root, encoding="unicode")
 
 
-def attach(
-    spec: Any,
-    joint: str,
-    type: str,
-    *,
-    name: Optional[str] = None,
-    override: Optional[Mapping[str, Union[bool, _Number, str]]] = None,
-    equilibrium: Optional[_Number] = None,
-    preset: Optional[_Number] = None,
-    bus: Optional[str] = None,
-    id: Optional[int] = None,
-    faults: Optional[str] = None,
-    controls: Optional[int] = None,
-    sensor: bool = True,
-) -> Any:
+def attach(spec: Any, joint: str, type: str, **more: Any) -> Any:
     """As add(), to a mujoco.MjSpec that isn't compiled yet; load() comes before. Returns the instance, whose `config` may be
     changed. RuntimeError: a MuJoCo whose MjSpec can't activate plug-ins (before 3.3.1): use add() there."""
     if not hasattr(spec, "activate_plugin"):
         raise RuntimeError("this MuJoCo's MjSpec can't activate plug-ins: vsasim.mujoco.add() works on the MJCF's text")
     import mujoco
 
-    name = name or joint
+    unit = Unit(joint, type, **more)
+    names = unit.actuators()
     spec.activate_plugin(PLUGIN)
-    instance = spec.add_plugin(name=name, plugin_name=PLUGIN, active=True)
-    instance.config = _config(dict(type=type, equilibrium=equilibrium, preset=preset, bus=bus, id=id, faults=faults), override)
+    instance = spec.add_plugin(name=unit.name, plugin_name=PLUGIN, active=True)
+    instance.config = unit.config()
 
     def of_instance(element: Any) -> None:
-        element.plugin.name = name
+        element.plugin.name = unit.name
         element.plugin.plugin_name = PLUGIN
         element.plugin.active = True
 
-    for ending in _endings(type, override, controls):
-        actuator = spec.add_actuator(name=name + ending, trntype=mujoco.mjtTrn.mjTRN_JOINT, target=joint)
-        of_instance(actuator)
-    if sensor:
-        of_instance(spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_PLUGIN))
+    for name in names:
+        of_instance(spec.add_actuator(name=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, target=joint))
+    if unit.sensor:
+        of_instance(spec.add_sensor(name=unit.name, type=mujoco.mjtSensor.mjSENS_PLUGIN))
     return instance

@@ -17,6 +17,7 @@
 #include "host/state.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/host/robot.hpp"
+#include "vsa/state_io.hpp"
 
 namespace vsa::host {
 
@@ -195,7 +196,11 @@ struct Robot::Impl {
   void drop_unused();
   [[nodiscard]] std::size_t size_as_numbers() const;
   [[nodiscard]] StateLayout layout() const;
-  void read_numbers(std::span<const double> in);  ///< into `loaded`; throws what Robot::restore does
+  /// Into `loaded`; how many it took. Throws what Robot::restore does.
+  std::size_t read_numbers(std::span<const double> in, state::Room room);
+  std::size_t restore_numbers(std::span<const double> in, state::Room room);
+  template <class Writer>
+  void write_numbers(Writer& writer) const;
 
   RobotConfig config;
   std::shared_ptr<const RobotConfig> made_of;  ///< the same, for snapshots

@@ -49,12 +49,13 @@ std::size_t Robot::Impl::size_as_numbers() const {
   return sizer.size();
 }
 
-void Robot::Impl::read_numbers(std::span<const double> in) {
-  check_state_size(in.size(), numbers);
-  state::Reader reader(in);
+std::size_t Robot::Impl::read_numbers(std::span<const double> in, state::Room room) {
+  if (room == state::Room::kept) check_state_size(in.size(), numbers);
+  state::Reader reader(in, room);
   state::walk_fields(reader, loaded.state);
   for (BusState& bus : loaded.buses) state::walk_fields(reader, bus);
   StateFault fault = reader.fault();
+  if (!fault.there()) in = in.first(reader.at());
   for (std::size_t b = 0; b < buses.size() && !fault.there(); ++b) {
     if (const char* wrong = buses[b]->impossible(loaded.buses[b], loaded.state.time_ns))
       fault = {in.size() - 1, in.back(), "ends what can't be", wrong};
@@ -68,30 +69,42 @@ void Robot::Impl::read_numbers(std::span<const double> in) {
       if (t < low - kFarthestNs || t > high + kFarthestNs)
         fault = {in.size() - 1, static_cast<double>(t), "is a time that no program waits for", "within 11 days of the robot's, ns"};
   }
-  if (fault.there()) throw_if_any(fault, layout());
+  if (fault.there()) throw_if_any(fault, room == state::Room::kept ? layout() : StateLayout{});
+  return reader.at();
+}
+
+template <class Writer>
+void Robot::Impl::write_numbers(Writer& writer) const {
+  const QuietBuses quiet(buses);
+  state::walk_fields(writer, state);
+  for (const auto& bus : buses) walk_bus(writer, *bus);
 }
 
 StateLayout Robot::state_layout() const { return impl_->layout(); }
 std::size_t Robot::state_size() const { return impl_->numbers; }
 
 void Robot::save(std::span<double> out) const {
-  const Impl& d = *impl_;
-  check_state_size(out.size(), d.numbers);
+  check_state_size(out.size(), impl_->numbers);
   state::Writer writer(out);
-  {
-    const QuietBuses quiet(d.buses);
-    state::walk_fields(writer, d.state);
-    for (const auto& bus : d.buses) walk_bus(writer, *bus);
-  }
-  if (writer.fault().there()) throw_if_any(writer.fault(), d.layout());
+  impl_->write_numbers(writer);
+  if (writer.fault().there()) throw_if_any(writer.fault(), impl_->layout());
 }
 
-void Robot::check(std::span<const double> in) const { impl_->read_numbers(in); }
+void Robot::save_tight(state::Rewriter& out) const {
+  impl_->write_numbers(out);
+  throw_if_any(out.fault(), {});
+}
 
-void Robot::restore(std::span<const double> in) {
-  impl_->read_numbers(in);
-  impl_->loaded.made_of = impl_->made_of;
-  impl_->restore(impl_->loaded);
+void Robot::check(std::span<const double> in) const { impl_->read_numbers(in, state::Room::kept); }
+
+void Robot::restore(std::span<const double> in) { impl_->restore_numbers(in, state::Room::kept); }
+std::size_t Robot::restore_tight(std::span<const double> in) { return impl_->restore_numbers(in, state::Room::left_out); }
+
+std::size_t Robot::Impl::restore_numbers(std::span<const double> in, state::Room room) {
+  const std::size_t count = read_numbers(in, room);
+  loaded.made_of = made_of;
+  restore(loaded);
+  return count;
 }
 
 std::uint64_t Robot::state_hash() const {

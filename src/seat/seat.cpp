@@ -240,6 +240,20 @@ void Seat::restore(std::span<const double> in) {
   set_own(loaded_);
 }
 
+void Seat::save_tight(state::Rewriter& out) const {
+  state::walk_fields(out, own_);
+  robot_.save_tight(out);
+}
+
+std::size_t Seat::restore_tight(std::span<const double> in) {
+  state::Reader reader(in, state::Room::left_out);
+  state::walk_fields(reader, loaded_);
+  throw_if_any(reader.fault(), {});
+  const std::size_t count = reader.at() + robot_.restore_tight(in.subspan(reader.at()));
+  set_own(loaded_);
+  return count;
+}
+
 void Seat::keep() {
   robot_.keep();
   kept_ = own_;

@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include "vsa/errors.hpp"
 #include "vsa/state_io.hpp"
@@ -17,6 +18,7 @@ using vsa::InputError;
 using vsa::StateKind;
 using vsa::state::Capped;
 using vsa::state::Reader;
+using vsa::state::Room;
 using vsa::state::Writer;
 
 enum class Colour : std::uint8_t { red, green, blue };
@@ -122,6 +124,30 @@ TEST(StateNumbers, ComeBackBitForBit) {
   EXPECT_EQ(back.maybe, 0.25);
   ASSERT_EQ(back.list.size(), 2u);
   EXPECT_EQ(back.list[1].ticks.value, 2);
+}
+
+TEST(StateNumbers, ComeBackWithoutTheRoomThatNothingTakes) {
+  for (const bool maybe : {false, true}) {
+    for (std::size_t items = 0; items <= 3; ++items) {
+      Everything e = some();
+      if (!maybe) e.maybe.reset();
+      e.list.resize(items);
+      std::vector<double> out(vsa::state::size_of(e) + 1, 7.0);
+      Writer writer(out, Room::left_out);
+      vsa::state::walk_fields(writer, e);
+      EXPECT_EQ(writer.at(), vsa::state::size_of(e) - 2 * (3 - items) - (maybe ? 0 : 1));
+      EXPECT_EQ(out[writer.at()], 7.0) << "what is behind stays";
+      Everything back = some();  // has more
+      Reader reader(out, Room::left_out);
+      vsa::state::walk_fields(reader, back);
+      ASSERT_FALSE(reader.fault().there());
+      EXPECT_EQ(reader.at(), writer.at());
+      EXPECT_EQ(vsa::first_difference(numbers(back), numbers(e)), std::nullopt);
+      Reader cut(std::span<const double>(out).first(writer.at() - 1), Room::left_out);
+      vsa::state::walk_fields(cut, back);
+      EXPECT_TRUE(cut.fault().there());
+    }
+  }
 }
 
 TEST(StateNumbers, ManyWideIntegersAndFloatsComeBack) {

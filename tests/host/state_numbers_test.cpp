@@ -12,6 +12,7 @@
 #include "vsa/bus/codec.hpp"
 #include "vsa/elastic/series_spring.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/state_io.hpp"
 
 long allocation_count();  // allocation_count.cpp
 
@@ -27,6 +28,13 @@ Numbers numbers_of(const Robot& robot) {
   Numbers out(robot.state_size());
   robot.save(out);
   return out;
+}
+
+/// Without the room that nothing takes.
+Numbers tight_of(const Robot& robot) {
+  vsa::state::Rewriter out(0, robot.state_size());
+  robot.save_tight(out);
+  return {out.numbers().begin(), out.numbers().end()};
 }
 
 RobotConfig some_robot(std::mt19937& random) {
@@ -92,9 +100,14 @@ TEST(RobotAsNumbers, GoesOnBitForBitInAnyOfManySituations) {
       one.run(static_cast<int>(1 + random() % 60));
     }
     other.run(3);
-    const Numbers at = numbers_of(one.robot);
+    const Numbers at = numbers_of(one.robot), tight = tight_of(one.robot);
+    EXPECT_LT(tight.size(), at.size()) << n;
     busy += at[one.robot.state_layout().find("bus spine/chain.speech.count")->offset] > 0 ? 1 : 0;
-    ASSERT_NO_THROW(other.robot.restore(at)) << n;
+    if (n % 2 == 0) {
+      ASSERT_NO_THROW(other.robot.restore(at)) << n;
+    } else {
+      ASSERT_EQ(other.robot.restore_tight(tight), tight.size()) << n;
+    }
     EXPECT_EQ(vsa::first_difference(numbers_of(other.robot), at), std::nullopt) << n;
     other.in = one.in, other.t_ns = one.t_ns;
     for (Bench* bench : {&one, &other}) happen(*bench, n);
@@ -213,17 +226,24 @@ TEST(RobotAsNumbers, OfAUnitOnASerialPortComeBackInTheMiddleOfAStore) {
 }
 
 /// After which the robot must at least go on without breaking a promise.
-void step_a_little(const RobotConfig& config, const Numbers& numbers, int& taken) {
+void step_a_little(const RobotConfig& config, const Numbers& numbers, int& taken, bool tight = false) {
   Bench bench(config);
   const Numbers before = numbers_of(bench.robot);
+  std::size_t count = numbers.size();
   try {
-    bench.robot.restore(numbers);
+    if (tight) {
+      count = bench.robot.restore_tight(numbers);
+    } else {
+      bench.robot.restore(numbers);
+    }
   } catch (const InputError&) {
     EXPECT_EQ(vsa::first_difference(numbers_of(bench.robot), before), std::nullopt) << "nothing has changed";
     return;
   }
   ++taken;
-  EXPECT_EQ(vsa::first_difference(numbers_of(bench.robot), numbers), std::nullopt) << "what is taken is given back";
+  EXPECT_EQ(vsa::first_difference(tight ? tight_of(bench.robot) : numbers_of(bench.robot), std::span(numbers).first(count)),
+            std::nullopt)
+      << "what is taken is given back";
   bench.t_ns = 20'000'000;
   bench.run(5);
 }
@@ -233,22 +253,37 @@ TEST(RobotAsNumbers, AnyWrongNumberIsRefusedOrDoesNoHarm) {
   Bench bench(config);
   happen(bench, 2);
   bench.run(20);
-  const Numbers good = numbers_of(bench.robot);
+  const Numbers all = numbers_of(bench.robot), few = tight_of(bench.robot);
   const double huge = 1e300, infinite = std::numeric_limits<double>::infinity();
   int taken = 0, tried = 0;
   std::mt19937 random(5);
   const std::vector<double> strange{0,    -0.0,  1,        -1,          0.5, 7, 255, 65535, -2147483648.0, 2147483647.0,
                                     huge, -huge, infinite, std::nan("")};
-  for (std::size_t i = 0; i < good.size(); ++i) {
-    for (std::size_t k = i % 3; k < strange.size(); k += 3) {
-      Numbers bad = good;
-      bad[i] = strange[k];
-      ++tried;
-      step_a_little(config, bad, taken);
+  for (const Numbers* good : {&all, &few}) {
+    for (std::size_t i = 0; i < good->size(); ++i) {
+      for (std::size_t k = i % 3; k < strange.size(); k += 3) {
+        Numbers bad = *good;
+        bad[i] = strange[k];
+        ++tried;
+        step_a_little(config, bad, taken, good == &few);
+      }
     }
   }
   EXPECT_GT(taken, tried / 20);
   EXPECT_LT(taken, tried * 19 / 20);
+}
+
+TEST(RobotAsNumbers, WithoutRoomAreRefusedWhereTheyEndTooEarly) {
+  Bench bench(vsa::test::chain(2));
+  happen(bench, 1);
+  bench.run(30);
+  const Numbers good = tight_of(bench.robot);
+  const Numbers before = numbers_of(bench.robot);
+  for (std::size_t n = 0; n < good.size(); ++n) {
+    EXPECT_THROW(bench.robot.restore_tight(std::span(good).first(n)), InputError) << n;
+    ASSERT_EQ(vsa::first_difference(numbers_of(bench.robot), before), std::nullopt) << n;
+  }
+  EXPECT_EQ(bench.robot.restore_tight(good), good.size());
 }
 
 TEST(RobotAsNumbers, RandomNumbersAreRefused) {
@@ -263,6 +298,7 @@ TEST(RobotAsNumbers, RandomNumbersAreRefused) {
       v = n % 2 == 0 ? std::bit_cast<double>(bits) : static_cast<double>(bits % 5);
     }
     step_a_little(config, noise, taken);
+    step_a_little(config, noise, taken, true);
   }
   EXPECT_EQ(taken, 0);
   EXPECT_THROW(bench.robot.restore(std::span<const double>(noise).first(noise.size() - 1)), InputError);

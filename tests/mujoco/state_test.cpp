@@ -79,6 +79,93 @@ TEST(State, ACopyGoesOnAsTheOtherAndTheyDontMix) {
   EXPECT_EQ(three.all(), one.all());
 }
 
+TEST(State, ACopyIsSteppedWhileTheOtherIs) {
+  const Rig rig(snake());
+  Data one(rig), lone(rig);
+  run(one, rig, 20, 0);
+  run(lone, rig, 120, 0);
+  Data two(one);
+  std::thread other([&] { run(two, rig, 100, 0); });
+  run(one, rig, 100, 0);
+  other.join();
+  EXPECT_EQ(one.all(), lone.all());
+  EXPECT_EQ(two.all(), lone.all());
+}
+
+TEST(State, AnyOldOneGoesOnAsItDid) {
+  const Rig rig(snake());
+  Data data(rig), other(rig);
+  std::vector<std::vector<double>> at{data.all()};
+  for (int k = 0; k < 60; ++k) {
+    run(data, rig, 1, 0);
+    at.push_back(data.all());
+  }
+  for (std::size_t k = 0; k < 60; ++k) {
+    const std::size_t back = (k * 37) % 60;
+    for (Data* d : {&data, &other}) {
+      d->set_all(at[back]);
+      if (k % 3 == 0) d->forward();
+      if (k % 3 == 0) d->set_all(at[back]);  // mj_forward leaves its solver another first guess
+      run(*d, rig, 1, 0);
+      ASSERT_EQ(d->all(), at[back + 1]) << back;
+    }
+  }
+}
+
+/// Another number of its kind, as far as one can tell.
+double changed(double v) { return v == 0 ? 1 : v == 1 ? 0 : v == std::trunc(v) ? v + 1 : v * 1.001; }
+
+TEST(State, ANumberThatSomebodyOverwritesCountsWhicheverItIs) {
+  // Units that are at the state before it against others that have never seen it.
+  const Rig rig(mjcf_of());
+  Data used(rig);
+  for (int k = 0; k < 30; ++k) {
+    used.d().ctrl[0] = 0.02 * k;
+    used.step();
+  }
+  const std::vector<double> here = used.all();
+  const auto step = [](Data& d) {  // what it tells, or that it refuses
+    std::vector<double> out;
+    try {
+      d.forward();
+      out.assign(d.sensor(0).begin(), d.sensor(0).end());
+      d.step();
+    } catch (const InputError&) {
+      return out;
+    }
+    const std::vector<double> all = d.all();
+    out.insert(out.end(), all.begin(), all.end());
+    return out;
+  };
+  used.set_all(here);
+  const std::vector<double> plain = step(used);
+  const std::size_t units = here.size() - used.plugin_state().size();
+  const auto count = static_cast<std::size_t>(here[units]);
+  std::size_t refused = 0, told = 0, moved = 0;
+  for (std::size_t i = units; i < here.size(); ++i) {
+    std::vector<double> there = here;
+    there[i] = changed(here[i]);
+    used.set_all(here);
+    used.forward();  // its units are there, and have foreseen a step
+    used.set_all(there);
+    Data fresh(rig);
+    fresh.set_all(there);
+    std::vector<double> out = step(used);
+    ASSERT_EQ(out, step(fresh)) << "number " << i - units;
+    if (i >= units + count) {
+      out[kReadings + i] = plain[kReadings + i];
+      ASSERT_EQ(out, plain) << "room";
+      continue;
+    }
+    refused += out.size() < here.size() ? 1 : 0;
+    told += out.size() > here.size() && !std::equal(out.begin(), out.begin() + kReadings, plain.begin()) ? 1 : 0;
+    moved += out.size() > here.size() && out != plain ? 1 : 0;
+  }
+  EXPECT_GT(refused, 5u);
+  EXPECT_GT(told, 10u);
+  EXPECT_GT(moved, count / 2) << "of " << count;
+}
+
 TEST(State, ACopyBetweenForwardAndStepGoesOn) {
   const Rig rig(snake());
   Data one(rig);

@@ -84,6 +84,7 @@ struct MemoryState {
       current;    ///< what the loop uses
   Memory user,    ///< the EEPROM's first page
       factory;    ///< the EEPROM's page of defaults
+  static constexpr bool kSeldom = true;  ///< for the walk over states
   static auto fields(auto& s, auto&& visit) {
     return visit("stored", "", s.stored, "current", "", s.current, "user", "", s.user, "factory", "", s.factory);
   }

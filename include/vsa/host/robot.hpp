@@ -42,6 +42,10 @@
 #include "vsa/owner.hpp"
 #include "vsa/state.hpp"
 
+namespace vsa::state {
+class Rewriter;
+}
+
 namespace vsa::host {
 
 /// What a host tells of one joint at the start of a step.
@@ -234,6 +238,9 @@ class Robot {
   void save(std::span<double> out) const;          ///< fills state_size() numbers
   void restore(std::span<const double> in);        ///< as restore() of a snapshot, from such numbers
   void check(std::span<const double> in) const;    ///< throws what restore() would
+  /// The same less the room that nothing takes (vsa/state_io.hpp), for who does it at every step: the state says how many they are.
+  void save_tight(state::Rewriter& out) const;            ///< behind what was written there since its begin()
+  std::size_t restore_tight(std::span<const double> in);  ///< as restore(), from the front; how many it took
   [[nodiscard]] std::uint64_t state_hash() const;  ///< of the numbers that save() gives; allocates
 
   /// For a host whose step may fail: keep() before it notes what snapshot() would hold, in memory that the robot has for it, so that

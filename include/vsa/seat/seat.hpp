@@ -145,6 +145,9 @@ class Seat {
   void save(std::span<double> out) const;                                                            ///< fills state_size() numbers
   void restore(std::span<const double> in);  ///< as restore() of a snapshot, from such numbers
   void check(std::span<const double> in);    ///< throws what restore() would
+  /// As host::Robot has them; the seat's own numbers come first.
+  void save_tight(state::Rewriter& out) const;
+  std::size_t restore_tight(std::span<const double> in);
   /// For a host whose step may fail: keep() before it, and go_back() to there. Nothing is allocated.
   void keep();
   void go_back();  ///< to where keep() was called last
@@ -181,7 +184,7 @@ class Seat {
   void stop(const std::string& why);
   void tell(const std::string& line) const;
   void tell_notices();
-  void read_own(std::span<const double> in);  ///< into loaded_; throws InputError
+  void read_own(std::span<const double> in);  ///< of all numbers, into loaded_; throws InputError
   void set_own(const Own& own);
 
   std::string model_;
