@@ -21,6 +21,7 @@
 # make stiffness-uses   what stiffness is good for (docs/explanation/what-stiffness-is-good-for.md): pages in out/stiffness_uses; minutes
 # make snake-travel   how far the snake gets over its terrains (docs/explanation/snake.md), a sweep; about 15 minutes
 # make packages   Debian packages, in build/packages/packages (docs/howto/packages.md); make check-packages   installed, used, upgraded, purged in a bare Debian 12; as root
+# make check-abi   what programs that link the shared library rely on against the record of this minor version; make record-abi   writes that (packaging/abi)
 # make dist   the source archive, built without npm and git; in build/dist; make check-dist   builds and runs it so
 # make check-reproducible   both made again in a clone elsewhere: the same bytes (REPRODUCIBLE_IN keeps the clone); make sign   signs SIGN/SHA256SUMS, with KEY
 JOBS ?= $(shell nproc)
@@ -31,7 +32,7 @@ SIGN ?= build/packages/packages
 VSA := $(BUILD)/bin/vsa
 
 .PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage soak check-asan check-tsan tidy check-all format \
-  check-format stiffness-uses snake-travel packages check-packages dist check-dist check-reproducible sign clean
+  check-format stiffness-uses snake-travel packages check-packages check-abi record-abi dist check-dist check-reproducible sign clean
 
 all: build
 
@@ -178,6 +179,12 @@ packages:
 	@sh scripts/setup.sh
 	@sh scripts/setup.sh packages
 	@JOBS=$(JOBS) sh scripts/packages.sh
+
+check-abi record-abi:
+	@sh scripts/setup.sh test
+	@cmake --preset release -DVSA_SHARED=ON $(CMAKE_FLAGS) > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa_shared -- --quiet
+	@python3 scripts/abi.py $(@:-abi=) $(BUILD)
 
 dist: setup
 	@cmake --preset release $(CMAKE_FLAGS) > /dev/null

@@ -33,7 +33,7 @@ esac
 # The page tests drive Debian's Chromium, the man page's groff; a developer's tools are asked for by name: setup.sh test tidy
 for group in "$@"; do
   case "$group" in
-    test) packages="$packages $browser groff-base libopenmpi-dev openmpi-bin iproute2" ;;
+    test) packages="$packages $browser groff-base libopenmpi-dev openmpi-bin iproute2 abigail-tools" ;;
     mpi) packages="$packages libopenmpi-dev openmpi-bin" ;;
     soak) packages="$packages python3-matplotlib" ;;
     coverage) packages="$packages gcovr" ;;

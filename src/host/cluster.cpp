@@ -23,6 +23,16 @@ bool usable(std::span<const double> matrix, std::size_t n) noexcept {
   return true;
 }
 
+/// Where the host has no matrix for a joint.
+double own(const device::Unit& unit, const JointIn& joint) noexcept {
+  return joint.inverse_inertia ? *joint.inverse_inertia : 1.0 / unit.config().actuator.shaft_inertia_kgm2;
+}
+
+void begin_step(const device::JointInStep& j, const JointIn& in, double inverse_inertia, std::int64_t t_ns,
+                std::int64_t dt_ns) noexcept {
+  j.unit->begin_step(*j.state, *j.plan, t_ns, dt_ns, {in.angle_rad, in.speed_rad_per_s, inverse_inertia, in.placed});
+}
+
 /// Groups of buses by the trees between them.
 std::vector<std::size_t> group_buses(const ClusterParts& parts) {
   std::vector<std::size_t> group(parts.buses.size());
@@ -81,7 +91,11 @@ Cluster::Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees)
           std::stable_partition(trees_.begin(), trees_.end(), [](const Tree& t) { return t.joints.size() > 1; }) - trees_.begin())),
       lone_torques_(trees_.size() - lone_at_),
       lone_trials_(lone_torques_.size(), 0) {
-  for (std::size_t k = lone_at_; k < trees_.size(); ++k) lone_.push_back(trees_[k].joints.front());
+  for (std::size_t k = lone_at_; k < trees_.size(); ++k) {
+    const Tree& tree = trees_[k];
+    lone_.push_back(tree.joints.front());
+    lone_from_.push_back({tree.actuators.front(), tree.joined ? std::optional(tree.mobility_at) : std::nullopt});
+  }
 }
 
 void Cluster::use(std::span<device::StepPlan> plans) noexcept {
@@ -106,29 +120,35 @@ void Cluster::begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span
   if (given) {
     matrix = mobility.subspan(tree.mobility_at, n * n);
   } else {
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::optional<double>& own = in[tree.actuators[i]].inverse_inertia;
-      tree.scratch[i * n + i] = own ? *own : 1.0 / tree.joints[i].unit->config().actuator.shaft_inertia_kgm2;
-    }
+    for (std::size_t i = 0; i < n; ++i) tree.scratch[i * n + i] = own(*tree.joints[i].unit, in[tree.actuators[i]]);
   }
-  // A joint alone is solved by its unit.
-  if (n > 1 || has_ticks_inside(t_ns, dt_ns)) tree.solver.set(matrix, dt_ns);
-  for (std::size_t i = 0; i < n; ++i) {
-    const JointIn& joint = in[tree.actuators[i]];
-    const device::JointInStep& j = tree.joints[i];
-    j.unit->begin_step(*j.state, *j.plan, t_ns, dt_ns, {joint.angle_rad, joint.speed_rad_per_s, matrix[i * n + i], joint.placed});
+  tree.solver.set(matrix, dt_ns);
+  for (std::size_t i = 0; i < n; ++i) begin_step(tree.joints[i], in[tree.actuators[i]], matrix[i * n + i], t_ns, dt_ns);
+}
+
+/// A joint alone is solved by its unit; its tree, which would have to be fetched from far where there are a thousand, isn't asked.
+void Cluster::begin_lone(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
+                         std::span<const double> mobility) noexcept {
+  for (std::size_t k = 0; k < lone_.size(); ++k) {
+    const device::JointInStep& joint = lone_[k];
+    const LoneFrom& from = lone_from_[k];
+    const bool given = from.mobility_at && !mobility.empty() && usable(mobility.subspan(*from.mobility_at, 1), 1);
+    begin_step(joint, in[from.actuator], given ? mobility[*from.mobility_at] : own(*joint.unit, in[from.actuator]), t_ns, dt_ns);
   }
 }
 
 std::size_t Cluster::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
                              std::span<const double> mobility) noexcept {
-  for (Tree& tree : trees_) begin(tree, t_ns, dt_ns, in, mobility);
-  if (has_ticks_inside(t_ns, dt_ns)) {
+  const bool foresees = has_ticks_inside(t_ns, dt_ns);
+  for (Tree& tree : std::span(trees_).first(foresees ? trees_.size() : lone_at_)) begin(tree, t_ns, dt_ns, in, mobility);
+  if (foresees) {
     for (Tree& tree : trees_) tree.solver.predict(tree.joints);
+  } else {
+    begin_lone(t_ns, dt_ns, in, mobility);
   }
   for (BusLine* bus : buses_) bus->run_ticks(t_ns, t_ns + dt_ns);
   std::size_t unsettled = lone_trials_.solve_each(lone_, lone_torques_);
-  for (std::size_t k = 0; k < lone_.size(); ++k) torques_out[trees_[lone_at_ + k].actuators.front()] = lone_torques_[k];
+  for (std::size_t k = 0; k < lone_.size(); ++k) torques_out[lone_from_[k].actuator] = lone_torques_[k];
   for (Tree& tree : std::span(trees_).first(lone_at_)) {
     if (!tree.solver.solve(tree.joints, tree.torques)) unsettled += tree.joints.size();
     for (std::size_t i = 0; i < tree.joints.size(); ++i) torques_out[tree.actuators[i]] = tree.torques[i];

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -41,13 +42,21 @@ class Cluster {
                       std::span<const double> mobility) noexcept;
 
  private:
+  /// Where a joint alone has its numbers.
+  struct LoneFrom {
+    std::size_t actuator = 0;
+    std::optional<std::size_t> mobility_at;  ///< if the host joined it, with nothing
+  };
   static void begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
                     std::span<const double> mobility) noexcept;
+
+  void begin_lone(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<const double> mobility) noexcept;
 
   std::vector<BusLine*> buses_;
   std::vector<Tree> trees_;  ///< those of one joint come last
   std::size_t lone_at_;      ///< the first of those
   std::vector<device::JointInStep> lone_;
+  std::vector<LoneFrom> lone_from_;
   std::vector<double> lone_torques_;
   device::JointTrials lone_trials_;
 };

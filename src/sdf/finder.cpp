@@ -38,10 +38,10 @@ SearchPath::SearchPath(const std::vector<fs::path>& more) {
   directories.insert(directories.end(), resources.begin(), resources.end());
   for (const char* name : {"AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH"}) add_from_environment(name, prefixes);
   add_from_environment("ROS_PACKAGE_PATH", packages);
-  const fs::path data = config::data_directory();
-  if (!data.empty()) {
-    directories.push_back(data / "models");
-    last.push_back(data / "models" / "stand_ins");
+  // A world that brings all its own is read without them.
+  if (const auto models = config::find_data("models")) {
+    directories.push_back(*models);
+    last.push_back(*models / "stand_ins");
   }
   directories.insert(directories.end(), more.begin(), more.end());
 }

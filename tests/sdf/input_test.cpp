@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // Bad input: each error names what it is about, and nothing gets through in silence.
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -29,6 +30,14 @@ TEST(BadInput, AMissingFileIsNamed) {
   } catch (const InputError& error) {
     EXPECT_TRUE(has(error.what(), "/nowhere/at/all.sdf: no such file")) << error.what();
   }
+}
+
+TEST(BadInput, AWorldThatBringsAllItsOwnNeedsNoDataDirectory) {
+  const TempDir dir("alone");
+  std::ofstream(dir.path() / "alone.sdf") << model(link("l", moments(1, 1, 1)));
+  ASSERT_EQ(::setenv("VSA_DATA_DIR", "/nowhere", 1), 0);
+  EXPECT_NO_THROW(static_cast<void>(World::load(dir.path() / "alone.sdf")));
+  ::unsetenv("VSA_DATA_DIR");
 }
 
 TEST(BadInput, CircularIncludesAreNamedInsteadOfFollowed) {
