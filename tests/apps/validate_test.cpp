@@ -35,6 +35,18 @@ std::vector<std::string> form(const std::string& text) {
   return out;
 }
 
+/// A row of the history: its first cell is the version.
+std::vector<std::string> history_row(const std::string& text, const std::string& version) {
+  const std::size_t begin = text.find("<!-- vsa validate: history -->"), end = text.find("<!-- vsa validate: end of history -->");
+  EXPECT_LT(begin, end);
+  const std::size_t at = text.find("| " + version + " |", begin);
+  std::vector<std::string> out;
+  if (at >= end) return out;
+  std::istringstream row(text.substr(at, text.find('\n', at) - at));
+  for (std::string cell; std::getline(row, cell, '|');) out.push_back(cell);
+  return out;
+}
+
 void has(const std::string& text, const std::vector<std::string>& parts) {
   for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
 }
@@ -49,6 +61,8 @@ const std::filesystem::path kRecordings = std::filesystem::path(VSA_SOURCE_DIR) 
 
 TEST(Validate, HoldsTheStatedBoundsAndWritesTheDocumentsTables) {
   const Scratch scratch;
+  const std::string document = read_file(std::filesystem::path(VSA_SOURCE_DIR) / "docs" / "validation.md");
+  write_file(scratch / "v.md", document);
   const auto r = run_vsa({"validate", "--out", (scratch / "out").string(), "--markdown", (scratch / "v.md").string()});
   EXPECT_EQ(r.exit_code, 0) << r.out << r.err;
   EXPECT_EQ(r.out.rfind("The recordings (presets 0.0000, 0.6903 rad) are digitised from a figure", 0), 0u) << "said first\n"
@@ -65,8 +79,14 @@ TEST(Validate, HoldsTheStatedBoundsAndWritesTheDocumentsTables) {
     has(written, {"](" + name + ")"});
     has(read_file(scratch / name), {"<svg ", "recorded, rising", "simulated, falling", "</svg>"});
   }
-  EXPECT_EQ(form(written), form(read_file(std::filesystem::path(VSA_SOURCE_DIR) / "docs" / "validation.md")))
-      << "write them anew: vsa validate --markdown docs/validation.md";
+  EXPECT_EQ(form(written), form(document)) << "write them anew: vsa validate --markdown docs/validation.md";
+  const auto now = history_row(written, VSA_VERSION), told = history_row(document, VSA_VERSION);
+  ASSERT_GE(now.size(), 5u);
+  ASSERT_EQ(told.size(), now.size()) << "this version has another row, or none: vsa validate --markdown docs/validation.md";
+  for (std::size_t i = 2; i < now.size(); ++i) {
+    EXPECT_NEAR(std::stod(told[i]), std::stod(now[i]), 2e-3 * std::abs(std::stod(now[i])))
+        << "docs/validation.md says otherwise: vsa validate --markdown docs/validation.md";
+  }
 }
 
 /// What somebody has recorded since is a prediction, whatever else is broken or out of date.
@@ -79,7 +99,10 @@ TEST(Validate, CountsAnUnseenRecordingAsPredictedAndEndsWithOneWhereABoundIsBrok
              "[[bound]]\nquantity = \"stiffness.0.6903.rms_rad\"\nmax = 1\nwhy = \"fitted\"\n"
              "[[bound]]\nquantity = \"stiffness.0.4602.rms_rad\"\nmax = 1e-6\nwhy = \"nothing does\"\n");
   write_file(scratch / "loo.json", foreign_record());
-  write_file(scratch / "doc.md", std::string("# Kept\n") + kBegin + "\nold\n" + kEnd + "\nkept too\n");
+  write_file(scratch / "doc.md",
+             std::string("# Kept\n") + kBegin + "\nold\n" + kEnd +
+                 "\nkept too\n<!-- vsa validate: history -->\n\n| version | gone | stiffness.0.4602.rms_rad |\n|---|---|---|\n"
+                 "| 0.0.9 | 7 | 8 |\n| " VSA_VERSION " | 1 | 2 |\n\n<!-- vsa validate: end of history -->\nand this\n");
   const auto r = run_vsa({"validate", "--bounds", (scratch / "b.toml").string(), "--out", (scratch / "out").string(), "--markdown",
                           (scratch / "doc.md").string(), "--recordings", (scratch / "mine").string(), "--leave-one-out",
                           (scratch / "loo.json").string()});
@@ -98,6 +121,14 @@ TEST(Validate, CountsAnUnseenRecordingAsPredictedAndEndsWithOneWhereABoundIsBrok
   std::istringstream lines(doc);
   for (std::string line; std::getline(lines, line);) EXPECT_TRUE(line.size() <= 140 || line[0] == '|' || line[0] == '!') << line;
   EXPECT_EQ(doc.rfind("# Kept\n", 0), 0u);
+  const auto before = history_row(doc, "0.0.9"), row = history_row(doc, VSA_VERSION);
+  EXPECT_EQ(before, (std::vector<std::string>{"", " 0.0.9 ", " 7 ", " 8 ", " – "}))
+      << "an old row stays, a new quantity has a column\n"
+      << doc;
+  ASSERT_EQ(row.size(), 5u);
+  EXPECT_EQ(row[2], " – ");
+  EXPECT_GT(std::stod(row[3]), 1e-6);
+  EXPECT_GT(std::stod(row[4]), 1e-6);
   EXPECT_NE(doc.find("\nkept too\n"), std::string::npos);
   EXPECT_EQ(doc.find("\nold\n"), std::string::npos);
 }

@@ -37,6 +37,13 @@ struct ValidationTables {
 /// The tables stand between these lines of the Markdown file.
 inline constexpr Markers kMarkers{"<!-- vsa validate: tables -->", "<!-- vsa validate: end of tables -->"};
 
+/// One row a version stands between these, where a document has them.
+inline constexpr Markers kHistory{"<!-- vsa validate: history -->", "<!-- vsa validate: end of history -->"};
+
+/// The document with the version's row made anew: for each name in the table's head that quantity. A quantity with a bound that has no
+/// column yet gets one.
+[[nodiscard]] std::string with_history(const study::Validation& v, const std::string& version, const std::string& document);
+
 /// A chart in a file of its own; `file` as the Markdown file links to it.
 struct Picture {
   std::string title, file, svg;

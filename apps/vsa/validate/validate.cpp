@@ -55,7 +55,7 @@ void write_markdown(const study::Validation& v, const std::filesystem::path& fil
     make_directory(to.parent_path(), "--markdown");
     write_whole(to, p.svg);
   }
-  write_whole(file, with_tables(file, kMarkers, markdown_tables(v, all, command)));
+  write_whole(file, with_history(v, VSA_VERSION, with_tables(file, kMarkers, markdown_tables(v, all, command))));
 }
 
 /// "speed.0.7500.mean_pulley_rad_per_s = 4.9 (3.375 … 4.125), …".
