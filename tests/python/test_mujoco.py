@@ -203,7 +203,7 @@ class InMujocosPackage(unittest.TestCase):
 
     def test_the_rollout_tells_of_soft_and_stiff(self):
         lines = self.run_example("rollout.py")
-        deflection = [float(line.split()[6]) for line in lines]
+        deflection = [float(line.split()[5]) for line in lines]
         self.assertEqual(len(lines), 4)
         self.assertGreater(deflection[0], deflection[-1])
 

@@ -101,14 +101,13 @@ struct UnitReceiver {
   /// Where it is in a frame.
   enum class Phase : std::uint8_t { hunt, id, length, body, skip };
 
-  Frame frame{};                         ///< the frame under way, or the last
-  std::array<std::uint8_t, 3> last{};    ///< of the bytes in hunt
-  Phase phase = Phase::hunt;             ///< what the next byte is
-  std::uint8_t wanted = 0;               ///< LEN of the frame under way
-  std::uint8_t received = 0;             ///< body bytes so far, of this unit's or another's frame
-  std::uint8_t pending_id = 0;           ///< of the frame under way
-  bool mine = false;                     ///< whether it is for this unit
-  static constexpr bool kSeldom = true;  ///< for the walk over states
+  Frame frame{};                       ///< the frame under way, or the last
+  std::array<std::uint8_t, 3> last{};  ///< of the bytes in hunt
+  Phase phase = Phase::hunt;           ///< what the next byte is
+  std::uint8_t wanted = 0;             ///< LEN of the frame under way
+  std::uint8_t received = 0;           ///< body bytes so far, of this unit's or another's frame
+  std::uint8_t pending_id = 0;         ///< of the frame under way
+  bool mine = false;                   ///< whether it is for this unit
   static auto fields(auto& s, auto&& visit) {
     return visit("frame", "", s.frame, "last", "", s.last, "phase", "", s.phase, "wanted", "", s.wanted, "received", "", s.received,
                  "pending_id", "", s.pending_id, "mine", "", s.mine);
@@ -143,8 +142,7 @@ class MasterReceiver {
   /// No more bytes will come: gives up the frame that waits for them, so that `next` looks behind its first byte. False: nothing
   /// left.
   bool give_up() noexcept;
-  void clear() noexcept { size_ = 0; }   ///< forgets what waits; dropped() stays
-  static constexpr bool kSeldom = true;  ///< for the walk over states
+  void clear() noexcept { size_ = 0; }  ///< forgets what waits; dropped() stays
   static auto fields(auto& s, auto&& visit) {
     return visit("buffer", "", s.buffer_, "size", "", s.size_, "dropped", "", s.dropped_);
   }

@@ -92,7 +92,6 @@ struct Counters {
     kCount
   };
   std::array<std::uint16_t, kCount> value{};  ///< of each
-  static constexpr bool kSeldom = true;       ///< for the walk over states
   static auto fields(auto& s, auto&& visit) { return visit("value", "", s.value); }
 };
 
