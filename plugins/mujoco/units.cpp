@@ -150,8 +150,8 @@ void Units::take(std::span<const double> state) {
   there_ = false;  // should anything throw
   const std::size_t first = head(units_.size()), count = first + seat_->restore_tight(state.subspan(first));
   if (state[kCount] != static_cast<double>(count))
-    throw InputError({"vsasim.unit", "state", std::to_string(state[kCount]), "isn't how many of its numbers count",
-                      std::to_string(count)});
+    throw InputError(
+        {"vsasim.unit", "state", std::to_string(state[kCount]), "isn't how many of its numbers count", std::to_string(count)});
   here_.assign(state.first(count));
   there_ = true;
 }

@@ -113,9 +113,9 @@ class Units {
   std::size_t size_ = 0;
   Mobility mobility_;
   state::Rewriter here_{0, 0};  ///< the state that the seat is at
-  bool there_ = false;         ///< it is
-  std::vector<double> first_;  ///< that of the first sample
-  bool computed_ = false;     ///< here_ is where the step that compute() foresaw leads
+  bool there_ = false;          ///< it is
+  std::vector<double> first_;   ///< that of the first sample
+  bool computed_ = false;       ///< here_ is where the step that compute() foresaw leads
 };
 
 }  // namespace vsa::mujoco

@@ -76,7 +76,7 @@ class Adding(unittest.TestCase):
 
 
 class Attaching(unittest.TestCase):
-    """The calls that attach() makes, to a stand-in: a MuJoCo for Python isn't packaged, so its own MjSpec isn't tried here."""
+    """The calls that attach() makes, to a stand-in; InMujocosPackage has its own MjSpec."""
 
     def test_it_makes_the_same_elements(self):
         made = []
@@ -154,6 +154,64 @@ class InMujocosLibrary(unittest.TestCase):
         done = self.run_program("import sys, vsasim.mujoco as vm; vm.load(sys.argv[2])")
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("load MuJoCo first", done.stderr)
+
+
+def package():
+    """MuJoCo's Python package, where there is one with a plug-in for it."""
+    try:
+        import mujoco
+
+        vm.library()
+        return mujoco
+    except ImportError:
+        return None
+
+
+@unittest.skipUnless(package(), "this Python has no MuJoCo with a plug-in for it (VSA_MUJOCO3)")
+class InMujocosPackage(unittest.TestCase):
+    def test_an_attached_unit_moves_as_an_added_one(self):
+        import mujoco
+
+        vm.load()
+        spec = mujoco.MjSpec.from_string(ARM)
+        vm.attach(spec, "elbow", "qbmove_maker_pro_6_1", preset=0.2, override={"drive.friction_Nm": 0.7})
+        text = vm.add(ARM, "elbow", "qbmove_maker_pro_6_1", preset=0.2, override={"drive.friction_Nm": 0.7})
+        angles = []
+        for model in (spec.compile(), mujoco.MjModel.from_xml_string(text)):
+            data = mujoco.MjData(model)
+            data.ctrl[:] = 0.5, 0.3
+            mujoco.mj_step(model, data, 1500)
+            angles.append(data.qpos[0])
+        self.assertAlmostEqual(angles[0], 0.5, delta=0.05)
+        self.assertEqual(*angles)
+
+    def run_example(self, name):
+        file = pathlib.Path(__file__).parents[2] / "examples" / "mujoco" / name
+        done = subprocess.run([sys.executable, str(file)], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.splitlines()
+
+    def test_the_joint_gives_way_less_where_it_is_stiff(self):
+        soft, stiff = (float(line.split(",")[2]) for line in self.run_example("one_joint.py")[1:])
+        self.assertGreater(soft, 2 * stiff)
+        self.assertGreater(stiff, 0)
+
+    def test_the_snake_moves(self):
+        line = self.run_example("snake.py")[-1].split()
+        self.assertGreater(float(line[3]), 0.02)
+        self.assertGreater(float(line[6]), 1)
+
+    def test_the_rollout_tells_of_soft_and_stiff(self):
+        lines = self.run_example("rollout.py")
+        deflection = [float(line.split()[5]) for line in lines]
+        self.assertEqual(len(lines), 4)
+        self.assertGreater(deflection[0], deflection[-1])
+
+    def test_the_sweep_has_a_row_a_case(self):
+        rows = [line.split(",") for line in self.run_example("sweep.py")[1:]]
+        self.assertEqual(len(rows), 6)
+        for soft, stiff in ((0, 2), (3, 5)):
+            self.assertGreater(float(rows[soft][2]), float(rows[stiff][2]))
 
 
 if __name__ == "__main__":

@@ -80,10 +80,10 @@ void validate(const Memory& memory, std::string_view where, Problems& problems);
 
 /// The four copies that a unit has of its parameters: two in memory, two in the EEPROM.
 struct MemoryState {
-  Memory stored,  ///< what commands write
-      current;    ///< what the loop uses
-  Memory user,    ///< the EEPROM's first page
-      factory;    ///< the EEPROM's page of defaults
+  Memory stored,                         ///< what commands write
+      current;                           ///< what the loop uses
+  Memory user,                           ///< the EEPROM's first page
+      factory;                           ///< the EEPROM's page of defaults
   static constexpr bool kSeldom = true;  ///< for the walk over states
   static auto fields(auto& s, auto&& visit) {
     return visit("stored", "", s.stored, "current", "", s.current, "user", "", s.user, "factory", "", s.factory);

@@ -241,7 +241,7 @@ class Robot {
   /// The same less the room that nothing takes (vsa/state_io.hpp), for who does it at every step: the state says how many they are.
   void save_tight(state::Rewriter& out) const;            ///< behind what was written there since its begin()
   std::size_t restore_tight(std::span<const double> in);  ///< as restore(), from the front; how many it took
-  [[nodiscard]] std::uint64_t state_hash() const;  ///< of the numbers that save() gives; allocates
+  [[nodiscard]] std::uint64_t state_hash() const;         ///< of the numbers that save() gives; allocates
 
   /// For a host whose step may fail: keep() before it notes what snapshot() would hold, in memory that the robot has for it, so that
   /// nothing is allocated; go_back() is restore() of that, or of the first sample where nothing was kept.
