@@ -122,12 +122,15 @@ std::optional<float> narrowed(double v) noexcept {
 }
 
 void put_bytes(double* at, std::span<const std::uint8_t> bytes) noexcept {
-  for (std::size_t begin = 0; begin < bytes.size(); begin += kBytesPerNumber) {
-    const auto part = bytes.subspan(begin, std::min(kBytesPerNumber, bytes.size() - begin));
-    std::uint64_t sum = 0;
-    for (std::size_t k = part.size(); k-- > 0;) sum = (sum << 8) | part[k];
-    *at++ = static_cast<double>(sum);
-  }
+  const auto byte = [](const std::uint8_t* from, std::size_t k) { return std::int64_t{from[k]} << (8 * k); };
+  const std::uint8_t* from = bytes.data();
+  std::size_t left = bytes.size();
+  for (; left >= kBytesPerNumber; left -= kBytesPerNumber, from += kBytesPerNumber)  // in one sum: a compiler loads them at once
+    *at++ = static_cast<double>(byte(from, 0) | byte(from, 1) | byte(from, 2) | byte(from, 3) | byte(from, 4) | byte(from, 5));
+  if (left == 0) return;
+  std::int64_t sum = 0;
+  for (std::size_t k = 0; k < left; ++k) sum |= byte(from, k);
+  *at = static_cast<double>(sum);
 }
 
 StateFault get_bytes(const double* at, std::span<std::uint8_t> bytes) noexcept {
