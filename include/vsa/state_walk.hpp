@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <string>
-#include <tuple>
 
 #include "vsa/state_fields.hpp"
 
@@ -28,6 +27,13 @@ inline constexpr bool kCapped<Capped<T>> = true;  ///< likewise
 template <class Sink, class T>
 void walk(Sink& sink, const char* name, const char* unit, T&& v);
 
+/// Name, unit and value, again and again. A std::tuple of so many takes the compiler ten times as long as this.
+template <class Sink, class T, class... Rest>
+void walk_members(Sink& sink, const char* name, const char* unit, T& v, Rest&... rest) {
+  walk(sink, name, unit, v);
+  if constexpr (sizeof...(rest) > 0) walk_members(sink, rest...);
+}
+
 /// The members of a struct.
 template <class Sink, class S>
 void walk_fields(Sink& sink, S& s) {
@@ -35,13 +41,7 @@ void walk_fields(Sink& sink, S& s) {
   static_assert(names_all<T>(), "a member isn't named in fields(), or not where it stands");
   if constexpr (kSeldom<T>)
     if (sink.unchanged(s)) return;
-  T::fields(s, [&sink](auto&&... members) {
-    const auto all = std::forward_as_tuple(members...);
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (walk(sink, std::get<3 * I>(all), std::get<3 * I + 1>(all), std::get<3 * I + 2>(all)), ...);
-    }
-    (std::make_index_sequence<sizeof...(members) / 3>{});
-  });
+  T::fields(s, [&sink](auto&&... members) { walk_members(sink, members...); });
   if constexpr (requires { s.impossible(); }) sink.judge(s);
 }
 
