@@ -252,7 +252,7 @@ void find_data() {
   Dl_info self{};
   if (dladdr(reinterpret_cast<const void*>(&find_data), &self) == 0 || self.dli_fname == nullptr) return;
   std::error_code none;
-  std::filesystem::path folder = std::filesystem::absolute(self.dli_fname, none).parent_path();
+  std::filesystem::path folder = std::filesystem::weakly_canonical(self.dli_fname, none).parent_path();  // of a link: its target's
   for (int up = 0; up < 4; ++up, folder = folder.parent_path()) {
     if (!std::filesystem::is_directory(folder / "share/vsa/actuators", none)) continue;
     directory = (folder / "share/vsa").string();
