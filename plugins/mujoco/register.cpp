@@ -13,6 +13,7 @@
 #include <dlfcn.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -203,10 +204,14 @@ void reset(const mjModel*, mjtNum* state, void* data, int) {
   if (const auto* robot = static_cast<Robot*>(data)) robot->units->reset({state, robot->units->state_size()});
 }
 
-void sense(const mjModel& m, mjData& d, Robot& robot) {
+void sense(const mjModel& m, mjData& d, Robot& robot, bool works) {
   if (robot.sensors.empty()) return;
-  robot.units->observe(d, state_of(m, d, robot));
-  for (const auto& [address, unit] : robot.sensors) robot.units->read(unit, {d.sensordata + address, kReadings});
+  if (works) robot.units->observe(d, state_of(m, d, robot));
+  for (const auto& [address, unit] : robot.sensors) {
+    const std::span<double> out(d.sensordata + address, kReadings);
+    if (works) robot.units->read(unit, out);
+    if (!works) std::fill(out.begin(), out.end(), 0.0);
+  }
 }
 
 /// The first actuator carries the torque, the second only its control.
@@ -222,17 +227,14 @@ void drive(const mjModel& m, mjData& d, Robot& robot, bool works) {
 void compute(const mjModel* m, mjData* d, int instance, int capability) {
   Robot* const robot = robot_of(*d, instance);
   if (robot == nullptr) return;
+  const auto act = capability == mjPLUGIN_SENSOR ? sense : drive;
   try {
-    if (capability == mjPLUGIN_SENSOR) {
-      sense(*m, *d, *robot);
-    } else {
-      drive(*m, *d, *robot, true);
-    }
+    act(*m, *d, *robot, true);
     robot->failed = false;
   } catch (const std::exception& error) {  // a state that no units have
     if (!robot->failed) warn(one_line(error));
     robot->failed = true;
-    if (capability == mjPLUGIN_ACTUATOR) drive(*m, *d, *robot, false);
+    act(*m, *d, *robot, false);
   }
 }
 

@@ -142,6 +142,40 @@ TEST(Data, SetsAndGetsAreAllThatThereIs) {
   EXPECT_EQ(state_of(m, *around), state_of(m, *straight));
 }
 
+TEST(Data, ANumberOfPluginStateThatSomebodyOverwritesIsSeen) {
+  // By units that are at the state before it, after a forward and a sensor too; others have never seen it.
+  mju_user_warning = [](const char*) {};  // a state that no units have is told
+  std::string error;
+  const ModelPtr m = load(one_joint(kType, kActuators), error);
+  ASSERT_TRUE(m) << error;
+  const DataPtr used(mj_makeData(m.get()));
+  used->ctrl[0] = 0.4;
+  for (int k = 0; k < 40; ++k) mj_step(m.get(), used.get());
+  const std::vector<double> here = state_of(*m, *used);
+  const auto count = static_cast<int>(used->plugin_state[0]);
+  ASSERT_GT(count, 200);
+  ASSERT_LE(count, m->npluginstate);
+  mj_step(m.get(), used.get());
+  const std::vector<double> plain = state_of(*m, *used);
+  int moved = 0;
+  for (int i = 0; i < count; ++i) {
+    set_state(*m, *used, here);
+    mj_forward(m.get(), used.get());
+    const double was = used->plugin_state[i], now = was == 0 ? 1 : was == 1 ? 0 : was == std::trunc(was) ? was + 1 : was * 1.001;
+    set_state(*m, *used, here);
+    used->plugin_state[i] = now;
+    const DataPtr fresh(mj_makeData(m.get()));
+    set_state(*m, *fresh, here);
+    fresh->plugin_state[i] = now;
+    for (mjData* d : {used.get(), fresh.get()}) mj_step(m.get(), d);
+    ASSERT_EQ(state_of(*m, *used), state_of(*m, *fresh)) << "number " << i;
+    ASSERT_TRUE(std::equal(used->sensordata, used->sensordata + m->nsensordata, fresh->sensordata)) << "number " << i;
+    moved += state_of(*m, *used) == plain ? 0 : 1;
+  }
+  EXPECT_GT(moved, count / 2);
+  mju_user_warning = nullptr;
+}
+
 TEST(Data, FiniteDifferencesLeaveItWhereItWas) {
   const mjModel& m = exported("bench_load");
   const DataPtr d(mj_makeData(&m)), other(mj_makeData(&m));
