@@ -150,6 +150,42 @@ TEST(StateNumbers, ComeBackWithoutTheRoomThatNothingTakes) {
   }
 }
 
+struct Rare {
+  std::array<double, 3> held{};
+  static constexpr bool kSeldom = true;
+  static auto fields(auto& s, auto&& visit) { return visit("held", "", s.held); }
+};
+struct Written {
+  std::vector<Inner> list;
+  std::array<Rare, 2> rare{};
+  double often = 0;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("list", "", Capped{s.list, 3}, "rare", "", s.rare, "often", "", s.often);
+  }
+};
+
+TEST(StateNumbers, WrittenAgainAndAgainAreThoseOfAFirstTime) {
+  const auto write = [](vsa::state::Rewriter& to, const Written& w) {
+    to.begin();
+    vsa::state::walk_fields(to, w);
+    return std::vector<double>(to.numbers().begin(), to.numbers().end());
+  };
+  const std::size_t most = vsa::state::size_of<Written>();
+  vsa::state::Rewriter again(2, most);
+  Written w;
+  for (int k = 0; k < 200; ++k) {
+    w.often = k;
+    if (k % 5 == 0) w.rare[0].held[1] = k;
+    if (k % 7 == 0) w.rare[1].held[2] = -k;
+    if (k % 3 == 0) w.list.resize(static_cast<std::size_t>(k / 3 % 4));  // what follows moves
+    if (k % 50 == 49) again.assign(std::vector<double>(most, 7.0));      // somebody else's state
+    vsa::state::Rewriter first(2, most);
+    again.own()[0] = first.own()[0] = k;
+    again.own()[1] = first.own()[1] = 0;
+    ASSERT_EQ(write(again, w), write(first, w)) << k;
+  }
+}
+
 TEST(StateNumbers, ManyWideIntegersAndFloatsComeBack) {
   for (std::uint64_t k = 0; k < 2000; ++k) {
     const std::uint64_t bits = k * 0x9E3779B97F4A7C15ULL;
