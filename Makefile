@@ -9,6 +9,7 @@
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make docs    the manual with the C++ and Python names as a site that needs no network, in build/release/docs/site; checks its links
 # make bench   run the benchmarks and print their table
+# make bench-ratios   what things cost against each other beside what is stored of a version: an error where one is a tenth worse; make record-ratios   stores it
 # make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   those of the rooms without engine
 # make check-tsan   what has threads under the thread sanitizer; make tidy   clang-tidy, TIDY_S bounds its seconds
 # make soak HOURS=6   port, page, topics, faults, batch and short runs at once for so long: memory, descriptors, threads, equal bytes; a page
@@ -31,7 +32,7 @@ BUILD := build/release
 SIGN ?= build/packages/packages
 VSA := $(BUILD)/bin/vsa
 
-.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage soak check-asan check-tsan tidy check-all format \
+.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench bench-ratios record-ratios fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage soak check-asan check-tsan tidy check-all format \
   check-format stiffness-uses snake-travel packages check-packages check-abi record-abi dist check-dist check-reproducible sign clean
 
 all: build
@@ -114,6 +115,11 @@ bench: setup
 	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@sh scripts/bench.sh $(BUILD)
+
+bench-ratios record-ratios: setup
+	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@cmake --build $(BUILD) -j $(JOBS) --target bench_actuator bench_device bench_snake -- --quiet
+	@python3 bench/measurements/ratios.py $(if $(filter record%,$@),record,compare) $(BUILD)/bin
 
 # The rooms that need no engine, in a debug build.
 check-asan:
