@@ -19,9 +19,11 @@ Prints one line a mutant as it goes:
     BROKEN      the changed program doesn't compile
 A test that fails without any change is left out, and named.
 
+With the argument `check` it only looks whether the list is up to date, and ends with 1 if not: no copy, no tests.
+
 MUTANTS_FILTER  a regular expression: only mutants whose name or file it matches
 MUTANTS_JOBS    processes that build (1)
-Ends with 0 if all were caught or equivalent, with 1 if not, with 2 if nothing could be tried.
+Ends with 0 if all were caught or equivalent, with 1 if not, with 2 if nothing could be tried, with 77 where Python is too old.
 """
 import os
 import pathlib
@@ -35,7 +37,8 @@ import time
 try:
     import tomllib
 except ImportError:
-    sys.exit("mutants.py: needs Python 3.11 or newer, for tomllib")
+    print("mutants.py: needs Python 3.11 or newer, for tomllib", file=sys.stderr)
+    sys.exit(77)  # a test that is left out
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TREE = ROOT / "build" / "mutants" / "tree"
@@ -143,13 +146,28 @@ class Unchanged:
         return self.known[test]
 
 
+def stale(mutant, tree):
+    """Why it can't be made in this tree, or nothing."""
+    path = tree / mutant["file"]
+    if not path.is_file():
+        return "there is no such file"
+    count = path.read_text(encoding="utf-8").count(mutant["old"])
+    return f"its text is there {count} times" if count != 1 else "it changes nothing" if mutant["old"] == mutant["new"] else ""
+
+
+def check(mutants):
+    found = [(m, why) for m in mutants if (why := stale(m, ROOT))]
+    for mutant, why in found:
+        print(f"mutants.toml: {mutant['name']}: {mutant['file']}: {why}", file=sys.stderr)
+    return 1 if found else 0
+
+
 def judge(mutant, unchanged):
     """(verdict, remark)"""
+    if why := stale(mutant, TREE):
+        return "STALE", why
     path = TREE / mutant["file"]
-    text = path.read_text(encoding="utf-8") if path.is_file() else ""
-    count = text.count(mutant["old"])
-    if count != 1 or mutant["old"] == mutant["new"]:
-        return "STALE", f"its text is there {count} times" if path.is_file() else "there is no such file"
+    text = path.read_text(encoding="utf-8")
     for test in mutant["tests"]:
         unchanged.ask(test)
     path.write_text(text.replace(mutant["old"], mutant["new"]), encoding="utf-8")
@@ -168,7 +186,8 @@ def judge(mutant, unchanged):
 
 
 def main():
-    if len(sys.argv) > 1:
+    only_check = sys.argv[1:] == ["check"]
+    if len(sys.argv) > 1 and not only_check:
         print(__doc__.strip())
         sys.exit(0 if sys.argv[1] in ("-h", "--help") else 2)
     try:
@@ -176,6 +195,8 @@ def main():
     except re.error as error:
         stop(f"MUTANTS_FILTER: {error}")
     mutants = read_list(ROOT / "scripts" / "mutants.toml", choose)
+    if only_check:
+        return check(mutants)
     copy_tree()
     configure()
     unchanged, counts = Unchanged(), {}
