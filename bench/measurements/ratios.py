@@ -6,7 +6,7 @@ A ratio is of two benchmarks that one process runs by turns, over their processo
 median of ROUNDS processes. BIN is the build's bin/; the record is bench/measurements/ratios.json: by version, then by processor.
 
 compare   each ratio beside that of the newest version with a record of this processor; code 1 where one is more than a tenth above it,
-          three times in a row. On another processor the ratios are others: it prints them and says so.
+          three times in a row, but for the one that isn't steady. On another processor the ratios are others: it prints them and says so.
 record    writes this version's for this processor.
 """
 import datetime
@@ -20,9 +20,11 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RECORD = ROOT / "bench/measurements/ratios.json"
 ROUNDS, TRIES, WORSE = 7, 3, 1.10
+# Shown, no reason for an alarm: unlike work, of which a neighbour on the same core slows one more than the other (25 and 34 within minutes).
+UNSTEADY = "unit / sinh + cosh pair"
 # NAME: (program, what is timed, what it is compared with, of how many of the latter it is)
 RATIOS = {
-    "unit / sinh + cosh pair": ("bench_actuator", "actuator_step_1ms", "sinh_cosh_pair", 1),
+    UNSTEADY: ("bench_actuator", "actuator_step_1ms", "sinh_cosh_pair", 1),
     "unit of unlike sides / unit": ("bench_actuator", "unlike_sides_step_1ms", "actuator_step_1ms", 1),
     "64 in lanes / 64 units": ("bench_actuator", "units_in_lanes/64", "actuator_step_1ms", 64),
     "robot of 1000 / 1000 units": ("bench_actuator", "robot_step/1000", "actuator_step_1ms", 1000),
@@ -74,13 +76,14 @@ def compare(programs, records, cpu):
     worse = []
     for name, row in RATIOS.items():
         was = known[1].get(name) if known else None
+        bound = WORSE * was if was and name != UNSTEADY else float("inf")
         now = measure(programs, row)
         for _ in range(TRIES - 1):
-            if was and now > WORSE * was:  # a busy moment or a slower program: measured again, the best counts
+            if now > bound:  # a busy moment or a slower program: measured again, the best counts
                 now = min(now, measure(programs, row))
         change = f"{now / was - 1:+7.1%}" if was else "    new"
         print(f"{name:42}{now:9.4g}{was or float('nan'):9.4g} {change}", flush=True)
-        if was and now > WORSE * was:
+        if now > bound:
             worse.append(f"{name}: {now:.4g}, was {was:.4g}")
     for line in worse:
         print(f"ratios.py: more than {WORSE - 1:.0%} worse: {line}", file=sys.stderr)
