@@ -85,12 +85,10 @@ void walk_optional(Sink& sink, const char* name, const char* unit, T& v) {
   E value = given ? *v : E{};
   sink.enter(name);
   sink.leaf("given", "", given);
-  if constexpr (Sink::kWantsRoom) {
-    sink.leaf("value", unit, value);
-  } else if (given) {
-    sink.leaf("value", unit, value);
-  } else {
-    sink.blank(kSlots<E>);
+  const bool entered = Sink::kWantsRoom || given;
+  if (entered) sink.leaf("value", unit, value);
+  if constexpr (!Sink::kWantsRoom) {
+    if (!entered) sink.blank(kSlots<E>);
   }
   if constexpr (!std::is_const_v<T>) v = given ? std::optional(value) : std::nullopt;
   sink.leave();
