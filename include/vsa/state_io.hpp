@@ -84,6 +84,7 @@ class Rewriter : public Writer {
   Rewriter(Rewriter&&) noexcept = default;
   Rewriter& operator=(Rewriter&&) noexcept = default;
 
+  /// The next state is written from the front, behind the own numbers.
   void begin() noexcept {
     begin_at(numbers_, own_);
     next_ = 0;
@@ -95,9 +96,10 @@ class Rewriter : public Writer {
     seen_.clear();
     bytes_.clear();
   }
-  [[nodiscard]] std::span<double> own() noexcept { return std::span(numbers_).first(own_); }
+  [[nodiscard]] std::span<double> own() noexcept { return std::span(numbers_).first(own_); }  ///< the own numbers, to be written
   [[nodiscard]] std::span<const double> numbers() const noexcept { return std::span(numbers_).first(at()); }  ///< own ones, too
 
+  /// Whether a struct that changes seldom has the bytes that its numbers, which stand where it comes now, were made of.
   template <class S>
   [[nodiscard]] bool unchanged(const S& s) {
     static_assert(std::is_trivially_copyable_v<S>);

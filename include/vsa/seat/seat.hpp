@@ -147,7 +147,7 @@ class Seat {
   void check(std::span<const double> in);    ///< throws what restore() would
   /// As host::Robot has them; the seat's own numbers come first.
   void save_tight(state::Rewriter& out) const;
-  std::size_t restore_tight(std::span<const double> in);
+  std::size_t restore_tight(std::span<const double> in);  ///< how many it took
   /// For a host whose step may fail: keep() before it, and go_back() to there. Nothing is allocated.
   void keep();
   void go_back();  ///< to where keep() was called last
