@@ -95,7 +95,12 @@ def main():
     if not what or not all(pathlib.Path(sys.argv[2], row[0]).exists() for row in RATIOS.values()):
         print(__doc__.strip(), file=sys.stderr)
         return 2
-    return what(pathlib.Path(sys.argv[2]), json.loads(RECORD.read_text(encoding="utf-8")) if RECORD.exists() else {}, processor())
+    try:
+        records = json.loads(RECORD.read_text(encoding="utf-8")) if RECORD.exists() else {}
+    except ValueError as error:
+        print(f"ratios.py: {RECORD.relative_to(ROOT)}: {error}", file=sys.stderr)
+        return 2
+    return what(pathlib.Path(sys.argv[2]), records, processor())
 
 
 if __name__ == "__main__":

@@ -102,7 +102,7 @@ struct Loop {
     c.loop_phase = 0;
   }
 
-  // The loops over lanes work on copies, of which a compiler knows that nothing else points at them.
+  // What a loop reads beside the lanes is copied before it: a compiler knows that nothing else points there.
 
   void read_encoders(const TickStep& io) noexcept {
     const double* angle[3] = {io.motor_angle[0], io.motor_angle[1], io.angle};
