@@ -10,7 +10,9 @@
 // and everything else follows: layout, size, saving, loading with its checks. A member that isn't named doesn't compile. A struct
 // with bounds of its own says what is wrong with it: `const char* impossible() const noexcept`, null where nothing is. An
 // enumeration tells how many values it has, `constexpr int choices(E)`. One that changes seldom may say so, `static constexpr bool
-// kSeldom = true`: it is trivially copyable and has no Capped, and who writes states again and again then passes it by.
+// kSeldom = true`: it is trivially copyable and has no Capped, and who writes states again and again then passes it by. One of which
+// a struct has several after each other that are often equal tells whether they are, `bool alike(const S&) const noexcept`, to the
+// bit; it begins with a flag and has no Capped. A state without the room that nothing takes then has it once.
 //
 // Members: numbers, flags, enumerations, the quantities of vsa/units.hpp, such structs, std::array and std::optional of them;
 // std::vector, whose length is the object's own and stays; Capped, whose length is part of the state.
@@ -19,6 +21,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -60,6 +63,12 @@ struct AnyMember {
 template <class T>
 inline constexpr bool kSeldom = requires {
   requires T::kSeldom;
+};
+
+/// Says that it is often equal to the member before it.
+template <class T>
+inline constexpr bool kAlike = requires(const T& v) {
+  { v.alike(v) } -> std::same_as<bool>;
 };
 
 /// Whether an aggregate takes so many members.

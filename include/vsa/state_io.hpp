@@ -20,6 +20,9 @@ namespace vsa::state {
 /// What becomes of the room that nothing takes: as many zeros, or nothing, so that what follows moves up.
 enum class Room { kept, left_out };
 
+/// Stands for a struct equal to the one before it, where room is left out; a struct that isn't begins with a flag, 0 or 1.
+inline constexpr double kAsBefore = 2;
+
 /// A state's numbers into a span that has room for all of it. A fault: it has more of something than there is room for.
 class Writer : public Sink {
  public:
@@ -53,6 +56,12 @@ class Writer : public Sink {
     if (room_ == Room::left_out) return;
     std::fill_n(out_.begin() + static_cast<std::ptrdiff_t>(at_), n, 0.0);
     at_ += n;
+  }
+  template <class S>
+  [[nodiscard]] bool alike(const S& before, const S& v) noexcept {
+    if (room_ == Room::kept || !v.alike(before)) return false;
+    out_[at_++] = kAsBefore;
+    return true;
   }
   [[nodiscard]] const StateFault& fault() const noexcept { return fault_; }  ///< none: what was written is a state
   [[nodiscard]] std::size_t at() const noexcept { return at_; }              ///< numbers written so far
@@ -111,18 +120,20 @@ class Rewriter : public Writer {
     Seen& last = seen_[next_++];
     // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): padding that differs has it written once more
     if (last.at == at() && std::memcmp(&bytes_[last.bytes], &s, sizeof(S)) == 0) {
-      pass(size_of(s));
+      pass(last.count);
       return true;
     }
     std::memcpy(&bytes_[last.bytes], &s, sizeof(S));
     last.at = at();
     return false;
   }
+  void walked() noexcept { seen_[next_ - 1].count = at() - seen_[next_ - 1].at; }
 
  private:
   static constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
   struct Seen {
     std::size_t at, bytes, size;  ///< its numbers; in bytes_
+    std::size_t count = 0;        ///< of its numbers
   };
   std::size_t own_, next_ = 0;
   std::vector<double> numbers_;
@@ -169,6 +180,13 @@ class Reader : public Sink {
       if (it != rest.end()) note({static_cast<std::size_t>(it - rest.begin()), *it, "is where nothing is", "0"});
     }
     at_ += n;
+  }
+  template <class S>
+  [[nodiscard]] bool alike(const S& before, S& v) noexcept {
+    if (room_ == Room::kept || !room(1) || in_[at_] != kAsBefore) return false;
+    ++at_;
+    v = before;
+    return true;
   }
   template <class S>
   void judge(const S& s) noexcept {

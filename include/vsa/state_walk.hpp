@@ -26,12 +26,25 @@ inline constexpr bool kCapped<Capped<T>> = true;  ///< likewise
 
 template <class Sink, class T>
 void walk(Sink& sink, const char* name, const char* unit, T&& v);
+template <class Sink, class Before, class T, class... Rest>
+void walk_others(Sink& sink, const Before& before, const char* name, const char* unit, T& v, Rest&... rest);
 
 /// Name, unit and value, again and again. A std::tuple of so many takes the compiler ten times as long as this.
 template <class Sink, class T, class... Rest>
 void walk_members(Sink& sink, const char* name, const char* unit, T& v, Rest&... rest) {
   walk(sink, name, unit, v);
-  if constexpr (sizeof...(rest) > 0) walk_members(sink, rest...);
+  if constexpr (sizeof...(rest) > 0) walk_others(sink, v, rest...);
+}
+
+/// Those behind a member.
+template <class Sink, class Before, class T, class... Rest>
+void walk_others(Sink& sink, const Before& before, const char* name, const char* unit, T& v, Rest&... rest) {
+  if constexpr (kAlike<std::remove_const_t<T>> && std::is_same_v<std::remove_const_t<T>, std::remove_const_t<Before>>) {
+    if (!sink.alike(before, v)) walk(sink, name, unit, v);
+  } else {
+    walk(sink, name, unit, v);
+  }
+  if constexpr (sizeof...(rest) > 0) walk_others(sink, v, rest...);
 }
 
 /// The members of a struct.
@@ -42,6 +55,7 @@ void walk_fields(Sink& sink, S& s) {
   if constexpr (kSeldom<T>)
     if (sink.unchanged(s)) return;
   T::fields(s, [&sink](auto&&... members) { walk_members(sink, members...); });
+  if constexpr (kSeldom<T>) sink.walked();
   if constexpr (requires { s.impossible(); }) sink.judge(s);
 }
 
@@ -139,6 +153,13 @@ struct Sink {
   /// A struct that changes seldom comes. True: it is gone past.
   template <class S>
   [[nodiscard]] bool unchanged(const S&) noexcept {
+    return false;
+  }
+  /// The struct that changes seldom has been walked, since unchanged() was false.
+  void walked() noexcept {}
+  /// One that may be alike comes, behind another. True: it is, and gone past.
+  template <class S>
+  [[nodiscard]] bool alike(const S&, const S&) noexcept {
     return false;
   }
   /// A struct that has impossible() is complete.

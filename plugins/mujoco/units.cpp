@@ -243,7 +243,7 @@ void Units::copy_step(const Units& other) {
 }
 
 void Units::read(std::size_t unit, std::span<double> out) const {
-  const host::ActuatorReading now = seat_->robot().read(unit);
+  const host::ActuatorReading now = seat_->robot().read(unit, device::Torques::left_out);
   const actuator::Ledger l = seat_->robot().ledger(unit);
   const auto put = [&](Reading which, double value) { out[static_cast<std::size_t>(which)] = value; };
   put(Reading::ticks_1, now.measured[0].value);

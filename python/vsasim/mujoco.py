@@ -4,9 +4,8 @@
     import mujoco
     import vsasim.mujoco
 
-    vsasim.mujoco.load()                                        # the plug-in for this MuJoCo, or why there is none
     spec = mujoco.MjSpec.from_file("arm.xml")
-    vsasim.mujoco.attach(spec, "elbow", "qbmove_maker_pro_6_1")
+    vsasim.mujoco.attach(spec, "elbow", "qbmove_maker_pro_6_1")  # loads the plug-in, or says why there is none
     model = spec.compile()
     data = mujoco.MjData(model)
     data.ctrl[:] = 0.5, 0.3                                     # equilibrium and stiffness preset, rad
@@ -180,14 +179,17 @@ def add(mjcf: str, joint: str, type: str, **more: Any) -> str:
 
 
 def attach(spec: Any, joint: str, type: str, **more: Any) -> Any:
-    """As add(), to a mujoco.MjSpec that isn't compiled yet; load() comes before. Returns the instance, whose `config` may be
-    changed. RuntimeError: a MuJoCo whose MjSpec can't activate plug-ins (before 3.3.1): use add() there."""
+    """As add(), to a mujoco.MjSpec that isn't compiled yet, and load(). Returns the instance, whose `config` may be changed.
+    RuntimeError: a MuJoCo whose MjSpec can't activate plug-ins (before 3.3.1): use add() there. ValueError: two units of one name."""
     if not hasattr(spec, "activate_plugin"):
         raise RuntimeError("this MuJoCo's MjSpec can't activate plug-ins: vsasim.mujoco.add() works on the MJCF's text")
     import mujoco
 
     unit = Unit(joint, type, **more)
     names = unit.actuators()
+    if any(p.name == unit.name for p in spec.plugins):
+        raise ValueError(f"the spec has an instance {unit.name!r} already")
+    load()
     spec.activate_plugin(PLUGIN)
     instance = spec.add_plugin(name=unit.name, plugin_name=PLUGIN, active=True)
     instance.config = unit.config()

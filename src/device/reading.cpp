@@ -11,33 +11,48 @@ namespace vsa::device {
 namespace {
 
 /// Springs and pulleys stand where the coupling has the shaft, at y = q − dt/2·q̇: here they come to where the shaft is.
+std::array<double, 2> pulleys_with_the_shaft(const UnitState& state) noexcept {
+  std::array<double, 2> out;
+  for (std::size_t m = 0; m < out.size(); ++m) {
+    const drive::MotorState& motor = state.actuator.motor[m];
+    out[m] = motor.angle + 0.5 * state.last_dt * motor.speed;
+  }
+  return out;
+}
+
 actuator::ActuatorState with_the_shaft(const UnitState& state) noexcept {
   actuator::ActuatorState now = state.actuator;
-  for (drive::MotorState& motor : now.motor) motor.angle += 0.5 * state.last_dt * motor.speed;
+  const std::array<double, 2> pulleys = pulleys_with_the_shaft(state);
+  for (std::size_t m = 0; m < pulleys.size(); ++m) now.motor[m].angle = pulleys[m];
   return now;
 }
 
 }  // namespace
 
-UnitReading read(const Unit& unit, const UnitState& state) noexcept {
-  const actuator::ActuatorState now = with_the_shaft(state);
+UnitReading read(const Unit& unit, const UnitState& state, Torques torques) noexcept {
   const actuator::Actuator& physics = unit.physics();
+  const elastic::Transmission& law = *unit.config().actuator.transmission;
   UnitReading r;
-  const auto attained = unit.config().actuator.transmission->attained({now.motor[0].angle, now.motor[1].angle});
-  r.equilibrium_rad = attained.equilibrium;
-  r.preset = attained.preset;
   r.shaft_rad = state.reached.angle;
   r.shaft_speed_rad_per_s = state.reached.speed;
-  const elastic::Response response = physics.response(now, r.shaft_rad);
+  r.mean_torque_Nm = state.applied_torque;
+  const std::array<double, 2> pulleys = pulleys_with_the_shaft(state);
+  for (int m = 0; m < physics.motors(); ++m) {
+    r.motor_rad[m] = pulleys[m];
+    r.motor_speed_rad_per_s[m] = state.actuator.motor[m].speed;
+    r.current_A[m] = physics.motor_current(state.actuator, m, state.held.voltage[m], state.held.terminal[m], state.held.supply_V);
+  }
+  const auto attained = law.attained(pulleys);
+  r.equilibrium_rad = attained.equilibrium;
+  r.preset = attained.preset;
+  if (torques == Torques::left_out) {
+    r.stiffness_Nm_per_rad = law.evaluate({r.shaft_rad, pulleys}).curvature.qq;
+    return r;
+  }
+  const elastic::Response response = physics.response(with_the_shaft(state), r.shaft_rad);
   r.stiffness_Nm_per_rad = response.curvature.qq;
   r.torque_Nm = response.torque;
-  r.mean_torque_Nm = state.applied_torque;
-  for (int m = 0; m < physics.motors(); ++m) {
-    r.motor_rad[m] = now.motor[m].angle;
-    r.motor_speed_rad_per_s[m] = now.motor[m].speed;
-    r.motor_torque_Nm[m] = response.load[m];
-    r.current_A[m] = physics.motor_current(now, m, state.held.voltage[m], state.held.terminal[m], state.held.supply_V);
-  }
+  for (int m = 0; m < physics.motors(); ++m) r.motor_torque_Nm[m] = response.load[m];
   return r;
 }
 

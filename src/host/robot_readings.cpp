@@ -25,13 +25,13 @@ std::string rounded(double value) {
 
 }  // namespace
 
-ActuatorReading Robot::read(std::size_t actuator) const {
+ActuatorReading Robot::read(std::size_t actuator, device::Torques torques) const {
   const ActuatorSlot& slot = impl_->state.actuators[known(actuator)];
   const device::Unit& unit = *impl_->units[actuator];
   ActuatorReading r;
   r.equilibrium_command_rad = slot.equilibrium.at(impl_->state.time_ns);
   r.preset_command = slot.preset.at(impl_->state.time_ns);
-  const device::UnitReading now = device::read(unit, slot.unit);
+  const device::UnitReading now = device::read(unit, slot.unit, torques);
   r.equilibrium_rad = now.equilibrium_rad;
   r.preset = now.preset;
   r.shaft_rad = now.shaft_rad;

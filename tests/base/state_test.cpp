@@ -150,10 +150,73 @@ TEST(StateNumbers, ComeBackWithoutTheRoomThatNothingTakes) {
   }
 }
 
+struct Page {
+  bool written = false;
+  float gain = 0;
+  double length = 0;
+  static auto fields(auto& s, auto&& visit) { return visit("written", "", s.written, "gain", "", s.gain, "length", "m", s.length); }
+  [[nodiscard]] bool alike(const Page& o) const noexcept {
+    return written == o.written && std::bit_cast<std::uint32_t>(gain) == std::bit_cast<std::uint32_t>(o.gain) && length == o.length;
+  }
+};
+struct Pages {
+  Page first, second;
+  double between = 0;
+  Page third, fourth;
+  static auto fields(auto& s, auto&& visit) {
+    return visit("first", "", s.first, "second", "", s.second, "between", "", s.between, "third", "", s.third, "fourth", "",
+                 s.fourth);
+  }
+};
+
+/// As numbers without room, and back into something else.
+std::vector<double> tight(const Pages& p) {
+  std::vector<double> out(vsa::state::size_of<Pages>(), 7.0);
+  Writer writer(out, Room::left_out);
+  vsa::state::walk_fields(writer, p);
+  EXPECT_FALSE(writer.fault().there());
+  out.resize(writer.at());
+  Pages back{{true, 9, 9}, {true, 8, 8}, 7, {true, 6, 6}, {true, 5, 5}};
+  Reader reader(out, Room::left_out);
+  vsa::state::walk_fields(reader, back);
+  EXPECT_FALSE(reader.fault().there());
+  EXPECT_EQ(reader.at(), writer.at());
+  std::vector<double> all(vsa::state::size_of<Pages>()), again = all;
+  Writer one(all), other(again);
+  vsa::state::walk_fields(one, p);
+  vsa::state::walk_fields(other, back);
+  EXPECT_EQ(vsa::first_difference(all, again), std::nullopt);
+  return out;
+}
+
+TEST(StateNumbers, WithoutRoomAStructLikeTheOneBeforeItIsOneNumber) {
+  EXPECT_EQ(vsa::state::size_of<Pages>(), 13u);
+  EXPECT_EQ(tight({}).size(), 9u);
+  EXPECT_EQ(tight({{true, 1, 2}, {true, 1, 2}, 3, {true, 1, 2}, {true, 1, 3}}).size(), 11u) << "the third stands behind a number";
+  EXPECT_EQ(tight({{true, 1, 2}, {false, 1, 2}, 3, {true, 1, 2}, {true, 1, 2}}).size(), 11u);
+  EXPECT_EQ(tight({{true, 0.0F, 2}, {true, -0.0F, 2}, 3, {}, {}}).size(), 11u) << "to the bit";
+  const std::vector<double> good = tight({});
+  for (std::size_t n = 0; n < good.size(); ++n) {
+    Pages back;
+    Reader cut(std::span<const double>(good).first(n), Room::left_out);
+    vsa::state::walk_fields(cut, back);
+    EXPECT_TRUE(cut.fault().there()) << n;
+  }
+  for (const std::size_t first_of_its_kind : {0u, 5u}) {  // there is none before it that it could be like
+    std::vector<double> bad = good;
+    bad[first_of_its_kind] = vsa::state::kAsBefore;
+    Pages back;
+    Reader reader(bad, Room::left_out);
+    vsa::state::walk_fields(reader, back);
+    EXPECT_TRUE(reader.fault().there()) << first_of_its_kind;
+  }
+}
+
 struct Rare {
   std::array<double, 3> held{};
+  Page page, copy;
   static constexpr bool kSeldom = true;
-  static auto fields(auto& s, auto&& visit) { return visit("held", "", s.held); }
+  static auto fields(auto& s, auto&& visit) { return visit("held", "", s.held, "page", "", s.page, "copy", "", s.copy); }
 };
 struct Written {
   std::vector<Inner> list;
@@ -177,6 +240,8 @@ TEST(StateNumbers, WrittenAgainAndAgainAreThoseOfAFirstTime) {
     w.often = k;
     if (k % 5 == 0) w.rare[0].held[1] = k;
     if (k % 7 == 0) w.rare[1].held[2] = -k;
+    if (k % 11 == 0) w.rare[0].page.length = k;  // one number more, or one less
+    if (k % 13 == 0) w.rare[0].copy = w.rare[0].page;
     if (k % 3 == 0) w.list.resize(static_cast<std::size_t>(k / 3 % 4));  // what follows moves
     if (k % 50 == 49) again.assign(std::vector<double>(most, 7.0));      // somebody else's state
     vsa::state::Rewriter first(2, most);

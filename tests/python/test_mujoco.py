@@ -86,11 +86,11 @@ class Attaching(unittest.TestCase):
                 self.what, self.given, self.plugin, self.config = what, given, mock.Mock(), None
                 made.append(self)
 
-        spec = mock.Mock(spec=["activate_plugin", "add_plugin", "add_actuator", "add_sensor"])
+        spec = mock.Mock(spec=["activate_plugin", "add_plugin", "add_actuator", "add_sensor", "plugins"], plugins=[])
         spec.add_plugin = lambda **given: Element("instance", **given)
         spec.add_actuator = lambda **given: Element("actuator", **given)
         spec.add_sensor = lambda **given: Element("sensor", **given)
-        with mock.patch.dict(sys.modules, {"mujoco": mock.Mock()}):
+        with mock.patch.dict(sys.modules, {"mujoco": mock.Mock()}), mock.patch.object(vm, "load"):
             instance = vm.attach(spec, "elbow", "qbmove_maker_pro", preset=0.3)
         spec.activate_plugin.assert_called_once_with("vsasim.unit")
         self.assertEqual([e.what for e in made], ["instance", "actuator", "actuator", "sensor"])
@@ -172,7 +172,6 @@ class InMujocosPackage(unittest.TestCase):
     def test_an_attached_unit_moves_as_an_added_one(self):
         import mujoco
 
-        vm.load()
         spec = mujoco.MjSpec.from_string(ARM)
         vm.attach(spec, "elbow", "qbmove_maker_pro_6_1", preset=0.2, override={"drive.friction_Nm": 0.7})
         text = vm.add(ARM, "elbow", "qbmove_maker_pro_6_1", preset=0.2, override={"drive.friction_Nm": 0.7})
@@ -184,6 +183,27 @@ class InMujocosPackage(unittest.TestCase):
             angles.append(data.qpos[0])
         self.assertAlmostEqual(angles[0], 0.5, delta=0.05)
         self.assertEqual(*angles)
+
+    def test_bad_input_is_named_and_the_host_goes_on(self):
+        import mujoco
+
+        spec = mujoco.MjSpec.from_string(ARM)
+        vm.attach(spec, "elbow", "qbmove_maker_pro")
+        with self.assertRaisesRegex(ValueError, "elbow.* already"):
+            vm.attach(spec, "elbow", "qbmove_maker_pro")
+        vm.attach(spec, "elbow", "qbmove_maker_pro", name="other")
+        with self.assertRaisesRegex(ValueError, "elbow drives this joint already"):
+            mujoco.MjData(spec.compile())
+        with self.assertRaisesRegex(vsasim.InputError, "did you mean qbmove_advanced"):
+            vm.attach(mujoco.MjSpec.from_string(ARM), "elbow", "qbmove")
+        spec = mujoco.MjSpec.from_string(ARM)
+        vm.attach(spec, "elbow", "qbmove_maker_pro").config = {"type": "qbmove_maker_pro", "presets": "0.3"}
+        with self.assertRaisesRegex(ValueError, "presets"):
+            spec.compile()
+        spec = mujoco.MjSpec.from_string(ARM)
+        vm.attach(spec, "knee", "qbmove_maker_pro")
+        with self.assertRaisesRegex(ValueError, "knee"):
+            spec.compile()
 
     def run_example(self, name):
         file = pathlib.Path(__file__).parents[2] / "examples" / "mujoco" / name

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "vsa/device/unit.hpp"
 
@@ -23,8 +24,11 @@ struct UnitReading {
   std::array<double, 2> motor_torque_Nm{};  ///< on each pulley by its spring and tendon
   std::array<double, 2> current_A{};        ///< of each winding
 };
+/// Whether a reading has torque_Nm and motor_torque_Nm. Left out they are 0, and the springs' law is asked once instead of twice.
+enum class Torques : std::uint8_t { told, left_out };
+
 /// Nothing of its program's, which a port's thread may be at.
-[[nodiscard]] UnitReading read(const Unit& unit, const UnitState& state) noexcept;
+[[nodiscard]] UnitReading read(const Unit& unit, const UnitState& state, Torques torques = Torques::told) noexcept;
 
 /// ∂(UnitReading::torque_Nm)/∂shaft with the pulleys held, N·m/rad. A friction's bristle adds its slope while
 /// it only bends; at the edge where it begins to slide, the slope inside.

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <string_view>
 
@@ -74,6 +75,11 @@ struct Memory {
                  "serial_number", "", s.serial_number);
   }
   bool operator==(const Memory&) const = default;
+  /// To the bit, for the walk over states.
+  [[nodiscard]] bool alike(const Memory& other) const noexcept {
+    using Bits = std::array<std::uint32_t, 3>;
+    return *this == other && std::bit_cast<Bits>(multiplier) == std::bit_cast<Bits>(other.multiplier);
+  }
 };
 /// What a device's own EEPROM could hold for its program to work; keys are those of files ("limit_low_raw").
 void validate(const Memory& memory, std::string_view where, Problems& problems);

@@ -37,6 +37,7 @@
 #include "vsa/bus/master.hpp"
 #include "vsa/device/faults.hpp"
 #include "vsa/device/port_line.hpp"
+#include "vsa/device/reading.hpp"
 #include "vsa/device/unit.hpp"
 #include "vsa/host/robot_config.hpp"
 #include "vsa/owner.hpp"
@@ -168,7 +169,8 @@ class Robot {
   /// Several at once: all begin with the same step, or none where one is refused (false).
   bool follow(std::vector<Path> paths);
 
-  [[nodiscard]] ActuatorReading read(std::size_t actuator) const;  ///< now. InputError, here and below: no such actuator
+  /// Now. InputError, here and below: no such actuator.
+  [[nodiscard]] ActuatorReading read(std::size_t actuator, device::Torques torques = device::Torques::told) const;
   [[nodiscard]] std::array<Ticks, 2> received_inputs(std::size_t actuator) const;  ///< references that came over its bus last
   [[nodiscard]] actuator::Ledger ledger(std::size_t actuator) const;  ///< energy ledger since the start or the last reset
   [[nodiscard]] actuator::Ledger ledger() const;                      ///< summed over all actuators
