@@ -183,9 +183,18 @@ class Reader : public Sink {
   }
   template <class S>
   [[nodiscard]] bool alike(const S& before, S& v) noexcept {
-    if (room_ == Room::kept || !room(1) || in_[at_] != kAsBefore) return false;
-    ++at_;
-    v = before;
+    if (room_ == Room::kept || !room(1)) return false;
+    // A state has one form, so that what was read is written the same: what isn't a number is like nothing.
+    const bool as_before = in_[at_] == kAsBefore;
+    if (as_before) {
+      ++at_;
+      v = before;
+    } else {
+      walk_fields(*this, v);
+    }
+    if (v.alike(before) != as_before && !fault_.there())
+      fault_ = {at_ - 1, in_[at_ - 1], as_before ? "stands for what is like nothing" : "ends a repetition of what stands before it",
+                as_before ? "all of it" : "2 in its place"};
     return true;
   }
   template <class S>

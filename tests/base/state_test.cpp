@@ -202,6 +202,21 @@ TEST(StateNumbers, WithoutRoomAStructLikeTheOneBeforeItIsOneNumber) {
     vsa::state::walk_fields(cut, back);
     EXPECT_TRUE(cut.fault().there()) << n;
   }
+  std::vector<double> repeated(good);
+  repeated.insert(repeated.begin() + 4, {0, 0});  // the second, whole
+  repeated[3] = 0;
+  Pages taken;
+  Reader whole(repeated, Room::left_out);
+  vsa::state::walk_fields(whole, taken);
+  EXPECT_TRUE(whole.fault().there()) << "a state has one form";
+  std::vector<double> no_number(good);
+  no_number[2] = std::nan("");
+  Reader unlike(no_number, Room::left_out);
+  vsa::state::walk_fields(unlike, taken);
+  EXPECT_TRUE(unlike.fault().there());
+  Pages with_it;
+  with_it.first.length = with_it.second.length = std::nan("");
+  EXPECT_EQ(tight(with_it).size(), 11u);
   for (const std::size_t first_of_its_kind : {0u, 5u}) {  // there is none before it that it could be like
     std::vector<double> bad = good;
     bad[first_of_its_kind] = vsa::state::kAsBefore;

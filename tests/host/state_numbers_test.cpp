@@ -265,6 +265,7 @@ TEST(RobotAsNumbers, AnyWrongNumberIsRefusedOrDoesNoHarm) {
         Numbers bad = *good;
         bad[i] = strange[k];
         ++tried;
+        SCOPED_TRACE(testing::Message() << "number " << i << " = " << bad[i] << " instead of " << (*good)[i]);
         step_a_little(config, bad, taken, good == &few);
       }
     }
