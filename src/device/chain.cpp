@@ -278,9 +278,12 @@ void Chain::shift_time(std::int64_t by_ns) noexcept {
   const std::int64_t by = by_ns * kPsPerNs;
   state_.now_ps += by;
   state_.host_free_ps += by;
-  state_.master_ear.from_ps += by;
   for (Speech& s : state_.speeches) s.start_ps += by, s.end_ps += by;
-  for (ChainState::Ear& ear : state_.ears) ear.free_ps += by, ear.receiver.from_ps += by;
+  for (ChainState::Ear& ear : state_.ears) ear.free_ps += by;
+  if (state_.mode == ChainState::Mode::bits) {  // else nobody looks for edges, and the first who does begins at now
+    state_.master_ear.from_ps += by;
+    for (ChainState::Ear& ear : state_.ears) ear.receiver.from_ps += by;
+  }
   for (const Station& s : stations_) firmware::Program::shift_time(*s.state, by_ns);
 }
 

@@ -256,6 +256,38 @@ TEST(Chain, StepsOfAnyLengthHearTheSame) {
   EXPECT_EQ(heard(4'000'000), coarse);
 }
 
+TEST(Chain, ALineWhoseTimeIsSetHearsTheSameLaterOrEarlier) {
+  const auto heard = [](std::int64_t by_ns) {
+    ChainRig rig(2);
+    std::int64_t t = 0;
+    const auto shift = [&] {
+      rig.chain.shift_time(by_ns);
+      rig.next_tick_ns += by_ns;
+      t += by_ns;
+    };
+    std::vector<std::pair<int, std::int64_t>> out;
+    const auto until = [&](std::int64_t ns) {
+      rig.run_to(t + ns);
+      for (const auto& h : rig.host.heard) out.emplace_back(h.byte, h.end_ps - 1000 * t);
+      rig.host.heard.clear();
+    };
+    shift();  // before anybody spoke
+    rig.say(t, 1, bus::SetBaudRate{13});
+    rig.say(t + 500'000, 2, bus::Ping{});
+    until(510'000);
+    EXPECT_EQ(rig.chain.state().mode, device::ChainState::Mode::bits) << "two rates on the line";
+    shift();  // in the middle of the ping
+    until(1'500'000);
+    rig.say(t + 1'600'000, 2, bus::GetMeasurements{});
+    until(2'500'000);
+    return out;
+  };
+  const auto there = heard(0);
+  EXPECT_GT(there.size(), 15U);
+  EXPECT_EQ(heard(-3'000'000), there);
+  EXPECT_EQ(heard(7'000'000), there);
+}
+
 TEST(Chain, AUnitThatWasSetToAnotherRateIsHeardAtThatRateOnly) {
   ChainRig rig(2);
   rig.say(0, 1, bus::SetBaudRate{13});
