@@ -6,10 +6,15 @@ Sources of a folder that are compiled alike are looked at together, eight in one
 headers. Where they don't go together (two helpers of a name, say), each half is tried by itself. Groups with what was changed last
 come first.
 
+Sources that were clean and are what they were, with all of the project that they include, aren't looked at again; BUILD/tidy.json
+says which. The build has to be made for that: the compiler knows what a source includes.
+
 TIDY_S: seconds after which no further group is begun (0: all are checked). TIDY_JOBS: groups side by side (all processors).
 Ends with 1 if any source isn't clean, with 2 for wrong use.
 """
 import concurrent.futures
+import functools
+import hashlib
 import json
 import os
 import pathlib
@@ -41,6 +46,50 @@ def age():
     for name in git("diff", "--name-only", "HEAD") + git("log", "--name-only", "--format=") + git("ls-files"):
         rank.setdefault(name, len(rank))
     return rank
+
+
+@functools.lru_cache(maxsize=None)
+def digest(file):
+    return hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest()
+
+
+def states(commands, build):
+    """Of each source that has been compiled: what decides what clang-tidy says of it, as one text."""
+    tool = subprocess.run(["clang-tidy", "--version"], capture_output=True, text=True, check=False).stdout
+    listed = subprocess.run(["ninja", "-C", str(build), "-t", "deps"], capture_output=True, text=True, check=False).stdout
+    includes = {}
+    for block in listed.split("\n\n"):
+        head, *files = block.strip().split("\n")
+        if head.endswith("(VALID)"):
+            includes[head.split(": #deps")[0]] = [os.path.normpath(os.path.join(build, f.strip())) for f in files]
+    out = {}
+    for file, command in commands.items():
+        found = re.search(r" -o (\S+)", command["command"])
+        files = [f for f in includes.get(found.group(1), []) if pathlib.Path(f).is_relative_to(ROOT)] if found else []
+        if file in files and all(map(os.path.isfile, files)):
+            parts = [tool, command["command"], digest(ROOT / ".clang-tidy"), *(f + digest(f) for f in sorted(files))]
+            out[file] = hashlib.sha256("\n".join(parts).encode()).hexdigest()
+    return out
+
+
+class Clean:
+    """Which sources were clean as they are: kept in a file."""
+
+    def __init__(self, file, now):
+        self.file, self.now = file, now
+        try:
+            self.then = json.loads(file.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            self.then = {}
+
+    def has(self, source):
+        return source in self.now and self.then.get(source) == self.now[source]
+
+    def add(self, sources):
+        self.then.update({s: self.now[s] for s in sources if s in self.now})
+        part = self.file.with_suffix(".part")
+        part.write_text(json.dumps(self.then), encoding="utf-8")
+        part.replace(self.file)
 
 
 def groups(commands):
@@ -90,17 +139,24 @@ def main():
     commands = {
         c["file"]: c for c in json.loads(listing.read_text(encoding="utf-8"))
         if c["file"].endswith(".cpp") and ROOT in pathlib.Path(c["file"]).parents and generated not in pathlib.Path(c["file"]).parents}
+    clean = Clean(listing.with_name("tidy.json"), states(commands, listing.parent))
+    known = [file for file in commands if clean.has(file)]
+    for file in known:
+        del commands[file]
     newest = lambda files: min(rank.get(os.path.relpath(file, ROOT), len(rank)) for file in files)  # noqa: E731
     order = sorted(groups(commands), key=newest)
     start, checked, unclean = time.monotonic(), 0, []
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(max(1, jobs)) as pool:
         begun = lambda files: look(files, commands, folder) if not seconds or time.monotonic() - start < seconds else (0, [])  # noqa: E731
-        for n, found in pool.map(begun, order):
+        for files, (n, found) in zip(order, pool.map(begun, order)):
             checked += n
             unclean += found
+            if n == len(files):
+                clean.add(set(files) - {file for file, _ in found})
             for _, text in found:
                 print(text, end="", flush=True)
-    print(f"clang-tidy: {checked} of {len(commands)} sources checked, {len(unclean)} not clean")
+    was = f", {len(known)} were clean before" if known else ""
+    print(f"clang-tidy: {checked} of {len(commands) + len(known)} sources checked, {len(unclean)} not clean{was}")
     return 1 if unclean else 0
 
 

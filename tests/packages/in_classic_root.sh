@@ -32,6 +32,7 @@ dpkg-deb -f /packages/gazebo11-plugin-vsasim_*.deb Depends | grep -q 'libgazebo1
 # As the how-to has it. Nothing is found in the source tree: it stands nowhere that Gazebo looks.
 cd /tmp
 . /usr/share/vsa/setup.sh
+export GAZEBO_MODEL_DATABASE_URI="" GAZEBO_IP=127.0.0.1 IGN_IP=127.0.0.1  # no models from elsewhere, no other machine
 gzserver --verbose /usr/share/vsa/models/worlds/bench_load.sdf >/tmp/gzserver.log 2>&1 &
 server=$!
 reading() {  # NAME: of the last message of the robot's readings

@@ -21,10 +21,10 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <string_view>
 
+#include "vsa/bits.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/firmware/model.hpp"
 
@@ -78,7 +78,7 @@ struct Memory {
   /// To the bit, for the walk over states.
   [[nodiscard]] bool alike(const Memory& other) const noexcept {
     using Bits = std::array<std::uint32_t, 3>;
-    return *this == other && std::bit_cast<Bits>(multiplier) == std::bit_cast<Bits>(other.multiplier);
+    return *this == other && bits_as<Bits>(multiplier) == bits_as<Bits>(other.multiplier);
   }
 };
 /// What a device's own EEPROM could hold for its program to work; keys are those of files ("limit_low_raw").
