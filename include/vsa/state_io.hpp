@@ -127,6 +127,7 @@ class Rewriter : public Writer {
     last.at = at();
     return false;
   }
+  /// How many numbers the struct is that unchanged() was false for.
   void walked() noexcept { seen_[next_ - 1].count = at() - seen_[next_ - 1].at; }
 
  private:
