@@ -32,7 +32,8 @@ dpkg-deb -f /packages/gazebo11-plugin-vsasim_*.deb Depends | grep -q 'libgazebo1
 # As the how-to has it. Nothing is found in the source tree: it stands nowhere that Gazebo looks.
 cd /tmp
 . /usr/share/vsa/setup.sh
-export GAZEBO_MODEL_DATABASE_URI="" GAZEBO_IP=127.0.0.1 IGN_IP=127.0.0.1  # no models from elsewhere, no other machine
+# No models from elsewhere, no other machine; a bare root has no name for itself.
+export GAZEBO_MODEL_DATABASE_URI="" GAZEBO_IP=127.0.0.1 IGN_IP=127.0.0.1 GAZEBO_MASTER_URI=http://127.0.0.1:11345
 gzserver --verbose /usr/share/vsa/models/worlds/bench_load.sdf >/tmp/gzserver.log 2>&1 &
 server=$!
 reading() {  # NAME: of the last message of the robot's readings
@@ -52,7 +53,8 @@ stiff=$(reading shaft/stiffness)
 kill $server
 wait $server || true
 awk -v a="$soft" -v b="$stiff" 'BEGIN { exit !(a > 0 && b > 2 * a) }' || { cat /tmp/gzserver.log >&2; fail "stiffness $soft, and $stiff with preset 0.5 rad"; }
-grep -q 'Err' /tmp/gzserver.log && { cat /tmp/gzserver.log >&2; fail "Gazebo tells of errors"; }
+# A bare root has neither sound nor display.
+if grep 'Err' /tmp/gzserver.log | grep -vE 'OpenAL|open display'; then fail "Gazebo tells of errors"; fi
 say "used (stiffness $soft, with preset 0.5 rad $stiff N·m/rad)"
 
 quiet dpkg -P gazebo11-plugin-vsasim vsasim-doctor vsasim-data
