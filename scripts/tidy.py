@@ -54,7 +54,7 @@ def digest(file):
 
 
 def states(commands, build):
-    """Of each source that has been compiled: what decides what clang-tidy says of it, as one text."""
+    """Of each source that has been compiled: a sum of all that decides what clang-tidy says of it."""
     tool = subprocess.run(["clang-tidy", "--version"], capture_output=True, text=True, check=False).stdout
     listed = subprocess.run(["ninja", "-C", str(build), "-t", "deps"], capture_output=True, text=True, check=False).stdout
     includes = {}
@@ -67,7 +67,7 @@ def states(commands, build):
         found = re.search(r" -o (\S+)", command["command"])
         files = [f for f in includes.get(found.group(1), []) if pathlib.Path(f).is_relative_to(ROOT)] if found else []
         if file in files and all(map(os.path.isfile, files)):
-            parts = [tool, command["command"], digest(ROOT / ".clang-tidy"), *(f + digest(f) for f in sorted(files))]
+            parts = [tool, command["command"], digest(__file__), digest(ROOT / ".clang-tidy"), *(f + digest(f) for f in sorted(files))]
             out[file] = hashlib.sha256("\n".join(parts).encode()).hexdigest()
     return out
 
@@ -78,9 +78,10 @@ class Clean:
     def __init__(self, file, now):
         self.file, self.now = file, now
         try:
-            self.then = json.loads(file.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
-            self.then = {}
+            then = json.loads(file.read_text(encoding="utf-8"))
+        except (OSError, ValueError):  # none yet, or nothing that this wrote: all is looked at
+            then = {}
+        self.then = then if isinstance(then, dict) else {}
 
     def has(self, source):
         return source in self.now and self.then.get(source) == self.now[source]

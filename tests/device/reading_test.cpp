@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 #include "support/one_joint.hpp"
 #include "vsa/elastic/series_spring.hpp"
 
 namespace {
 
+static_assert(sizeof(vsa::device::UnitReading) % sizeof(double) == 0, "numbers alone, so that bytes can be compared");
 using vsa::test::maker_pro;
 using vsa::test::OneJoint;
 
@@ -39,6 +42,27 @@ TEST(Reading, MeanTorqueIsWhatTheLastStepGaveTheHost) {
   EXPECT_GT(std::abs(r.current_A[0]), 0.01);
   EXPECT_GT(r.motor_speed_rad_per_s[0], 0.1);
   EXPECT_NEAR(r.shaft_rad, joint.q, 1e-5);
+}
+
+TEST(Reading, WithoutTorquesIsTheSameButForThem) {
+  vsa::device::UnitConfig one_motor = vsa::test::without_losses();
+  one_motor.actuator.transmission = std::make_shared<vsa::elastic::SeriesSpring>(50);
+  for (const auto& [config, preset] : {std::pair{maker_pro(), 0.5}, std::pair{one_motor, 0.0}}) {
+    OneJoint joint(config, 0.0, preset, 1e-3, 4'000'000);
+    joint.v = 2.0;  // on its way: pulleys and shaft are half a step apart
+    joint.unit.set_inputs(joint.state, joint.unit.inputs_for(0.6, preset));
+    for (int n = 0; n < 30; ++n) {
+      joint.step();
+      const auto all = read(joint.unit, joint.state);
+      auto some = read(joint.unit, joint.state, vsa::device::Torques::left_out);
+      EXPECT_EQ(some.torque_Nm, 0);
+      EXPECT_EQ(some.motor_torque_Nm, (std::array<double, 2>{0, 0}));
+      some.torque_Nm = all.torque_Nm;
+      some.motor_torque_Nm = all.motor_torque_Nm;
+      EXPECT_EQ(std::memcmp(&some, &all, sizeof all), 0) << n << ", to the bit";
+    }
+    EXPECT_NE(read(joint.unit, joint.state).torque_Nm, 0);
+  }
 }
 
 TEST(Reading, OfAJointThatIsCarriedAlongIsThatOfOneInstant) {

@@ -8,10 +8,11 @@
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 tree=$(cd "$here/../.." && pwd)
+[ $# -ge 1 ] || { echo "usage: gazebo_classic.sh PACKAGES [OUT]" >&2; exit 2; }
 left_out() { echo "package of Gazebo Classic left out: $1"; exit 77; }
 [ "$(id -u)" -eq 0 ] || left_out "a root of its own needs to be made by root (run it with sudo -E)"
 if [ -z "${IN_ITS_NAMESPACE:-}" ]; then IN_ITS_NAMESPACE=yes exec unshare --mount --propagation private sh "$0" "$@"; fi
-data=$(ls "$1"/vsasim-data_*_all.deb 2>/dev/null) || { echo "gazebo_classic.sh: no package vsasim-data in $1 (make packages)" >&2; exit 1; }
+data=$(ls "$1"/vsasim-data_*_all.deb 2>/dev/null) || { echo "gazebo_classic.sh: no package vsasim-data in $1 (make packages)" >&2; exit 2; }
 out=${2:-$tree/build/classic_packages}
 . "$tree/scripts/roots.sh"
 use_apt_proxy
