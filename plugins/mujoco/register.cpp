@@ -85,7 +85,12 @@ std::string one_line(const std::exception& error) {
   return out;
 }
 
-void warn(const std::string& line) { engine().mju_warning("%s", line.c_str()); }
+/// Whose line it is stands first: a program may have many plug-ins.
+void warn(std::string_view line) {
+  while (line.starts_with(": ")) line.remove_prefix(2);  // of the robot, which has no name here
+  const std::string text = line.starts_with(kName) ? std::string(line) : kName + (": " + std::string(line));
+  engine().mju_warning("%s", text.c_str());
+}
 
 /// What an mjData has of the units.
 struct Robot {

@@ -121,6 +121,8 @@ class Unit:
 
     def __post_init__(self) -> None:
         self.name = self.name or self.joint
+        if self.controls not in (None, 1, 2):
+            raise ValueError(f"controls = {self.controls!r}: 1 or 2 (an actuator takes no other number)")
 
     def config(self) -> Dict[str, str]:
         """What its instance of the plug-in says."""

@@ -144,7 +144,9 @@ TEST(Data, SetsAndGetsAreAllThatThereIs) {
 
 TEST(Data, ANumberOfPluginStateThatSomebodyOverwritesIsSeen) {
   // By units that are at the state before it, after a forward and a sensor too; others have never seen it.
-  mju_user_warning = [](const char*) {};  // a state that no units have is told
+  static std::vector<std::string> told;
+  told.clear();
+  mju_user_warning = [](const char* text) { told.emplace_back(text); };  // a state that no units have is told
   std::string error;
   const ModelPtr m = load(one_joint(kType, kActuators), error);
   ASSERT_TRUE(m) << error;
@@ -174,6 +176,9 @@ TEST(Data, ANumberOfPluginStateThatSomebodyOverwritesIsSeen) {
   }
   EXPECT_GT(moved, count / 2);
   mju_user_warning = nullptr;
+  EXPECT_GT(told.size(), 20U);
+  for (const std::string& text : told)
+    EXPECT_TRUE(text.starts_with("vsasim.unit") || text.starts_with("Nan, Inf")) << text << ": whose is that?";
 }
 
 TEST(Data, FiniteDifferencesLeaveItWhereItWas) {

@@ -70,6 +70,9 @@ class Adding(unittest.TestCase):
             vm.add(ARM, "elbow", "qbmove_maker_por")
         with self.assertRaisesRegex(ValueError, "controls=2"):
             vm.add(ARM, "elbow", "mine/elbow.toml")
+        for controls in (0, 3, "2"):
+            with self.assertRaisesRegex(ValueError, "controls = .*1 or 2"):
+                vm.add(ARM, "elbow", "mine/elbow.toml", controls=controls)
         self.assertIn("elbow_preset", vm.add(ARM, "elbow", "mine/elbow.toml", controls=2))
         with self.assertRaisesRegex(ValueError, "already"):
             vm.add(vm.add(ARM, "elbow", "qbmove_maker_pro"), "elbow", "qbmove_maker_pro")
