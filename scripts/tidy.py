@@ -140,7 +140,7 @@ def main():
     commands = {
         c["file"]: c for c in json.loads(listing.read_text(encoding="utf-8"))
         if c["file"].endswith(".cpp") and ROOT in pathlib.Path(c["file"]).parents and generated not in pathlib.Path(c["file"]).parents}
-    clean = Clean(listing.with_name("tidy.json"), states(commands, listing.parent))
+    clean = Clean(listing.with_name("tidy.json"), states(commands, listing.parent.resolve()))
     known = [file for file in commands if clean.has(file)]
     for file in known:
         del commands[file]

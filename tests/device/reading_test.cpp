@@ -3,18 +3,23 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
+#include <memory>
 #include <utility>
 
 #include "support/one_joint.hpp"
+#include "vsa/bits.hpp"
 #include "vsa/elastic/series_spring.hpp"
 
 namespace {
 
-static_assert(sizeof(vsa::device::UnitReading) % sizeof(double) == 0, "numbers alone, so that bytes can be compared");
 using vsa::test::maker_pro;
 using vsa::test::OneJoint;
+
+/// Of a reading, which is made of doubles alone.
+using Bits = std::array<std::uint64_t, sizeof(vsa::device::UnitReading) / sizeof(double)>;
 
 TEST(Reading, OfAUnitAtRestTellsWhatItWasPutTo) {
   const vsa::device::Unit unit(maker_pro());
@@ -59,7 +64,7 @@ TEST(Reading, WithoutTorquesIsTheSameButForThem) {
       EXPECT_EQ(some.motor_torque_Nm, (std::array<double, 2>{0, 0}));
       some.torque_Nm = all.torque_Nm;
       some.motor_torque_Nm = all.motor_torque_Nm;
-      EXPECT_EQ(std::memcmp(&some, &all, sizeof all), 0) << n << ", to the bit";
+      EXPECT_EQ(vsa::bits_as<Bits>(some), vsa::bits_as<Bits>(all)) << n;
     }
     EXPECT_NE(read(joint.unit, joint.state).torque_Nm, 0);
   }
