@@ -10,7 +10,7 @@
 # make docs    the manual with the C++ and Python names as a site that needs no network, in build/release/docs/site; checks its links
 # make bench   run the benchmarks and print their table
 # make bench-ratios   what things cost against each other beside what is stored of a version: an error where one is a tenth worse; make record-ratios   stores it
-# make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   those of the rooms without engine
+# make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   those of the rooms without engine, and what of these rooms they run
 # make check-tsan   what has threads under the thread sanitizer; make tidy   clang-tidy, TIDY_S bounds its seconds
 # make soak HOURS=6   port, page, topics, faults, batch and short runs at once for so long: memory, descriptors, threads, equal bytes; a page
 # make coverage   what of include and src the tests run, by rooms; an error below 90 % of the lines; half an hour
@@ -31,6 +31,7 @@ HOURS ?= 6
 BUILD := build/release
 SIGN ?= build/packages/packages
 VSA := $(BUILD)/bin/vsa
+CONFIGURE = cmake --preset release -DVSA_COMMANDS=all $(CMAKE_FLAGS) > /dev/null
 
 .PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench bench-ratios record-ratios fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage soak check-asan check-tsan tidy check-all format \
   check-format stiffness-uses snake-travel packages check-packages check-abi record-abi dist check-dist check-reproducible sign clean
@@ -41,28 +42,29 @@ setup:
 	@sh scripts/setup.sh
 
 build: setup
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 
+# A tree that was never configured gets the first commands, which is half of the compiler's work; `make` adds the others.
 demo: setup
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@cmake --preset release $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DVSA_COMMANDS=first) $(CMAKE_FLAGS) > /dev/null
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa -- --quiet
 	@$(VSA) run snake_rubble --duration-s 20 --gait climb --record out/demo --no-topics
 
 demo-python: setup
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) --target vsasim_python vsa_web -- --quiet
 	@cmake --build $(BUILD) --target demo-python -- --quiet
 
 test:
 	@sh scripts/setup.sh test
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -LE long
 
 test-long:
 	@sh scripts/setup.sh test
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -L long
 	@sh scripts/test_gazebo.sh $(BUILD) long
@@ -70,7 +72,7 @@ test-long:
 
 flakes:
 	@sh scripts/setup.sh test
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@bash scripts/flakes.sh $(BUILD)
 
@@ -83,7 +85,7 @@ fuzz:
 
 test-gazebo:
 	@sh scripts/setup.sh classic
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa-gazebo-bench -- --quiet
 	@sh scripts/test_gazebo.sh $(BUILD)
 
@@ -95,38 +97,39 @@ bench-gazebo:
 	@sh scripts/test_gazebo.sh $(BUILD) bench
 
 test-gz: setup
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa-gazebo-bench -- --quiet
 	@sh scripts/test_gz.sh $(BUILD)
 
 validate: setup
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa -- --quiet
 	@$(VSA) validate --out out/validate
 
 docs:
 	@sh scripts/setup.sh test docs
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa vsasim_python vsa_web -- --quiet
 	@python3 scripts/docs.py $(BUILD)
 	@node tests/scripts/site.test.mjs $(BUILD)/docs/site $(BUILD)/web/npm || test $$? -eq 77
 
 bench: setup
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
 	@sh scripts/bench.sh $(BUILD)
 
 bench-ratios record-ratios: setup
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_actuator bench_device bench_snake -- --quiet
 	@python3 bench/measurements/ratios.py $(if $(filter record%,$@),record,compare) $(BUILD)/bin
 
-# The rooms that need no engine, in a debug build.
+# The rooms that need no engine, in a debug build, and what of them their tests run.
 check-asan:
-	@sh scripts/setup.sh test
+	@sh scripts/setup.sh test coverage
 	@cmake --preset asan > /dev/null
 	@cmake --build build/asan -j $(JOBS) --target core-tests -- --quiet
 	@ctest --test-dir build/asan --output-on-failure -j 1 -L core
+	@python3 scripts/coverage.py build/asan 90 core
 
 check-tsan:
 	@sh scripts/setup.sh test
@@ -145,7 +148,7 @@ coverage:
 
 soak:
 	@sh scripts/setup.sh test soak
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa vsasim_python vsa_web -- --quiet
 	@/usr/bin/python3 scripts/soak.py $(BUILD) $(HOURS) out/soak
 
@@ -155,10 +158,11 @@ asan:
 	@cmake --build build/asan -j $(JOBS) -- --quiet
 	@ctest --test-dir build/asan --output-on-failure -j 1 -LE long
 
+# Sources one by one, as only a tree of its own knows them.
 tidy:
 	@sh scripts/setup.sh tidy
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
-	@python3 scripts/tidy.py $(BUILD)
+	@cmake --preset release -B build/tidy -DVSA_COMMANDS=all -DVSA_UNITY=OFF $(CMAKE_FLAGS) > /dev/null
+	@python3 scripts/tidy.py build/tidy
 
 check-all: check-format asan check-tsan tidy
 
@@ -170,7 +174,7 @@ check-format:
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror
 
 stiffness-uses: setup
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa-stiffness-uses -- --quiet
 	@$(BUILD)/bin/vsa-stiffness-uses impact
 	@$(BUILD)/bin/vsa-stiffness-uses gripper
@@ -188,12 +192,12 @@ packages:
 
 check-abi record-abi:
 	@sh scripts/setup.sh test
-	@cmake --preset release -DVSA_SHARED=ON $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE) -DVSA_SHARED=ON
 	@cmake --build $(BUILD) -j $(JOBS) --target vsa_shared -- --quiet
 	@python3 scripts/abi.py $(@:-abi=) $(BUILD)
 
 dist: setup
-	@cmake --preset release $(CMAKE_FLAGS) > /dev/null
+	@$(CONFIGURE)
 	@cmake --build $(BUILD) --target vsa_web -- --quiet
 	@sh scripts/dist.sh $(BUILD)
 

@@ -21,7 +21,20 @@ function(vsa_room name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(vsa_${name} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE})
+  vsa_compile_together(vsa_${name})
   set_property(GLOBAL APPEND PROPERTY VSA_ROOMS vsa_${name})
+endfunction()
+
+# vsa_compile_together(TARGET): with VSA_UNITY its sources are compiled twelve in one, since most of the time goes into headers. So no
+# two of a target name a helper alike; SKIP_UNITY_BUILD_INCLUSION is for those that have to.
+function(vsa_compile_together target)
+  if(NOT VSA_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)  # what a source has for itself is in an included file then
+  endif()
 endfunction()
 
 # vsa_write_room_links(FILE): what every room links, a line "ROOM: TARGET TARGET" each, for tests/scripts/rooms.py.

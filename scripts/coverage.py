@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-"""What of include and src the tests ran: python3 scripts/coverage.py BUILD PERCENT
+"""What of include and src the tests ran: python3 scripts/coverage.py BUILD PERCENT [LABEL]
 
-BUILD is a tree of the preset coverage whose tests have run. Prints lines and part of them by room, and the files that the tests see
-least of; ends with code 1 where fewer than PERCENT of all lines ran. Lines are gcov's, by gcovr.
+BUILD is a tree compiled with --coverage whose tests have run; with LABEL only those tests have, and only their rooms count. Prints
+lines and part of them by room, and the files that the tests see least of; ends with code 1 where fewer than PERCENT of all lines ran.
+Lines are gcov's, by gcovr.
 """
 import collections
 import json
@@ -34,8 +35,17 @@ def room(file):
     return inside[0] if len(inside) > 1 else "base"
 
 
-def main(build, least):
+def rooms_of(build, label):
+    """The rooms whose tests have the label."""
+    listed = subprocess.run(["ctest", "--test-dir", build, "-L", label, "--show-only=json-v1"], check=True, capture_output=True, text=True)
+    return {test["name"] for test in json.loads(listed.stdout)["tests"]}
+
+
+def main(build, least, label):
     files = lines_by_file(build)
+    if label:
+        counting = rooms_of(build, label)
+        files = {file: lines for file, lines in files.items() if room(file) in counting}
     rooms = collections.defaultdict(lambda: [0, 0])
     for file, (ran, of) in files.items():
         rooms[room(file)][0] += ran
@@ -57,7 +67,8 @@ def main(build, least):
 if __name__ == "__main__":
     try:
         tree, percent = pathlib.Path(sys.argv[1]).resolve(strict=True), float(sys.argv[2])
+        wanted = sys.argv[3] if len(sys.argv) > 3 else ""
     except (IndexError, ValueError, OSError) as error:
-        print(f"coverage.py: {error}; usage: coverage.py BUILD PERCENT", file=sys.stderr)
+        print(f"coverage.py: {error}; usage: coverage.py BUILD PERCENT [LABEL]", file=sys.stderr)
         sys.exit(2)
-    sys.exit(main(tree, percent))
+    sys.exit(main(tree, percent, wanted))

@@ -2,7 +2,7 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 """Whether the tests notice: makes the one-line changes of scripts/mutants.toml, one at a time, and runs the tests that should fail.
 
-Works in a copy of the tracked files under build/mutants, built there as the preset `release`; the checkout isn't touched. Each entry
+Works in a copy of the tracked files under build/mutants, built there as the preset `release`, each source by itself; the checkout isn't touched. Each entry
 of the list is a table [[mutant]] with
     name        what is wrong with the program then
     file        which is changed
@@ -81,7 +81,7 @@ def copy_tree():
 
 
 def configure():
-    run = subprocess.run(["cmake", "--preset", "release"], cwd=TREE, capture_output=True, text=True)
+    run = subprocess.run(["cmake", "--preset", "release", "-DVSA_UNITY=OFF"], cwd=TREE, capture_output=True, text=True)
     if run.returncode != 0:
         stop("cmake --preset release:\n" + run.stderr)
 

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-"""tidy.py BUILD: clang-tidy (.clang-tidy) over the C++ sources that BUILD compiles.
+"""tidy.py BUILD: clang-tidy (.clang-tidy) over the C++ sources that BUILD compiles, each by itself (VSA_UNITY=OFF).
 
 Sources of a folder that are compiled alike are looked at together, eight in one translation unit: most of the time goes into
 headers. Where they don't go together (two helpers of a name, say), each half is tried by itself. Groups with what was changed last
 come first.
 
 Sources that were clean and are what they were, with all of the project that they include, aren't looked at again; BUILD/tidy.json
-says which. The build has to be made for that: the compiler knows what a source includes.
+says which.
 
 TIDY_S: seconds after which no further group is begun (0: all are checked). TIDY_JOBS: groups side by side (all processors).
 Ends with 1 if any source isn't clean, with 2 for wrong use.
@@ -53,22 +53,36 @@ def digest(file):
     return hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest()
 
 
-def states(commands, build):
-    """Of each source that has been compiled: a sum of all that decides what clang-tidy says of it."""
+@functools.lru_cache(maxsize=None)
+def included(file, folders):
+    """Files of the project that `file` names, where the compiler finds them."""
+    names = re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', pathlib.Path(file).read_text(encoding="utf-8"), re.MULTILINE)
+    found = []
+    for name in names:
+        places = (os.path.normpath(os.path.join(folder, name)) for folder in (os.path.dirname(file), *folders))
+        found += [p for p in places if os.path.isfile(p)][:1]
+    return found
+
+
+def reached(file, folders):
+    """`file` and all of the project that it includes, also by way of others, whether or not a condition leaves it out."""
+    seen, due = set(), [file]
+    while due:
+        f = due.pop()
+        if f not in seen:
+            seen.add(f)
+            due += included(f, folders)
+    return sorted(seen)
+
+
+def states(commands):
+    """Of each source: a sum of all that decides what clang-tidy says of it."""
     tool = subprocess.run(["clang-tidy", "--version"], capture_output=True, text=True, check=False).stdout
-    listed = subprocess.run(["ninja", "-C", str(build), "-t", "deps"], capture_output=True, text=True, check=False).stdout
-    includes = {}
-    for block in listed.split("\n\n"):
-        head, *files = block.strip().split("\n")
-        if head.endswith("(VALID)"):
-            includes[head.split(": #deps")[0]] = [os.path.normpath(os.path.join(build, f.strip())) for f in files]
     out = {}
     for file, command in commands.items():
-        found = re.search(r" -o (\S+)", command["command"])
-        files = [f for f in includes.get(found.group(1), []) if pathlib.Path(f).is_relative_to(ROOT)] if found else []
-        if file in files and all(map(os.path.isfile, files)):
-            parts = [tool, command["command"], digest(__file__), digest(ROOT / ".clang-tidy"), *(f + digest(f) for f in sorted(files))]
-            out[file] = hashlib.sha256("\n".join(parts).encode()).hexdigest()
+        folders = tuple(f for f in re.findall(r" -I(\S+)", command["command"]) if pathlib.Path(f).is_relative_to(ROOT))
+        parts = [tool, command["command"], digest(__file__), digest(ROOT / ".clang-tidy"), *(f + digest(f) for f in reached(file, folders))]
+        out[file] = hashlib.sha256("\n".join(parts).encode()).hexdigest()
     return out
 
 
@@ -140,7 +154,7 @@ def main():
     commands = {
         c["file"]: c for c in json.loads(listing.read_text(encoding="utf-8"))
         if c["file"].endswith(".cpp") and ROOT in pathlib.Path(c["file"]).parents and generated not in pathlib.Path(c["file"]).parents}
-    clean = Clean(listing.with_name("tidy.json"), states(commands, listing.parent.resolve()))
+    clean = Clean(listing.with_name("tidy.json"), states(commands))
     known = [file for file in commands if clean.has(file)]
     for file in known:
         del commands[file]

@@ -9,28 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "actuators/actuators.hpp"
-#include "characterize/characterize.hpp"
-#include "command/command.hpp"
-#include "datasheet/datasheet.hpp"
+#include "commands.hpp"
 #include "doctor/doctor.hpp"
-#include "experiments/experiments.hpp"
-#include "export/export.hpp"
-#include "identify/identify.hpp"
-#include "linearize/linearize.hpp"
-#include "run/run.hpp"
-#include "sweep/optimize.hpp"
-#include "sweep/sweep.hpp"
 #include "terminal/completion.hpp"
 #include "terminal/exit_codes.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/man_page.hpp"
 #include "terminal/unknown_word.hpp"
-#include "unit/emulate.hpp"
-#include "unit/get.hpp"
-#include "unit/ping.hpp"
-#include "unit/set.hpp"
-#include "validate/validate.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 
@@ -62,23 +47,9 @@ void refuse_empty(int argc, char** argv) {
 void set_up(CLI::App& app, int& exit_code) {
   app.set_version_flag("--version", "vsa " VSA_VERSION);
   app.require_subcommand(1);
-  app.footer(kExamples);
-  vsa::app::setup_run(app, exit_code);
-  vsa::app::setup_command(app, exit_code);
-  vsa::app::setup_actuators(app, exit_code);
-  vsa::app::setup_emulate(app, exit_code);
-  vsa::app::setup_ping(app, exit_code);
-  vsa::app::setup_get(app, exit_code);
-  vsa::app::setup_set(app, exit_code);
-  vsa::app::setup_characterize(app, exit_code);
-  vsa::app::setup_linearize(app, exit_code);
-  vsa::app::setup_identify(app, exit_code);
-  vsa::app::setup_sweep(app, exit_code);
-  vsa::app::setup_optimize(app, exit_code);
-  vsa::app::setup_validate(app, exit_code);
-  vsa::app::setup_datasheet(app, exit_code);
-  vsa::app::setup_experiments(app, exit_code);
-  vsa::app::setup_export(app, exit_code);
+  const std::vector<std::string> left_out = vsa::app::commands_left_out();
+  app.footer((left_out.empty() ? "" : "Not in this build, `make` adds them: " + vsa::config::join(left_out) + "\n\n") + kExamples);
+  vsa::app::setup_commands(app, exit_code);
   vsa::app::setup_doctor(app, exit_code);
 }
 
@@ -125,7 +96,7 @@ int run_application(int argc, char** argv) {
   understand_help(arguments);
   if (tell_about(app, arguments)) return vsa::app::kDone;
   refuse_empty(argc, argv);
-  vsa::app::refuse_unknown_command(app, arguments);
+  vsa::app::refuse_unknown_command(app, arguments, vsa::app::commands_left_out());
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ExtrasError& error) {

@@ -43,9 +43,9 @@ LawRows read_rows(const std::filesystem::path& file, std::span<const elastic::La
   return out;
 }
 
-class Reader final : public LawReader {
+class KeysOfLaw final : public LawReader {
  public:
-  explicit Reader(Resolver& resolver) : resolver_(resolver) {}
+  explicit KeysOfLaw(Resolver& resolver) : resolver_(resolver) {}
 
   double number(std::string_view key, std::string_view unit, double min, double max, std::string_view meaning) override {
     const Spec spec{"elastic." + std::string(key), std::string(unit), Kind::number, min, max, "", meaning};
@@ -93,7 +93,7 @@ Law make_law(const Document& document, const LawRegistry& laws, Resolver& resolv
       resolver.problem(document.law_line, "elastic.law", '"' + document.law + '"', "unknown law", join(laws.names()));
     return nullptr;
   }
-  Reader reader(resolver);
+  KeysOfLaw reader(resolver);
   Law law;
   try {
     law = (*factory)(reader);

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "vsa/config/text.hpp"
 #include "vsa/files.hpp"
+#include "vsa/not_a_number.hpp"
 
 namespace vsa::config {
 namespace {
@@ -38,7 +38,7 @@ bool ends_in_unit(std::string_view name) {
 /// "load_torque_Nm" → "load_torque"
 std::string_view without_unit(std::string_view name) { return name.substr(0, name.rfind('_')); }
 
-std::string read_text(const std::filesystem::path& file) {
+std::string text_of_table(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   const auto fail = [&](std::string what) { throw InputError({file.string(), "", "", std::move(what), "a CSV file"}); };
@@ -123,7 +123,6 @@ std::vector<std::size_t> find_columns(const std::vector<std::string_view>& head,
 }
 
 double read_cell(std::string_view cell, const WantedColumn& column, const std::string& place, FewProblems& problems) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   if (cell.empty() && column.empty_allowed) return kNaN;
   if (const auto number = parse_number(cell)) return *number;
   problems.add({place, std::string(column.name), shown(cell), cell.empty() ? "an empty cell" : "not a number", "a finite number"});
@@ -139,7 +138,7 @@ void FewProblems::add(Problem problem) {
 std::string at_line(const std::filesystem::path& file, std::size_t line) { return fmt::format("{}:{}", file.string(), line); }
 
 CsvTable read_csv(const std::filesystem::path& file, const std::vector<WantedColumn>& wanted) {
-  const std::string text = read_text(file);
+  const std::string text = text_of_table(file);
   const std::vector<Line> lines = split_lines(text, file);
   if (lines.empty()) throw InputError({file.string(), "", "", "the file is empty", "a header line and samples"});
   FewProblems problems;

@@ -11,22 +11,22 @@ namespace vsa::config {
 namespace fs = std::filesystem;
 namespace {
 
-constinit std::atomic<const char*> installation{nullptr}, module{nullptr};
+constinit std::atomic<const char*> installed_data{nullptr}, module_data{nullptr};
 
 }  // namespace
 
-void installed_in(const char* directory) noexcept { installation.store(directory); }
-void loaded_with(const char* directory) noexcept { module.store(directory); }
+void installed_in(const char* directory) noexcept { installed_data.store(directory); }
+void loaded_with(const char* directory) noexcept { module_data.store(directory); }
 
 std::vector<fs::path> data_directories() {
   const char* set = std::getenv("VSA_DATA_DIR");
   if (set != nullptr && *set != '\0') return {fs::path(set)};
-  if (const char* own = module.load()) return {fs::path(own)};
+  if (const char* own = module_data.load()) return {fs::path(own)};
   std::vector<fs::path> directories;
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   if (!error) directories.push_back((executable.parent_path() / ".." / "share" / "vsa").lexically_normal());
-  if (const char* installed = installation.load()) directories.emplace_back(installed);
+  if (const char* installed = installed_data.load()) directories.emplace_back(installed);
   return directories;
 }
 

@@ -37,9 +37,9 @@ std::string node_text(const toml::node& node) {
   return std::holds_alternative<std::monostate>(value) ? "a date or time" : scalar_text(value);
 }
 
-class Reader {
+class DocumentReader {
  public:
-  Reader(Document& document, Problems& problems) : doc_(document), problems_(problems) {}
+  DocumentReader(Document& document, Problems& problems) : doc_(document), problems_(problems) {}
 
   void read(const toml::table& root) {
     for (const auto& [key, node] : root) {
@@ -293,7 +293,7 @@ Document read_document(std::string_view text, std::string file, Problems& proble
   try {
     const toml::table root = toml::parse(text);
     document.readable = true;
-    Reader(document, problems).read(root);
+    DocumentReader(document, problems).read(root);
   } catch (const toml::parse_error& error) {
     problems.add({document.place(static_cast<int>(error.source().begin.line)), "", "", std::string(error.description()), ""});
   }

@@ -28,9 +28,9 @@ std::vector<std::string> words_of(std::string_view text) {
 }
 
 /// Reads one word after the other into a Faults.
-class Reader {
+class FaultsReader {
  public:
-  explicit Reader(std::string_view source) : source_(source) {}
+  explicit FaultsReader(std::string_view source) : source_(source) {}
 
   void read(const std::string& word) {
     if (word == "none" || word == "off") {
@@ -95,7 +95,7 @@ class Reader {
 device::Faults read_faults(std::string_view text, std::string_view source) {
   const std::vector<std::string> words = words_of(text);
   if (words.empty()) throw InputError({"", std::string(source), "", "names no fault", "none, off, lost_byte=…, …"});
-  Reader reader(source);
+  FaultsReader reader(source);
   for (const std::string& word : words) reader.read(word);
   return reader.finish();
 }

@@ -24,7 +24,7 @@ static_assert(std::string_view(VSA_LAW_VERSION) == VSA_VERSION,
               "vsa/elastic/law_module.hpp has another version than CMakeLists.txt");
 
 constexpr const char* kVariable = "VSA_LAW_PATH";
-constexpr const char* kEnding = ".so";
+constexpr const char* kModuleEnding = ".so";
 constexpr const char* kSymbol = "vsa_law_module";
 
 /// What a part of the path names.
@@ -40,7 +40,7 @@ std::vector<fs::path> libraries_of(const std::string& part, Problems& problems) 
   std::vector<fs::path> out;
   fs::directory_iterator it(given, error);
   for (const fs::directory_iterator end; !error && it != end; it.increment(error))
-    if (it->path().extension() == kEnding) out.push_back(it->path());
+    if (it->path().extension() == kModuleEnding) out.push_back(it->path());
   if (error) return wrong("can't be read: " + error.message());
   std::sort(out.begin(), out.end());
   return out;

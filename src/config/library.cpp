@@ -12,7 +12,7 @@ namespace vsa::config {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kEnding = ".toml";
+constexpr std::string_view kTypeEnding = ".toml";
 
 void add_path(const char* variable, std::vector<fs::path>& to) {
   const char* path = std::getenv(variable);
@@ -26,12 +26,12 @@ std::set<std::string> toml_files(const fs::path& directory) {
   std::set<std::string> names;
   std::error_code error;
   for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
-    if (it->path().extension() == kEnding) names.insert(it->path().stem().string());
+    if (it->path().extension() == kTypeEnding) names.insert(it->path().stem().string());
   }
   return names;
 }
 
-std::string read_text(const fs::path& file) {
+std::string text_of_type(const fs::path& file) {
   auto text = read_file(file);
   if (!text) throw InputError(Problem{file.string(), "", "", "can't be read: no such file, or no permission", ""});
   return std::move(*text);
@@ -55,7 +55,7 @@ class WithBases {
     if (std::find(under_way_.begin(), under_way_.end(), out.base) != under_way_.end()) {
       problem(out, "goes in a circle: " + join(under_way_, " → ") + " → " + out.base, "a type that isn't made of this one");
     } else if (const auto base = file_of(out)) {
-      inherit(out, read(read_text(*base), *base));
+      inherit(out, read(text_of_type(*base), *base));
     }
     return out;
   }
@@ -63,7 +63,7 @@ class WithBases {
  private:
   /// Beside the document, or in the library.
   std::optional<fs::path> file_of(const Document& document) {
-    const fs::path beside = fs::path(document.file).parent_path() / (document.base + std::string(kEnding));
+    const fs::path beside = fs::path(document.file).parent_path() / (document.base + std::string(kTypeEnding));
     std::error_code none;
     if (document.base.find('/') == std::string::npos && fs::exists(beside, none)) return beside;
     try {
@@ -113,7 +113,7 @@ fs::path TypeLibrary::find(std::string_view name) const {
   const std::vector<std::string> known = names();
   if (std::find(known.begin(), known.end(), name) != known.end()) {
     for (const fs::path& directory : directories_) {
-      fs::path file = directory / (std::string(name) + std::string(kEnding));
+      fs::path file = directory / (std::string(name) + std::string(kTypeEnding));
       std::error_code error;
       if (fs::exists(file, error)) return file;
     }
@@ -129,7 +129,7 @@ ActuatorType TypeLibrary::load(std::string_view name, const std::vector<Override
 TypeFile TypeLibrary::open(std::string_view name) const {
   const fs::path file = find(name);
   Problems problems;
-  auto document = std::make_shared<const Document>(WithBases(*this, problems).read(read_text(file), file));
+  auto document = std::make_shared<const Document>(WithBases(*this, problems).read(text_of_type(file), file));
   problems.throw_if_any();
   return {std::move(document), laws_};
 }
@@ -142,7 +142,7 @@ ActuatorType TypeFile::make(const std::vector<Override>& overrides) const {
 }
 
 ActuatorType TypeLibrary::load_file(const fs::path& file, const std::vector<Override>& overrides) const {
-  return load_text(read_text(file), file, overrides);
+  return load_text(text_of_type(file), file, overrides);
 }
 
 ActuatorType TypeLibrary::load_text(std::string_view text, const fs::path& file, const std::vector<Override>& overrides) const {

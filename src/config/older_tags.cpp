@@ -10,9 +10,9 @@ namespace {
 constexpr std::string_view kViscous = "drive.viscous_Nms_per_rad, friction alone";
 constexpr std::string_view kViscousWhy =
     "the toolbox's damping stands for friction and back-EMF together; here the motor's own back-EMF damps it by K_tau K_b / R";
-constexpr std::string_view kTorque = "drive.supply_V, drive.resistance_Ohm and drive.torque_constant_Nm_per_A";
+constexpr std::string_view kTorqueKeys = "drive.supply_V, drive.resistance_Ohm and drive.torque_constant_Nm_per_A";
 constexpr std::string_view kTorqueWhy = "the motor's torque is limited by its voltage here, not by a number";
-constexpr std::string_view kSpeed = "drive.back_emf_Vs_per_rad and drive.supply_V";
+constexpr std::string_view kSpeedKeys = "drive.back_emf_Vs_per_rad and drive.supply_V";
 constexpr std::string_view kSpeedWhy = "the toolbox reads it and never uses it; here the no-load speed follows from the back-EMF";
 constexpr std::string_view kLow = "leave it out for no stop; firmware.limit_low_raw limits the reference";
 constexpr std::string_view kHigh = "leave it out for no stop; firmware.limit_high_raw limits the reference";
@@ -49,12 +49,12 @@ constexpr OlderTag kTags[] = {
     {"mot_D", Meaning::another, "", kViscousWhy, kViscous},
     {"mot_1_D", Meaning::another, "", kViscousWhy, kViscous},
     {"mot_2_D", Meaning::another, "", kViscousWhy, kViscous},
-    {"mot_tauMax", Meaning::another, "", kTorqueWhy, kTorque},
-    {"mot_1_tauMax", Meaning::another, "", kTorqueWhy, kTorque},
-    {"mot_2_tauMax", Meaning::another, "", kTorqueWhy, kTorque},
-    {"mot_maxVel", Meaning::another, "", kSpeedWhy, kSpeed},
-    {"mot_1_maxVel", Meaning::another, "", kSpeedWhy, kSpeed},
-    {"mot_2_maxVel", Meaning::another, "", kSpeedWhy, kSpeed},
+    {"mot_tauMax", Meaning::another, "", kTorqueWhy, kTorqueKeys},
+    {"mot_1_tauMax", Meaning::another, "", kTorqueWhy, kTorqueKeys},
+    {"mot_2_tauMax", Meaning::another, "", kTorqueWhy, kTorqueKeys},
+    {"mot_maxVel", Meaning::another, "", kSpeedWhy, kSpeedKeys},
+    {"mot_1_maxVel", Meaning::another, "", kSpeedWhy, kSpeedKeys},
+    {"mot_2_maxVel", Meaning::another, "", kSpeedWhy, kSpeedKeys},
     {"mot_minPos", Meaning::angle_limit, "firmware.limit_low_raw", kLimitWhy, kLow},
     {"mot_1_minPos", Meaning::angle_limit, "firmware.limit_low_raw", kLimitWhy, kLow},
     {"mot_2_minPos", Meaning::angle_limit, "firmware.limit_low_raw", kLimitWhy, kLow},

@@ -5,12 +5,11 @@
 #include <array>
 
 #include "device/lanes/table.hpp"
+#include "device/seconds.hpp"
 #include "vsa/device/unit.hpp"
 
 namespace vsa::device {
 namespace {
-
-double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 
 std::size_t lines(std::size_t bytes) noexcept { return (bytes + 63) / 64; }
 

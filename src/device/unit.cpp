@@ -3,14 +3,13 @@
 #include <cmath>
 #include <utility>
 
+#include "device/seconds.hpp"
 #include "device/unit_lanes.hpp"
 
 namespace vsa::device {
 namespace {
 
 using firmware::kTickNs;
-
-double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 namespace vsa::drive {
 namespace {
 
-constexpr double kSmall = 0.03;  // below it series of six terms reach 1e-12, and differences would lose digits
+constexpr double kSmallRatio = 0.03;  // below it series of six terms reach 1e-12, and differences would lose digits
 
 /// Σ (−1)^k x^k/c_k from k = 0, c given as reciprocals.
 template <class... C>
@@ -19,25 +19,26 @@ double alternating(double x, C... reciprocal) noexcept {
 
 /// 1 − (1 − e^(−x))/x ≈ x/2
 double phi_deficit(double x, double phi) noexcept {
-  if (x < kSmall) return x * alternating(x, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040);
+  if (x < kSmallRatio) return x * alternating(x, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040);
   return 1.0 - phi;
 }
 
 /// 1 − 2φ(x) + φ(2x) ≈ x²/3
 double square_deficit(double x, double phi, double phi_twice) noexcept {
-  if (x < kSmall) return x * x * alternating(x, 1.0 / 3, 1.0 / 4, 7.0 / 60, 1.0 / 24, 31.0 / 2520, 1.0 / 320);
+  if (x < kSmallRatio) return x * x * alternating(x, 1.0 / 3, 1.0 / 4, 7.0 / 60, 1.0 / 24, 31.0 / 2520, 1.0 / 320);
   return 1.0 - 2.0 * phi + phi_twice;
 }
 
 /// ρ − ln(1 + ρ) ≈ ρ²/2
 double log_deficit(double rho) noexcept {
-  if (rho < kSmall) return rho * rho * alternating(rho, 1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5, 1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9);
+  if (rho < kSmallRatio)
+    return rho * rho * alternating(rho, 1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5, 1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9);
   return rho - std::log1p(rho);
 }
 
 /// ρ²/2 − ρ + ln(1 + ρ) ≈ ρ³/3, from the other
 double log_deficit2(double rho, double deficit) noexcept {
-  if (rho < kSmall)
+  if (rho < kSmallRatio)
     return rho * rho * rho * alternating(rho, 1.0 / 3, 1.0 / 4, 1.0 / 5, 1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10);
   return 0.5 * rho * rho - deficit;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "vsa/not_a_number.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::experiment {
@@ -34,7 +35,6 @@ PresetColumn column(const Workspace& workspace, double preset) {
 }
 
 LoopErrors loop_errors(const device::UnitConfig& unit, std::size_t motor, const MotorLine& line) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   if (unit.servo) return {kNaN, kNaN};                                     // it integrates, or has no position loop
   const double gain = std::abs(unit.memory.position.p) / 65536.0 / 100.0;  // of full output per raw tick
   LoopErrors e;

@@ -10,16 +10,15 @@
 // that shifts nothing in time.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "vsa/errors.hpp"
 #include "vsa/experiment/measures.hpp"
+#include "vsa/not_a_number.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::experiment {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLeastSamples = 20;  // so that the last tenth is a mean
 
 struct Series {

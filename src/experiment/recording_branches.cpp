@@ -1,15 +1,14 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "vsa/errors.hpp"
 #include "vsa/experiment/recording.hpp"
+#include "vsa/not_a_number.hpp"
 
 namespace vsa::experiment {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSameTorque = 1e-9;  // N·m: grid points of two files are one point
 
 /// Samples first … last − 1 go one way.

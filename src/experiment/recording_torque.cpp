@@ -1,14 +1,13 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "vsa/experiment/recording.hpp"
+#include "vsa/not_a_number.hpp"
 
 namespace vsa::experiment {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kEnd_Nm = 0.5 + 1e-9;  // of a branch: the torques whose slope it is followed by; a loop's turn alone is too steep
 
 /// Neighbours pooled until their means increase.

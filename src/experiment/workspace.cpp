@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "vsa/not_a_number.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::experiment {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDutyScale = 101.0;  // the PWM counter's period, as in device/unit.cpp
 constexpr double kLagStep_rad = 2e-3;
 constexpr double kLagMost_rad = 2 * kPi;

@@ -5,18 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include "vsa/experiment/bench.hpp"
+#include "vsa/not_a_number.hpp"
 #include "vsa/quantile.hpp"
 
 namespace vsa::identify {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> type_values(const Task& task) {
   std::vector<double> out;

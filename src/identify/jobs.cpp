@@ -27,8 +27,8 @@ double neighbours(const std::vector<Segment>& branches, std::size_t observation,
 }
 
 std::size_t block_length(double rho, std::size_t points) {
-  constexpr double kMostRho = 0.95;
-  const double r = std::clamp(rho, 0.0, kMostRho);
+  constexpr double kLargestRho = 0.95;
+  const double r = std::clamp(rho, 0.0, kLargestRho);
   const auto length = static_cast<std::size_t>(std::ceil(3 * (1 + r) / (1 - r)));
   return std::clamp<std::size_t>(length, 1, std::max<std::size_t>(1, points / 2));
 }

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
-#include <limits>
 
 #include "vsa/actuator/actuator.hpp"
+#include "vsa/not_a_number.hpp"
 
 namespace vsa::identify {
 namespace {
@@ -14,7 +14,6 @@ namespace {
 constexpr double kClose_rad = 1e-8;
 constexpr double kFirst_rad = 0.02;  // half of the first bracket about a guess
 constexpr double kReach_rad = 6.0;   // farther from its guess nothing is looked for
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The zero of a function that grows, near a guess; NaN where there is none within reach.
 template <class Function>

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "identify/error_model.hpp"
+#include "vsa/not_a_number.hpp"
 
 namespace vsa::identify {
 namespace {
@@ -16,7 +17,6 @@ constexpr double kNoEffect_rad = 1e-5;  // over the parameter's whole range
 constexpr double kSingular = 0.02;      // of unit columns: two parameters are then correlated by 0.9992 or more
 constexpr double kMember = 0.1;         // component of a direction that isn't determined
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 

@@ -19,7 +19,7 @@ Json numbers(const Range& range) {
 }
 
 template <class Range, class F>
-Json array(const Range& range, F&& f) {
+Json each(const Range& range, F&& f) {
   Json out = Json::array();
   for (const auto& item : range) out.push_back(f(item));
   return out;
@@ -80,11 +80,11 @@ Json visual(const scene::Shape& s, Geometries& geometries) {
 Json link(const scene::LinkInfo& l, const scene::Pose* fixed, Geometries& geometries) {
   Json out{{"name", l.name}, {"model", l.model}, {"mass_kg", page::number(l.mass_kg)}};
   if (fixed != nullptr) out["pose"] = pose(*fixed);
-  out["visuals"] = array(l.visuals, [&](const auto& s) { return visual(s, geometries); });
+  out["visuals"] = each(l.visuals, [&](const auto& s) { return visual(s, geometries); });
   return out;
 }
 
-Json actuator(const ActuatorInfo& a) {
+Json actuator_json(const ActuatorInfo& a) {
   return {{"name", a.name},     {"joint", a.joint}, {"type", a.type}, {"preset_unit", a.preset_unit},
           {"motors", a.motors}, {"links", a.links}};
 }
@@ -98,15 +98,15 @@ Json page_header(const RunInfo& info, const PageText& text, const std::vector<sc
     const scene::Pose* fixed = info.links[i].is_static && i < first.size() ? &first[i] : nullptr;
     links.push_back(link(info.links[i], fixed, geometries));
   }
-  const auto robot = [](const RobotInfo& r) { return Json{{"model", r.model}, {"actuators", array(r.actuators, actuator)}}; };
+  const auto robot = [](const RobotInfo& r) { return Json{{"model", r.model}, {"actuators", each(r.actuators, actuator_json)}}; };
   const auto statistic = [](const Statistic& s) { return Json::array({s.label, s.value}); };
   return {{"format", 1},
           {"title", text.title},
           {"world", info.world},
           {"step_s", page::number(info.step_s)},
           {"notes", text.notes},
-          {"summary", array(text.summary, statistic)},
-          {"robots", array(info.robots, robot)},
+          {"summary", each(text.summary, statistic)},
+          {"robots", each(info.robots, robot)},
           {"links", std::move(links)},
           {"geometries", geometries.json()}};
 }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr unsigned kMaxSide = 8193;
 
-[[noreturn]] void fail(const fs::path& file, const std::string& message) {
+[[noreturn]] void no_image(const fs::path& file, const std::string& message) {
   throw InputError(Problem{file.string(), "", "", message, kImageFormats});
 }
 
@@ -25,7 +25,7 @@ unsigned header_number(const fs::path& file, std::istringstream& in) {
   std::string comment;
   while (in >> std::ws && in.peek() == '#') std::getline(in, comment);
   unsigned value = 0;
-  if (!(in >> value)) fail(file, "broken PGM header");
+  if (!(in >> value)) no_image(file, "broken PGM header");
   return value;
 }
 
@@ -35,12 +35,12 @@ GreyImage pgm(const std::string& data, const fs::path& file) {
   GreyImage image;
   const unsigned width = header_number(file, in), height = header_number(file, in), max = header_number(file, in);
   if (width == 0 || height == 0 || width > kMaxSide || height > kMaxSide || max == 0 || max > 65535)
-    fail(file, "broken PGM header");
+    no_image(file, "broken PGM header");
   image.width = width;
   image.height = height;
   const std::size_t start = static_cast<std::size_t>(in.tellg()) + 1, bytes = max > 255 ? 2 : 1;
   const std::size_t count = image.width * image.height;
-  if (data.size() < start + count * bytes) fail(file, "PGM ends too early");
+  if (data.size() < start + count * bytes) no_image(file, "PGM ends too early");
   image.pixels.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto* p = reinterpret_cast<const unsigned char*>(data.data()) + start + i * bytes;
@@ -55,12 +55,12 @@ GreyImage png(const std::string& data, const fs::path& file) {
   lodepng::State state;
   state.info_raw.colortype = LCT_RGB;
   const auto check = [&](unsigned error) {
-    if (error != 0) fail(file, std::string("broken PNG: ") + lodepng_error_text(error));
+    if (error != 0) no_image(file, std::string("broken PNG: ") + lodepng_error_text(error));
   };
   check(lodepng_inspect(&width, &height, &state, bytes, data.size()));
   const std::size_t bytes_each = state.info_png.color.bitdepth > 8 ? 2 : 1;
   state.info_raw.bitdepth = 8 * static_cast<unsigned>(bytes_each);
-  if (width > kMaxSide || height > kMaxSide) fail(file, fmt::format("is {} × {} pixels: too large", width, height));
+  if (width > kMaxSide || height > kMaxSide) no_image(file, fmt::format("is {} × {} pixels: too large", width, height));
   std::vector<unsigned char> rgb;
   check(lodepng::decode(rgb, width, height, state, bytes, data.size()));
   GreyImage image{width, height, {}};
@@ -75,15 +75,15 @@ GreyImage png(const std::string& data, const fs::path& file) {
 
 GreyImage read_grey_image(const fs::path& file) {
   const auto data = read_file(file);
-  if (!data) fail(file, "can't be read");
+  if (!data) no_image(file, "can't be read");
   if (data->rfind("P5", 0) == 0) return pgm(*data, file);
   if (data->rfind("\x89PNG\r\n\x1a\n", 0) == 0) return png(*data, file);
-  fail(file, "isn't an image that can be read");
+  no_image(file, "isn't an image that can be read");
 }
 
 Heightmap read_heightmap(const fs::path& file, const Vec3& size, const Vec3& centre) {
   const GreyImage image = read_grey_image(file);
-  if (image.width < 2 || image.height < 2) fail(file, fmt::format("is {} × {} pixels: too small", image.width, image.height));
+  if (image.width < 2 || image.height < 2) no_image(file, fmt::format("is {} × {} pixels: too small", image.width, image.height));
   Heightmap map;
   map.rows = image.height;
   map.columns = image.width;

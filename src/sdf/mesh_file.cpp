@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& file, const std::string& message, const std::string& allowed = {}) {
+[[noreturn]] void no_mesh(const fs::path& file, const std::string& message, const std::string& allowed = {}) {
   throw InputError(Problem{file.string(), "", "", message, allowed});
 }
 
@@ -29,7 +29,7 @@ std::string extension(const fs::path& file) {
 
 std::string read_all(const fs::path& file) {
   auto text = read_file(file);
-  if (!text) fail(file, "can't be read");
+  if (!text) no_mesh(file, "can't be read");
   return std::move(*text);
 }
 
@@ -86,10 +86,10 @@ Mesh text_stl(const fs::path& file, const std::string& data) {
   for (std::string word; in >> word;) {
     if (word != "vertex") continue;
     double x = 0, y = 0, z = 0;
-    if (!(in >> x >> y >> z)) fail(file, "broken STL: a vertex without three numbers");
+    if (!(in >> x >> y >> z)) no_mesh(file, "broken STL: a vertex without three numbers");
     corners.push_back(weld.add({x, y, z}));
   }
-  if (corners.size() % 3 != 0) fail(file, "broken STL: the number of vertices isn't a multiple of 3");
+  if (corners.size() % 3 != 0) no_mesh(file, "broken STL: the number of vertices isn't a multiple of 3");
   for (std::size_t i = 0; i < corners.size(); i += 3) mesh.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
   return mesh;
 }
@@ -98,9 +98,10 @@ Mesh text_stl(const fs::path& file, const std::string& data) {
 std::uint32_t obj_index(const fs::path& file, const std::string& word, std::size_t count) {
   long index = 0;
   std::istringstream in(word);
-  if (!(in >> index)) fail(file, "broken OBJ: face corner \"" + word + "\"");
+  if (!(in >> index)) no_mesh(file, "broken OBJ: face corner \"" + word + "\"");
   const long resolved = index < 0 ? static_cast<long>(count) + index : index - 1;
-  if (resolved < 0 || resolved >= static_cast<long>(count)) fail(file, "broken OBJ: face corner \"" + word + "\" names no vertex");
+  if (resolved < 0 || resolved >= static_cast<long>(count))
+    no_mesh(file, "broken OBJ: face corner \"" + word + "\" names no vertex");
   return static_cast<std::uint32_t>(resolved);
 }
 
@@ -113,12 +114,12 @@ Mesh obj(const fs::path& file, const std::string& data) {
     words >> word;
     if (word == "v") {
       double x = 0, y = 0, z = 0;
-      if (!(words >> x >> y >> z)) fail(file, "broken OBJ: a vertex without three numbers");
+      if (!(words >> x >> y >> z)) no_mesh(file, "broken OBJ: a vertex without three numbers");
       mesh.vertices.emplace_back(x, y, z);
     } else if (word == "f") {
       std::vector<std::uint32_t> corners;
       while (words >> word) corners.push_back(obj_index(file, word, mesh.vertices.size()));
-      if (corners.size() < 3) fail(file, "broken OBJ: a face with fewer than three corners");
+      if (corners.size() < 3) no_mesh(file, "broken OBJ: a face with fewer than three corners");
       for (std::size_t i = 2; i < corners.size(); ++i) mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
     }
   }
@@ -133,16 +134,16 @@ bool mesh_format_known(const fs::path& file) {
 }
 
 Mesh read_mesh(const fs::path& file, const Vec3& scale) {
-  if (!mesh_format_known(file)) fail(file, "this mesh format isn't read", kMeshFormats);
+  if (!mesh_format_known(file)) no_mesh(file, "this mesh format isn't read", kMeshFormats);
   const std::string e = extension(file), data = read_all(file);
   Mesh mesh = e == ".dae"           ? read_collada(file)
               : e == ".obj"         ? obj(file, data)
               : is_binary_stl(data) ? binary_stl(data)
                                     : text_stl(file, data);
-  if (mesh.triangles.empty()) fail(file, "holds no triangles");
+  if (mesh.triangles.empty()) no_mesh(file, "holds no triangles");
   for (Vec3& v : mesh.vertices) {
     v = v * scale;
-    if (!v.IsFinite()) fail(file, "has a vertex that isn't finite");
+    if (!v.IsFinite()) no_mesh(file, "has a vertex that isn't finite");
   }
   return mesh;
 }

@@ -10,16 +10,13 @@
 #include <cstring>
 #include <filesystem>
 
+#include "serial/refuse.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::serial {
 namespace {
 
 constexpr const char* kPseudoTerminals = "/dev/pts/";
-
-[[noreturn]] void refuse(const std::string& path, const std::string& why, const std::string& allowed) {
-  throw InputError({"", "serial port", path, why, allowed});
-}
 
 /// Where a symbolic link points; empty: no such file, or none.
 std::string link_target(const std::string& path) {

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "serial/refuse.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/serial/ports.hpp"
 
@@ -21,10 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr int kFlags = O_CLOEXEC | O_NOFOLLOW | O_NOCTTY | O_NONBLOCK;
-
-[[noreturn]] void refuse(const std::string& port, const std::string& why, const std::string& allowed) {
-  throw InputError({"", "serial port", port, why, allowed});
-}
 
 bool same_file(int fd, const std::string& path) {
   struct stat open_one {};

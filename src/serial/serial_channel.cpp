@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "serial/descriptor.hpp"
+#include "serial/refuse.hpp"
 #include "serial/terminal.hpp"
 #include "vsa/errors.hpp"
 
@@ -22,10 +23,6 @@ namespace {
 
 using Time = bus::Channel::Time;
 constexpr Time kWritePatience = std::chrono::seconds(1);
-
-[[noreturn]] void refuse(const std::string& path, const std::string& why, const std::string& allowed) {
-  throw InputError({"", "serial port", path, why, allowed});
-}
 
 Descriptor open_port(const std::string& path) {
   Descriptor fd(open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "study/linear_shaft.hpp"
 #include "study/watched_runs.hpp"
+#include "vsa/not_a_number.hpp"
 #include "vsa/study/characterization.hpp"
 
 namespace vsa::study {
@@ -15,7 +15,6 @@ using experiment::BenchRun;
 using experiment::BenchSample;
 using experiment::StepMeasures;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWindow_Nm = 0.4;  // of the stiffness curve, on the bench as it ships
 
 Range range_of(const BenchRun& run, double BenchSample::*field) {

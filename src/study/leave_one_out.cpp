@@ -11,29 +11,29 @@
 namespace vsa::study {
 namespace {
 
-using Json = nlohmann::json;
+using Parsed = nlohmann::json;
 
 constexpr const char* kWhatItIs = "results.json of vsa identify, with cross-validation";
 
 /// One object's members, each problem with the file and the key.
 class Fields {
  public:
-  Fields(const Json& object, std::string at, const std::string& file) : object_(object), at_(std::move(at)), file_(file) {
+  Fields(const Parsed& object, std::string at, const std::string& file) : object_(object), at_(std::move(at)), file_(file) {
     if (!object.is_object()) fail("", "isn't an object");
   }
-  [[nodiscard]] const Json& member(const char* key) const {
+  [[nodiscard]] const Parsed& member(const char* key) const {
     const auto it = object_.find(key);
     if (it == object_.end()) fail(key, "is missing");
     return *it;
   }
   [[nodiscard]] std::string text(const char* key) const {
-    const Json& value = member(key);
+    const Parsed& value = member(key);
     if (!value.is_string()) fail(key, "isn't a text");
     return value.get<std::string>();
   }
   /// null: it isn't determined.
   [[nodiscard]] double number(const char* key) const {
-    const Json& value = member(key);
+    const Parsed& value = member(key);
     if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
     if (!value.is_number()) fail(key, "isn't a number");
     return value.get<double>();
@@ -43,31 +43,31 @@ class Fields {
   }
 
  private:
-  const Json& object_;
+  const Parsed& object_;
   std::string at_, file_;
 };
 
-Json parse(const std::filesystem::path& file) {
+Parsed parse(const std::filesystem::path& file) {
   const auto text = read_file(file);
   if (!text) throw InputError({file.string(), "", "", "can't be read", kWhatItIs});
-  Json out = Json::parse(*text, nullptr, false);
+  Parsed out = Parsed::parse(*text, nullptr, false);
   if (out.is_discarded()) throw InputError({file.string(), "", "", "isn't JSON", kWhatItIs});
   return out;
 }
 
-void add_parameter(LeaveOneOut& out, const Json& parameter) {
+void add_parameter(LeaveOneOut& out, const Parsed& parameter) {
   const Fields f(parameter, "parameters.", out.file);
   out.fitted.push_back(f.text("name"));
-  const Json& interval = f.member("interval_95");
+  const Parsed& interval = f.member("interval_95");
   if (!interval.is_array() || interval.size() != 2) f.fail("interval_95", "isn't a pair of numbers");
   const auto end = [&](std::size_t i) {
     if (interval[i].is_null()) return std::numeric_limits<double>::quiet_NaN();
     if (!interval[i].is_number()) f.fail("interval_95", "isn't a pair of numbers");
     return interval[i].get<double>();
   };
-  const Json& keys = f.member("keys");
+  const Parsed& keys = f.member("keys");
   if (!keys.is_array()) f.fail("keys", "isn't a list");
-  for (const Json& key : keys) {
+  for (const Parsed& key : keys) {
     if (!key.is_string()) f.fail("keys", "holds what isn't a text");
     out.intervals.push_back({key.get<std::string>(), end(0), end(1)});
   }
@@ -85,21 +85,21 @@ const LeaveOneOut::Interval* fitted(const LeaveOneOut& record, const std::string
 std::filesystem::path record_name(const std::string& type) { return std::filesystem::path("data") / type / "leave_one_out.json"; }
 
 LeaveOneOut read_leave_one_out(const std::filesystem::path& file) {
-  const Json root = parse(file);
+  const Parsed root = parse(file);
   LeaveOneOut out;
   out.file = file.string();
   const Fields all(root, "", out.file);
   out.command = all.text("command");
-  const Json& parameters = all.member("parameters");
+  const Parsed& parameters = all.member("parameters");
   if (!parameters.is_array() || parameters.empty()) all.fail("parameters", "holds no parameter");
-  for (const Json& p : parameters) add_parameter(out, p);
-  const Json& rows = all.member("leave_one_preset_out");
+  for (const Parsed& p : parameters) add_parameter(out, p);
+  const Parsed& rows = all.member("leave_one_preset_out");
   if (!rows.is_array() || rows.empty()) all.fail("leave_one_preset_out", "holds no preset that was left out");
-  for (const Json& row : rows) {
+  for (const Parsed& row : rows) {
     const Fields f(row, "leave_one_preset_out.", out.file);
     out.rows.push_back({f.number("preset"), f.number("rms_rad"), f.number("rms_rad_fitted_to_all")});
   }
-  const Json& values = all.member("identified_values");
+  const Parsed& values = all.member("identified_values");
   if (!values.is_object()) all.fail("identified_values", "isn't an object");
   const Fields f(values, "identified_values.", out.file);
   for (const auto& [key, value] : values.items()) out.values.push_back({key, f.text(key.c_str())});

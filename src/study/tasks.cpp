@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "study/linear_shaft.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/experiment/datasheet.hpp"
+#include "vsa/not_a_number.hpp"
 #include "vsa/page/json.hpp"
 
 namespace vsa::study {
@@ -18,7 +18,6 @@ namespace {
 using page::Json;
 using page::real;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kAcceleration_rad_per_s2 = 200;
 constexpr double kArm_m = 0.5, kGravity_m_per_s2 = 9.81;
 

@@ -2,18 +2,17 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 
 #include "study/watched_runs.hpp"
 #include "vsa/device/lever_batch.hpp"
+#include "vsa/not_a_number.hpp"
 #include "vsa/study/tasks.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::study {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSample_s = 1e-3;  // commands and samples
 constexpr double kRest_s = 2;       // before each task
 constexpr double kSwing_rad = 1, kSwingStep_s = 0.05, kAfter_s = 1.5;

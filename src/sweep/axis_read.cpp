@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "sweep/plan_parts.hpp"
@@ -13,8 +12,6 @@ namespace vsa::sweep {
 namespace {
 
 using config::TomlSection;
-
-constexpr double kAny = std::numeric_limits<double>::max();
 
 std::optional<Value> value_of(const toml::node& node) {
   if (const auto whole = node.value_exact<std::int64_t>()) return Value(*whole);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sweep/plan_parts.hpp"
 #include "sweep/stoppable.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
@@ -15,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using config::TomlSection;
-
-constexpr double kAny = std::numeric_limits<double>::max();
 
 std::map<std::string, double> read_values(TomlSection& s, const char* key, const fs::path& file, Problems& problems) {
   std::map<std::string, double> out;

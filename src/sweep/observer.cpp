@@ -238,7 +238,7 @@ struct Observer::Impl {
   }
 
   std::string model;
-  study::Travel travel;
+  motion::Travel travel;
   record::Cadence cadence;
   Needs needs;
   bool reads = false;

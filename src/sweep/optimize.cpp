@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "vsa/errors.hpp"
+#include "vsa/not_a_number.hpp"
 
 #ifdef VSA_PAGMO
 #include <pagmo/algorithm.hpp>
@@ -24,16 +24,15 @@
 namespace vsa::sweep {
 
 std::vector<double> objectives_of(const Plan& plan, const std::vector<Outcome>& outcomes, std::size_t candidate) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const Search& search = *plan.search();
   const std::size_t each = plan.runs() / plan.candidates();
   std::vector<double> out;
   for (const Objective& o : search.objectives) {
     std::vector<double> values;
     for (std::size_t r = candidate * each; r < (candidate + 1) * each; ++r)
-      values.push_back(outcomes[r].values.empty() ? kNone : outcomes[r].values[o.measure]);
+      values.push_back(outcomes[r].values.empty() ? kNaN : outcomes[r].values[o.measure]);
     if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); })) {
-      out.push_back(kNone);
+      out.push_back(kNaN);
       continue;
     }
     std::sort(values.begin(), values.end());
@@ -80,7 +79,7 @@ bool has_optimizer() noexcept { return true; }
 namespace {
 
 /// What pagmo minimises: copies of it share the search.
-struct Problem {
+struct PlanProblem {
   struct State {
     const Plan* plan = nullptr;
     const Evaluate* evaluate = nullptr;
@@ -143,9 +142,9 @@ pagmo::algorithm algorithm_of(const Search& s, unsigned seed) {
 
 Optimum optimize(const Plan& plan, const Evaluate& evaluate) {
   if (!plan.search()) throw InputError({"", "vary", "", "nothing is searched", "an axis with search = [from, to]"});
-  Problem::State state{&plan, &evaluate, {}, {}};
+  PlanProblem::State state{&plan, &evaluate, {}, {}};
   const auto seed = static_cast<unsigned>(plan.seed() % 4294967291U);
-  const pagmo::problem problem{Problem{&state}};
+  const pagmo::problem problem{PlanProblem{&state}};
   const pagmo::population first{problem, pagmo::bfe{pagmo::member_bfe{}}, plan.search()->population, seed};
   static_cast<void>(algorithm_of(*plan.search(), seed).evolve(first));
   Optimum out{plan.with(state.candidates), state.objectives, {}};

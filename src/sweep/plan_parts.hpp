@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 
 #include "sweep/plan_impl.hpp"
@@ -15,6 +16,8 @@ namespace vsa::sweep {
 inline constexpr std::array kParts{"scenario", "study", "set", "motion", "command"};
 /// Of [scenario]: what changes none of a run's numbers.
 inline constexpr std::array kOutside{"speed", "low_latency", "view", "view_port", "view_records", "paused", "topics"};
+/// What a number that any bound would be wrong for may have as its bounds.
+inline constexpr double kAny = std::numeric_limits<double>::max();
 inline constexpr double kMostSamples = Plan::kMostRuns;
 
 [[nodiscard]] Axis read_axis(config::TomlSection s);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "vsa/not_a_number.hpp"
 #include "vsa/quantile.hpp"
 #include "vsa/sweep/measure.hpp"
 
@@ -46,9 +47,8 @@ void Statistic::add(double time_s, double value) {
 }
 
 double Statistic::value() const {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const bool ends = kind_ == Kind::first || kind_ == Kind::last;
-  if (count_ == 0 || (!whole_ && !ends)) return kNone;
+  if (count_ == 0 || (!whole_ && !ends)) return kNaN;
   const auto n = static_cast<double>(count_);
   switch (kind_) {
     case Kind::last:
@@ -79,7 +79,7 @@ double Statistic::value() const {
     case Kind::settle:
       return settled();
   }
-  return kNone;
+  return kNaN;
 }
 
 /// From the first sample until the value stays within the band.

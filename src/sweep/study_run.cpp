@@ -3,7 +3,6 @@
 // Runs that are studies: a table [study] in the place of a scenario's, its measures by where they stand in the results.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -11,9 +10,11 @@
 
 #include "sweep/fit_run.hpp"
 #include "sweep/plan_impl.hpp"
+#include "sweep/plan_parts.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/config/toml_section.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/not_a_number.hpp"
 #include "vsa/study/characterization.hpp"
 #include "vsa/study/validation.hpp"
 
@@ -23,9 +24,6 @@ namespace {
 using config::TomlSection;
 using Json = nlohmann::json;
 using Task = std::variant<study::CharacterizationOptions, study::ValidationOptions, FitTask>;
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kAny = std::numeric_limits<double>::max();
 
 void read_characterization(TomlSection& s, study::CharacterizationOptions& out) {
   const auto all = {study::Experiment::stiffness, study::Experiment::speed, study::Experiment::preset_step};
@@ -82,7 +80,7 @@ Task task_of(const Plan::Impl& plan, const std::vector<Value>& values) {
 std::optional<double> number_at(const Json& results, const std::string& place) {
   try {
     const Json& found = results.at(Json::json_pointer(place));
-    if (found.is_null()) return kNone;
+    if (found.is_null()) return kNaN;
     return found.is_number() ? std::optional(found.get<double>()) : std::nullopt;
   } catch (const Json::exception&) {
     return std::nullopt;
@@ -161,7 +159,7 @@ std::optional<std::vector<double>> run_study(const Plan::Impl& plan, const std::
     const auto done = study::run(study::plan_characterization(*options), on_progress, 1);
     if (!done) return std::nullopt;
     const Json results = Json::parse(study::to_json(*done, ""));
-    for (const Measure& m : plan.measures) out.push_back(number_at(results, m.value).value_or(kNone));
+    for (const Measure& m : plan.measures) out.push_back(number_at(results, m.value).value_or(kNaN));
     return out;
   }
   std::map<std::string, double> quantities;
@@ -176,7 +174,7 @@ std::optional<std::vector<double>> run_study(const Plan::Impl& plan, const std::
   }
   for (const Measure& m : plan.measures) {
     const auto at = quantities.find(m.value);
-    out.push_back(at == quantities.end() ? kNone : at->second);
+    out.push_back(at == quantities.end() ? kNaN : at->second);
   }
   return out;
 }

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "sweep/columns.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/not_a_number.hpp"
 #include "vsa/quantile.hpp"
 
 namespace vsa::sweep {
@@ -18,7 +18,6 @@ namespace {
 using report::Chart;
 using report::Curve;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kClasses = 5;
 constexpr std::size_t kMostLines = 400;  // of parallel coordinates: more is a grey area
 
@@ -45,7 +44,7 @@ class Fifths {
 
  private:
   std::vector<double> edges_;
-  double least_ = kNone, most_ = kNone;
+  double least_ = kNaN, most_ = kNaN;
 };
 
 struct Sheet {
@@ -125,7 +124,7 @@ Chart map_of(const Sheet& sheet, std::size_t a, std::size_t b, std::size_t m) {
 Chart parallel(const Sheet& sheet) {
   struct Line {
     const Column* column;
-    double least = kNone, most = kNone;
+    double least = kNaN, most = kNaN;
   };
   std::vector<Line> lines;
   std::string label;
@@ -157,8 +156,8 @@ Chart parallel(const Sheet& sheet) {
       curve.x.push_back(static_cast<double>(l + 1));
       curve.y.push_back((lines[l].column->numbers[r] - lines[l].least) / (lines[l].most - lines[l].least));
     }
-    curve.x.push_back(kNone);
-    curve.y.push_back(kNone);
+    curve.x.push_back(kNaN);
+    curve.y.push_back(kNaN);
   }
   std::erase_if(chart.curves, [](const Curve& c) { return c.x.empty(); });
   return chart;

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <limits>
 
 #include "sweep/columns.hpp"
 #include "vsa/config/text.hpp"
@@ -12,6 +11,8 @@
 
 #ifdef VSA_HDF5
 #include <hdf5.h>
+
+#include "vsa/not_a_number.hpp"
 #endif
 
 namespace vsa::sweep {
@@ -48,14 +49,13 @@ std::string cell(const std::string& text) {
 }
 
 std::vector<Column> columns(const Plan& plan, const Results& results) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const std::size_t rows = plan.runs(), axes = plan.axes().size();
   std::vector<const Outcome*> of(rows, nullptr);
   for (const Outcome& o : results.outcomes)
     if (o.run < rows) of[o.run] = &o;
   std::vector<Column> out;
   const auto numbers = [&](const std::string& name) -> std::vector<double>& {
-    out.push_back({name, true, std::vector<double>(rows, kNone), {}});
+    out.push_back({name, true, std::vector<double>(rows, kNaN), {}});
     return out.back().numbers;
   };
   out.reserve(axes + plan.measures().size() + 4);

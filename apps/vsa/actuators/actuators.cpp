@@ -21,16 +21,16 @@ namespace {
 constexpr std::size_t kReadableWidth = 100;  // of running text on a terminal that is wider
 
 /// σ of the unloaded actuator at a stiffness preset: at the equilibrium where its shaft rests.
-double stiffness_at_rest(const elastic::Transmission& law, double preset) {
+double stiffness_of(const elastic::Transmission& law, double preset) {
   const auto x = law.references({0.0, preset});
   return law.evaluate({law.attained(x).equilibrium, x}).curvature.qq;
 }
 
 std::string stiffness_text(const device::UnitConfig& unit) {
   const elastic::Transmission& law = *unit.actuator.transmission;
-  const double soft = stiffness_at_rest(law, 0.0);
+  const double soft = stiffness_of(law, 0.0);
   if (law.preset_unit().empty()) return fmt::format("{:.3g} {}", soft, unit.actuator.linear() ? "N/m" : "N·m/rad");
-  const double stiff = stiffness_at_rest(law, unit.preset_max);
+  const double stiff = stiffness_of(law, unit.preset_max);
   return fmt::format("{:.3g} … {:.3g} {}", soft, stiff, unit.actuator.linear() ? "N/m" : "N·m/rad");
 }
 

@@ -20,7 +20,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes = R"(Experiments, on the worlds bench_load and bench_free (the paper, section IV):
+constexpr const char* kCharacterizeNotes = R"(Experiments, on the worlds bench_load and bench_free (the paper, section IV):
   stiffness    slow sinusoidal sweep of the equilibrium with 1 kg on a 0.15 m lever: torque-deflection loop, stiffness
   speed        square wave of the equilibrium, 1.57 rad, no load: rise time, speed, overshoot, ringing
   preset-step  the preset from 0 to its largest value and back, without load and with the lever held out
@@ -122,7 +122,7 @@ void setup_characterize(CLI::App& app, int& exit_code) {
       ->check(number_given());
   sub->add_option("--set", options->set, "Override a parameter: key=value")->allow_extra_args(false);
   sub->add_option("--out", options->out, "Directory for the files; default: characterize_TYPE");
-  sub->footer(kNotes);
+  sub->footer(kCharacterizeNotes);
   sub->callback([options, &exit_code] { exit_code = run_characterize(*options); });
 }
 

@@ -22,7 +22,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes =
+constexpr const char* kDatasheetNotes =
     R"(One page: torque, speed, stiffness and energy from the law and the drive's parameters; how fast a step and a
 change of stiffness are, from the benches as vsa characterize runs them. Each number says which.
 
@@ -138,7 +138,7 @@ void setup_datasheet(CLI::App& app, int& exit_code) {
   CLI::Option* set = sub->add_option("--set", options->set, "Override a parameter: key=value")->allow_extra_args(false);
   sub->add_option("--out", options->out, "File to write, with --all a directory; default: datasheet_TYPE.html, datasheets");
   all->excludes(type)->excludes(set);
-  sub->footer(kNotes);
+  sub->footer(kDatasheetNotes);
   sub->callback([options, &exit_code] {
     if (options->type.empty() && !options->all)
       throw InputError({"", "TYPE", "", "is missing", "an actuator type, see vsa actuators; or --all"});

@@ -14,9 +14,9 @@ namespace {
 
 using experiment::PresetColumn;
 
-constexpr int kPoints = 40, kPresets = 24;
-constexpr double kMostPreset = 0.9;  // of the attainable one, as the sheet's last
-constexpr double kLeastLoad = 0.01;  // of the peak torque: where a picture's logarithmic axis begins
+constexpr int kPicturePoints = 40, kPresets = 24;
+constexpr double kMostPreset = 0.9;         // of the attainable one, as the sheet's last
+constexpr double kLeastPictureLoad = 0.01;  // of the peak torque: where a picture's logarithmic axis begins
 
 /// On the benches' pinion, where a linear actuator is one among others.
 study::DataSheet turning(study::DataSheet d) {
@@ -29,8 +29,8 @@ study::DataSheet turning(study::DataSheet d) {
 void add_picture(const study::DataSheet& d, report::Cards::Card& card) {
   const experiment::Workspace workspace(d.computed.type.unit);
   const double most = d.computed.columns.front().peak.torque_Nm;
-  for (int i = 0; i < kPoints; ++i) {
-    const double load = most * std::pow(kLeastLoad, 1 - static_cast<double>(i) / (kPoints - 1));
+  for (int i = 0; i < kPicturePoints; ++i) {
+    const double load = most * std::pow(kLeastPictureLoad, 1 - static_cast<double>(i) / (kPicturePoints - 1));
     double low = std::nan(""), high = std::nan("");
     for (int k = 0; k <= (d.has_preset() ? kPresets : 0); ++k) {
       const double stiffness = workspace.stiffness_under(kMostPreset * d.computed.attainable_preset * k / kPresets, load);

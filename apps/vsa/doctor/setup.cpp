@@ -11,7 +11,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes = R"(ok: nothing to do. note: worth knowing. problem: something won't work.
+constexpr const char* kDoctorNotes = R"(ok: nothing to do. note: worth knowing. problem: something won't work.
 Exit codes: 0 no problem, 1 a problem, 2 bad usage or no such world.
 
 Examples:
@@ -28,7 +28,7 @@ void setup_doctor(CLI::App& app, int& exit_code) {
   sub->add_option("--devices", options->devices, "Where the machine's devices are")
       ->capture_default_str()
       ->check(CLI::ExistingDirectory);
-  sub->footer(kNotes);
+  sub->footer(kDoctorNotes);
   sub->callback([options, &exit_code] {
     exit_code = run_doctor(*options, load_world, {reader::sdf_feature(), topics::topics_feature()});
   });

@@ -20,7 +20,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes =
+constexpr const char* kExperimentsNotes =
     R"(Each type has a rigid link on its shaft, axis upright, and does three things at presets from 0 to 90 % of what its
 motors wind to; its best counts:
   throw    swings back and forward by 1 rad; a ball 0.5 m from the axis flies off where it is fastest
@@ -88,7 +88,7 @@ void setup_experiments(CLI::App& app, int& exit_code) {
   sub->add_option("--step-s", options->step_s, "Simulated seconds per step; default 0.00025")->check(number_given());
   sub->add_option("--set", options->set, "Override a parameter of every type: key=value")->allow_extra_args(false);
   sub->add_option("--out", options->out, "Directory for the files; default: experiments");
-  sub->footer(kNotes);
+  sub->footer(kExperimentsNotes);
   sub->callback([options, &exit_code] { exit_code = run_experiments(*options); });
 }
 

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
+
+#include "vsa/not_a_number.hpp"
 
 namespace vsa::app {
 namespace {
@@ -15,9 +16,7 @@ namespace {
 using study::TaskResults;
 using study::Tasks;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
+std::string short_text(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
 
 /// What ranks a type in a task; NaN: it isn't ranked. Energy counts per torque held, since each holds its own.
 double distance_m(const TaskResults& r) {
@@ -59,7 +58,7 @@ std::string place(const Tasks& tasks, const TaskResults& of, Score score, bool m
 }
 
 std::string at(const TaskResults& r, double preset) {
-  return r.preset_unit().empty() ? "" : fmt::format("preset {} {}", number(preset), r.preset_unit());
+  return r.preset_unit().empty() ? "" : fmt::format("preset {} {}", short_text(preset), r.preset_unit());
 }
 
 /// `note(results)`: at which preset.
@@ -76,16 +75,16 @@ report::Bars bars(std::string title, const Tasks& tasks, Score score, bool most,
 
 report::Section bars_section(const Tasks& tasks) {
   report::Bars far = bars(
-      "Throws farthest", tasks, distance_m, true, [](const TaskResults& r) { return number(distance_m(r)) + " m"; },
+      "Throws farthest", tasks, distance_m, true, [](const TaskResults& r) { return short_text(distance_m(r)) + " m"; },
       [](const TaskResults& r) { return at(r, r.farthest()->preset); });
   far.caption = "A ball 0.5 m from the axis, at 45°, without air.";
   report::Bars soon = bars(
-      "Settles soonest after a blow", tasks, settled_s, false, [](const TaskResults& r) { return number(settled_s(r)) + " s"; },
+      "Settles soonest after a blow", tasks, settled_s, false, [](const TaskResults& r) { return short_text(settled_s(r)) + " s"; },
       [](const TaskResults& r) { return at(r, r.soonest()->preset); });
   soon.caption = "Within 5 % of its largest way; short is good.";
   report::Bars cheap = bars(
       "Holds cheapest", tasks, energy_J_per_Nm, false,
-      [](const TaskResults& r) { return number(energy_J_per_Nm(r)) + " J per N·m"; },
+      [](const TaskResults& r) { return short_text(energy_J_per_Nm(r)) + " J per N·m"; },
       [](const TaskResults& r) { return at(r, r.cheapest()->preset); });
   cheap.caption = "Energy from the supply in 10 s over the torque held; short is good.";
   return {"The best of each type", {far, soon, cheap}};
@@ -142,11 +141,11 @@ report::Table tasks_table(const Tasks& tasks) {
       "equal numbers share a place."};
   for (const TaskResults& r : tasks.each) {
     const auto far = r.farthest();
-    out.rows.push_back({r.actuator.name, r.actuator.rank.empty() ? "–" : r.actuator.rank, number(r.inertia_kgm2),
-                        number(distance_m(r)), place(tasks, r, distance_m, true),
-                        number(far ? far->link_rad_per_s / r.no_load_speed_rad_per_s : kNaN), number(settled_s(r)),
-                        place(tasks, r, settled_s, false), number(r.load_Nm), number(energy_J(r)), number(energy_J_per_Nm(r)),
-                        place(tasks, r, energy_J_per_Nm, false)});
+    out.rows.push_back({r.actuator.name, r.actuator.rank.empty() ? "–" : r.actuator.rank, short_text(r.inertia_kgm2),
+                        short_text(distance_m(r)), place(tasks, r, distance_m, true),
+                        short_text(far ? far->link_rad_per_s / r.no_load_speed_rad_per_s : kNaN), short_text(settled_s(r)),
+                        place(tasks, r, settled_s, false), short_text(r.load_Nm), short_text(energy_J(r)),
+                        short_text(energy_J_per_Nm(r)), place(tasks, r, energy_J_per_Nm, false)});
   }
   return out;
 }

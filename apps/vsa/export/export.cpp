@@ -16,7 +16,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes =
+constexpr const char* kExportNotes =
     R"(--fmu: A functional mock-up unit for co-simulation: an actuator type between its importer's shaft and commands (angle and speed in,
 torque out), or a whole world with the embedded engine (commands in, joints and torques out). One file that needs no vsasim where it
 is imported; an actuator's needs the C library only. docs/howto/fmu.md tells how to step it.
@@ -93,7 +93,7 @@ void setup_export(CLI::App& app, int& exit_code) {
       ->check(number_given())
       ->needs(of_fmu);
   sub->add_option("--set", fmu.set, "Override a parameter of the type: key=value")->allow_extra_args(false)->needs(of_fmu);
-  sub->footer(kNotes);
+  sub->footer(kExportNotes);
   sub->callback([options, &exit_code] { exit_code = run_export(*options); });
 }
 

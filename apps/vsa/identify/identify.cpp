@@ -14,7 +14,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes =
+constexpr const char* kIdentifyNotes =
     R"(Fits the simulated load test (world bench_load, full dynamics, read by the unit's encoders) to recordings by least
 squares over both branches. A parameter is a key of the actuator type, see vsa actuators NAME; tied keys get one value.
 Recordings: load_torque_Nm,deflection_rad[,time_s|sample], the commanded preset in the name (…_preset_0.6903rad….csv);
@@ -97,7 +97,7 @@ std::function<void()> add_identify_options(CLI::App& to, const std::shared_ptr<I
       ->check(CLI::Range(0, 1024));
   sub->add_flag("--resume", o->resume, "Go on where fits of the same command ended");
   sub->add_flag("--retry-failed", o->retry_failed, "And make again what failed")->needs("--resume");
-  sub->footer(kNotes);
+  sub->footer(kIdentifyNotes);
   return [o, sub] {
     if (!o->compare.file.empty()) refuse_mixed(*sub);
     o->compare.out = o->out;

@@ -23,7 +23,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes =
+constexpr const char* kLinearizeNotes =
     R"(Actuators at rest, and what small motions about that see: A, B, C, D, poles, impedance. Of a TYPE one unit on an inertia; of a
 WORLD all joints that move with its actuators, as heavy as they are there, gravity included. Each joint stands where the world
 begins or --at says, with the equilibrium that carries its weight or --equilibrium-of says.
@@ -244,7 +244,7 @@ void setup_linearize(CLI::App& app, int& exit_code) {
   sub->add_option("--type", options->type, "Put this actuator type on every actuator of the world");
   sub->add_option("--set", options->set, "Override a parameter: key=value")->allow_extra_args(false);
   sub->add_option("--out", options->out, "Directory for the files; default: linearize_TARGET");
-  sub->footer(kNotes);
+  sub->footer(kLinearizeNotes);
   sub->callback([options, &exit_code] { exit_code = run_linearize(*options); });
 }
 

@@ -23,7 +23,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes =
+constexpr const char* kRunNotes =
     R"(WORLD is a file or the name of a built-in world, FILE a file or the name of a built-in gait. WORLD may also be a
 scenario (NAME.toml), which says all this in a file; relative paths in it are relative to it. Flags override what it says; of
 --set and --fault both hold, and the flags' are the last said. A recorded run writes DIR/scenario.toml, which repeats it.
@@ -174,7 +174,7 @@ void setup_run(CLI::App& app, int& exit_code) {
   flags->value("--record", &RunOptions::record, "Write CSV files, run.mcap, a replay page and scenario.toml into this directory");
   flags->flag("--no-topics", &RunOptions::no_topics, "Run without the transport");
   flags->flag("--paused", &RunOptions::paused, "Start paused; the page or /world/W/control lets it run");
-  sub->footer(kNotes + std::string(kFaultsHelp));
+  sub->footer(kRunNotes + std::string(kFaultsHelp));
   sub->callback([flags, &exit_code] { exit_code = run_run(flags->said()); });
 }
 

@@ -13,10 +13,10 @@
 #include "terminal/console.hpp"
 #include "terminal/pace.hpp"
 #include "vsa/engine/world.hpp"
+#include "vsa/motion/travel.hpp"
 #include "vsa/record/recorder.hpp"
 #include "vsa/scenario/player.hpp"
 #include "vsa/seat/run_control.hpp"
-#include "vsa/study/travel.hpp"
 #include "vsa/topics/feature.hpp"
 #include "vsa/topics/world_server.hpp"
 #include "vsa/view/live_view.hpp"
@@ -60,7 +60,7 @@ class RunSession {
   seat::RunControl control_;
   std::optional<record::Recorder> recorder_;
   std::optional<topics::WorldServer> server_;
-  study::Travel travel_;
+  motion::Travel travel_;
   record::Cadence travel_cadence_;
   std::optional<view::LiveView> view_;
   std::uint64_t speed_changes_ = 0;

@@ -20,7 +20,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes =
+constexpr const char* kOptimizeNotes =
     R"(The plan is one of vsa sweep's with axes that are searched, an algorithm and objectives (docs/reference/sweep-files.md). A generation's
 runs are made at once; what comes next follows from the plan and the numbers so far alone, so that the same seed finds the same
 whoever runs what. With --part every part of N runs its share of each generation and waits for the others', so all of them have to
@@ -112,7 +112,7 @@ void setup_optimize(CLI::App& app, int& exit_code) {
   CLI::App* sub = app.add_subcommand("optimize", "The best values of a plan's searched axes");
   add_sweep_options(*sub, *options);
   sub->add_option("--part", options->part, "Run every Nth run, from the Ith on, beside the other parts: I/N");
-  sub->footer(kNotes);
+  sub->footer(kOptimizeNotes);
   sub->callback([options, &exit_code] { exit_code = run_optimize(*options); });
 }
 

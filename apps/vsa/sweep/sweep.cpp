@@ -20,7 +20,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes =
+constexpr const char* kSweepNotes =
     R"(A plan names a scenario, what varies in it, how often each point is repeated from another start, and what is measured
 (docs/reference/sweep-files.md). It is checked before anything runs. Each process appends to a log of its own in DIR/log, so
 whatever dies, nothing is lost and --resume goes on; the table is the same bytes whoever ran what, in which order.
@@ -125,7 +125,7 @@ void setup_sweep(CLI::App& app, int& exit_code) {
   for (const char* other : {"--part", "--threads", "--resume", "--check", "--run"}) given("--merge")->excludes(given(other));
   for (const char* other : {"--part", "--out", "--resume", "--run"}) given("--check")->excludes(given(other));
   for (const char* other : {"--part", "--out", "--threads", "--resume"}) given("--run")->excludes(given(other));
-  sub->footer(kNotes);
+  sub->footer(kSweepNotes);
   sub->callback([options, &exit_code] { exit_code = run_sweep(*options); });
 }
 

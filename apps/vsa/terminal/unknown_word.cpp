@@ -25,11 +25,16 @@ std::vector<std::string> options_of(const CLI::App& app) {
 
 }  // namespace
 
-void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& arguments) {
+void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& arguments,
+                            const std::vector<std::string>& left_out) {
   if (arguments.empty() || arguments.front().empty() || arguments.front().front() == '-') return;
   const std::vector<std::string> known = commands_of(app);
   if (std::find(known.begin(), known.end(), arguments.front()) != known.end()) return;
   const std::string& word = arguments.front();
+  if (std::find(left_out.begin(), left_out.end(), word) != left_out.end()) {
+    throw InputError(
+        {"", word, "", "not in this build, which was made for a first run; `make` builds every command", config::join(known)});
+  }
   throw InputError({"", word, "", "no such command" + config::did_you_mean(word, known), config::join(known)});
 }
 

@@ -9,8 +9,9 @@
 
 namespace vsa::app {
 
-/// Throws InputError where the first word is no command.
-void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& arguments);
+/// Throws InputError where the first word is no command; `left_out`: those that there are, but not in this build.
+void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& arguments,
+                            const std::vector<std::string>& left_out);
 
 /// After a parse that failed for words nobody expected (CLI::ExtrasError): throws InputError for the first option among them, else
 /// for the first word; returns where there is none.

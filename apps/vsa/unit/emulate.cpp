@@ -36,7 +36,7 @@ constexpr int kMostId = 254;
 constexpr std::int64_t kStepNs = 1'000'000;
 constexpr std::uint8_t kMotorsOn = 3;
 
-constexpr const char* kNotes =
+constexpr const char* kEmulateNotes =
     R"(The units run in real time until Ctrl-C, each with a shaft that turns freely. Software for the hardware opens the port's
 path as it would a real one; --port NAME is a path if it has a '/', else a name in $XDG_RUNTIME_DIR, or /tmp.
 
@@ -216,7 +216,7 @@ void setup_emulate(CLI::App& app, int& exit_code) {
   sub->add_option("--duration-s", options->duration_s, "Seconds to run; default: until Ctrl-C")->check(number_given());
   sub->add_option("--fault", options->faults, "Break something: \"IDS FAULT …\", such as \"2 off\", or \"all FAULT …\"")
       ->allow_extra_args(false);
-  sub->footer(kNotes + std::string(kFaultsHelp));
+  sub->footer(kEmulateNotes + std::string(kFaultsHelp));
   sub->callback([options, &exit_code] { exit_code = run_emulate(*options); });
 }
 

@@ -16,7 +16,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes =
+constexpr const char* kGetNotes =
     R"(WHAT: measurements, currents, inputs (the references), active, info (the unit's own text), parameters (all, as
 they are in force), or one parameter: id, position_pid, current_pid, startup_activation, input_mode, control_mode, resolutions,
 offsets, multipliers, limits_on, limits, max_steps, current_limit; dialect 7 also rate_limiter, serial_number.
@@ -29,7 +29,7 @@ Examples:
 
 using Rows = std::vector<std::vector<std::string>>;
 
-constexpr std::array<std::string_view, 6> kThings{"measurements", "currents", "inputs", "active", "info", "parameters"};
+constexpr std::array<std::string_view, 6> kReadable{"measurements", "currents", "inputs", "active", "info", "parameters"};
 
 template <std::size_t N>
 std::vector<std::int32_t> values_of(const std::array<Ticks, N>& ticks) {
@@ -63,7 +63,7 @@ class Asked {
       const auto reply = port_.take(client_.currents(id_), id_, what);
       return fmt::format("motor 1 {} mA, motor 2 {} mA", reply.currents_mA[0], reply.currents_mA[1]);
     }
-    return config::unit_parameter_text(parameters(), config::need_unit_parameter(dialect_, what, kThings));
+    return config::unit_parameter_text(parameters(), config::need_unit_parameter(dialect_, what, kReadable));
   }
 
   const bus::ParameterValues& parameters() {
@@ -84,7 +84,7 @@ int run_get(const GetOptions& options) {
   const std::vector<std::uint8_t> ids = parse_ids(options.port.ids);
   std::vector<std::string> wanted = options.what;
   if (wanted.empty()) wanted = {"active", "inputs", "measurements", "currents"};
-  for (const std::string& what : wanted) config::check_unit_word(what, kThings);
+  for (const std::string& what : wanted) config::check_unit_word(what, kReadable);
   UnitPort port(options.port);
   Rows rows{{"unit", "what", "value"}};
   for (const std::uint8_t id : ids) {
@@ -106,7 +106,7 @@ void setup_get(CLI::App& app, int& exit_code) {
   sub->add_option("WHAT", options->what, "What to read, see below");
   sub->add_option("--id", options->port.ids, "Units, such as 3 or 1-12 or 1,3,5")->capture_default_str();
   add_port_options(*sub, options->port);
-  sub->footer(kNotes);
+  sub->footer(kGetNotes);
   sub->callback([options, &exit_code] { exit_code = run_get(*options); });
 }
 

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kScan_ms = 5;
 
-constexpr const char* kNotes =
+constexpr const char* kPingNotes =
     R"(Without PORT the only virtual port that runs is taken. Devices such as /dev/ttyUSB0 are listed, never tried unasked:
 they may be anything.
 
@@ -91,7 +91,7 @@ void setup_ping(CLI::App& app, int& exit_code) {
   sub->add_option("PORT", options->port, "A port's path, or a virtual port's name");
   sub->add_option("--id", options->ids, "Units, such as 3 or 1-12 or 1,3,5; default: all, 1 to 254");
   add_port_options(*sub, *options);
-  sub->footer(kNotes);
+  sub->footer(kPingNotes);
   sub->callback([options, &exit_code] { exit_code = run_ping(*options); });
 }
 

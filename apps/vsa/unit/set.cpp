@@ -19,7 +19,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes = R"(WHAT and its values; angles in degrees, or in the unit's ticks as 910ticks:
+constexpr const char* kSetNotes = R"(WHAT and its values; angles in degrees, or in the unit's ticks as 910ticks:
   inputs MOTOR_1 MOTOR_2          references of both motors
   equilibrium EQUILIBRIUM PRESET   the same as equilibrium + preset and equilibrium - preset
   position_stiffness POSITION S   the unit's own command; S in percent of its max stiffness, -100 to 100
@@ -33,7 +33,7 @@ Examples:
   vsa set /dev/ttyUSB0 inputs -910ticks 910ticks --id 3
   vsa set /dev/ttyUSB0 position_pid 0.1 0 0.8 --id 1-12 --store)";
 
-constexpr std::array<std::string_view, 5> kThings{"inputs", "equilibrium", "position_stiffness", "active", "store"};
+constexpr std::array<std::string_view, 5> kWritable{"inputs", "equilibrium", "position_stiffness", "active", "store"};
 constexpr auto kSettles = std::chrono::seconds(2);  // references show two ticks later, which a busy machine may delay
 constexpr std::int32_t kLowest = std::numeric_limits<std::int16_t>::min();
 constexpr std::int32_t kHighest = std::numeric_limits<std::int16_t>::max();
@@ -133,7 +133,7 @@ std::string Told::position_stiffness(config::ValueReader& reader) {
 }
 
 std::string Told::parameter(config::ValueReader& reader) {
-  const bus::ParameterId parameter = config::need_unit_parameter(dialect_, options_.what, kThings);
+  const bus::ParameterId parameter = config::need_unit_parameter(dialect_, options_.what, kWritable);
   const bus::ParameterValue value = config::read_unit_parameter(reader, parameter, now_.resolutions);
   reader.throw_if_any();
   static_cast<void>(port_.take(client_.set_parameter(id_, parameter, value), id_, options_.what));
@@ -158,8 +158,8 @@ int run_set(const SetOptions& options) {
   if (options.what == "id" && ids.size() > 1) {
     throw InputError({"", "--id", options.port.ids, "several units can't have the same id", "one unit"});
   }
-  config::check_unit_word(options.what, kThings);
-  const bool is_parameter = std::find(kThings.begin(), kThings.end(), options.what) == kThings.end();
+  config::check_unit_word(options.what, kWritable);
+  const bool is_parameter = std::find(kWritable.begin(), kWritable.end(), options.what) == kWritable.end();
   if (options.store && !is_parameter) throw InputError({"", "--store", options.what, "is no parameter", "with a parameter only"});
   UnitPort port(options.port);
   for (const std::uint8_t id : ids) std::cout << fmt::format("unit {}: {}\n", id, Told(port, id, options).tell()) << std::flush;
@@ -175,7 +175,7 @@ void setup_set(CLI::App& app, int& exit_code) {
   sub->add_option("--id", options->port.ids, "Units, such as 3 or 1-12 or 1,3,5")->capture_default_str();
   sub->add_flag("--store", options->store, "Then write the parameters to the unit's memory");
   add_port_options(*sub, options->port);
-  sub->footer(kNotes);
+  sub->footer(kSetNotes);
   sub->callback([options, &exit_code] { exit_code = run_set(*options); });
 }
 

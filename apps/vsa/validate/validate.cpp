@@ -17,7 +17,7 @@
 namespace vsa::app {
 namespace {
 
-constexpr const char* kNotes =
+constexpr const char* kValidateNotes =
     R"(Runs the load test of every recording in data/, the speed and preset-step experiments, and compares. What the type's
 [evidence] names was calibrated, all else is predicted; the two are told and counted apart. Bounds stand in data/bounds.toml,
 each with its reason. Writes report.html and results.json. Exit code 1 where a bound is broken, of either kind.
@@ -107,7 +107,7 @@ void setup_validate(CLI::App& app, int& exit_code) {
                   "results.json of vsa identify with its cross-validation; default: data/TYPE/leave_one_out.json, if it is there");
   sub->add_option("--bounds", o->bounds, "Bounds to hold; default: data/bounds.toml");
   sub->add_option("--markdown", o->markdown, "Replace the tables in this file, or write it; pictures go to figures/ beside it");
-  sub->footer(kNotes);
+  sub->footer(kValidateNotes);
   sub->callback([o, &exit_code] { exit_code = run_validate(*o); });
 }
 

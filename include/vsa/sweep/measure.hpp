@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "vsa/engine/world.hpp"
-#include "vsa/study/travel.hpp"
+#include "vsa/motion/travel.hpp"
 
 namespace vsa::sweep {
 
@@ -66,7 +66,7 @@ class Statistic {
 /// Takes all measures of a run, sample by sample.
 class Observer {
  public:
-  /// Throws InputError with every measure that this world hasn't. `window_s`: of travel (vsa/study/travel.hpp).
+  /// Throws InputError with every measure that this world hasn't. `window_s`: of travel (vsa/motion/travel.hpp).
   Observer(const std::vector<Measure>& measures, const engine::World& world, double window_s);
   ~Observer();
   Observer(const Observer&) = delete;

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace vsa::study {
+namespace vsa::motion {
 
 /// How far a robot went without its wriggling: the centre of mass, averaged over a gait period.
 class Travel {
@@ -38,4 +38,4 @@ class Travel {
   double path_ = 0;
 };
 
-}  // namespace vsa::study
+}  // namespace vsa::motion

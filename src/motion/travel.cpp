@@ -1,10 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "vsa/study/travel.hpp"
+#include "vsa/motion/travel.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace vsa::study {
+namespace vsa::motion {
 namespace {
 
 double distance(const std::array<double, 2>& a, const std::array<double, 2>& b) noexcept {
@@ -46,4 +46,4 @@ Travel::Point Travel::mean() const noexcept {
   return {sum[0] / n, sum[1] / n};
 }
 
-}  // namespace vsa::study
+}  // namespace vsa::motion

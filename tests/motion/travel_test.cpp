@@ -1,11 +1,11 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "vsa/study/travel.hpp"
+#include "vsa/motion/travel.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace vsa::study {
+namespace vsa::motion {
 namespace {
 
 TEST(Travel, DoesNotCountTheSwingOfACycle) {
@@ -42,4 +42,4 @@ TEST(Travel, SaysThatARunShorterThanItsWindowIsNotMeasured) {
 }
 
 }  // namespace
-}  // namespace vsa::study
+}  // namespace vsa::motion
