@@ -9,13 +9,20 @@
 #include <string>
 #include <vector>
 
-#include "commands.hpp"
+#include "actuators/actuators.hpp"
+#include "command/command.hpp"
 #include "doctor/doctor.hpp"
+#include "more_commands.hpp"
+#include "run/run.hpp"
 #include "terminal/completion.hpp"
 #include "terminal/exit_codes.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/man_page.hpp"
 #include "terminal/unknown_word.hpp"
+#include "unit/emulate.hpp"
+#include "unit/get.hpp"
+#include "unit/ping.hpp"
+#include "unit/set.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 
@@ -49,7 +56,14 @@ void set_up(CLI::App& app, int& exit_code) {
   app.require_subcommand(1);
   const std::vector<std::string> left_out = vsa::app::commands_left_out();
   app.footer((left_out.empty() ? "" : "Not in this build, `make` adds them: " + vsa::config::join(left_out) + "\n\n") + kExamples);
-  vsa::app::setup_commands(app, exit_code);
+  vsa::app::setup_run(app, exit_code);
+  vsa::app::setup_command(app, exit_code);
+  vsa::app::setup_actuators(app, exit_code);
+  vsa::app::setup_emulate(app, exit_code);
+  vsa::app::setup_ping(app, exit_code);
+  vsa::app::setup_get(app, exit_code);
+  vsa::app::setup_set(app, exit_code);
+  vsa::app::setup_more_commands(app, exit_code);
   vsa::app::setup_doctor(app, exit_code);
 }
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "more_commands.hpp"
 #include "subprocess.hpp"
 
 namespace {
@@ -99,6 +100,10 @@ TEST(Usage, HelpIsACommandToo) {
   EXPECT_EQ(run_vsa({"help", "run"}).out, run_vsa({"run", "--help"}).out);
   EXPECT_EQ(run_vsa({"help", "run"}).exit_code, 0);
   expect_bad_input(run_vsa({"help", "rnu"}), {"vsa: rnu: no such command, did you mean run?"});
+}
+
+TEST(Usage, HasTheCommandsThatABuildForAFirstRunIsWithout) {
+  for (const char* command : vsa::app::kMoreCommands) EXPECT_EQ(run_vsa({command, "--help"}).exit_code, 0) << command;
 }
 
 TEST(Usage, AWordNobodyKnowsIsNamedWithTheNearestThatMeansSomething) {

@@ -16,7 +16,6 @@ namespace {
 
 using vsa::device::Unit;
 using vsa::device::UnitConfig;
-using vsa::device::UnitState;
 using vsa::test::antagonist;
 using vsa::test::motor_voltages;
 using vsa::test::OneJoint;
