@@ -213,7 +213,7 @@ int run_compare_job(const Job& job, const CompareOptions& options) {
   work.done = [&](const sweep::Outcome& outcome) { tell_failed(*what, outcome, console); };
   work.wanted = [] { return interrupted() == 0; };
   Led led(job, work);
-  const sweep::Series series = what->series(1, console);
+  sweep::Series series = what->series(1, console);
   if (job.rank() != 0) return led.follow([&](const std::vector<double>&) { return series; });
   const int code = compare_with(*what, console, [&](const Todo& fits) { return led.make({1.0}, series, fits); });
   led.end();
