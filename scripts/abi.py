@@ -113,7 +113,7 @@ class Compiler:
         self.program = compiler_of(build)
         commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
         system = set()
-        for words in (shlex.split(c["command"]) for c in commands if c["file"].startswith(f"{ROOT}/src/")):
+        for words in (shlex.split(c["command"]) for c in commands if c["file"].startswith((f"{ROOT}/src/", f"{build.resolve()}/src/"))):
             system |= {f"-isystem{value}" for flag, value in zip(words, words[1:]) if flag == "-isystem"}
         self.flags = ["-std=c++20", "-O0", "-fPIC", "-w", "-fmax-errors=0", f"-I{ROOT}/include", *sorted(system)]
         self.folder = folder
