@@ -10,10 +10,10 @@
 # make docs    the manual with the C++ and Python names as a site that needs no network, in build/release/docs/site; checks its links
 # make bench   run the benchmarks and print their table
 # make bench-ratios   what things cost against each other beside what is stored of a version: an error where one is a tenth worse; make record-ratios   stores it
-# make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   those of the rooms without engine, and what of these rooms they run
+# make asan    all tests in a debug build under the address and undefined-behaviour sanitizers; make check-asan   those of the rooms without engine
 # make check-tsan   what has threads under the thread sanitizer; make tidy   clang-tidy, TIDY_S bounds its seconds
 # make soak HOURS=6   port, page, topics, faults, batch and short runs at once for so long: memory, descriptors, threads, equal bytes; a page
-# make coverage   what of include and src the tests run, by rooms; an error below 90 % of the lines; half an hour
+# make coverage   what of include and src the tests run, by rooms; an error below 90 % of the lines; half an hour; make check-coverage   of the rooms without engine
 # make check-all    the last three whole: CI has time for a part of them
 # make fuzz    any bytes into the frame parser and into whole units, with clang's libFuzzer and sanitizers; FUZZ_S seconds each (300)
 # make test-gazebo   the plug-in in a real Gazebo Classic 11; where the system has none, in a private Debian 11 (0.5 GB, made once)
@@ -33,7 +33,7 @@ SIGN ?= build/packages/packages
 VSA := $(BUILD)/bin/vsa
 CONFIGURE = cmake --preset release -DVSA_COMMANDS=all $(CMAKE_FLAGS) > /dev/null
 
-.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench bench-ratios record-ratios fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage soak check-asan check-tsan tidy check-all format \
+.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench bench-ratios record-ratios fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage check-coverage soak check-asan check-tsan tidy check-all format \
   check-format stiffness-uses snake-travel packages check-packages check-abi record-abi dist check-dist check-reproducible sign clean
 
 all: build
@@ -123,13 +123,12 @@ bench-ratios record-ratios: setup
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_actuator bench_device bench_snake -- --quiet
 	@python3 bench/measurements/ratios.py $(if $(filter record%,$@),record,compare) $(BUILD)/bin
 
-# The rooms that need no engine, in a debug build, and what of them their tests run.
+# The rooms that need no engine, in a debug build.
 check-asan:
-	@sh scripts/setup.sh test coverage
+	@sh scripts/setup.sh test
 	@cmake --preset asan > /dev/null
 	@cmake --build build/asan -j $(JOBS) --target core-tests -- --quiet
 	@ctest --test-dir build/asan --output-on-failure -j 1 -L core
-	@python3 scripts/coverage.py build/asan 90 core
 
 check-tsan:
 	@sh scripts/setup.sh test
@@ -137,6 +136,14 @@ check-tsan:
 	@cmake --build build/tsan -j $(JOBS) --target thread-tests -- --quiet
 	@TSAN_OPTIONS="suppressions=$(CURDIR)/tests/support/tsan.txt halt_on_error=1" \
 	  ctest --test-dir build/tsan --output-on-failure -j 1 -L threads
+
+# The same of the rooms that need no engine, by their tests: minutes.
+check-coverage:
+	@sh scripts/setup.sh test coverage
+	@cmake --preset coverage > /dev/null
+	@cmake --build build/coverage -j $(JOBS) --target core-tests -- --quiet
+	@ctest --test-dir build/coverage --output-on-failure -j 1 -L core
+	@python3 scripts/coverage.py build/coverage 90 core
 
 # What of include and src the tests run, by rooms; fails below 90 % of the lines.
 coverage:
