@@ -46,6 +46,9 @@ def main(build, least, label):
     if label:
         counting = rooms_of(build, label)
         files = {file: lines for file, lines in files.items() if room(file) in counting}
+        if not files:
+            print(f"coverage.py: label '{label}': no room has tests with it in {build}", file=sys.stderr)
+            return 2
     rooms = collections.defaultdict(lambda: [0, 0])
     for file, (ran, of) in files.items():
         rooms[room(file)][0] += ran

@@ -2,8 +2,8 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 """Whether the tests notice: makes the one-line changes of scripts/mutants.toml, one at a time, and runs the tests that should fail.
 
-Works in a copy of the tracked files under build/mutants, built there as the preset `release`, each source by itself; the checkout isn't touched. Each entry
-of the list is a table [[mutant]] with
+Works in a copy of the tracked files under build/mutants, built there as the preset `release`, each source by itself; the checkout
+isn't touched. Each entry of the list is a table [[mutant]] with
     name        what is wrong with the program then
     file        which is changed
     old, new    this text, which must be there exactly once, becomes that one

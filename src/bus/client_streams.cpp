@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <array>
 
+#include "bus/long_packet.hpp"
 #include "vsa/bus/client.hpp"
 
 namespace vsa::bus {
 namespace {
 
-constexpr std::size_t kLongBytes = 32;
 constexpr std::size_t kMaxInfoBytes = 16384;  ///< a line that never falls silent isn't an info text
 
 /// What a whole long packet of this request needs, from its header.
 std::size_t packet_bytes(Wire wire, std::span<const std::uint8_t> header) noexcept {
-  return wire.dialect == Dialect::six ? kListBytesSix : kHeaderBytes + header[3] * kLongBytes;
+  return wire.dialect == Dialect::six ? kListBytesSix : kHeaderBytes + header[3] * kLongUnit;
 }
 
 }  // namespace

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
+#include "bus/long_packet.hpp"
 #include "vsa/bus/bytes.hpp"
 
 namespace vsa::bus {
 namespace {
 
 constexpr std::uint8_t kAckOk = 1, kAckError = 0;
-constexpr std::size_t kLongUnit = 32;  ///< dialect seven counts long packets in these
 
 /// A payload under construction, and the frame around it.
 class Payload {

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "device/lanes/table.hpp"
-#include "device/seconds.hpp"
+#include "device/numbers.hpp"
 #include "vsa/device/unit.hpp"
 
 namespace vsa::device {

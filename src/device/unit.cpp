@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "device/seconds.hpp"
+#include "device/numbers.hpp"
 #include "device/unit_lanes.hpp"
 
 namespace vsa::device {

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "device/lanes/table.hpp"
+#include "device/numbers.hpp"
 #include "vsa/device/unit_batch.hpp"
 
 namespace vsa::device {
 
 constexpr std::size_t kAlignment = 64;  // of a block
-constexpr int kFull = 100;              // % of duty
 
 struct FreeBlocks {
   void operator()(std::byte* memory) const noexcept { ::operator delete[](memory, std::align_val_t{kAlignment}); }

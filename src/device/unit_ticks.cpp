@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "device/numbers.hpp"
 #include "vsa/device/duty.hpp"
 #include "vsa/device/unit.hpp"
 #include "vsa/elastic/travel.hpp"
@@ -13,8 +14,6 @@
 
 namespace vsa::device {
 namespace {
-
-constexpr int kFullDuty_pct = 100;
 
 std::int16_t to_ticks(double rad, int resolution) noexcept {
   const double raw = std::nearbyint(rad / (2.0 * kPi) * kRawPerTurn);
@@ -162,7 +161,7 @@ void Unit::drive_bridges(UnitState& s) const noexcept {
   const firmware::Drive drive = program_.drive(s.program);
   const bool direct = s.program.memory.current.control_mode == static_cast<std::uint8_t>(firmware::ControlMode::pwm);
   // The duty went out before this tick's supply reading changed the limit.
-  const std::int32_t limit = direct ? kFullDuty_pct : s.limit_pct;
+  const std::int32_t limit = direct ? kFull : s.limit_pct;
   s.limit_pct = s.program.loop.limit_pct;
   s.held.supply_V = supply;
   for (int i = 0; i < 2; ++i) {

@@ -5,6 +5,8 @@
 
 namespace vsa::device {
 
+inline constexpr int kFull = 100;  ///< % of duty
+
 [[nodiscard]] inline double seconds(std::int64_t ns) noexcept { return static_cast<double>(ns) * 1e-9; }
 
 }  // namespace vsa::device
