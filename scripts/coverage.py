@@ -20,7 +20,7 @@ def lines_by_file(build):
     """FILE: (lines that ran, lines)."""
     out = build / "coverage.json"
     subprocess.run(["gcovr", "--root", ROOT, "--object-directory", build, "--filter", f"{ROOT}/src/", "--filter", f"{ROOT}/include/",
-                    "--exclude-directories", ".*CompilerId.*", "--gcov-ignore-parse-errors", "--json", out], check=True, stdout=subprocess.DEVNULL)
+                    "--exclude-directories", ".*CompilerId.*", "--gcov-ignore-parse-errors", "--json", out, build], check=True, stdout=subprocess.DEVNULL)
     found = {}
     for file in json.loads(out.read_text(encoding="utf-8"))["files"]:
         counts = [line["count"] for line in file["lines"] if not line.get("gcovr/noncode")]
@@ -43,6 +43,9 @@ def rooms_of(build, label):
 
 def main(build, least, label):
     files = lines_by_file(build)
+    if not files:
+        print(f"coverage.py: {build}: no test has counted lines there: the preset coverage's tree has them once its tests ran", file=sys.stderr)
+        return 2
     if label:
         counting = rooms_of(build, label)
         files = {file: lines for file, lines in files.items() if room(file) in counting}

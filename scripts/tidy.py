@@ -151,8 +151,12 @@ def main():
         return 2
     seconds, jobs = setting("TIDY_S", 0), setting("TIDY_JOBS", os.cpu_count())
     rank, generated = age(), ROOT / "build"
+    listed = json.loads(listing.read_text(encoding="utf-8"))
+    if any("/Unity/unity_" in c["file"] for c in listed):
+        print(f"tidy.py: {sys.argv[1]}: compiles sources together, which hides them: configure it with -DVSA_UNITY=OFF", file=sys.stderr)
+        return 2
     commands = {
-        c["file"]: c for c in json.loads(listing.read_text(encoding="utf-8"))
+        c["file"]: c for c in listed
         if c["file"].endswith(".cpp") and ROOT in pathlib.Path(c["file"]).parents and generated not in pathlib.Path(c["file"]).parents}
     clean = Clean(listing.with_name("tidy.json"), states(commands))
     known = [file for file in commands if clean.has(file)]
