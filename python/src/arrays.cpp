@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "vsa/checks.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 
@@ -33,7 +34,7 @@ void check_finite(const std::vector<double>& values, const char* name) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
     const std::string at = values.size() == 1 ? "" : "[" + std::to_string(i) + "]";
-    throw InputError({"", name + at, std::to_string(values[i]), "isn't finite", "finite numbers"});
+    throw InputError({"", name + at, Checks::text(values[i]), "isn't finite", "finite numbers"});
   }
 }
 

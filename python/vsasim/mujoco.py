@@ -182,7 +182,10 @@ def add(mjcf: str, joint: str, type: str, **more: Any) -> str:
 
 def attach(spec: Any, joint: str, type: str, **more: Any) -> Any:
     """As add(), to a mujoco.MjSpec that isn't compiled yet, and load(). Returns the instance, whose `config` may be changed.
-    RuntimeError: a MuJoCo whose MjSpec can't activate plug-ins (before 3.3.1): use add() there. ValueError: two units of one name."""
+    RuntimeError: a MuJoCo whose MjSpec can't activate plug-ins (before 3.3.1): use add() there. ValueError: two units of one name.
+    TypeError: no MjSpec."""
+    if not hasattr(spec, "add_actuator"):
+        raise TypeError(f"spec is a {spec.__class__.__name__}, not a mujoco.MjSpec")
     if not hasattr(spec, "activate_plugin"):
         raise RuntimeError("this MuJoCo's MjSpec can't activate plug-ins: vsasim.mujoco.add() works on the MJCF's text")
     import mujoco

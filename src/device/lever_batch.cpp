@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "device/text.hpp"
+#include "vsa/checks.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::device {
@@ -19,7 +19,7 @@ constexpr int kMostSteps = 1'000'000'000, kSlice = 1'000'000;
 void check(const Lever& lever) {
   Problems problems;
   const auto bad = [&](const char* key, double value, const char* allowed) {
-    problems.add({"", key, text_of(value), "out of range", allowed});
+    problems.add({"", key, Checks::text(value), "out of range", allowed});
   };
   if (!(lever.inertia_kgm2 > 0) || !std::isfinite(1.0 / lever.inertia_kgm2)) bad("inertia_kgm2", lever.inertia_kgm2, "above 0");
   if (!(lever.damping_Nms_per_rad >= 0) || !std::isfinite(lever.damping_Nms_per_rad))
@@ -30,7 +30,8 @@ void check(const Lever& lever) {
 
 void check_finite(const char* key, std::size_t unit, double value) {
   if (!std::isfinite(value))
-    throw InputError({"", std::string(key) + "[" + std::to_string(unit) + "]", text_of(value), "not finite", "a finite number"});
+    throw InputError(
+        {"", std::string(key) + "[" + std::to_string(unit) + "]", Checks::text(value), "not finite", "a finite number"});
 }
 
 }  // namespace

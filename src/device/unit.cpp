@@ -180,7 +180,6 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
 }
 
 [[gnu::flatten]] ShaftTorque Unit::carried(const UnitState& s, const StepPlan& plan, double move) const noexcept {
-  if (!plan.path.settled) return {0, 0, false};
   return steps<double>().carried(s, plan, move, seconds(plan.dt_ns));
 }
 

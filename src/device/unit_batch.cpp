@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "device/text.hpp"
 #include "device/unit_batch_impl.hpp"
+#include "vsa/checks.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::device {
@@ -60,7 +60,7 @@ void UnitBatch::set(std::size_t i, const UnitState& state) {
 void UnitBatch::command(std::size_t i, double equilibrium_rad, double preset) {
   impl_->check(i);
   for (const auto& [key, value] : {std::pair{"equilibrium", equilibrium_rad}, std::pair{"preset", preset}})
-    if (!std::isfinite(value)) throw InputError({"", key, text_of(value), "not finite", "any finite number"});
+    if (!std::isfinite(value)) throw InputError({"", key, Checks::text(value), "not finite", "any finite number"});
   UnitState& s = impl_->states[i];
   impl_->unit.command(s, equilibrium_rad, preset);
   const std::size_t b = i / impl_->width;
@@ -88,7 +88,7 @@ void UnitBatch::step(std::int64_t dt_ns, std::span<const double> angle, std::spa
   const auto finite = [&](const char* key, std::span<const double> values) {
     const auto bad = std::find_if_not(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
     if (bad != values.end())
-      problems.add({"", std::string(key) + "[" + std::to_string(bad - values.begin()) + "]", text_of(*bad), "not finite",
+      problems.add({"", std::string(key) + "[" + std::to_string(bad - values.begin()) + "]", Checks::text(*bad), "not finite",
                     "any finite number"});
   };
   finite("angle", angle);
@@ -96,7 +96,7 @@ void UnitBatch::step(std::int64_t dt_ns, std::span<const double> angle, std::spa
   finite("inverse_inertia", inverse_inertia);
   const auto negative = std::find_if(inverse_inertia.begin(), inverse_inertia.end(), [](double v) { return v < 0; });
   if (negative != inverse_inertia.end())
-    problems.add({"", "inverse_inertia[" + std::to_string(negative - inverse_inertia.begin()) + "]", text_of(*negative),
+    problems.add({"", "inverse_inertia[" + std::to_string(negative - inverse_inertia.begin()) + "]", Checks::text(*negative),
                   "out of range", "0 or more"});
   problems.throw_if_any();
   std::copy(angle.begin(), angle.end(), m.angle.begin());

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "device/pulley_speeds.hpp"
-#include "device/text.hpp"
+#include "vsa/checks.hpp"
 #include "vsa/device/unit.hpp"
 #include "vsa/firmware/arithmetic.hpp"
 #include "vsa/firmware/exchange.hpp"
@@ -29,13 +29,13 @@ std::int8_t turns_at(double true_raw, std::int32_t word, std::int32_t sample) no
 
 void Unit::check_place(const UnitState& state, const UnitPlace& at, std::string_view where, Problems& problems) const {
   const auto say = [&](const char* key, double value, std::string message, std::string allowed) {
-    problems.add({"", std::string(where) + key, text_of(value), std::move(message), std::move(allowed)});
+    problems.add({"", std::string(where) + key, Checks::text(value), std::move(message), std::move(allowed)});
   };
   const double furthest = kMaxTurns * 2.0 * kPi;
-  if (!(std::abs(at.shaft_rad) <= furthest)) say("angle_rad", at.shaft_rad, "is out of range", "±" + std::to_string(furthest));
+  if (!(std::abs(at.shaft_rad) <= furthest)) say("angle_rad", at.shaft_rad, "is out of range", "±" + Checks::text(furthest));
   if (!(std::abs(at.speed) <= 1e4)) say("speed_rad_per_s", at.speed, "is out of range", "±10000");
   if (!(std::abs(at.preset) <= config_.preset_max)) {
-    say("preset", at.preset, "is out of range", "±" + std::to_string(config_.preset_max));
+    say("preset", at.preset, "is out of range", "±" + Checks::text(config_.preset_max));
   } else if (!std::isfinite(at.equilibrium)) {
     say("equilibrium_rad", at.equilibrium, "isn't finite", "a finite number");
   } else if (servo_) {
@@ -51,7 +51,7 @@ void Unit::check_place(const UnitState& state, const UnitPlace& at, std::string_
       const auto [low, high] = config_.reference_range_raw(static_cast<int>(i));
       say("equilibrium_rad", at.equilibrium,
           "with this preset asks motor " + std::to_string(i + 1) + " for what its program can't hold",
-          "references of " + std::to_string(radians(Raw{low})) + " … " + std::to_string(radians(Raw{high})) + " rad");
+          "references of " + Checks::text(radians(Raw{low})) + " … " + Checks::text(radians(Raw{high})) + " rad");
       break;
     }
   }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "device/pulley_speeds.hpp"
-#include "device/text.hpp"
+#include "vsa/checks.hpp"
 #include "vsa/device/unit.hpp"
 #include "vsa/elastic/travel.hpp"
 
@@ -85,9 +85,9 @@ void Unit::check_servo_place(const UnitPlace& at, std::string_view where, Proble
   const double most = config_.servo->reference_max_rad;
   for (int i = 0; i < actuator_.motors(); ++i) {
     if (std::abs(x[i]) <= most) continue;
-    problems.add({"", std::string(where) + "equilibrium_rad", text_of(at.equilibrium),
+    problems.add({"", std::string(where) + "equilibrium_rad", Checks::text(at.equilibrium),
                   "with this preset asks motor " + std::to_string(i + 1) + " for more than control.reference_max_rad",
-                  "references of ±" + text_of(most) + " rad"});
+                  "references of ±" + Checks::text(most) + " rad"});
     return;
   }
 }

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "vsa/checks.hpp"
+
 namespace vsa::elastic {
 namespace {
 
@@ -167,8 +169,7 @@ Command command_for(const Transmission& law, const Wanted& wanted, double preset
 }
 
 std::string Command::text() const {
-  const std::string range =
-      " (" + std::to_string(stiffness_min) + " … " + std::to_string(stiffness_max) + " N·m/rad at this torque)";
+  const std::string range = " (" + Checks::text(stiffness_min) + " … " + Checks::text(stiffness_max) + " N·m/rad at this torque)";
   switch (outcome) {
     case Outcome::found:
       return "found";

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vsa/checks.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/experiment/recording.hpp"
 #include "vsa/not_a_number.hpp"
@@ -105,13 +106,13 @@ double mean_square(const std::vector<double>& squares) {
 void check(const BranchOptions& o) {
   const double halves = o.skip_cycles * 2;
   Problems problems;
-  if (!(o.grid_Nm > 0)) problems.add({"", "grid_Nm", std::to_string(o.grid_Nm), "out of range", "more than 0"});
-  if (!(o.max_Nm >= o.grid_Nm)) problems.add({"", "max_Nm", std::to_string(o.max_Nm), "out of range", "grid_Nm or more"});
+  if (!(o.grid_Nm > 0)) problems.add({"", "grid_Nm", Checks::text(o.grid_Nm), "out of range", "more than 0"});
+  if (!(o.max_Nm >= o.grid_Nm)) problems.add({"", "max_Nm", Checks::text(o.max_Nm), "out of range", "grid_Nm or more"});
   if (!(halves >= 0) || halves != std::floor(halves)) {
-    problems.add({"", "skip_cycles", std::to_string(o.skip_cycles), "out of range", "0, 0.5, 1, …"});
+    problems.add({"", "skip_cycles", Checks::text(o.skip_cycles), "out of range", "0, 0.5, 1, …"});
   }
   if (!(o.turn_fraction > 0 && o.turn_fraction < 1)) {
-    problems.add({"", "turn_fraction", std::to_string(o.turn_fraction), "out of range", "between 0 and 1"});
+    problems.add({"", "turn_fraction", Checks::text(o.turn_fraction), "out of range", "between 0 and 1"});
   }
   problems.throw_if_any();
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host/robot_impl.hpp"
+#include "vsa/checks.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::host {
@@ -141,7 +142,7 @@ void Robot::command_direct(std::size_t actuator, const std::array<double, 2>& va
   if (!a.unit.is(control::ServoKind::motor_voltages) && !a.unit.is(control::ServoKind::torque_servo))
     problems.add({"", a.name, "", "its controller takes no voltages and no torque", "control.kind = motor_voltages, torque_servo"});
   for (const double v : values)
-    if (!std::isfinite(v)) problems.add({"", a.name, std::to_string(v), "isn't finite", "finite numbers"});
+    if (!std::isfinite(v)) problems.add({"", a.name, Checks::text(v), "isn't finite", "finite numbers"});
   problems.throw_if_any();
   device::Unit::command_direct(impl_->state.actuators[actuator].unit, values);
 }

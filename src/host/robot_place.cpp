@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/robot_impl.hpp"
+#include "vsa/checks.hpp"
 #include "vsa/elastic/inverse.hpp"
 #include "vsa/errors.hpp"
 
@@ -43,7 +44,7 @@ void Robot::place(std::size_t actuator, const Placement& at, double step_s) {
   const double equilibrium =
       at.equilibrium_rad ? *at.equilibrium_rad : balance(*unit.config().actuator.transmission, at.angle_rad, at.preset);
   if (!(step_s >= 0 && step_s <= kLongestStep_s))
-    problems.add({"", "step_s", std::to_string(step_s), "is out of range", "0 … 0.016"});
+    problems.add({"", "step_s", Checks::text(step_s), "is out of range", "0 … 0.016"});
   const device::UnitPlace there{at.angle_rad, at.speed_rad_per_s, equilibrium, at.preset, step_s / 2};
   unit.check_place(slot.unit, there, name + ": ", problems);
   problems.throw_if_any();

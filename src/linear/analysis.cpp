@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "vsa/checks.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/linear/linear.hpp"
 
@@ -63,7 +64,7 @@ MatrixXcd shapes(const System& m) {
 MatrixXcd answers(const System& m, double frequency_Hz) {
   const double highest = m.period_s > 0 ? 0.5 / m.period_s : HUGE_VAL;
   if (!(frequency_Hz > 0 && frequency_Hz < highest)) {
-    throw InputError({"", "frequency_Hz", std::to_string(frequency_Hz), "is out of range",
+    throw InputError({"", "frequency_Hz", Checks::text(frequency_Hz), "is out of range",
                       m.period_s > 0 ? "above 0, below half the loop's rate" : "above 0"});
   }
   const Complex jw(0, 2 * kPi * frequency_Hz);

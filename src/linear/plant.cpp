@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "vsa/checks.hpp"
 #include "vsa/device/duty.hpp"
 #include "vsa/drive/pwm_cycle.hpp"
 #include "vsa/firmware/controller.hpp"
@@ -12,12 +12,6 @@
 
 namespace vsa::linear {
 namespace {
-
-std::string text_of(double v) {
-  std::ostringstream out;
-  out << v;
-  return out.str();
-}
 
 /// The share of the supply at full output.
 double full_duty(const device::UnitConfig& unit) noexcept {
@@ -103,14 +97,14 @@ std::optional<double> shaft_under(const elastic::Transmission& law, const elasti
 
 void check_point(const device::Unit& unit, const OperatingPoint& p, Problems& problems) {
   const auto say = [&](const char* key, double v, const char* allowed) {
-    problems.add({"", key, text_of(v), "is out of range", allowed});
+    problems.add({"", key, Checks::text(v), "is out of range", allowed});
   };
   if (p.inertia_kgm2 && !(*p.inertia_kgm2 > 0 && std::isfinite(*p.inertia_kgm2))) say("inertia_kgm2", *p.inertia_kgm2, "above 0");
   if (!(p.damping_Nms_per_rad >= 0 && std::isfinite(p.damping_Nms_per_rad)))
     say("damping_Nms_per_rad", p.damping_Nms_per_rad, "≥ 0");
   if (!std::isfinite(p.load_Nm)) say("load_Nm", p.load_Nm, "a finite number");
   if (unit.config().preset_unit().empty() && p.preset != 0) {
-    problems.add({"", "preset", text_of(p.preset), "this actuator has no stiffness preset", "0"});
+    problems.add({"", "preset", Checks::text(p.preset), "this actuator has no stiffness preset", "0"});
   } else {
     unit.check_place(unit.switched_on(0, 1, 0), {p.shaft_rad.value_or(0), 0, p.equilibrium_rad, p.preset, 0}, "", problems);
   }
@@ -143,9 +137,9 @@ void drive_motors(Plant& out, const device::UnitConfig& unit, const std::array<d
     out.rest.motor_A[i] = s.amps;
     const std::string motor = "motor " + std::to_string(i + 1);
     if (!(std::abs(s.volts) <= full_V * (1 + 1e-12))) {
-      problems.add({"", motor + " voltage", std::isinf(s.volts) ? "" : text_of(s.volts),
-                    "its spring's load of " + text_of(load[i]) + " N·m needs more than there is",
-                    "±" + text_of(full_V) + " V (drive.supply_V and the firmware's limit)"});
+      problems.add({"", motor + " voltage", std::isinf(s.volts) ? "" : Checks::text(s.volts),
+                    "its spring's load of " + Checks::text(load[i]) + " N·m needs more than there is",
+                    "±" + Checks::text(full_V) + " V (drive.supply_V and the firmware's limit)"});
     } else if (s.amps_per_volt == 0) {
       out.notices.push_back(motor +
                             " rests without current on a modulated enable pin: a small duty gives none, and it turns freely");
@@ -167,7 +161,8 @@ Plant find_plant(const device::UnitConfig& config, const OperatingPoint& p, DryF
   out.damping = p.damping_Nms_per_rad;
   elastic::Positions at{p.equilibrium_rad, law.references({p.equilibrium_rad, p.preset})};
   const std::optional<double> shaft = p.shaft_rad ? p.shaft_rad : shaft_under(law, at, p.load_Nm);
-  if (!shaft) throw InputError({"", "load_Nm", text_of(p.load_Nm), "no angle of the shaft holds it", "what the springs carry"});
+  if (!shaft)
+    throw InputError({"", "load_Nm", Checks::text(p.load_Nm), "no angle of the shaft holds it", "what the springs carry"});
   at.q = *shaft;
   const elastic::Response r = law.evaluate(at);
   out.rest.at = at;

@@ -3,6 +3,7 @@
 #include <exception>
 #include <utility>
 
+#include "vsa/checks.hpp"
 #include "vsa/config/actuator_type.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/page/page.hpp"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 RecorderOptions checked(RecorderOptions options) {
   Problems problems;
   const auto rate = [&](const char* key, double value) {
-    if (!(value > 0 && value <= 1e6)) problems.add({"", key, std::to_string(value), "not a recording rate", "above 0 to 1e6 Hz"});
+    if (!(value > 0 && value <= 1e6)) problems.add({"", key, Checks::text(value), "not a recording rate", "above 0 to 1e6 Hz"});
   };
   rate("rate_Hz", options.rate_Hz);
   rate("page_rate_Hz", options.page_rate_Hz);

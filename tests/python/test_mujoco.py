@@ -103,7 +103,11 @@ class Attaching(unittest.TestCase):
 
     def test_a_spec_that_cannot_is_told_of_add(self):
         with self.assertRaisesRegex(RuntimeError, r"add\(\)"):
-            vm.attach(object(), "elbow", "qbmove_maker_pro")
+            vm.attach(mock.Mock(spec=["add_actuator"]), "elbow", "qbmove_maker_pro")
+
+    def test_what_is_no_spec_is_told_so(self):
+        with self.assertRaisesRegex(TypeError, "NoneType, not a mujoco.MjSpec"):
+            vm.attach(None, "elbow", "qbmove_maker_pro")
 
 
 IN_C = """
