@@ -185,7 +185,7 @@ def attach(spec: Any, joint: str, type: str, **more: Any) -> Any:
     RuntimeError: a MuJoCo whose MjSpec can't activate plug-ins (before 3.3.1): use add() there. ValueError: two units of one name.
     TypeError: no MjSpec."""
     if not hasattr(spec, "add_actuator"):
-        raise TypeError(f"spec is a {spec.__class__.__name__}, not a mujoco.MjSpec")
+        raise TypeError(f"spec is no mujoco.MjSpec, but of the type {spec.__class__.__name__}")
     if not hasattr(spec, "activate_plugin"):
         raise RuntimeError("this MuJoCo's MjSpec can't activate plug-ins: vsasim.mujoco.add() works on the MJCF's text")
     import mujoco

@@ -106,7 +106,7 @@ class Attaching(unittest.TestCase):
             vm.attach(mock.Mock(spec=["add_actuator"]), "elbow", "qbmove_maker_pro")
 
     def test_what_is_no_spec_is_told_so(self):
-        with self.assertRaisesRegex(TypeError, "NoneType, not a mujoco.MjSpec"):
+        with self.assertRaisesRegex(TypeError, "no mujoco.MjSpec, but of the type NoneType"):
             vm.attach(None, "elbow", "qbmove_maker_pro")
 
 
