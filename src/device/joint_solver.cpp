@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "device/unit_lanes.hpp"
 
@@ -11,8 +12,8 @@ namespace {
 
 using namespace solver;
 
-/// A direction whose slopes are wrong by less than this part needs no new factor.
-constexpr double kStale = 0.01;
+/// A factor of other slopes may leave this part of what may be left over at all.
+constexpr double kStale = 0.1;
 
 /// A = L D Lᵀ in place, lower triangle by rows: L below the diagonal, 1/D on it. `column` holds n. False: not positive definite.
 bool factor(std::span<double> a, std::size_t size, double* column) noexcept {
@@ -95,27 +96,40 @@ void JointSolver::gradient() noexcept {
   }
 }
 
-/// The factor of C⁻¹ + S.
+/// The factor of C⁻¹ + S. False: there is none, and none is kept.
 bool JointSolver::factor_slopes() noexcept {
   std::copy(inertia_.begin(), inertia_.end(), work_.begin());
   for (std::size_t i = 0; i < n_; ++i) {
     work_[i * n_ + i] += tried_.slope[i];
     factored_[i] = tried_.slope[i];
   }
-  return factor(work_, n_, column_.data());
-}
-
-/// Whether the slopes are others than those of the factor.
-bool JointSolver::stale() const noexcept {
-  for (std::size_t i = 0; i < n_; ++i)
-    if (std::abs(tried_.slope[i] - factored_[i]) > kStale * (inertia_[i * n_ + i] + tried_.slope[i])) return true;
-  return false;
+  const bool good = factor(work_, n_, column_.data());
+  if (!good) factored_[0] = std::numeric_limits<double>::quiet_NaN();  // stale, whatever the slopes
+  return good;
 }
 
 /// move_ := −(C⁻¹ + S)⁻¹ g
 void JointSolver::newton() noexcept {
   for (std::size_t i = 0; i < n_; ++i) move_[i] = -gradient_[i];
   substitute(work_, n_, move_);
+}
+
+/// Whether move_ leaves too much of a torque, its factor's slopes being others than those found.
+bool JointSolver::stale() const noexcept {
+  for (std::size_t i = 0; i < n_; ++i) {
+    const double left = std::abs((tried_.slope[i] - factored_[i]) * move_[i]);
+    if (!(left <= kStale * (kLeft * std::abs(tried_.torque[i]) + kLeft_Nm))) return true;
+  }
+  return false;
+}
+
+/// Newton's move_, with the last factor where that does. False: with no new one either.
+bool JointSolver::fresh_newton() noexcept {
+  newton();
+  if (!stale()) return true;
+  if (!factor_slopes()) return false;
+  newton();
+  return true;
 }
 
 /// Whether every unit takes move_ for the last one.
@@ -190,15 +204,9 @@ double JointSolver::set_out(double& part) noexcept {
 }
 
 bool JointSolver::search(std::span<const JointInStep> joints) noexcept {
-  // The guess is mostly good: what is left is linear, and the slopes foreseen serve once more.
   attempt(joints, true);
-  newton();
+  if (!fresh_newton()) return false;
   if (near(joints)) return true;
-  if (stale()) {
-    if (!factor_slopes()) return false;
-    newton();
-    near(joints);
-  }
   double part = 1, descent = set_out(part);  // of move_; the slope along it where it began
   bool some = true;                          // tries only the units that aren't settled
   for (int iteration = 1; iteration < kMaxIterations; ++iteration) {
@@ -216,8 +224,7 @@ bool JointSolver::search(std::span<const JointInStep> joints) noexcept {
       part += back;
       continue;
     }
-    if ((!some || stale()) && !factor_slopes()) return false;
-    newton();
+    if (!fresh_newton()) return false;
     if (near(joints)) return true;
     descent = set_out(part);
     some = some && part == 1;

@@ -183,15 +183,12 @@ class AloneSolver {
 
 template <class T, class Joint>
 lanes::Truth<T> AloneSolver<T, Joint>::search(Truth goes_on) noexcept {
-  // The guess is mostly good: what is left is linear, and the slope foreseen serves once more.
   attempt(true, goes_on);
+  goes_on = goes_on & factor(goes_on);
   newton(goes_on);
   Truth settled = goes_on & near(goes_on);
   goes_on = goes_on & !settled;
   if (!lanes::any(goes_on)) return settled;
-  goes_on = goes_on & factor(goes_on);
-  newton(goes_on);
-  near(goes_on);
   set_out(goes_on);
   Truth some = lanes::truth<T>(true);  // may take what `carried` foretold
   for (int iteration = 1; iteration < solver::kMaxIterations && lanes::any(goes_on); ++iteration) {

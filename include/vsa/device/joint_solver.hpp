@@ -60,8 +60,9 @@ class JointSolver {
   [[nodiscard]] bool solve_alone(const JointInStep& joint, double& torque) noexcept;
   void gradient() noexcept;
   bool factor_slopes() noexcept;
-  [[nodiscard]] bool stale() const noexcept;
   void newton() noexcept;
+  [[nodiscard]] bool stale() const noexcept;
+  [[nodiscard]] bool fresh_newton() noexcept;
   void attempt(std::span<const JointInStep> joints, bool rough, bool keep = false) noexcept;
   double set_out(double& part) noexcept;
   bool search(std::span<const JointInStep> joints) noexcept;
