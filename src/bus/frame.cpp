@@ -65,7 +65,7 @@ ReceiverEvent UnitReceiver::push(std::uint8_t byte, std::uint8_t own_id) noexcep
 ReceiverEvent UnitReceiver::push_frame(std::span<const std::uint8_t> bytes, std::uint8_t own_id) noexcept {
   last = {};
   pending_id = bytes[2];
-  mine = pending_id == own_id || pending_id == kBroadcastId;
+  mine = is_for(bytes, own_id);
   received = wanted = bytes[3];
   if (!mine) return ReceiverEvent::skipped;
   std::copy(bytes.begin() + kHeaderBytes, bytes.end(), frame.body.begin());

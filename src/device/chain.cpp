@@ -76,6 +76,12 @@ bool Chain::all_ready(const Speech& s) const noexcept {
   return true;
 }
 
+/// Its program's state, for whatever it does.
+firmware::ProgramState& Chain::open(std::size_t station) noexcept {
+  if (keeper_ != nullptr) keeper_->open(station);
+  return *stations_[station].state;
+}
+
 /// What the program just said goes on the line; the scratch it said it in is empty again.
 inline void Chain::collect(std::size_t station, std::int64_t heard_ps) {
   state_.someone_waits = state_.someone_waits || stations_[station].state->bytes_waiting;
@@ -104,7 +110,9 @@ bool Chain::step_frames(std::int64_t until_ps, std::int64_t master_ps, bus::Line
   const std::int64_t now_ns = to_ns(s.end_ps);
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (!state_.ears[i].wiring.powered || static_cast<int>(i) == s.speaker) continue;
-    stations_[i].program->receive_frame(*stations_[i].state, frame, now_ns, out_);
+    const Station& station = stations_[i];
+    firmware::ProgramState& state = bus::is_for(frame, station.state->memory.current.id) ? open(i) : *station.state;
+    station.program->receive_frame(state, frame, now_ns, out_);
     collect(i, s.end_ps);
   }
   if (s.speaker != ChainState::kMaster) master.hear_all(frame, s.end_ps, s.rate);
@@ -144,8 +152,7 @@ void Chain::hear(std::size_t station, std::uint8_t byte, std::int64_t at_ps) {
   ChainState::Ear& ear = state_.ears[station];
   if (!ear.wiring.powered || ear.dice.hits(ear.wiring.lost_byte)) return;
   if (ear.dice.hits(ear.wiring.flipped_byte)) byte = static_cast<std::uint8_t>(byte ^ (1U << (ear.dice.next() % 8)));
-  const Station& s = stations_[station];
-  s.program->receive(*s.state, byte, to_ns(at_ps), out_);
+  stations_[station].program->receive(open(station), byte, to_ns(at_ps), out_);
   collect(station, at_ps);
 }
 
@@ -224,7 +231,7 @@ void Chain::wake(std::int64_t now_ps) {
   state_.someone_waits = false;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (!state_.ears[i].wiring.powered) continue;
-    stations_[i].program->poll(*stations_[i].state, to_ns(now_ps), out_);
+    stations_[i].program->poll(open(i), to_ns(now_ps), out_);
     collect(i, now_ps);
   }
 }
@@ -241,7 +248,7 @@ std::int64_t Chain::next_event_ps() const noexcept {
 
 void Chain::tick(std::size_t station, const firmware::TickInputs& in, std::int64_t now_ns) noexcept {
   if (!state_.ears[station].wiring.powered) return;
-  stations_[station].program->tick(*stations_[station].state, in, now_ns, out_);
+  stations_[station].program->tick(open(station), in, now_ns, out_);
   collect(station, now_ns * kPsPerNs);
 }
 
@@ -254,7 +261,7 @@ void Chain::set_wiring(std::size_t station, const Wiring& wiring, std::uint64_t 
     if (state_.speeches.empty() || state_.mode == Mode::bytes) state_.mode = Mode::frames;
   }
   if (!ear.wiring.powered && wiring.powered) {
-    stations_[station].program->power_up(*stations_[station].state, to_ns(now_ps));
+    stations_[station].program->power_up(open(station), to_ns(now_ps));
     ear.receiver.rate = config_.rate;
     ear.free_ps = now_ps;
     find_rates();

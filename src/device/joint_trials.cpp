@@ -11,11 +11,33 @@
 namespace vsa::device {
 namespace {
 
-std::size_t lines(std::size_t bytes) noexcept { return (bytes + 63) / 64; }
+constexpr std::size_t kLine = 64;
 
 }  // namespace
 
-JointTrials::JointTrials(std::size_t joints, std::size_t together, std::string_view instructions) {
+std::size_t JointTrials::lines(std::size_t bytes) noexcept { return (bytes + kLine - 1) / kLine; }
+
+/// The trials of joints that are solved each alone take no more than a step.
+std::size_t JointTrials::block_lines(const LaneTable& t) const noexcept { return lines(each_alone_ ? t.block_bytes : t.trials_bytes); }
+
+/// Lines for blocks of so many units: a block's lanes are at most twice its units, whichever table serves it.
+template <class Needs>
+std::size_t JointTrials::room_for(std::size_t units, Needs&& needs) const {
+  std::size_t a_lane = 0;
+  for (const auto& [table, plan] : tables_)
+    a_lane = std::max(a_lane, needs(*table) / static_cast<std::size_t>(table->width) + 1);
+  return 2 * units * a_lane;
+}
+
+void JointTrials::stay(std::span<const JointInStep> joints) {
+  if (joints.size() < 2 || tables_.empty()) return;
+  joints_ = joints;
+  group_of_.resize(joints.size());
+  memory_.resize(room_for(joints.size(), [this](const LaneTable& t) { return block_lines(t); }));
+  loop_memory_.resize(room_for(joints.size(), [](const LaneTable& t) { return lines(t.loop_bytes); }));
+}
+
+JointTrials::JointTrials(std::size_t joints, std::size_t together, std::string_view instructions) : each_alone_(together == 0) {
   if (instructions != "none") {
     const LaneTable& first = lane_table(instructions);
     for (const LaneTable& table : lane_tables())
@@ -24,12 +46,8 @@ JointTrials::JointTrials(std::size_t joints, std::size_t together, std::string_v
         table.begin_plan(tables_.back().plan.data());
       }
   }
-  // A block's lanes are at most twice its units, whichever table serves it.
-  std::size_t lines_a_lane = 0;
-  for (const auto& [table, plan] : tables_)
-    lines_a_lane = std::max(lines_a_lane, lines(table->trials_bytes) / static_cast<std::size_t>(table->width) + 1);
   const std::size_t at_once = std::max(together, std::min(joints, kWidest));
-  if (joints > 1) memory_.resize(2 * at_once * lines_a_lane);
+  if (joints > 1) memory_.resize(room_for(at_once, [this](const LaneTable& t) { return block_lines(t); }));
   groups_.reserve(joints);
 }
 
@@ -42,6 +60,8 @@ JointTrials::Lanes& JointTrials::lanes_for(std::size_t units) noexcept {
 }
 
 void JointTrials::group(std::span<const JointInStep> joints) noexcept {
+  if (in_lanes_ && all_usual() && (loops_in_lanes_ || all_driven())) return;
+  go_home();
   groups_.clear();
   std::size_t used = 0;
   const auto beside = [&](std::size_t i) {
@@ -58,13 +78,14 @@ void JointTrials::group(std::span<const JointInStep> joints) noexcept {
     while (first < end) {
       auto& [table, plan] = lanes_for(end - first);
       const std::size_t count = std::min(end - first, static_cast<std::size_t>(table->width));
-      const std::size_t needs = lines(table->trials_bytes);
+      const std::size_t needs = block_lines(*table);
       if (used + needs > memory_.size()) used = 0;  // of solve_each: one block after the other
-      groups_.push_back({first, count, table, &memory_[used], plan.data()});
+      groups_.push_back({.first = first, .count = count, .lanes = table, .block = &memory_[used], .plan = plan.data()});
       used += needs;
       first += count;
     }
   }
+  if (!joints_.empty()) find_lodgings();
 }
 
 /// A number of each joint of a group; lanes that nobody needs have the first one's, so that they ask for nothing else.
@@ -78,13 +99,15 @@ JointTrials::Row JointTrials::row(const Group& g, Value&& value) noexcept {
 
 /// What a block's step begins with.
 struct JointTrials::Inputs {
-  Inputs(const Group& g, std::span<const JointInStep> joints) noexcept
+  Inputs(const Group& g, std::span<const JointInStep> joints, bool loops_in_lanes) noexcept
       : dt_s(seconds(joints[g.first].plan->dt_ns)),
         angle(row(g, [&](std::size_t i) { return joints[i].plan->in.angle; })),
         speed(row(g, [&](std::size_t i) { return joints[i].plan->in.speed; })),
         inverse_inertia(row(g, [&](std::size_t i) { return joints[i].plan->in.inverse_inertia; })),
-        voltage{row(g, [&](std::size_t i) { return joints[i].plan->held[0].voltage[0]; }),
-                row(g, [&](std::size_t i) { return joints[i].plan->held[0].voltage[1]; })} {}
+        voltage(loops_in_lanes ? g.voltage : std::array{held(g, joints, 0), held(g, joints, 1)}) {}
+  static Row held(const Group& g, std::span<const JointInStep> joints, std::size_t motor) noexcept {
+    return row(g, [&](std::size_t i) { return joints[i].plan->held[0].voltage[motor]; });
+  }
   double dt_s;
   Row angle, speed, inverse_inertia;
   std::array<Row, 2> voltage;
@@ -113,8 +136,8 @@ void JointTrials::begin(std::span<const JointInStep> joints, TrialColumns& c, do
       c.slope[g.first] = t.slope;
       continue;
     }
-    put(g, joints);
-    const Inputs in(g, joints);
+    if (!in_lanes_) put(g, joints);
+    const Inputs in(g, joints, loops_in_lanes_);
     Row free, last_torque, torque, slope;
     g.lanes->begin_trials(*first.unit, g.block,
                           {in.dt_s,
@@ -184,6 +207,7 @@ bool JointTrials::carry(std::span<const JointInStep> joints, TrialColumns& c, st
 
 void JointTrials::finish(std::span<const JointInStep> joints, TrialColumns& c, std::span<const double> dy,
                          std::span<const double> move, std::span<const double> torques) noexcept {
+  in_lanes_ = may_stay_;
   for (const Group& g : groups_) {
     const JointInStep& first = joints[g.first];
     const Row beyond = row(g, [&](std::size_t i) { return dy[i] - c.dy[i] + move[i]; });
@@ -193,7 +217,8 @@ void JointTrials::finish(std::span<const JointInStep> joints, TrialColumns& c, s
     }
     const Row torque = row(g, [&](std::size_t i) { return torques[i]; });
     g.lanes->finish(*first.unit, g.block, beyond.data(), torque.data(), seconds(first.plan->dt_ns));
-    take(g, joints);
+    g.shown = 0;
+    if (!in_lanes_) take(g, joints);
   }
 }
 
@@ -207,8 +232,8 @@ std::size_t JointTrials::solve_each(std::span<const JointInStep> joints, std::sp
       unsettled += first.unit->settled() ? 0 : 1;
       continue;
     }
-    put(g, joints);
-    const Inputs in(g, joints);
+    if (!in_lanes_) put(g, joints);
+    const Inputs in(g, joints, loops_in_lanes_);
     Row torque;
     std::array<Row, 2> motor_angle, motor_speed;
     const unsigned open = g.lanes->step(*first.unit, g.block, g.plan,
@@ -220,12 +245,14 @@ std::size_t JointTrials::solve_each(std::span<const JointInStep> joints, std::sp
                                          torque.data(),
                                          {motor_angle[0].data(), motor_angle[1].data()},
                                          {motor_speed[0].data(), motor_speed[1].data()}});
-    take(g, joints);
+    g.shown = 0;
+    if (!may_stay_) take(g, joints);
     for (std::size_t l = 0; l < g.count; ++l) {
       torques[g.first + l] = torque[l];
       unsettled += open >> l & 1U;
     }
   }
+  in_lanes_ = may_stay_;
   return unsettled;
 }
 

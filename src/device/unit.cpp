@@ -36,6 +36,7 @@ void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int6
   plan.dy = seconds(dt_ns) * in.speed;
   // The actuator of a whole step sets out with the trials: no tick sees it on its way.
   if (!plan.whole) set_out(s, plan);
+  plan.ticked = false;
   plan.walked_ns = 0;
   plan.held_count = 0;
   if (t_ns % kTickNs != 0) plan.held[plan.held_count++] = s.held;

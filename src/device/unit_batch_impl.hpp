@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "device/lanes/table.hpp"
-#include "device/numbers.hpp"
+#include "device/plain_ticks.hpp"
 #include "vsa/device/unit_batch.hpp"
 
 namespace vsa::device {
@@ -32,7 +32,6 @@ struct UnitBatch::Impl {
     loop_bytes = (table.loop_bytes + kAlignment - 1) / kAlignment * kAlignment;
     loops.reset(static_cast<std::byte*>(::operator new[](blocks* loop_bytes, std::align_val_t{kAlignment})));
     ticks_in_lanes.assign(blocks, false);
-    prepare_ticks();
     memory.reset(static_cast<std::byte*>(::operator new[](blocks* table.block_bytes, std::align_val_t{kAlignment})));
     for (std::size_t b = 0; b < blocks; ++b) table.begin(block(b));
     plan.reset(static_cast<std::byte*>(::operator new[](table.plan_bytes, std::align_val_t{kAlignment})));
@@ -48,8 +47,6 @@ struct UnitBatch::Impl {
   [[nodiscard]] void* loop(std::size_t b) noexcept { return loops.get() + b * loop_bytes; }
   [[nodiscard]] const void* loop(std::size_t b) const noexcept { return loops.get() + b * loop_bytes; }
 
-  void prepare_ticks() noexcept;
-  [[nodiscard]] bool plain(const UnitState& s) const noexcept;
   bool tick(std::size_t b) noexcept;
   void take_loop(std::size_t i, UnitState& s) const noexcept;
   void ticks_to_lanes(std::size_t b) noexcept;
@@ -83,9 +80,6 @@ struct UnitBatch::Impl {
   std::vector<char> ticks_in_lanes;  // only of blocks whose physics are
   std::size_t loop_bytes = 0;
   std::unique_ptr<std::byte[], FreeBlocks> loops;
-  TickStep common;  // what all ticks have in common
-  std::array<std::array<double, 2 * kFull + 1>, 2> volts_of_duty{};
-  MilliVolt supply{};
   std::int64_t last_tick_ns = 0;
   std::vector<double> angle, speed, inverse_inertia, torque, voltage[2], motor_angle[2], motor_speed[2];
   std::int64_t now_ns = 0;

@@ -5,58 +5,8 @@
 #include <cstdint>
 
 #include "device/unit_batch_impl.hpp"
-#include "vsa/device/duty.hpp"
 
 namespace vsa::device {
-
-/// What the ticks of this type's plain units have in common.
-void UnitBatch::Impl::prepare_ticks() noexcept {
-  const UnitConfig& c = unit.config();
-  supply = firmware::supply_reading(sensor::supply_adc(c.actuator.supply_V));
-  common.encoder[2] = c.actuator.shaft_encoder;
-  common.shaft_zero_rad = c.actuator.shaft_zero_rad;
-  common.limit_pct = c.supply_limited() ? firmware::supply_limit_pct(supply) : kFull;
-  for (std::size_t m = 0; m < 2; ++m) {
-    const actuator::SideParams& side = c.actuator.side[m];
-    const drive::MotorParams motor = drive::at_pulley(side.motor, side.gearbox.ratio);
-    common.encoder[m] = side.encoder;
-    common.back_emf_Vs_per_rad[m] = motor.back_emf_Vs_per_rad;
-    common.resistance_Ohm[m] = motor.resistance_Ohm + side.bridge.switch_Ohm;
-    common.volts_of_duty[m] = volts_of_duty[m].data();
-    for (std::size_t i = 0; i < volts_of_duty[m].size() && common.limit_pct > 0; ++i) {
-      const double output = (static_cast<double>(i) - kFull) / common.limit_pct;
-      volts_of_duty[m][i] =
-          side.polarity * drive::bridge_voltage(side.bridge, c.actuator.supply_V, output, common.limit_pct / kDutyScale);
-    }
-  }
-}
-
-/// Whether a unit's ticks are those of lanes/loop.hpp: nothing but time and references will change what they do.
-bool UnitBatch::Impl::plain(const UnitState& s) const noexcept {
-  const firmware::ProgramState& p = s.program;
-  const firmware::ProgramParams& params = unit.config().program;
-  const firmware::Memory& m = p.memory.current;
-  const bool program = params.model == firmware::Model::maker_pro && params.generation == firmware::Generation::v6 &&
-                       !params.repairs.jump_check_in_16_bits && !params.repairs.watchdog_stops_motors && supply.value > 0 &&
-                       common.limit_pct > 0;
-  const bool mode = m.control_mode == static_cast<std::uint8_t>(firmware::ControlMode::position) && m.input_mode == 0 &&
-                    m.multiplier == std::array{1.0F, 1.0F, 1.0F};
-  const bool idle = !p.in_bootloader && !p.bytes_waiting && !p.buffer.overflow && !p.activation_waits && !p.watchdog.enabled &&
-                    !p.watchdog.expired && p.calibration.stage == firmware::Calibration::Stage::stop &&
-                    p.busy_until_ns - now_ns < firmware::kTickNs;
-  const firmware::ControllerState& c = p.loop;
-  Faults sound;
-  sound.seed = s.faults.seed;
-  const auto alike = [](const firmware::Orders& a, const firmware::Orders& b) {
-    return a.onoff == b.onoff && a.current_mA == b.current_mA && a.pwm == b.pwm;
-  };
-  const bool loop = !c.first_tick && !c.reset_samples && c.supply.value == supply.value && c.limit_pct == common.limit_pct &&
-                    s.limit_pct == common.limit_pct && c.supply_seen && alike(c.orders, c.orders_new) &&
-                    alike(c.orders_old, c.orders_new) && c.current[0].value == c.current_old[0].value &&
-                    c.current[1].value == c.current_old[1].value;
-  return unit.servo() == nullptr && program && mode && idle && loop && p.enable == 3 && s.supply_on && s.faults == sound &&
-         s.held.supply_V == unit.config().actuator.supply_V;
-}
 
 void UnitBatch::Impl::ticks_to_lanes(std::size_t b) noexcept {
   for (std::size_t i = 0; i < width; ++i) table.put_loop(loop(b), static_cast<int>(i), states[b * width + i]);
@@ -82,10 +32,10 @@ bool UnitBatch::Impl::tick(std::size_t b) noexcept {
   if (in_lanes[b] == 0) return false;
   if (ticks_in_lanes[b] == 0) {
     for (std::size_t i = b * width; i < (b + 1) * width; ++i)
-      if (!plain(states[i])) return false;
+      if (!unit.plain_ticks().plain(states[i], now_ns)) return false;
     ticks_to_lanes(b);
   }
-  TickStep io = common;
+  TickStep io = unit.plain_ticks().common();
   const std::size_t first = b * width;
   io.angle = &angle[first];
   for (std::size_t m = 0; m < 2; ++m) {

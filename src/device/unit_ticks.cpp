@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "device/numbers.hpp"
+#include "device/plain_ticks.hpp"
 #include "vsa/device/duty.hpp"
 #include "vsa/device/unit.hpp"
 #include "vsa/elastic/travel.hpp"
@@ -69,6 +70,7 @@ Unit::Unit(UnitConfig config)
       shaft_friction_(actuator::shaft_friction(config_.actuator)),
       tendon_(drive::FrictionParams{config_.actuator.tendon.friction, config_.actuator.tendon.presliding_J}),
       actuator_(config_.actuator),
+      plain_ticks_(std::make_shared<const PlainTicks>(config_)),
       alone_(1) {}
 
 std::array<Ticks, 2> Unit::inputs_for(double equilibrium_rad, double preset) const noexcept {

@@ -42,10 +42,21 @@ BusLine::BusLine(const BusConfig& config, std::vector<BusMember> members)
       on_line_(count_on_line(members_)),
       chain_({schedule(config, on_line_).rate, 0}, stations(Members(members_).first(on_line_))),
       master_(schedule(config, on_line_), ids(Members(members_).first(on_line_)), *this) {
+  chain_.set_keeper(*this);
   if (!config.serial_port) return;
   port_ = std::make_unique<device::PortLine>(chain_);
   if (config.any_rate) port_->take_any_rate();
   sensors_.resize(members_.size());
+}
+
+/// A client's line runs by itself.
+void BusLine::run_line(std::int64_t to_ns) noexcept {
+  if (!port_) chain_.run_to(to_ns, master_);
+}
+
+void BusLine::open(std::size_t station) noexcept {
+  const BusMember& m = members_[station];
+  if (m.trials != nullptr) m.trials->open(m.joint);
 }
 
 void BusLine::tick(std::int64_t at_ns) noexcept {
@@ -60,9 +71,9 @@ void BusLine::tick(std::int64_t at_ns) noexcept {
     });
     return;
   }
-  chain_.run_to(at_ns, master_);
   for (std::size_t k = 0; k < on_line_; ++k) {
     const BusMember& m = members_[k];
+    if (m.plan->ticked) continue;
     chain_.tick(k, m.unit->sample(m.slot->unit, *m.plan, at_ns), at_ns);
     m.unit->hold(m.slot->unit, *m.plan);
   }
@@ -81,15 +92,8 @@ std::size_t BusLine::use(std::span<device::StepPlan> plans, std::size_t first) n
   return first;
 }
 
-void BusLine::run_ticks(std::int64_t t_ns, std::int64_t end_ns) noexcept {
-  for (std::int64_t at = device::Unit::first_tick_ns(t_ns); at < end_ns; at += firmware::kTickNs) tick(at);
-}
-
-void BusLine::end(std::int64_t end_ns) noexcept {
-  // A frame whose bytes set out in this step carries what was commanded by now, even if it arrives in the next. A client's line
-  // runs by itself.
-  if (!port_) chain_.run_to(end_ns, master_);
-}
+/// A frame whose bytes set out in this step carries what was commanded by now, even if it arrives in the next.
+void BusLine::end(std::int64_t end_ns) noexcept { run_line(end_ns); }
 
 void BusLine::shift_time(std::int64_t by_ns) noexcept {
   if (port_) return;  // its clock takes jumps as it takes any speed

@@ -26,6 +26,8 @@ struct BusMember {
   device::StepPlan* plan;  ///< scratch of one step; clusters may share it
   std::uint8_t id;
   std::size_t index;  ///< of the actuator in its robot
+  device::JointTrials* trials = nullptr;  ///< its joint's, where its numbers may be
+  std::size_t joint = 0;                  ///< which it is of theirs
 };
 
 struct BusState {
@@ -34,7 +36,7 @@ struct BusState {
   static auto fields(auto& s, auto&& visit) { return visit("chain", "", s.chain, "master", "", s.master); }
 };
 
-class BusLine final : private bus::MasterClient {
+class BusLine final : private bus::MasterClient, private device::ProgramKeeper {
  public:
   /// `members` by id, those with a servo behind the others; they stay where they are.
   BusLine(const BusConfig& config, std::vector<BusMember> members);
@@ -42,10 +44,13 @@ class BusLine final : private bus::MasterClient {
   /// Gives its members plans from the `first` on; returns the next free one.
   std::size_t use(std::span<device::StepPlan> plans, std::size_t first) noexcept;
 
-  // One host step: begin, the ticks, then the joints are solved (host/cluster.hpp), end.
-  void run_ticks(std::int64_t t_ns, std::int64_t end_ns) noexcept;
+  // One host step: begin, the ticks, then the joints are solved (host/cluster.hpp), end. A tick: the line up to it, then every unit's
+  // that wasn't made beside others'.
+  void run_line(std::int64_t to_ns) noexcept;
+  void tick(std::int64_t at_ns) noexcept;
   void end(std::int64_t end_ns) noexcept;
   [[nodiscard]] const std::vector<BusMember>& members() const noexcept { return members_; }
+  [[nodiscard]] std::vector<BusMember>& members() noexcept { return members_; }
   void shift_time(std::int64_t by_ns) noexcept;
   void set_wiring(const ActuatorSlot& slot, const device::Faults& faults) noexcept;
 
@@ -77,8 +82,7 @@ class BusLine final : private bus::MasterClient {
 
  private:
   [[nodiscard]] std::size_t member_of(const ActuatorSlot& slot) const noexcept;
-  /// The line up to a tick, and the tick of every unit.
-  void tick(std::int64_t at_ns) noexcept;
+  void open(std::size_t station) noexcept override;
   std::array<Ticks, 2> inputs(int k, std::int64_t now_ns) noexcept override;
   void measured(int k, const std::array<Ticks, 3>& positions) noexcept override;
 

@@ -110,6 +110,39 @@ void Cluster::use(std::span<device::StepPlan> plans) noexcept {
     }
   }
   for (std::size_t k = 0; k < lone_.size(); ++k) lone_[k] = trees_[lone_at_ + k].joints.front();
+  // A client looks at its bus's units when it likes.
+  if (std::any_of(buses_.begin(), buses_.end(), [](BusLine* bus) { return bus->port() != nullptr; })) return;
+  settle_in(lone_trials_, lone_);
+  for (Tree& tree : std::span(trees_).first(lone_at_)) settle_in(tree.solver.trials(), tree.joints);
+}
+
+void Cluster::settle_in(device::JointTrials& trials, std::span<const device::JointInStep> joints) {
+  trials.stay(joints);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    for (BusLine* bus : buses_) {
+      for (BusMember& m : bus->members())
+        if (&m.slot->unit == joints[i].state) m.trials = &trials, m.joint = i;
+    }
+  }
+}
+
+template <class Does>
+void Cluster::for_each_trials(Does&& does) noexcept {
+  does(lone_trials_);
+  for (Tree& tree : std::span(trees_).first(lone_at_)) does(tree.solver.trials());
+}
+
+void Cluster::leave() noexcept {
+  for_each_trials([](device::JointTrials& t) { t.leave(); });
+}
+void Cluster::forget() noexcept {
+  for_each_trials([](device::JointTrials& t) { t.forget(); });
+}
+
+void Cluster::tick(std::int64_t at_ns) noexcept {
+  for (BusLine* bus : buses_) bus->run_line(at_ns);
+  for_each_trials([at_ns](device::JointTrials& t) { t.tick(at_ns); });
+  for (BusLine* bus : buses_) bus->tick(at_ns);
 }
 
 void Cluster::begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
@@ -140,13 +173,14 @@ void Cluster::begin_lone(std::int64_t t_ns, std::int64_t dt_ns, std::span<const 
 std::size_t Cluster::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
                              std::span<const double> mobility) noexcept {
   const bool foresees = has_ticks_inside(t_ns, dt_ns);
+  if (foresees) leave();
   for (Tree& tree : std::span(trees_).first(foresees ? trees_.size() : lone_at_)) begin(tree, t_ns, dt_ns, in, mobility);
   if (foresees) {
     for (Tree& tree : trees_) tree.solver.predict(tree.joints);
   } else {
     begin_lone(t_ns, dt_ns, in, mobility);
   }
-  for (BusLine* bus : buses_) bus->run_ticks(t_ns, t_ns + dt_ns);
+  for (std::int64_t at = device::Unit::first_tick_ns(t_ns); at < t_ns + dt_ns; at += firmware::kTickNs) tick(at);
   std::size_t unsettled = lone_trials_.solve_each(lone_, lone_torques_);
   for (std::size_t k = 0; k < lone_.size(); ++k) torques_out[lone_from_[k].actuator] = lone_torques_[k];
   for (Tree& tree : std::span(trees_).first(lone_at_)) {

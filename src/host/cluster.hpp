@@ -34,12 +34,16 @@ class Cluster {
  public:
   Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees);
 
-  /// Where its units may write during a step; as many as it has, and clusters may share them.
+  /// Where its units may write during a step; as many as it has, and clusters may share them. It stays where it is from now on.
   void use(std::span<device::StepPlan> plans) noexcept;
 
   /// One host step of its units; how many of them the solver left unsettled.
   std::size_t advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
                       std::span<const double> mobility) noexcept;
+
+  // Its units' numbers, as device::JointTrials has it.
+  void leave() noexcept;
+  void forget() noexcept;
 
  private:
   /// Where a joint alone has its numbers.
@@ -49,6 +53,12 @@ class Cluster {
   };
   static void begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
                     std::span<const double> mobility) noexcept;
+
+  /// All of its ticks at that time.
+  void tick(std::int64_t at_ns) noexcept;
+  void settle_in(device::JointTrials& trials, std::span<const device::JointInStep> joints);
+  template <class Does>
+  void for_each_trials(Does&& does) noexcept;
 
   void begin_lone(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<const double> mobility) noexcept;
 

@@ -90,8 +90,10 @@ void Robot::observe(std::span<const JointIn> joints) noexcept {
   constexpr const char* kHere = "vsa::host::Robot::observe";
   require(impl_.there(), kHere, "the robot was moved from");
   require(joints.size() == impl_->units.size(), kHere, "joints needs one entry an actuator");
-  for (std::size_t i = 0; i < size(); ++i)
+  for (std::size_t i = 0; i < size(); ++i) {
     impl_->state.actuators[i].unit.reached = {joints[i].angle_rad, joints[i].speed_rad_per_s};
+    if (const Impl::Lodging& l = impl_->lodgings[i]; l.trials != nullptr) l.trials->observe(l.joint);
+  }
 }
 
 bool Robot::command(std::size_t actuator, std::optional<double> equilibrium_rad, std::optional<double> preset) {
@@ -133,7 +135,7 @@ bool Robot::follow(std::vector<Path> paths) {
 }
 
 void Robot::set_supply(bool on) {
-  for (ActuatorSlot& slot : impl_->state.actuators) slot.unit.supply_on = on;
+  for (ActuatorSlot& slot : impl_->home().actuators) slot.unit.supply_on = on;
 }
 
 void Robot::command_direct(std::size_t actuator, const std::array<double, 2>& values) {
@@ -144,7 +146,7 @@ void Robot::command_direct(std::size_t actuator, const std::array<double, 2>& va
   for (const double v : values)
     if (!std::isfinite(v)) problems.add({"", a.name, Checks::text(v), "isn't finite", "finite numbers"});
   problems.throw_if_any();
-  device::Unit::command_direct(impl_->state.actuators[actuator].unit, values);
+  device::Unit::command_direct(impl_->home().actuators[actuator].unit, values);
 }
 
 void Robot::set_faults(std::size_t actuator, const device::Faults& faults) {
@@ -166,7 +168,7 @@ std::shared_ptr<const Robot::Snapshot> Robot::snapshot() const {
   auto s = std::make_shared<Snapshot>();
   const QuietBuses quiet(impl_->buses);
   s->made_of = impl_->made_of;
-  s->state = impl_->state;
+  s->state = impl_->shown();
   for (const auto& bus : impl_->buses) s->buses.push_back(bus->state());
   return s;
 }

@@ -87,9 +87,28 @@ struct Robot::Impl {
       parts.bus_of.push_back(config.actuators[i].bus);
       parts.joints.push_back({units[i].get(), &state.actuators[i].unit, nullptr});
     }
+    home();
     parts.trees = trees = std::move(joined);
     clusters = host::make_clusters(parts);
     for (Cluster& cluster : clusters) cluster.use(plans);
+    lodgings.resize(units.size());
+    for (const auto& bus : buses)
+      for (const BusMember& m : bus->members()) lodgings[m.index] = {m.trials, m.joint};
+  }
+
+  /// A unit's numbers, up to date, to be looked at.
+  [[nodiscard]] const ActuatorSlot& shown(std::size_t i) const noexcept {
+    if (const Lodging& l = lodgings[i]; l.trials != nullptr) l.trials->show(l.joint);
+    return state.actuators[i];
+  }
+  [[nodiscard]] const RobotState& shown() const noexcept {
+    for (std::size_t i = 0; i < lodgings.size(); ++i) static_cast<void>(shown(i));
+    return state;
+  }
+  /// Everybody's numbers, to be changed.
+  RobotState& home() noexcept {
+    for (Cluster& cluster : clusters) cluster.leave();
+    return state;
   }
 
   /// Units with equal parameters share one instance: a thousand of them then fit the processor's cache. States are their own.
@@ -121,8 +140,9 @@ struct Robot::Impl {
   void take_faults() noexcept {
     faults.drain([this](FaultOrder& f) {
       const ActuatorConfig& a = config.actuators[f.actuator];
-      device::Unit::set_faults(state.actuators[f.actuator].unit, f.faults);
-      buses[a.bus]->set_wiring(state.actuators[f.actuator], f.faults);
+      ActuatorSlot& slot = home().actuators[f.actuator];
+      device::Unit::set_faults(slot.unit, f.faults);
+      buses[a.bus]->set_wiring(slot, f.faults);
     });
   }
 
@@ -155,6 +175,7 @@ struct Robot::Impl {
 
   /// What a user should know of the run as a whole; now and then.
   void look() noexcept {
+    static_cast<void>(shown());
     actuator::Ledger sum;
     for (std::size_t i = 0; i < units.size(); ++i) {
       ActuatorSlot& slot = state.actuators[i];
@@ -170,6 +191,7 @@ struct Robot::Impl {
 
   void expect(std::int64_t t_ns) noexcept {
     if (t_ns == state.time_ns) return;
+    home();
     for (const auto& bus : buses) bus->shift_time(t_ns - state.time_ns);
     state.time_ns = t_ns;
   }
@@ -177,7 +199,7 @@ struct Robot::Impl {
   void keep(Snapshot& into) const {
     const QuietBuses quiet(buses);
     into.made_of = made_of;
-    into.state = state;
+    into.state = shown();
     for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->save(into.buses[b]);
   }
 
@@ -185,6 +207,7 @@ struct Robot::Impl {
     const QuietBuses quiet(buses);
     queue.clear();
     faults.clear();
+    for (Cluster& cluster : clusters) cluster.forget();
     state = from.state;
     for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->restore(from.buses[b]);
     if (from.made_of != made_of) adopt(*from.made_of);
@@ -206,10 +229,16 @@ struct Robot::Impl {
   std::shared_ptr<const RobotConfig> made_of;  ///< the same, for snapshots
   std::vector<std::shared_ptr<device::Unit>> units;
   std::vector<std::shared_ptr<device::Unit>> distinct;
-  RobotState state;
+  /// Where a unit's numbers may be meanwhile.
+  struct Lodging {
+    device::JointTrials* trials = nullptr;
+    std::size_t joint = 0;
+  };
+  RobotState state;  ///< of a unit that may be out of date: shown() to look at one, home() to change any
   std::vector<device::StepPlan> plans;
   std::vector<std::unique_ptr<BusLine>> buses;
   std::vector<Cluster> clusters;
+  std::vector<Lodging> lodgings;
   std::vector<std::vector<std::size_t>> trees;  ///< as the host joined them
   std::size_t mobility_size = 0;
   Snapshot initial, kept, loaded;  ///< the last two have room for all that a state may grow to

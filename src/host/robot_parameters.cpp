@@ -126,7 +126,7 @@ void Robot::renew_memories() {
   Impl& d = *impl_;
   const QuietBuses quiet(d.buses);
   for (std::size_t i = 0; i < size(); ++i) {
-    firmware::MemoryState& m = d.state.actuators[i].unit.program.memory;
+    firmware::MemoryState& m = d.home().actuators[i].unit.program.memory;
     const firmware::Memory& ours = d.config.actuators[i].unit.memory;
     if (!has_own(m, ours)) put(m, ours);
   }
@@ -144,6 +144,7 @@ void Robot::Impl::drop_unused() {
 }
 
 void Robot::Impl::set_parameters(std::size_t i, const UnitConfig& unit) {
+  home();
   const UnitConfig before = config.actuators[i].unit;
   BusLine& bus = *buses[config.actuators[i].bus];
   const std::shared_ptr<device::Unit> next = unit_for(unit);
@@ -165,6 +166,7 @@ void Robot::Impl::set_parameters(std::size_t i, const UnitConfig& unit) {
 /// All that may fail comes first, but for the clusters' memory.
 void Robot::Impl::use(const std::shared_ptr<const RobotConfig>& to) {
   if (to == made_of) return;
+  home();
   std::vector<std::shared_ptr<device::Unit>> next = units;
   for (std::size_t i = 0; i < units.size(); ++i)
     if (!(units[i]->config() == to->actuators[i].unit)) next[i] = unit_for(to->actuators[i].unit, to->actuators[i].prepared.get());
@@ -185,7 +187,7 @@ void Robot::Impl::use(const std::shared_ptr<const RobotConfig>& to) {
 void Robot::Impl::adopt(const RobotConfig& from) noexcept {
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (!device::alike(from.actuators[i].unit, config.actuators[i].unit))
-      units[i]->adopt(state.actuators[i].unit, from.actuators[i].unit);
+      units[i]->adopt(home().actuators[i].unit, from.actuators[i].unit);
   }
 }
 

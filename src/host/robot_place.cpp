@@ -37,7 +37,7 @@ Robot Robot::clone() const {
 void Robot::place(std::size_t actuator, const Placement& at, double step_s) {
   static_cast<void>(known(actuator));
   Impl& d = *impl_;
-  ActuatorSlot& slot = d.state.actuators[actuator];
+  ActuatorSlot& slot = d.home().actuators[actuator];
   const std::string name = d.config.actuators[actuator].name;
   Problems problems;
   const device::Unit& unit = *d.units[actuator];

@@ -26,7 +26,7 @@ std::string rounded(double value) {
 }  // namespace
 
 ActuatorReading Robot::read(std::size_t actuator, device::Torques torques) const {
-  const ActuatorSlot& slot = impl_->state.actuators[known(actuator)];
+  const ActuatorSlot& slot = impl_->shown(known(actuator));
   const device::Unit& unit = *impl_->units[actuator];
   ActuatorReading r;
   r.equilibrium_command_rad = slot.equilibrium.at(impl_->state.time_ns);
@@ -48,11 +48,11 @@ ActuatorReading Robot::read(std::size_t actuator, device::Torques torques) const
   return r;
 }
 
-actuator::Ledger Robot::ledger(std::size_t actuator) const { return impl_->state.actuators[known(actuator)].unit.actuator.ledger; }
+actuator::Ledger Robot::ledger(std::size_t actuator) const { return impl_->shown(known(actuator)).unit.actuator.ledger; }
 
 actuator::Ledger Robot::ledger() const {
   actuator::Ledger sum;
-  for (const ActuatorSlot& slot : impl_->state.actuators) sum += slot.unit.actuator.ledger;
+  for (const ActuatorSlot& slot : impl_->shown().actuators) sum += slot.unit.actuator.ledger;
   return sum;
 }
 
@@ -105,10 +105,10 @@ std::vector<Notice> Robot::take_notices() {
 
 std::array<Ticks, 2> Robot::received_inputs(std::size_t actuator) const {
   const UnitConfig& config = impl_->config.actuators[known(actuator)].unit;
-  const device::UnitState& state = impl_->state.actuators[actuator].unit;
+  const device::UnitState& state = impl_->shown(actuator).unit;
   if (config.servo) return impl_->units[actuator]->inputs_for(state.servo.command.equilibrium, state.servo.command.preset);
   const BusLine& bus = *impl_->buses[impl_->config.actuators[actuator].bus];
-  const firmware::ProgramState& s = impl_->state.actuators[actuator].unit.program;
+  const firmware::ProgramState& s = state.program;
   const std::int32_t sign = config.program.model == firmware::Model::advanced ? -1 : 1;
   std::array<Ticks, 2> out;
   const std::lock_guard quiet(bus);

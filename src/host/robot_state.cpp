@@ -76,7 +76,7 @@ std::size_t Robot::Impl::read_numbers(std::span<const double> in, state::Room ro
 template <class Writer>
 void Robot::Impl::write_numbers(Writer& writer) const {
   const QuietBuses quiet(buses);
-  state::walk_fields(writer, state);
+  state::walk_fields(writer, shown());
   for (const auto& bus : buses) walk_bus(writer, *bus);
 }
 

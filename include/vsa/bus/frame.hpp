@@ -58,6 +58,11 @@ struct FrameBytes {
          bytes.size() == kHeaderBytes + bytes[3] && bytes[3] <= kMaxLength;
 }
 
+/// Whether the unit with this ID does something about a whole_frame.
+[[nodiscard]] constexpr bool is_for(std::span<const std::uint8_t> bytes, std::uint8_t own_id) noexcept {
+  return bytes[2] == own_id || bytes[2] == kBroadcastId;
+}
+
 /// A received frame. `body` is CMD, payload, CHK as in the unit's own buffer: what lies behind `length` are bytes that earlier,
 /// longer frames left there, and the unit's program reads them when a request is shorter than it should be.
 struct Frame {

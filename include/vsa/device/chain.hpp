@@ -39,6 +39,18 @@ struct Station {
   firmware::ProgramState* state = nullptr;     ///< the owner's; it lives as long as the chain
 };
 
+/// Who has parts of programs' states elsewhere meanwhile: called before a program does anything but let a frame for another unit pass.
+class ProgramKeeper {
+ public:
+  virtual void open(std::size_t station) noexcept = 0;  ///< its state is to be up to date, and is what counts from now on
+
+ protected:
+  ProgramKeeper() = default;
+  ~ProgramKeeper() = default;
+  ProgramKeeper(const ProgramKeeper&) = default;
+  ProgramKeeper& operator=(const ProgramKeeper&) = default;
+};
+
 /// How a unit hangs on the line: right, unless somebody breaks it.
 struct Wiring {
   bool powered = true;       ///< false: neither hears nor speaks
@@ -139,6 +151,8 @@ class Chain {
   void set_wiring(std::size_t station, const Wiring& wiring, std::uint64_t seed);
   /// The station goes on with another program, whose state is the same object.
   void set_program(std::size_t station, const firmware::Program& program) noexcept { stations_[station].program = &program; }
+  /// Lives as long as the chain; none: the states are up to date at any time.
+  void set_keeper(ProgramKeeper& keeper) noexcept { keeper_ = &keeper; }
   /// What the master's own serial port is set to.
   void set_master_rate(bus::LineRate rate) noexcept;
   /// The owner's time jumped: all that is under way moves along, programs included.
@@ -153,6 +167,7 @@ class Chain {
   [[nodiscard]] std::span<const std::uint8_t> view(const Speech& s) const noexcept;
   void say(int speaker, std::int64_t start_ps, std::span<const std::uint8_t> bytes, bus::LineRate rate);
   void say_through_fault(int station, std::int64_t start_ps, std::span<const std::uint8_t> bytes);
+  [[nodiscard]] firmware::ProgramState& open(std::size_t station) noexcept;
   void collect(std::size_t station, std::int64_t heard_ps);
   void speak(std::size_t station, std::int64_t heard_ps);
   void hear(std::size_t station, std::uint8_t byte, std::int64_t at_ps);
@@ -170,6 +185,7 @@ class Chain {
 
   LineConfig config_;
   std::vector<Station> stations_;
+  ProgramKeeper* keeper_ = nullptr;
   ChainState state_;
   firmware::Output out_;
   std::vector<bus::Burst> speakers_;  // scratch

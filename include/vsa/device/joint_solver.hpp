@@ -47,6 +47,8 @@ class JointSolver {
   /// diagonal entry of 0 (n = 1 only): the motion is prescribed.
   void set(std::span<const double> mobility, std::int64_t dt_ns) noexcept;
 
+  [[nodiscard]] JointTrials& trials() noexcept { return trials_; }  ///< to let joints stay in lanes between steps
+
   /// A first Δy for every plan, from what the last steps left: for ticks inside a step.
   void predict(std::span<const JointInStep> joints) noexcept;
   /// Solves, ends every unit's step, writes the torques. False: after kMaxIterations more than a thousandth of a torque (and more

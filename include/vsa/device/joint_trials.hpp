@@ -4,7 +4,7 @@
 // by itself or, where neighbours are of one type and their step is of the usual kind, side by side in lanes (vsa/lanes.hpp). A lane
 // has the bits of the unit by itself, so which it is changes nothing but the time it takes.
 //
-// States: none between steps.
+// States: none between steps, but for joints that stay in lanes (stay()).
 #pragma once
 
 #include <array>
@@ -76,6 +76,22 @@ class JointTrials {
   /// Instead of all that: joints that know nothing of each other, each of them solved and its step ended. How many didn't settle.
   std::size_t solve_each(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
 
+  /// From now on what these joints' units have in lanes stays there between steps, physics and the loops of their programs, as long as
+  /// a step is of the usual kind and a tick does no more than hold references. Their states are out of date meanwhile: whoever looks
+  /// at one calls show() before, whoever changes one leave(), whoever replaces all of them forget(). The same joints in every call,
+  /// which stay where they are.
+  void stay(std::span<const JointInStep> joints);
+  /// After begin_step and what came over the line by then: the ticks at `at_ns` of the joints in lanes, as their plans then say
+  /// (StepPlan::ticked). All others' ticks are their owner's.
+  void tick(std::int64_t at_ns) noexcept;
+  void show(std::size_t joint) const noexcept;  ///< its state has all of its numbers, and nothing else changes
+  void show() const noexcept;                   ///< of every joint
+  void leave() noexcept;                        ///< as show(), and the states are what counts
+  void forget() noexcept;                       ///< the states are what counts, as they are
+  /// Before a program does something about a frame: its loop is up to date in the state, which is what counts until its next tick.
+  void open(std::size_t joint) noexcept;
+  void observe(std::size_t joint) noexcept;  ///< the state's `reached` is what counts
+
  private:
   struct alignas(64) Line {
     std::byte bytes[64];
@@ -85,6 +101,11 @@ class JointTrials {
     std::size_t first = 0, count = 1;
     const LaneTable* lanes = nullptr;
     Line *block = nullptr, *plan = nullptr;
+    // While it stays in lanes.
+    Line* loop = nullptr;
+    std::array<std::array<double, 8>, 2> voltage{};
+    unsigned opened = 0;         // lanes whose loop is in the state
+    mutable unsigned shown = 0;  // lanes whose numbers are in the state as well
   };
   /// The kernel for so many lanes.
   struct Lanes {
@@ -95,15 +116,38 @@ class JointTrials {
   using Row = std::array<double, kWidest>;  // a number for each lane
   template <class Value>
   [[nodiscard]] static Row row(const Group& group, Value&& value) noexcept;
+  [[nodiscard]] static std::size_t lines(std::size_t bytes) noexcept;
+  [[nodiscard]] std::size_t block_lines(const LaneTable& table) const noexcept;
+  template <class Needs>
+  [[nodiscard]] std::size_t room_for(std::size_t units, Needs&& needs) const;
   void group(std::span<const JointInStep> joints) noexcept;
+  void find_lodgings() noexcept;
+  void go_home() noexcept;
+  template <class Asked>
+  [[nodiscard]] bool all_in_lanes(Asked&& asked) const noexcept;
+  [[nodiscard]] bool all_usual() const noexcept;
+  [[nodiscard]] bool all_driven() const noexcept;
+  [[nodiscard]] bool all_plain(std::int64_t at_ns) const noexcept;
+  void loops_to_lanes(Group& group) noexcept;
+  void run_clocks(std::int64_t at_ns) noexcept;
+  void take_loop(const Group& group, std::size_t lane) const noexcept;
   static void put(const Group& group, std::span<const JointInStep> joints) noexcept;
   static void take(const Group& group, std::span<const JointInStep> joints) noexcept;
   struct Inputs;
   [[nodiscard]] Lanes& lanes_for(std::size_t units) noexcept;
 
   std::vector<Lanes> tables_;  // the widest first
+  bool each_alone_;            // for solve_each only
   std::vector<Line> memory_;
   std::vector<Group> groups_;
+  // Of joints that may stay.
+  std::span<const JointInStep> joints_;
+  std::vector<Line> loop_memory_;
+  std::vector<std::size_t> group_of_;  // of a joint
+  bool may_stay_ = false;              // some are in lanes, and nobody is by himself who could be beside others
+  bool in_lanes_ = false;              // the physics of all groups that have lanes
+  bool loops_in_lanes_ = false;        // and their programs' loops
+  std::int64_t next_clock_ns_ = 0;     // of their watchdogs, the first
 };
 
 }  // namespace vsa::device

@@ -23,6 +23,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -100,6 +101,7 @@ struct StepPlan {
   std::int64_t t_ns = 0,                        ///< when the step begins
       dt_ns = 0;                                ///< how long it is
   bool whole = false;                           ///< one segment: no tick inside
+  bool ticked = false;                          ///< its tick was made by JointTrials::tick
   ShaftIn in;                                   ///< as it was told
   double y = 0;                                 ///< where the path begins
   double free = 0;                              ///< Δy if the torques of this tree stay what they were
@@ -127,6 +129,7 @@ struct UnitPlace {
 
 template <class T>
 struct UnitPhysics;
+class PlainTicks;
 
 /// One emulated unit: its controller (the qbmove's program, or a servo), its electronics and its physics, driven by a host's steps.
 /// Holds parameters and what follows from them; the state is the owner's, so that equal units share a Unit. Not for two threads at
@@ -207,6 +210,8 @@ class Unit {
   }
   [[nodiscard]] actuator::Actuator& physics() noexcept { return actuator_; }  ///< motors, springs and the shaft's friction
   [[nodiscard]] const actuator::Actuator& physics() const noexcept { return actuator_; }  ///< to look at
+  /// What ticks side by side have in common (src/device/plain_ticks.hpp).
+  [[nodiscard]] const PlainTicks& plain_ticks() const noexcept { return *plain_ticks_; }
 
   /// A step's physics, for one unit or several side by side (src/device/unit_lanes.hpp).
   template <class T>
@@ -241,6 +246,7 @@ class Unit {
   drive::Friction shaft_friction_;
   drive::Friction tendon_;
   actuator::Actuator actuator_;
+  std::shared_ptr<const PlainTicks> plain_ticks_;
   JointSolver alone_;
   StepPlan plan_;  // scratch of step(): its thousand bytes are cleared once
   bool settled_ = true;

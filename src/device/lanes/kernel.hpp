@@ -114,6 +114,18 @@ template <class T>
   unit.template steps<T>().finish(t.s, t.plan, load<T>(move), load<T>(torque), dt_s);
 }
 
+template <class T>
+void motors(const void* memory, double* const angle[2], double* const speed[2]) noexcept {
+  const Block<T>& s = *std::launder(static_cast<const Block<T>*>(memory));
+  for (int i = 0; i < 2; ++i) store(s.actuator.motor[i].angle, angle[i]), store(s.actuator.motor[i].speed, speed[i]);
+}
+template <class T>
+void observe(void* memory, int lane, double angle, double speed) noexcept {
+  Block<T>& s = *std::launder(static_cast<Block<T>*>(memory));
+  s.reached.angle.set_lane(lane, angle);
+  s.reached.speed.set_lane(lane, speed);
+}
+
 // Between a block's lane and a unit's state, number by number. A block lies at its trials' begin.
 
 template <class T, class F>
@@ -189,6 +201,8 @@ template <class T>
           attempt<T>,
           carry<T>,
           finish<T>,
+          motors<T>,
+          observe<T>,
           sizeof(Loop<kWidth, Isa>),
           put_loop<kWidth, Isa>,
           take_loop<kWidth, Isa>,

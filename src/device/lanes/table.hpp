@@ -62,6 +62,9 @@ struct LaneTable {
   void (*attempt)(Unit& unit, void* block, const double* dy, bool rough, unsigned which, double* torque, double* slope) noexcept;
   unsigned (*carry)(const Unit& unit, const void* block, const double* move, double dt_s, double* torque, double* slope) noexcept;
   void (*finish)(const Unit& unit, void* block, const double* move, const double* torque, double dt_s) noexcept;
+  // Of a block that stays in lanes: where its motors are, a row each, and where a shaft turned out to be.
+  void (*motors)(const void* block, double* const angle[2], double* const speed[2]) noexcept;
+  void (*observe)(void* block, int lane, double angle, double speed) noexcept;
   // The program's loop of units that do nothing but hold their references (lanes/loop.hpp).
   std::size_t loop_bytes;
   void (*put_loop)(void* loop, int lane, const UnitState& from) noexcept;

@@ -1,0 +1,36 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+//
+// Units whose ticks may be made side by side (lanes/loop.hpp), and what the ticks of a type have in common.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "device/lanes/table.hpp"
+#include "vsa/firmware/controller.hpp"
+
+namespace vsa::device {
+
+class Unit;
+struct UnitState;
+struct UnitConfig;
+
+class PlainTicks {
+ public:
+  explicit PlainTicks(const UnitConfig& config);
+
+  /// Whether the ticks of a unit of this type from then on are plain: nothing but time and references will change what they do.
+  [[nodiscard]] bool plain(const UnitState& state, std::int64_t now_ns) const noexcept;
+  /// But for the places of a block's numbers.
+  [[nodiscard]] const TickStep& common() const noexcept { return common_; }
+
+ private:
+  bool program_ = false;  // one that has such ticks
+  double supply_V_ = 0;
+  MilliVolt supply_{};
+  std::array<std::vector<double>, 2> volts_of_duty_;  // its numbers stay where they are when this object moves
+  TickStep common_;
+};
+
+}  // namespace vsa::device
