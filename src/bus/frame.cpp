@@ -62,11 +62,16 @@ ReceiverEvent UnitReceiver::push(std::uint8_t byte, std::uint8_t own_id) noexcep
   return ReceiverEvent::none;
 }
 
-ReceiverEvent UnitReceiver::push_frame(std::span<const std::uint8_t> bytes, std::uint8_t own_id) noexcept {
+void UnitReceiver::pass(std::uint8_t its_id, std::uint8_t length) noexcept {
   last = {};
-  pending_id = bytes[2];
+  pending_id = its_id;
+  mine = false;
+  received = wanted = length;
+}
+
+ReceiverEvent UnitReceiver::push_frame(std::span<const std::uint8_t> bytes, std::uint8_t own_id) noexcept {
+  pass(bytes[2], bytes[3]);
   mine = is_for(bytes, own_id);
-  received = wanted = bytes[3];
   if (!mine) return ReceiverEvent::skipped;
   std::copy(bytes.begin() + kHeaderBytes, bytes.end(), frame.body.begin());
   frame.id = pending_id;

@@ -24,6 +24,43 @@ Chain::Chain(const LineConfig& config, std::vector<Station> stations) : config_(
   speakers_.reserve(ChainState::most_speeches(stations_.size()));
 }
 
+void Chain::set_keeper(ProgramKeeper& keeper) noexcept {
+  keeper_ = &keeper;
+  known_.resize(stations_.size());
+  unsure_.reserve(stations_.size());
+  look_anew();
+}
+
+void Chain::restore(const ChainState& state) {
+  state_ = state;
+  for (Known& k : known_) k.bytes = passed_.bytes;
+  look_anew();
+}
+
+void Chain::set_program(std::size_t station, const firmware::Program& program) noexcept {
+  look_anew();
+  stations_[station].program = &program;
+}
+
+void Chain::show(std::size_t station) noexcept {
+  if (keeper_ == nullptr) return;
+  Known& known = known_[station];
+  const std::size_t missed = passed_.bytes - known.bytes;
+  if (missed == 0) return;
+  known.bytes = passed_.bytes;
+  firmware::Program::let_pass(*stations_[station].state, missed, passed_.id, passed_.length, passed_.at_ns);
+}
+
+void Chain::look_anew() noexcept {
+  unsure_.clear();
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    show(i);
+    known_[i].ready = false;
+    unsure_.push_back(i);
+  }
+  next_clock_ns_ = bus::kNeverPs;
+}
+
 void Chain::save(ChainState& into) const {
   into.speeches.reserve(state_.speeches.capacity());
   into.bytes.reserve(state_.bytes.capacity());
@@ -34,6 +71,12 @@ std::span<const std::uint8_t> Chain::view(const Speech& s) const noexcept { retu
 
 void Chain::run_to(std::int64_t until_ns, bus::LineMaster& master) noexcept {
   const std::int64_t until = until_ns * kPsPerNs;
+  run_line(until, master);
+  if (keeper_ == nullptr || until_ns < next_clock_ns_) return;
+  for (std::size_t i = 0; i < stations_.size(); ++i) show(i);  // before somebody's watchdog counts
+}
+
+void Chain::run_line(std::int64_t until, bus::LineMaster& master) noexcept {
   for (;;) {
     const std::int64_t master_ps = master.next_ps();
     const bool quiet = state_.speeches.empty();
@@ -65,20 +108,44 @@ bool Chain::alone(const Speech& s, std::int64_t master_ps) const noexcept {
   return master_ps >= s.end_ps && (state_.speeches.size() < 2 || state_.speeches[1].start_ps >= s.end_ps);
 }
 
-bool Chain::all_ready(const Speech& s) const noexcept {
+/// Whether a frame that is on the wire from `begin_ns` to `end_ns` may be handed to it as a whole.
+bool Chain::ready(std::size_t station, std::int64_t begin_ns, std::int64_t end_ns) const noexcept {
+  return state_.ears[station].wiring.clean() &&
+         stations_[station].program->hears_frames(*stations_[station].state, begin_ns, end_ns);
+}
+
+/// Likewise, to all who hear it.
+bool Chain::all_ready(const Speech& s) noexcept {
   if (!bus::whole_frame(view(s))) return false;
   const std::int64_t begin = to_ns(s.start_ps + s.rate.bytes_ps(1)), end = to_ns(s.end_ps);
-  for (std::size_t i = 0; i < stations_.size(); ++i) {
-    const ChainState::Ear& ear = state_.ears[i];
-    if (!ear.wiring.powered || static_cast<int>(i) == s.speaker) continue;
-    if (!ear.wiring.clean() || !stations_[i].program->hears_frames(*stations_[i].state, begin, end)) return false;
+  const auto hears = [&](std::size_t i) { return state_.ears[i].wiring.powered && static_cast<int>(i) != s.speaker; };
+  if (keeper_ == nullptr) {
+    for (std::size_t i = 0; i < stations_.size(); ++i)
+      if (hears(i) && !ready(i, begin, end)) return false;
+    return true;
   }
-  return true;
+  if (end >= next_clock_ns_) look_anew();
+  bool all = true;
+  std::erase_if(unsure_, [&](std::size_t i) {
+    if (!all || !hears(i)) return false;
+    Known& known = known_[i];
+    known.ready = ready(i, begin, end);
+    known.id = stations_[i].state->memory.current.id;
+    next_clock_ns_ = std::min(next_clock_ns_, stations_[i].state->watchdog.next_clock_ns);
+    all = known.ready;
+    return known.ready;
+  });
+  return all;
 }
 
 /// Its program's state, for whatever it does.
 firmware::ProgramState& Chain::open(std::size_t station) noexcept {
-  if (keeper_ != nullptr) keeper_->open(station);
+  if (keeper_ != nullptr) {
+    show(station);
+    keeper_->open(station);
+    if (known_[station].ready) unsure_.push_back(station);
+    known_[station].ready = false;
+  }
   return *stations_[station].state;
 }
 
@@ -107,16 +174,32 @@ bool Chain::step_frames(std::int64_t until_ps, std::int64_t master_ps, bus::Line
   const std::span<const std::uint8_t> frame{copy.data(), s.size};
   drop_first();
   state_.now_ps = s.end_ps;
-  const std::int64_t now_ns = to_ns(s.end_ps);
-  for (std::size_t i = 0; i < stations_.size(); ++i) {
-    if (!state_.ears[i].wiring.powered || static_cast<int>(i) == s.speaker) continue;
-    const Station& station = stations_[i];
-    firmware::ProgramState& state = bus::is_for(frame, station.state->memory.current.id) ? open(i) : *station.state;
-    station.program->receive_frame(state, frame, now_ns, out_);
-    collect(i, s.end_ps);
-  }
+  keeper_ == nullptr ? hear_frame(s, frame) : hear_frame_when_asked(s, frame);
   if (s.speaker != ChainState::kMaster) master.hear_all(frame, s.end_ps, s.rate);
   return true;
+}
+
+void Chain::hear_frame(const Speech& s, std::span<const std::uint8_t> frame) noexcept {
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (!state_.ears[i].wiring.powered || static_cast<int>(i) == s.speaker) continue;
+    stations_[i].program->receive_frame(*stations_[i].state, frame, to_ns(s.end_ps), out_);
+    collect(i, s.end_ps);
+  }
+}
+
+/// Whom it is for hears it now.
+void Chain::hear_frame_when_asked(const Speech& s, std::span<const std::uint8_t> frame) noexcept {
+  const Passed next{passed_.bytes + frame.size(), frame[2], frame[3], to_ns(s.end_ps)};
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    const bool deaf = static_cast<int>(i) == s.speaker || !state_.ears[i].wiring.powered;
+    if (!deaf && !bus::is_for(frame, known_[i].id)) continue;
+    deaf ? show(i) : static_cast<void>(open(i));
+    known_[i].bytes = next.bytes;
+    if (deaf) continue;
+    stations_[i].program->receive_frame(*stations_[i].state, frame, next.at_ns, out_);
+    collect(i, s.end_ps);
+  }
+  passed_ = next;
 }
 
 bool Chain::step_bytes(std::int64_t until_ps, std::int64_t master_ps, bus::LineMaster& master) {
@@ -253,6 +336,7 @@ void Chain::tick(std::size_t station, const firmware::TickInputs& in, std::int64
 }
 
 void Chain::set_wiring(std::size_t station, const Wiring& wiring, std::uint64_t seed) {
+  look_anew();
   ChainState::Ear& ear = state_.ears[station];
   const std::int64_t now_ps = state_.now_ps;
   if (ear.wiring.powered && !wiring.powered) {
@@ -282,6 +366,7 @@ void Chain::find_rates() noexcept {
 }
 
 void Chain::shift_time(std::int64_t by_ns) noexcept {
+  look_anew();
   const std::int64_t by = by_ns * kPsPerNs;
   state_.now_ps += by;
   state_.host_free_ps += by;

@@ -61,6 +61,14 @@ void Program::receive_frame(ProgramState& s, std::span<const std::uint8_t> frame
     execute_frame({params_, controller_, wire_, now_ns, s, out});
 }
 
+void Program::let_pass(ProgramState& s, std::size_t bytes, std::uint8_t id, std::uint8_t length, std::int64_t now_ns) noexcept {
+  if (s.in_bootloader) return;
+  s.buffer.pass(bytes);
+  s.watchdog.run_to(now_ns);
+  s.watchdog.heard_byte();
+  s.receiver.pass(id, length);
+}
+
 void Program::shift_time(ProgramState& s, std::int64_t by_ns) noexcept {
   s.busy_until_ns += by_ns;
   s.watchdog.next_clock_ns += by_ns;

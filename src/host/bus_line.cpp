@@ -42,8 +42,10 @@ BusLine::BusLine(const BusConfig& config, std::vector<BusMember> members)
       on_line_(count_on_line(members_)),
       chain_({schedule(config, on_line_).rate, 0}, stations(Members(members_).first(on_line_))),
       master_(schedule(config, on_line_), ids(Members(members_).first(on_line_)), *this) {
-  chain_.set_keeper(*this);
-  if (!config.serial_port) return;
+  if (!config.serial_port) {
+    chain_.set_keeper(*this);
+    return;
+  }
   port_ = std::make_unique<device::PortLine>(chain_);
   if (config.any_rate) port_->take_any_rate();
   sensors_.resize(members_.size());
@@ -52,6 +54,10 @@ BusLine::BusLine(const BusConfig& config, std::vector<BusMember> members)
 /// A client's line runs by itself.
 void BusLine::run_line(std::int64_t to_ns) noexcept {
   if (!port_) chain_.run_to(to_ns, master_);
+}
+
+void BusLine::show(std::size_t member) noexcept {
+  if (member < on_line_) chain_.show(member);
 }
 
 void BusLine::open(std::size_t station) noexcept {

@@ -49,6 +49,8 @@ class BusLine final : private bus::MasterClient, private device::ProgramKeeper {
   void run_line(std::int64_t to_ns) noexcept;
   void tick(std::int64_t at_ns) noexcept;
   void end(std::int64_t end_ns) noexcept;
+  void show(std::size_t member) noexcept;         ///< before its state is looked at
+  void look_anew() noexcept { chain_.look_anew(); }  ///< before states are changed
   [[nodiscard]] const std::vector<BusMember>& members() const noexcept { return members_; }
   [[nodiscard]] std::vector<BusMember>& members() noexcept { return members_; }
   void shift_time(std::int64_t by_ns) noexcept;

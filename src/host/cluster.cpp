@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -46,6 +47,26 @@ std::vector<std::size_t> group_buses(const ClusterParts& parts) {
   return group;
 }
 
+/// Buses whose joints all move alone go together until their units fill the lanes.
+void fill_lanes(std::vector<std::vector<BusLine*>>& buses, std::vector<std::vector<Tree>>& trees) {
+  constexpr std::size_t kLanes = 8, kMost = 64;
+  std::optional<std::size_t> into;
+  for (std::size_t g = 0; g < buses.size(); ++g) {
+    const bool alone = std::all_of(trees[g].begin(), trees[g].end(), [](const Tree& t) { return t.joints.size() == 1; });
+    const bool client = std::any_of(buses[g].begin(), buses[g].end(), [](BusLine* bus) { return bus->port() != nullptr; });
+    if (!alone || client || trees[g].empty()) continue;
+    if (into && trees[*into].size() + trees[g].size() <= kMost) {
+      buses[*into].insert(buses[*into].end(), buses[g].begin(), buses[g].end());
+      std::move(trees[g].begin(), trees[g].end(), std::back_inserter(trees[*into]));
+      buses[g].clear();
+      trees[g].clear();
+    } else {
+      into = g;
+    }
+    if (trees[*into].size() % kLanes == 0) into.reset();
+  }
+}
+
 Tree make_tree(const ClusterParts& parts, std::vector<std::size_t> actuators) {
   Tree tree(actuators.size());
   for (const std::size_t a : actuators) tree.joints.push_back(parts.joints[a]);
@@ -78,6 +99,7 @@ std::vector<Cluster> make_clusters(const ClusterParts& parts) {
     for (const BusMember& m : bus->members())
       if (!taken[m.index]) trees[group[parts.bus_of[m.index]]].push_back(make_tree(parts, {m.index}));
   }
+  fill_lanes(buses, trees);
   std::vector<Cluster> out;
   for (std::size_t g = 0; g < buses.size(); ++g)
     if (!buses[g].empty()) out.emplace_back(std::move(buses[g]), std::move(trees[g]));

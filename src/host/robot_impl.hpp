@@ -92,13 +92,17 @@ struct Robot::Impl {
     clusters = host::make_clusters(parts);
     for (Cluster& cluster : clusters) cluster.use(plans);
     lodgings.resize(units.size());
-    for (const auto& bus : buses)
-      for (const BusMember& m : bus->members()) lodgings[m.index] = {m.trials, m.joint};
+    for (const auto& bus : buses) {
+      std::size_t k = 0;
+      for (const BusMember& m : bus->members()) lodgings[m.index] = {m.trials, m.joint, bus.get(), k++};
+    }
   }
 
   /// A unit's numbers, up to date, to be looked at.
   [[nodiscard]] const ActuatorSlot& shown(std::size_t i) const noexcept {
-    if (const Lodging& l = lodgings[i]; l.trials != nullptr) l.trials->show(l.joint);
+    const Lodging& l = lodgings[i];
+    if (l.trials != nullptr) l.trials->show(l.joint);
+    l.bus->show(l.member);
     return state.actuators[i];
   }
   [[nodiscard]] const RobotState& shown() const noexcept {
@@ -108,6 +112,7 @@ struct Robot::Impl {
   /// Everybody's numbers, to be changed.
   RobotState& home() noexcept {
     for (Cluster& cluster : clusters) cluster.leave();
+    for (const auto& bus : buses) bus->look_anew();
     return state;
   }
 
@@ -231,8 +236,10 @@ struct Robot::Impl {
   std::vector<std::shared_ptr<device::Unit>> distinct;
   /// Where a unit's numbers may be meanwhile.
   struct Lodging {
-    device::JointTrials* trials = nullptr;
-    std::size_t joint = 0;
+    device::JointTrials* trials = nullptr;  ///< null: none
+    std::size_t joint = 0;                  ///< of theirs
+    BusLine* bus = nullptr;                 ///< frames that it hasn't heard of yet
+    std::size_t member = 0;                 ///< of that
   };
   RobotState state;  ///< of a unit that may be out of date: shown() to look at one, home() to change any
   std::vector<device::StepPlan> plans;

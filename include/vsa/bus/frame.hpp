@@ -129,6 +129,8 @@ struct UnitReceiver {
   [[nodiscard]] bool at_rest() const noexcept { return phase == Phase::hunt && last[2] != kStartByte; }
   /// At rest: the bytes of one whole_frame at once, with the same end as byte by byte. Someone else's costs next to nothing.
   [[nodiscard]] ReceiverEvent push_frame(std::span<const std::uint8_t> bytes, std::uint8_t own_id) noexcept;
+  /// At rest: a whole_frame for another unit, of which these are the ID and the length.
+  void pass(std::uint8_t its_id, std::uint8_t length) noexcept;
   bool operator==(const UnitReceiver&) const = default;
 };
 [[nodiscard]] constexpr int choices(UnitReceiver::Phase) noexcept { return 5; }  ///< for the walk over states

@@ -39,10 +39,11 @@ struct Station {
   firmware::ProgramState* state = nullptr;     ///< the owner's; it lives as long as the chain
 };
 
-/// Who has parts of programs' states elsewhere meanwhile: called before a program does anything but let a frame for another unit pass.
+/// Who looks at programs' states through Chain::show(), and may have parts of them elsewhere meanwhile.
 class ProgramKeeper {
  public:
-  virtual void open(std::size_t station) noexcept = 0;  ///< its state is to be up to date, and is what counts from now on
+  /// Before a program does anything but let a frame for another unit pass: its state is to be up to date, and is what counts.
+  virtual void open(std::size_t station) noexcept = 0;
 
  protected:
   ProgramKeeper() = default;
@@ -137,7 +138,7 @@ class Chain {
   /// state(), into one that was saved to before: allocates nothing then, whatever is under way on the line.
   void save(ChainState& into) const;
   /// For snapshots: the same number of stations. The programs' states are the owner's to restore.
-  void restore(const ChainState& state) { state_ = state; }
+  void restore(const ChainState& state);
 
   /// All that happens on the line up to and including `until_ns`.
   void run_to(std::int64_t until_ns, bus::LineMaster& master) noexcept;
@@ -150,9 +151,13 @@ class Chain {
   /// Switching on is a power-up of the program.
   void set_wiring(std::size_t station, const Wiring& wiring, std::uint64_t seed);
   /// The station goes on with another program, whose state is the same object.
-  void set_program(std::size_t station, const firmware::Program& program) noexcept { stations_[station].program = &program; }
-  /// Lives as long as the chain; none: the states are up to date at any time.
-  void set_keeper(ProgramKeeper& keeper) noexcept { keeper_ = &keeper; }
+  void set_program(std::size_t station, const firmware::Program& program) noexcept;
+  /// With one, who lives as long as the chain, a frame that isn't for a station costs it nothing: it hears of it when it is next
+  /// asked. Its state is out of date meanwhile: whoever looks at it calls show() before, whoever changes it look_anew(). Without one,
+  /// states are up to date at any time.
+  void set_keeper(ProgramKeeper& keeper) noexcept;
+  void show(std::size_t station) noexcept;
+  void look_anew() noexcept;
   /// What the master's own serial port is set to.
   void set_master_rate(bus::LineRate rate) noexcept;
   /// The owner's time jumped: all that is under way moves along, programs included.
@@ -162,7 +167,11 @@ class Chain {
   using Speech = ChainState::Speech;
   using Mode = ChainState::Mode;
   [[nodiscard]] bool alone(const Speech& s, std::int64_t master_ps) const noexcept;
-  [[nodiscard]] bool all_ready(const Speech& s) const noexcept;
+  [[nodiscard]] bool all_ready(const Speech& s) noexcept;
+  [[nodiscard]] bool ready(std::size_t station, std::int64_t begin_ns, std::int64_t end_ns) const noexcept;
+  void run_line(std::int64_t until_ps, bus::LineMaster& master) noexcept;
+  void hear_frame(const Speech& s, std::span<const std::uint8_t> frame) noexcept;
+  void hear_frame_when_asked(const Speech& s, std::span<const std::uint8_t> frame) noexcept;
   [[nodiscard]] std::int64_t next_wake_ps() const noexcept;
   [[nodiscard]] std::span<const std::uint8_t> view(const Speech& s) const noexcept;
   void say(int speaker, std::int64_t start_ps, std::span<const std::uint8_t> bytes, bus::LineRate rate);
@@ -186,6 +195,21 @@ class Chain {
   LineConfig config_;
   std::vector<Station> stations_;
   ProgramKeeper* keeper_ = nullptr;
+  // With a keeper: frames that have passed stations which don't know it yet.
+  struct Passed {
+    std::size_t bytes = 0;  // of all
+    std::uint8_t id = 0, length = 0;
+    std::int64_t at_ns = 0;  // of the last
+  };
+  struct Known {
+    std::size_t bytes = 0;  // of those, that the station has heard
+    std::uint8_t id = 0;    // its own
+    bool ready = false;     // for frames, until it is opened or a clock ticks
+  };
+  Passed passed_;
+  std::vector<Known> known_;         // of each station
+  std::vector<std::size_t> unsure_;  // who isn't known to be ready
+  std::int64_t next_clock_ns_ = 0;   // of their watchdogs, the first, or an earlier time
   ChainState state_;
   firmware::Output out_;
   std::vector<bus::Burst> speakers_;  // scratch

@@ -152,6 +152,8 @@ class Program {
   }
   /// The bytes of one bus::whole_frame at once: the same as byte by byte, at a fraction of the cost. Only if hears_frames.
   void receive_frame(ProgramState& s, std::span<const std::uint8_t> frame, std::int64_t now_ns, Output& out) const noexcept;
+  /// The same of frames for other units, so many bytes in all, between two of the watchdog's clocks: the last one's ID, length and time.
+  static void let_pass(ProgramState& s, std::size_t bytes, std::uint8_t id, std::uint8_t length, std::int64_t now_ns) noexcept;
   /// Moves what the program waits for: a host's time jumped, and the unit doesn't notice.
   static void shift_time(ProgramState& s, std::int64_t by_ns) noexcept;
   /// Looks at bytes that waited. Harmless at any time.
