@@ -7,6 +7,8 @@
 
 #include "device/chain_rig.hpp"
 #include "vsa/bus/parameters.hpp"
+#include "vsa/state_io.hpp"
+#include "vsa/state_walk.hpp"
 
 namespace {
 
@@ -15,6 +17,15 @@ using vsa::test::Bytes;
 using vsa::test::ChainRig;
 
 constexpr std::int64_t kByte = 5'000'000;  // ps at 2 Mbaud
+
+std::vector<double> numbers_of(const firmware::ProgramState& program) {
+  state::Sizer sizer;
+  state::walk_fields(sizer, program);
+  std::vector<double> out(sizer.size());
+  state::Writer writer(out);
+  state::walk_fields(writer, program);
+  return out;
+}
 
 TEST(Chain, AnswersStartWhenTheRequestEndsAndTakeTheirTimeOnTheWire) {
   ChainRig rig(3);
@@ -238,6 +249,65 @@ TEST(Chain, ACopiedLineGoesOnBitForBit) {
   b.run_to(70'000'000);
   EXPECT_GT(a.host.bytes().size(), 500U);
   EXPECT_EQ(a.host.bytes(), b.host.bytes());
+}
+
+/// Somebody who looks at states now and then. Ticks come to those only whom a random number hits, so that what passes a station waits
+/// for long.
+struct Keeper final : device::ProgramKeeper {
+  void open(std::size_t) noexcept override { ++opened; }
+  int opened = 0;
+};
+
+TEST(Chain, WhatPassesAStationIsKnownToItWhenItIsAsked) {
+  for (unsigned seed = 1; seed < 40; ++seed) {
+    std::mt19937 rng(seed);
+    const auto draw = [&rng](unsigned below) { return static_cast<int>(rng() % below); };
+    ChainRig eager(5), lazy(5);
+    Keeper keeper;
+    lazy.chain.set_keeper(keeper);
+    const auto both = [&](auto&& does) { does(eager), does(lazy); };
+    std::int64_t at = 0;
+    for (int n = 0; n < 600; ++n) {
+      const int id = draw(12) == 0 ? draw(8) : 1 + draw(5), what = draw(40), x = draw(1000);
+      // Of 40: mostly the master's cycle; now and then what changes who hears what, noise, two at once.
+      both([&](ChainRig& r) {
+        if (what < 16) r.say(at, id, bus::SetInputs{{Ticks{static_cast<std::int16_t>(x)}, Ticks{100}}});
+        if (what >= 16 && what < 32) r.say(at, id, bus::GetMeasurements{});
+        if (what == 32) r.say(at, id, bus::Ping{});
+        if (what == 33) r.say_bytes(at, Bytes(static_cast<std::size_t>(1 + x % 9), static_cast<std::uint8_t>(x)));
+        if (what == 34) r.say(at, id, bus::SetWatchdog{static_cast<std::uint8_t>(x % 3)});
+        if (what == 35) r.say(at, id, bus::Activate{static_cast<std::uint8_t>(x % 4)});
+      });
+      at += what == 36 ? 20'000 : 250'000 + 1000 * static_cast<std::int64_t>(draw(400));
+      if (draw(20) == 0) at += 45'000'000;  // a clock of the watchdogs
+      const auto whose = static_cast<std::size_t>(draw(5));
+      const bool ticks = draw(3) == 0, looks = draw(7) == 0;
+      const std::int64_t by_ns = x % 2 == 0 ? 30'000'000 : -30'000'000;
+      both([&](ChainRig& r) {
+        r.chain.run_to(at, r.host);
+        if (ticks) r.chain.tick(whose, r.in, at);
+        if (what == 37) r.chain.set_wiring(whose, {x % 3 != 0, x % 7 == 1 ? 0.05 : 0.0, 0.0, x % 5 == 1 ? 900'000 : 0}, 3);
+        if (what == 38) {
+          r.chain.shift_time(by_ns);
+          for (auto& [start_ps, frame] : r.host.script) start_ps += 1000 * by_ns;
+        }
+        if (what == 39) {
+          r.chain.look_anew();
+          r.set_id(whose, static_cast<std::uint8_t>(1 + x % 6));
+        }
+      });
+      if (what == 38) at += by_ns;
+      if (!looks) continue;
+      lazy.chain.show(whose);
+      ASSERT_EQ(numbers_of(lazy.states[whose]), numbers_of(eager.states[whose])) << "seed " << seed << ", " << n;
+    }
+    for (std::size_t i = 0; i < 5; ++i) {
+      lazy.chain.show(i);
+      EXPECT_EQ(numbers_of(lazy.states[i]), numbers_of(eager.states[i])) << "seed " << seed;
+    }
+    EXPECT_EQ(lazy.host.bytes(), eager.host.bytes()) << "seed " << seed;
+    EXPECT_GT(keeper.opened, 100);
+  }
 }
 
 TEST(Chain, StepsOfAnyLengthHearTheSame) {
