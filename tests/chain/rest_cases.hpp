@@ -38,18 +38,22 @@ inline std::string named(const RestCase& c) {
 }
 
 /// Parallel and alternating axes; no gravity, hanging, held aside; supply on and off; all of these presets that the type takes (a series
-/// elastic one has none) and steps.
+/// elastic one has none, a torque servo's stiffness goes as far as theirs) and steps.
 inline void for_every_rest_case(const SerialWorld& chain, const std::vector<double>& presets, const std::vector<double>& steps_s,
                                 const std::function<void(const RestCase&)>& each) {
   // Of the presets those that the type takes, and where that is none, none at all.
-  const double most = config::TypeLibrary().load(chain.type).unit.preset_max;
+  const device::UnitConfig unit = config::TypeLibrary().load(chain.type).unit;
+  const double most = unit.preset_max;
   std::vector<double> taken;
   std::copy_if(presets.begin(), presets.end(), std::back_inserter(taken), [&](double p) { return p <= most; });
+  if (unit.is(control::ServoKind::torque_servo))
+    for (double& p : taken = presets) p *= std::min(most, unit.servo->torque.stiffness_Nm_per_rad) / presets.back();
   if (taken.empty()) taken.push_back(0.8 * most);
   for (const double preset : taken) {
     for (const bool alternating : chain.joints == 1 ? std::vector<bool>{false} : std::vector<bool>{false, true}) {
       // What the root carries of a chain held aside is within every type's reach, 0.5 to 2.4 N·m.
-      const double aside_rad = chain.joints > 4 ? 0.02 : chain.joints > 2 ? 0.1 : 0.3;
+      const double turned_rad = chain.joints > 4 ? 0.02 : chain.joints > 2 ? 0.1 : 0.3;
+      const double aside_rad = unit.actuator.linear() ? 0.01 * turned_rad : turned_rad;  // m, of one that slides
       for (const double held_rad : {-1.0, 0.0, aside_rad}) {
         for (const bool supply : held_rad > 0 ? std::vector<bool>{true} : std::vector<bool>{true, false}) {
           for (const double step_s : steps_s) {

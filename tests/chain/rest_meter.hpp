@@ -15,6 +15,7 @@ constexpr double kQuiet_rad_per_s = 0.02;
 constexpr double kScatter = 0.01;          // of the joint's largest torque …
 constexpr double kScatterLeast_Nm = 2e-3;  // … or as much as that, where hardly any torque is asked for
 constexpr double kCreated = -1e-3;         // summed coupling over what moved
+constexpr double kNothing_J = 1e-9;        // moves nothing: rounding has no sign
 
 struct Rest {
   double rms_speed = 0;      ///< of the actuated joints over the time measured, rad/s
@@ -60,7 +61,7 @@ class RestMeter {
       if (sd > kScatterLeast_Nm) rest.scatter = std::max(rest.scatter, sd / s.largest);
     }
     rest.rms_speed = std::sqrt(vv / n);
-    if (ledger.moved() > 0) {
+    if (ledger.moved() > kNothing_J) {
       rest.coupling_part = ledger.coupling / ledger.moved();
       rest.integrator_part = ledger.integrator / ledger.moved();
     }

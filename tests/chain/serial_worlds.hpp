@@ -6,6 +6,9 @@
 #include <sstream>
 #include <string>
 
+#include "vsa/config/actuator_type.hpp"
+#include "vsa/config/plugin_draft.hpp"
+
 namespace vsa::test {
 
 struct SerialWorld {
@@ -20,8 +23,10 @@ struct SerialWorld {
   std::string overrides;                           ///< <override …/> elements for every actuator
 };
 
-/// <model name='m'> with links l0, l1 … and joints j1, j2 …, and its robot.
+/// <model name='m'> with links l0, l1 … and joints j1, j2 …, and its robot. Joints slide where the type does; one that has no preset
+/// gets none.
 inline std::string serial_model(const SerialWorld& w) {
+  const device::UnitConfig unit = config::TypeLibrary().load(w.type).unit;
   std::ostringstream s;
   s.precision(17);
   s << "<model name='m'><link name='l0'><inertial><mass>1</mass></inertial></link>"
@@ -32,15 +37,16 @@ inline std::string serial_model(const SerialWorld& w) {
     const double inertia = last && w.last_inertia_kgm2 > 0 ? w.last_inertia_kgm2 : w.inertia_kgm2;
     s << "<link name='l" << i << "'><pose>0 0 " << -w.length_m * (i - 1) << " 0 0 0</pose><inertial><pose>0 0 " << -w.length_m / 2
       << " 0 0 0</pose><mass>" << mass << "</mass><inertia><ixx>" << inertia << "</ixx><iyy>" << inertia << "</iyy><izz>" << inertia
-      << "</izz></inertia></inertial></link><joint name='j" << i << "' type='revolute'><parent>l" << i - 1 << "</parent><child>l"
-      << i << "</child><axis><xyz>" << (w.alternating && i % 2 == 0 ? "1 0 0" : "0 1 0") << "</xyz></axis></joint>";
+      << "</izz></inertia></inertial></link><joint name='j" << i << "' type='"
+      << (unit.actuator.linear() ? "prismatic" : "revolute") << "'><parent>l" << i - 1 << "</parent><child>l" << i
+      << "</child><axis><xyz>" << (w.alternating && i % 2 == 0 ? "1 0 0" : "0 1 0") << "</xyz></axis></joint>";
   }
   s << "<plugin name='vsa::Robot' filename='libvsa-robot.so'>";
   for (int i = 1; i <= w.joints; ++i) {
     s << "<actuator><joint>j" << i << "</joint><type>" << w.type << "</type><bus id='" << i
       << "'>b</bus><initial equilibrium_rad='0'";
-    const bool has_preset = w.type.rfind("sea_", 0) != 0 && w.type.rfind("anydrive_", 0) != 0;  // series elastic types have none
-    if (has_preset) s << " preset_rad='" << w.preset << "'";
+    const std::string preset = config::preset_attribute(unit.preset_unit());
+    if (!preset.empty()) s << " " << preset << "='" << w.preset << "'";
     s << "/>" << w.overrides << "</actuator>";
   }
   s << "<bus name='b'/></plugin></model>";
