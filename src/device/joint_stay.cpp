@@ -58,7 +58,8 @@ bool JointTrials::all_driven() const noexcept {
 /// Whether no program does more than hold its references. What is in lanes is asked no more.
 bool JointTrials::all_plain(std::int64_t at_ns) const noexcept {
   return all_in_lanes([&](const Group& g, std::size_t l) {
-    return (loops_in_lanes_ && (g.opened >> l & 1U) == 0) || joints_[g.first].unit->plain_ticks().plain(*joints_[g.first + l].state, at_ns);
+    return (loops_in_lanes_ && (g.opened >> l & 1U) == 0) ||
+           joints_[g.first].unit->plain_ticks().plain(*joints_[g.first + l].state, at_ns);
   });
 }
 
@@ -97,8 +98,8 @@ void JointTrials::tick(std::int64_t at_ns) noexcept {
     if (g.lanes == nullptr) continue;
     loops_to_lanes(g);
     std::array<Row, 2> motor_angle, motor_speed;
-    double *const angles[2] = {motor_angle[0].data(), motor_angle[1].data()},
-                  *const speeds[2] = {motor_speed[0].data(), motor_speed[1].data()};
+    double *const angles[2] = {motor_angle[0].data(), motor_angle[1].data()}, *const speeds[2] = {motor_speed[0].data(),
+                                                                                                  motor_speed[1].data()};
     g.lanes->motors(g.block, angles, speeds);
     Row angle{};
     for (std::size_t l = 0; l < static_cast<std::size_t>(g.lanes->width); ++l)

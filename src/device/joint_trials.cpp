@@ -18,14 +18,15 @@ constexpr std::size_t kLine = 64;
 std::size_t JointTrials::lines(std::size_t bytes) noexcept { return (bytes + kLine - 1) / kLine; }
 
 /// The trials of joints that are solved each alone take no more than a step.
-std::size_t JointTrials::block_lines(const LaneTable& t) const noexcept { return lines(each_alone_ ? t.block_bytes : t.trials_bytes); }
+std::size_t JointTrials::block_lines(const LaneTable& t) const noexcept {
+  return lines(each_alone_ ? t.block_bytes : t.trials_bytes);
+}
 
 /// Lines for blocks of so many units: a block's lanes are at most twice its units, whichever table serves it.
 template <class Needs>
 std::size_t JointTrials::room_for(std::size_t units, Needs&& needs) const {
   std::size_t a_lane = 0;
-  for (const auto& [table, plan] : tables_)
-    a_lane = std::max(a_lane, needs(*table) / static_cast<std::size_t>(table->width) + 1);
+  for (const auto& [table, plan] : tables_) a_lane = std::max(a_lane, needs(*table) / static_cast<std::size_t>(table->width) + 1);
   return 2 * units * a_lane;
 }
 

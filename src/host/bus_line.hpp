@@ -25,7 +25,7 @@ struct BusMember {
   ActuatorSlot* slot;
   device::StepPlan* plan;  ///< scratch of one step; clusters may share it
   std::uint8_t id;
-  std::size_t index;  ///< of the actuator in its robot
+  std::size_t index;                      ///< of the actuator in its robot
   device::JointTrials* trials = nullptr;  ///< its joint's, where its numbers may be
   std::size_t joint = 0;                  ///< which it is of theirs
 };
@@ -49,7 +49,7 @@ class BusLine final : private bus::MasterClient, private device::ProgramKeeper {
   void run_line(std::int64_t to_ns) noexcept;
   void tick(std::int64_t at_ns) noexcept;
   void end(std::int64_t end_ns) noexcept;
-  void show(std::size_t member) noexcept;         ///< before its state is looked at
+  void show(std::size_t member) noexcept;            ///< before its state is looked at
   void look_anew() noexcept { chain_.look_anew(); }  ///< before states are changed
   [[nodiscard]] const std::vector<BusMember>& members() const noexcept { return members_; }
   [[nodiscard]] std::vector<BusMember>& members() noexcept { return members_; }

@@ -96,6 +96,8 @@ class JointTrials {
   struct alignas(64) Line {
     std::byte bytes[64];
   };
+  static constexpr std::size_t kWidest = 8;
+  using Row = std::array<double, kWidest>;  // a number for each lane
   /// Joints that are tried together: one by itself, or a block.
   struct Group {
     std::size_t first = 0, count = 1;
@@ -103,7 +105,7 @@ class JointTrials {
     Line *block = nullptr, *plan = nullptr;
     // While it stays in lanes.
     Line* loop = nullptr;
-    std::array<std::array<double, 8>, 2> voltage{};
+    std::array<Row, 2> voltage{};
     unsigned opened = 0;         // lanes whose loop is in the state
     mutable unsigned shown = 0;  // lanes whose numbers are in the state as well
   };
@@ -112,8 +114,6 @@ class JointTrials {
     const LaneTable* table = nullptr;
     std::vector<Line> plan;  // of solve_each
   };
-  static constexpr std::size_t kWidest = 8;
-  using Row = std::array<double, kWidest>;  // a number for each lane
   template <class Value>
   [[nodiscard]] static Row row(const Group& group, Value&& value) noexcept;
   [[nodiscard]] static std::size_t lines(std::size_t bytes) noexcept;
