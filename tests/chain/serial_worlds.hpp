@@ -43,8 +43,8 @@ inline std::string serial_model(const SerialWorld& w) {
   }
   s << "<plugin name='vsa::Robot' filename='libvsa-robot.so'>";
   for (int i = 1; i <= w.joints; ++i) {
-    s << "<actuator><joint>j" << i << "</joint><type>" << w.type << "</type><bus id='" << i
-      << "'>b</bus><initial equilibrium_rad='0'";
+    s << "<actuator><joint>j" << i << "</joint><type>" << w.type << "</type><bus id='" << i << "'>b</bus><initial "
+      << (unit.actuator.linear() ? "equilibrium_m" : "equilibrium_rad") << "='0'";
     const std::string preset = config::preset_attribute(unit.preset_unit());
     if (!preset.empty()) s << " " << preset << "='" << w.preset << "'";
     s << "/>" << w.overrides << "</actuator>";
