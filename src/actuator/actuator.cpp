@@ -70,4 +70,12 @@ template drive::FrictionStep Actuator::shaft_friction(ActuatorState&, double, do
 template void Actuator::settle(ActuatorState&, double, double, double, double) const noexcept;
 template elastic::Tangent Actuator::tangent(const ActuatorState&) const noexcept;
 
+double Actuator::swing_squared(const ActuatorState& s, double dt_s) const noexcept {
+  const elastic::Hessian half = mean_from<double>(s.origin, s.origin.at, 0.0).slope;  // slopes are for a segment's end
+  double most = 0;
+  for (int i = 0; i < motors<double>(); ++i)
+    most = std::max(most, 2.0 * step::load_curvature(half, i) * dt_s * dt_s / sides_[i].motor.inertia_kgm2);
+  return most;
+}
+
 }  // namespace vsa::actuator

@@ -11,6 +11,10 @@ namespace {
 
 using firmware::kTickNs;
 
+std::array<double, 2> gone(const actuator::ActuatorState& from, const actuator::ActuatorState& to) noexcept {
+  return {to.motor[0].angle - from.motor[0].angle, to.motor[1].angle - from.motor[1].angle};
+}
+
 }  // namespace
 
 // A step is many small functions, and calls between them cost a tenth of it: each of these is one piece.
@@ -26,6 +30,7 @@ using firmware::kTickNs;
     s.started ? actuator_.relocate(s.actuator, plan.y) : actuator_.place(s.actuator, plan.y);
   }
   steps<double>().look_ahead(s, plan, dt);
+  plan.lead.motors = plan.whole ? 0.0 : plan.lead.spring * actuator::motor_weight(actuator_.swing_squared(s.actuator, dt));
 }
 
 void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept {
@@ -57,6 +62,7 @@ double Unit::walk(UnitState& s, StepPlan& plan, std::int64_t at_ns) noexcept {
     in.lead.before = static_cast<double>(plan.walked_ns) / whole;
     in.lead.share = static_cast<double>(h_ns) / whole;
     in.dq = plan.dy * in.lead.share;
+    in.lead.gone = gone(plan.start, s.actuator);
     actuator_.segment(s.actuator, seconds(h_ns), in);
     plan.walked_ns += h_ns;
   }
@@ -143,6 +149,7 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
   } else if (!plan.whole) {
     plan.start = s.actuator;
   }
+  plan.tried = false;
   if (!plan.whole) return;
   set_out(s, plan);
   actuator_.begin(s.actuator, plan.last, seconds(plan.dt_ns),
@@ -157,6 +164,7 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
 [[gnu::flatten]] ShaftTorque Unit::attempt(UnitState& s, StepPlan& plan, double dy, bool rough) noexcept {
   if (plan.whole) return steps<double>().attempt(s, plan, dy, rough, true);
   const drive::FrictionTorque rub = plan.rub = steps<double>().shaft_rub(s, plan, dy);
+  const double before_Nm = plan.path.torque, moved = dy - plan.dy;
   plan.dy = dy;
   s.actuator = plan.start;
   plan.path = {};
@@ -168,6 +176,7 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
                               plan.held[interval].supply_V};
     in.lead.before = seconds(now) / seconds(plan.dt_ns);
     in.lead.share = share;
+    in.lead.gone = gone(plan.start, s.actuator);
     actuator_.begin(s.actuator, plan.last, seconds(h), in);
     const actuator::SegmentResult r = actuator_.attempt(s.actuator, plan.last, in.dq);
     plan.path.torque += r.torque * share;
@@ -177,6 +186,10 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
     actuator_.finish(s.actuator, plan.last);
     if ((plan.t_ns + now) % kTickNs == 0) ++interval;
   }
+  // A segment's slope knows nothing of what the motors did in those before; where that counts, two trials tell it.
+  const double secant = (before_Nm - plan.path.torque) / moved;
+  if (plan.tried && plan.lead.motors > 0 && std::isfinite(secant)) plan.path.slope = secant;
+  plan.tried = true;
   return {plan.path.torque + rub.torque, std::max(plan.path.slope, 0.0) + rub.slope, plan.path.settled};
 }
 

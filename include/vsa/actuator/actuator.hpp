@@ -109,6 +109,8 @@ class Actuator {
   /// The springs' own slope and tensions where they are.
   template <class T>
   [[nodiscard]] elastic::TangentOf<T> tangent(const ActuatorStateOf<T>& state) const noexcept;
+  /// θ² = dt²·∂²H/∂x_i²/J_i of the faster motor: how it swings on its spring, the shaft held.
+  [[nodiscard]] double swing_squared(const ActuatorState& state, double dt_s) const noexcept;
 
   /// Somebody put the shaft elsewhere: the springs follow, and what is stored from now on is what the balance begins with.
   void relocate(ActuatorState& state, double shaft) const noexcept;
@@ -169,6 +171,8 @@ class Actuator {
   /// One Newton correction of the pulleys from the mean at trial.dx; returns where it was small enough to be the last.
   template <class T>
   lanes::Truth<T> correction(SegmentOf<T>& segment, TrialOf<T>& trial, std::array<T, 2>& step) const noexcept;
+  template <class T>
+  static void see_middle(TrialOf<T>& trial, const std::array<T, 2>& further) noexcept;
   template <class T>
   [[nodiscard]] static T spring_slope(const TrialOf<T>& trial, int i) noexcept;
   template <class T>

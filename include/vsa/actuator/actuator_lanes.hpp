@@ -119,7 +119,13 @@ void Actuator::begin(ActuatorStateOf<T>& s, SegmentOf<T>& seg, double h_s, const
     seg.found.stick = {};
   }
   seg.damping = params_.tendon.damping_s / h_s;
-  const T own = in.lead.share + 3.0 * in.lead.spring;
+  T own = in.lead.share + 3.0 * in.lead.spring;
+  if (seg.sees_middle()) {
+    seg.ramp = in.lead.motors * (1.0 - 2.0 * in.lead.before - in.lead.share);
+    seg.spread = in.lead.motors * ((1.0 - in.lead.before) / in.lead.share - 1.0);
+    for (int i = 0; i < 2; ++i) seg.lag[i] = -0.5 * in.lead.motors * in.lead.gone[i];
+    own += seg.ramp;
+  }
   seg.whole = own + 2.0 * in.lead.before;
   seg.per_share = 1.0 / in.lead.share;
   seg.per_own = own * seg.per_share;
@@ -158,6 +164,7 @@ void Actuator::begin(ActuatorStateOf<T>& s, SegmentOf<T>& seg, double h_s, const
 // With S the mean's slopes for the segment's end, f_i and F_i the tendons' part for x_i and for Δy, S' = S − f the springs':
 //   −dload_i/d(Δy) = S'_qx,i R − F_i + S_xx,i dx_i/d(Δy),   R = share + 2·before + 3w: the end, the start, the shift
 //   −dτ̄/d(Δy)     = S'_qq R + Σ F_i + Σ S_qx,i dx_i/d(Δy)
+// Of a step's middle in every segment (Lead::motors), ramp is a part of R, and dx_i counts 1 + spread times in S'.
 template <class T>
 void Actuator::slopes(const SegmentOf<T>& seg, TrialOf<T>& t, const elastic::SegmentMeanOf<T>& mean,
                       const RubOf<T>& rub) const noexcept {
@@ -165,7 +172,8 @@ void Actuator::slopes(const SegmentOf<T>& seg, TrialOf<T>& t, const elastic::Seg
   for (int i = 0; i < motors<T>(); ++i) {
     const T give = t.gain[i], qx = mean.slope.qx[i], spring = qx + rub.dx[i];
     t.gain[i] = -give * (spring * seg.per_own - rub.dx[i]);
-    t.slope -= give * qx * (spring * seg.whole - rub.dy[i]);
+    const T by_motor = seg.sees_middle() ? qx + seg.spread * spring : qx;
+    t.slope -= give * by_motor * (spring * seg.whole - rub.dy[i]);
   }
 }
 
@@ -179,18 +187,36 @@ SegmentResultOf<T> Actuator::foresee(const ActuatorStateOf<T>& s, SegmentOf<T>& 
     const double c = seg.give[i];
     // load̄ ≈ end.load − qx·(dq + shift) − κ·dx, at dq = 0.
     const T qx = s.end.slope.qx[i];
-    const T resist = 1.0 + c * lanes::max(step::load_curvature(s.end.slope, i), 0.0);
-    const T target = seg.free[i] + c * (s.end.load[i] - qx * shift);
+    T curvature = step::load_curvature(s.end.slope, i), load = s.end.load[i] - qx * shift;
+    if (seg.sees_middle()) {
+      load -= 2.0 * curvature * seg.lag[i];
+      r.torque -= 2.0 * qx * seg.lag[i];
+      curvature *= 1.0 + seg.spread;
+    }
+    const T resist = 1.0 + c * lanes::max(curvature, 0.0);
+    const T target = seg.free[i] + c * load;
     const auto found = drive::solve_yielding(seg.gear[i], seg.gear_u[i], target, c, resist);
     t.dx[i] = found.step.displacement;
     t.gain[i] = found.gain;
     r.torque -= qx * t.dx[i];
+    if (seg.sees_middle()) r.torque -= seg.spread * qx * t.dx[i];
   }
   slopes(seg, t, s.end, s.end_rub);
   r.slope = t.slope;
   t.dq = 0.0;
   seg.tried = true;
   return r;
+}
+
+/// The springs' part of the mean, for motors that are so much further.
+template <class T>
+void Actuator::see_middle(TrialOf<T>& t, const std::array<T, 2>& further) noexcept {
+  const elastic::HessianOf<T>& h = t.mean.slope;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const T xx = spring_slope<T>(t, static_cast<int>(i));
+    t.mean.torque -= 2.0 * (h.qx[i] + t.rub.dx[i]) * further[i];
+    t.mean.load[i] -= 2.0 * (xx * further[i] + h.x0x1 * further[1 - i]);
+  }
 }
 
 template <class T>
@@ -202,7 +228,9 @@ lanes::Truth<T> Actuator::correction(SegmentOf<T>& seg, TrialOf<T>& t, std::arra
     }
     const double c = seg.give[i];
     // load(dx) ≈ load − κ·step; κ > −1/(2c) keeps the linear problem monotone where a law isn't convex.
-    const T kappa = lanes::max(step::load_curvature(t.mean.slope, i), -0.5 / c);
+    T curvature = step::load_curvature(t.mean.slope, i);
+    if (seg.sees_middle()) curvature += seg.spread * spring_slope<T>(t, i);
+    const T kappa = lanes::max(curvature, -0.5 / c);
     const T target = seg.free[i] + c * (t.mean.load[i] + kappa * t.dx[i]);
     const auto found = drive::solve_yielding(seg.gear[i], seg.gear_u[i], target, c, 1.0 + c * kappa);
     t.friction[i] = found.step;
@@ -243,6 +271,7 @@ SegmentResultOf<T> Actuator::attempt(const ActuatorStateOf<T>& s, SegmentOf<T>& 
     const elastic::PositionsOf<T> to{from.q + dq, {from.x[0] + t.dx[0], from.x[1] + t.dx[1]}};
     t.mean = mean_from<T>(s.origin, to, ahead);
     if (tendon_.coulomb_Nm > 0) add_tendon_friction<T>(seg, t, to);
+    if (seg.sees_middle()) see_middle<T>(t, {0.5 * seg.spread * t.dx[0] + seg.lag[0], 0.5 * seg.spread * t.dx[1] + seg.lag[1]});
     std::array<T, 2> step{};
     r.settled = correction<T>(seg, t, step);
     const T residual = lanes::max(lanes::abs(step[0]), lanes::abs(step[1]));
@@ -251,6 +280,7 @@ SegmentResultOf<T> Actuator::attempt(const ActuatorStateOf<T>& s, SegmentOf<T>& 
       r.straight = straight<T>(t, step);
       for (int i = 0; i < 2; ++i) t.dx[i] += step[i];
       t.mean = step::carried(t.mean, T(0.0), step);
+      if (seg.sees_middle()) see_middle<T>(t, {0.5 * seg.spread * step[0], 0.5 * seg.spread * step[1]});
       break;
     }
     // A hardening spring can throw Newton far out; halve until the correction shrinks.
@@ -306,7 +336,9 @@ void Actuator::drive_motors(ActuatorStateOf<T>& s, const SegmentOf<T>& seg) cons
     s.motor_anchor[i] += t.friction[i].anchor_travel;
     s.load[i] = t.mean.load[i];
   }
-  s.end = step::carried(t.mean, t.dq - 2.0 * seg.shift(t.dq), t.dx);
+  std::array<T, 2> to_end = t.dx;
+  for (std::size_t i = 0; i < 2 && seg.sees_middle(); ++i) to_end[i] -= seg.spread * t.dx[i] + 2.0 * seg.lag[i];
+  s.end = step::carried(t.mean, t.dq - 2.0 * seg.shift(t.dq), to_end);
   s.end_rub = t.rub;
   for (int i = 0; i < springs<T>(); ++i) {
     const T damped = 2.0 * t.rub.damping[i] * (t.dq - t.dx[i]);  // by the mean, and again by `carried`

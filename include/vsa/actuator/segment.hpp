@@ -3,6 +3,7 @@
 // What a segment is told, what it finds, and what it is while it is solved (actuator.hpp), for one unit or several side by side.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
@@ -37,6 +38,9 @@ struct LeadOf {
   T drift = 0;                ///< ½ dt v, rad
   T spring = 0;               ///< w of the springs, 0 … 1
   std::array<T, 2> tendon{};  ///< w of each tendon's friction, 0 … 1
+  // Where a step is several segments and resolves neither the shaft's swing nor the motors':
+  double motors = 0;             ///< w of the motors: how far springs see the step's middle in every segment, 0 … 1
+  std::array<double, 2> gone{};  ///< of each motor, since the step began, rad
 };
 using Lead = LeadOf<double>;  ///< of one unit
 
@@ -48,6 +52,12 @@ template <class T>
   const T x4 = x_squared * x_squared;
   const lanes::Truth<T> leads = x4 > kResolved;
   return lanes::any(leads) ? lanes::where<T>(leads, (x4 - kResolved) / (16.0 + x4)) : T(0.0);
+}
+
+/// w of a motor that swings with θ = ω·dt on its spring, its shaft held, in a step of several segments: 0 up to 2, 1 from 3 on. From π on
+/// a motor that went its way from segment to segment would lead a light shaft astray, which is one step behind it.
+[[nodiscard]] inline double motor_weight(double theta_squared) noexcept {
+  return std::clamp((theta_squared - 4.0) / 5.0, 0.0, 1.0);
 }
 
 /// What acts in a segment: the shaft's way and the motors' terminals, whose voltages are constant in it.
@@ -121,14 +131,22 @@ class SegmentOf {
   double damping = 0;            // T_d/h of the tendons' bristles
   T whole = 1, per_own = 1;      // how far the springs' end moves with the step's Δy, and by the segment, of its share
   double per_share = 1;
+  // Lead::motors: the middle that the springs see is so much further: of the shaft by ramp/2 of Δy, of a motor by spread/2 of its own
+  // displacement and lag.
+  double ramp = 0, spread = 0;
+  std::array<double, 2> lag{};
   Trial found;  // by the last trial
 
   /// w·(q' − middle of the path): by how much the springs look ahead.
   [[nodiscard]] T shift(T dq) const noexcept {
+    if constexpr (lanes::kScalar<T>) {
+      if (sees_middle()) return in.lead.spring * (1.5 * dq * per_share - in.lead.drift) + 0.5 * ramp * dq * per_share;
+    }
     const lanes::Truth<T> leads = in.lead.spring > 0.0;
     if (!lanes::any(leads)) return 0.0;
     return lanes::where<T>(leads, in.lead.spring * (1.5 * dq * per_share - in.lead.drift));
   }
+  [[nodiscard]] bool sees_middle() const noexcept { return in.lead.motors > 0; }
   [[nodiscard]] bool chopped(int i) const noexcept {
     if constexpr (lanes::kScalar<T>) return pwm[i].cycle != nullptr;
     return false;

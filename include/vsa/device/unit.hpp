@@ -102,6 +102,7 @@ struct StepPlan {
       dt_ns = 0;                                ///< how long it is
   bool whole = false;                           ///< one segment: no tick inside
   bool ticked = false;                          ///< its tick was made by JointTrials::tick
+  bool tried = false;                           ///< for a Δy, in a step of several segments
   ShaftIn in;                                   ///< as it was told
   double y = 0;                                 ///< where the path begins
   double free = 0;                              ///< Δy if the torques of this tree stay what they were
