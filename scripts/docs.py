@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 """Builds the manual as a site that needs no network: python3 scripts/docs.py BUILD
+`docs.py names` only asks Doxygen whether each public C++ name has a docstring: seconds, and no build; code 77 without Doxygen.
 
 BUILD is a build tree with `vsa` and the Python module. Into BUILD/docs/site go docs/ by Sphinx, with search; the C++ names by
 Doxygen, the Python names by autodoc; a replay page, made anew; sources and folders that pages link to. A page of the repository
@@ -16,6 +17,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import urllib.parse
 import xml.etree.ElementTree
 
@@ -227,6 +229,17 @@ def sphinx(build, stage, site, version):
     return [line.replace(str(stage.into) + "/", "") for line in log.read_text(encoding="utf-8").splitlines() if line]
 
 
+def main_of_names():
+    if shutil.which("doxygen") is None:
+        print("left out: Doxygen is not installed")
+        return 77
+    with tempfile.TemporaryDirectory() as folder:
+        wrong = Doxygen(pathlib.Path(folder) / "extra/cpp", "names").complaints()
+    for line in wrong:
+        print(line, file=sys.stderr)
+    return 1 if wrong else 0
+
+
 def main(build):
     out = build / "docs"
     site = out / "site"
@@ -248,7 +261,9 @@ def main(build):
 
 
 if __name__ == "__main__":
+    if sys.argv[1:] == ["names"]:
+        sys.exit(main_of_names())
     if len(sys.argv) != 2 or not (pathlib.Path(sys.argv[1]) / "bin/vsa").is_file():
-        print(f"docs.py: {' '.join(sys.argv[1:]) or 'nothing'}: not a build tree with bin/vsa; usage: docs.py BUILD", file=sys.stderr)
+        print(f"docs.py: {' '.join(sys.argv[1:]) or 'nothing'}: not a build tree with bin/vsa; usage: docs.py BUILD | docs.py names", file=sys.stderr)
         sys.exit(2)
     sys.exit(main(pathlib.Path(sys.argv[1]).resolve()))

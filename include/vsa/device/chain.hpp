@@ -156,8 +156,8 @@ class Chain {
   /// asked. Its state is out of date meanwhile: whoever looks at it calls show() before, whoever changes it look_anew(). Without one,
   /// states are up to date at any time.
   void set_keeper(ProgramKeeper& keeper) noexcept;
-  void show(std::size_t station) noexcept;
-  void look_anew() noexcept;
+  void show(std::size_t station) noexcept;  ///< its state is up to date until something happens on the line again
+  void look_anew() noexcept;                ///< before the owner changes any state: all are up to date, and each is asked anew
   /// What the master's own serial port is set to.
   void set_master_rate(bus::LineRate rate) noexcept;
   /// The owner's time jumped: all that is under way moves along, programs included.
