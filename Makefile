@@ -5,7 +5,7 @@
 # make test    set up, build, run the tests
 # make test-long   the tests that take minutes
 # make flakes      every test FLAKES_N times (50), beside 0, 2 and 6 busy processes: which fail now and then; hours. FLAKES_FILTER chooses (ctest -R)
-# make mutants     138 one-line mistakes, one at a time, in a copy: which test notices (scripts/mutants.toml); half an hour. MUTANTS_FILTER chooses, MUTANTS_JOBS builds
+# make mutants     one-line mistakes, one at a time, in a copy: which test notices (scripts/mutants.toml); two hours. MUTANTS_FILTER chooses, MUTANTS_JOBS builds
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make docs    the manual with the C++ and Python names as a site that needs no network, in build/release/docs/site; checks its links
 # make bench   run the benchmarks and print their table

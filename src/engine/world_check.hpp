@@ -24,4 +24,8 @@ inline void check_within(const char* what, double value, double most) {
     throw InputError(Problem{"", what, fmt::format("{}", value), "out of range", fmt::format("±{}", most)});
 }
 
+struct WorldOptions;
+/// Adds what options ask for that an export, which is of a file, can't have: another step and, `robots`, other actuators.
+void check_file_is_exported(const WorldOptions& options, bool robots, Problems& problems);
+
 }  // namespace vsa::engine

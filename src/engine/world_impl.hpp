@@ -40,7 +40,8 @@ struct WorldNames {
 };
 
 /// Throws InputError where the two differ in what a snapshot's numbers stand for.
-void check_same_world(const description::World& theirs, const description::World& ours);
+/// InputError about `what`, where those aren't the same links and joints.
+void check_same_world(const char* what, const description::World& theirs, const description::World& ours);
 [[nodiscard]] std::uint32_t tag_of(const description::World& world);
 [[nodiscard]] std::string list(std::vector<std::string> names);  ///< "a, b, c" without doubles
 

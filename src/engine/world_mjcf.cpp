@@ -1,5 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "engine/world_cache.hpp"
+#include "engine/world_check.hpp"
 #include "vsa/config/find_file.hpp"
 #include "vsa/engine/mjcf.hpp"
 #include "vsa/physics/mjcf.hpp"
@@ -7,9 +12,21 @@
 
 namespace vsa::engine {
 
+void check_file_is_exported(const WorldOptions& options, bool robots, Problems& problems) {
+  const auto say = [&](const char* key, std::string value) {
+    problems.add({"", key, std::move(value), "an export has what its file has", "none"});
+  };
+  if (options.step_s) say("step_s", fmt::format("{}", *options.step_s));
+  if (!robots) return;
+  if (options.actuator.type) say("actuator", *options.actuator.type);
+  for (const config::Override& o : options.actuator.overrides) say("actuator", o.key);
+  if (!options.actuators) say("actuators", "false");
+}
+
 std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const WorldOptions& options) {
   const std::filesystem::path path = config::find_file(world.string(), "world", "models/worlds", ".sdf");
   Problems problems;
+  check_file_is_exported(options, true, problems);
   const std::shared_ptr<ReadWorld> file = read_world({path, {}}, options, problems);
   problems.throw_if_any();
   std::vector<ExportedFile> out;

@@ -74,8 +74,8 @@ void hash(std::uint32_t& sum, std::string_view text) {
   sum *= kPrime;
 }
 
-[[noreturn]] void foreign(const std::string& theirs, const std::string& ours) {
-  throw InputError(Problem{"", "snapshot", theirs, "is of another world", ours});
+[[noreturn]] void foreign(const char* what, const std::string& theirs, const std::string& ours) {
+  throw InputError(Problem{"", what, theirs, "another world's", ours});
 }
 
 std::string text(const Link& l) {
@@ -103,10 +103,10 @@ bool same(const Joint& a, const Joint& b) {
 }
 
 template <class Part>
-void check_parts(const char* what, const std::vector<Part>& theirs, const std::vector<Part>& ours) {
-  if (theirs.size() != ours.size()) foreign(fmt::format("{} {}", theirs.size(), what), fmt::format("{}", ours.size()));
+void check_parts(const char* what, const char* parts, const std::vector<Part>& theirs, const std::vector<Part>& ours) {
+  if (theirs.size() != ours.size()) foreign(what, fmt::format("{} {}", theirs.size(), parts), fmt::format("{}", ours.size()));
   for (std::size_t i = 0; i < ours.size(); ++i)
-    if (!same(theirs[i], ours[i])) foreign(text(theirs[i]), text(ours[i]));
+    if (!same(theirs[i], ours[i])) foreign(what, text(theirs[i]), text(ours[i]));
 }
 
 }  // namespace
@@ -127,15 +127,16 @@ std::uint32_t tag_of(const description::World& world) {
   return std::max<std::uint32_t>(sum, 1);
 }
 
-void check_same_world(const description::World& theirs, const description::World& ours) {
+void check_same_world(const char* what, const description::World& theirs, const description::World& ours) {
   if (&theirs == &ours) return;
-  check_parts("links", theirs.links, ours.links);
-  check_parts("joints", theirs.joints, ours.joints);
+  check_parts(what, "links", theirs.links, ours.links);
+  check_parts(what, "joints", theirs.joints, ours.joints);
 }
 
 void World::Impl::check(const Snapshot& s) const {
-  check_same_world(*s.world, *world);
-  if (s.robots.size() != robots.size()) foreign(fmt::format("{} robots", s.robots.size()), fmt::format("{}", robots.size()));
+  check_same_world("snapshot", *s.world, *world);
+  if (s.robots.size() != robots.size())
+    foreign("snapshot", fmt::format("{} robots", s.robots.size()), fmt::format("{}", robots.size()));
   for (std::size_t i = 0; i < robots.size(); ++i) robots[i].seat->check(*s.robots[i]);
 }
 

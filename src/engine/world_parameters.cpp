@@ -51,7 +51,7 @@ class LinkCheck {
 }  // namespace
 
 struct World::Parameters {
-  std::uint32_t tag = 0;  ///< of the world's names
+  std::shared_ptr<const description::World> world;  ///< that they are of
   std::vector<std::shared_ptr<const host::RobotConfig>> robots;
   std::shared_ptr<const physics::Bodies> bodies;
 };
@@ -60,7 +60,7 @@ const config::TypeLibrary& World::types() const { return impl_->options.types; }
 
 std::shared_ptr<const World::Parameters> World::parameters() const {
   auto out = std::make_shared<Parameters>();
-  out->tag = impl_->names->tag;
+  out->world = impl_->world;
   for (const RobotSlot& slot : impl_->robots) out->robots.push_back(slot.robot().parameters());
   out->bodies = impl_->physics->bodies();
   return out;
@@ -78,8 +78,11 @@ const host::ActuatorConfig& World::actuator_parameters(const Parameters& of, con
 }
 
 void World::check_of_this_world(const Parameters& parameters) const {
-  if (parameters.tag != impl_->names->tag || parameters.robots.size() != impl_->robots.size())
-    throw InputError(Problem{"", "parameters", "", "are of another world", "parameters() of a world of this file"});
+  check_same_world("parameters", *parameters.world, *impl_->world);
+  if (parameters.robots.size() != impl_->robots.size())
+    throw InputError(Problem{"", "parameters", fmt::format("{} robots", parameters.robots.size()), "another world's",
+                             fmt::format("{}", impl_->robots.size())});
+  for (std::size_t r = 0; r < impl_->robots.size(); ++r) impl_->robots[r].robot().check(parameters.robots[r]);
 }
 
 std::shared_ptr<const World::Parameters> World::parameters_with(const Parameters& base, const ParameterChanges& changes) const {
@@ -118,16 +121,17 @@ void World::set_link_parameters(LinkHandle link, const LinkParameters& to) {
 
 void World::set_parameters(const Parameters& to) {
   check_of_this_world(to);
+  if (to.bodies != impl_->physics->bodies()) {
+    impl_->physics->use(to.bodies);
+    impl_->forget_mobility();
+  }
   for (std::size_t r = 0; r < impl_->robots.size(); ++r) impl_->robots[r].robot().set_parameters(to.robots[r]);
-  if (to.bodies == impl_->physics->bodies()) return;
-  impl_->physics->use(to.bodies);
-  impl_->forget_mobility();
 }
 
 void World::use(const Parameters& to) {
   check_of_this_world(to);
-  for (std::size_t r = 0; r < impl_->robots.size(); ++r) impl_->robots[r].robot().use(to.robots[r]);
   impl_->physics->use(to.bodies);
+  for (std::size_t r = 0; r < impl_->robots.size(); ++r) impl_->robots[r].robot().use(to.robots[r]);
 }
 
 }  // namespace vsa::engine

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/world_check.hpp"
 #include "vsa/config/find_file.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/engine/mjcf.hpp"
@@ -130,7 +131,9 @@ class Writer {
 
 std::string mjcf_text(const std::filesystem::path& path, const WorldOptions& options) {
   const std::filesystem::path own = mjcf_of(path);
-  if (own.empty()) return export_mjcf(path, options).front().bytes;
+  WorldOptions of_file = options;
+  of_file.actuator = {};  // those are the plug-in's
+  if (own.empty()) return export_mjcf(path, of_file).front().bytes;
   std::optional<std::string> text = read_file(own);
   if (!text) throw InputError({own.string(), "", "", "can't be read", "a file"});
   return *std::move(text);
@@ -140,6 +143,9 @@ std::string mjcf_text(const std::filesystem::path& path, const WorldOptions& opt
 
 PluginMjcf export_plugin_mjcf(const std::filesystem::path& file, const WorldOptions& options, std::string mjcf) {
   const std::filesystem::path path = config::find_file(file.string(), "world", "models/worlds", ".sdf");
+  Problems problems;
+  check_file_is_exported(options, false, problems);
+  problems.throw_if_any();
   const World world = World::load(path, options);
   if (world.robot_count() == 0) throw InputError({path.string(), "plugin", "", "there is no robot in it", "a vsa::Robot"});
   if (world.substeps() > 1)

@@ -147,13 +147,13 @@ void World::save_file(const std::filesystem::path& file) const {
 }
 
 void World::restore_file(const std::filesystem::path& file) {
+  const StateLayout ours = state_layout();
   const std::optional<std::string> text = read_file(file);
   if (!text) refuse(file, "", "", std::string("can't be read: ") + std::generic_category().message(errno), "a file of save_file()");
   if (text->size() < 8 * kHeaderNumbers || text->compare(0, kMagic.size(), kMagic) != 0)
     refuse(file, "", fmt::format("{} bytes", text->size()), "is no world's state", "a file of save_file()");
   const std::uint64_t version = word_at(*text, 1), layout = word_at(*text, 2), count = word_at(*text, 3);
   if (version != kVersion) refuse(file, "version", fmt::format("{}", version), "isn't known", fmt::format("{}", kVersion));
-  const StateLayout ours = state_layout();
   if (layout != ours.hash() || count != ours.size())
     refuse(file, "layout", fmt::format("{:016x}, {} numbers", layout, count), "is of another world",
            fmt::format("{:016x}, {} numbers", ours.hash(), ours.size()));

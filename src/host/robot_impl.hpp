@@ -31,7 +31,10 @@ void check_kind(const std::string& name, const UnitConfig& from, const UnitConfi
 struct Robot::Impl {
   explicit Impl(RobotConfig c) : config(std::move(c)) {
     units.reserve(config.actuators.size());
-    for (const ActuatorConfig& a : config.actuators) units.push_back(unit_for(a.unit));
+    for (ActuatorConfig& a : config.actuators) {
+      units.push_back(unit_for(a.unit));
+      a.unit.actuator.transmission = units.back()->config().actuator.transmission;
+    }
     state.actuators.resize(units.size());
     for (std::size_t i = 0; i < units.size(); ++i) {
       const ActuatorConfig& a = config.actuators[i];
@@ -116,10 +119,11 @@ struct Robot::Impl {
     return state;
   }
 
-  /// Units with equal parameters share one instance: a thousand of them then fit the processor's cache. States are their own.
+  /// Units with equal parameters share one instance, which goes in lanes and a thousand times into the processor's cache. States are
+  /// their own.
   std::shared_ptr<device::Unit> unit_for(const UnitConfig& unit, const actuator::Actuator* prepared = nullptr) {
     for (const auto& known : distinct)
-      if (known->config() == unit) return known;
+      if (known->config() == unit || device::alike(known->config(), unit)) return known;
     distinct.push_back(std::make_shared<device::Unit>(unit));
     if (prepared != nullptr) distinct.back()->physics() = *prepared;
     return distinct.back();
@@ -218,6 +222,7 @@ struct Robot::Impl {
     if (from.made_of != made_of) adopt(*from.made_of);
   }
 
+  void check(const RobotConfig* theirs) const;
   void adopt(const RobotConfig& from) noexcept;  ///< the state came from a robot with these parameters
   void set_parameters(std::size_t actuator, const UnitConfig& unit);
   void use(const std::shared_ptr<const RobotConfig>& to);

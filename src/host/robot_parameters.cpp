@@ -2,6 +2,7 @@
 //
 // Giving actuators other parameters, one by one or all at once.
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <string>
 
@@ -41,6 +42,12 @@ std::shared_ptr<const actuator::Actuator> prepared(const UnitConfig& config, std
   return std::make_shared<const actuator::Actuator>(unit.physics());
 }
 
+/// Servo, model, dialect, number of motors.
+std::array<int, 4> kind_of(const UnitConfig& u) noexcept {
+  return {u.servo ? static_cast<int>(u.servo->kind) : -1, static_cast<int>(u.program.model), static_cast<int>(u.program.dialect),
+          u.actuator.transmission->motor_count()};
+}
+
 void take_unit(ActuatorConfig& to, const ActuatorConfig& from) {
   to.unit = from.unit;
   to.changed = from.changed;
@@ -50,7 +57,9 @@ void take_unit(ActuatorConfig& to, const ActuatorConfig& from) {
 
 }  // namespace
 
+/// A batch whose copies have parameters of their own asks at every step: words are for where something is wrong.
 void check_kind(const std::string& name, const UnitConfig& from, const UnitConfig& to, Problems& problems) {
+  if (kind_of(from) == kind_of(to)) return;
   const auto number = [](auto value) { return std::to_string(static_cast<int>(value)); };
   const auto same = [&](const char* key, const std::string& theirs, const std::string& ours) {
     if (theirs != ours) problems.add({"", name + ": " + key, theirs, "a unit's state can't go over to this", ours});
@@ -62,6 +71,28 @@ void check_kind(const std::string& name, const UnitConfig& from, const UnitConfi
   same("firmware.model", number(from.program.model), number(to.program.model));
   same("firmware.dialect", number(from.program.dialect), number(to.program.dialect));
   same("number of motors", number(from.actuator.transmission->motor_count()), number(to.actuator.transmission->motor_count()));
+}
+
+void Robot::check(const std::shared_ptr<const RobotConfig>& parameters) const { impl_->check(parameters.get()); }
+
+void Robot::Impl::check(const RobotConfig* theirs) const {
+  constexpr const char* kAllowed = "parameters() of this robot or of another with the same actuators";
+  if (theirs == made_of.get()) return;
+  if (theirs == nullptr) throw InputError(Problem{"", "parameters", "none", "are missing", kAllowed});
+  if (theirs->actuators.size() != units.size())
+    throw InputError(Problem{"", "parameters", std::to_string(theirs->actuators.size()) + " actuators", "are of another robot",
+                             std::to_string(units.size())});
+  Problems problems;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const ActuatorConfig &a = theirs->actuators[i], &b = config.actuators[i];
+    if (a.name != b.name) problems.add({"", "parameters", a.name, "are of another robot", b.name});
+    if (a.unit.actuator.transmission == nullptr) {
+      device::validate(a.unit, b.name + ": ", problems);
+    } else {
+      check_kind(b.name, a.unit, b.unit, problems);
+    }
+  }
+  problems.throw_if_any();
 }
 
 void Robot::set_parameters(std::size_t actuator, const UnitConfig& unit) {
@@ -87,6 +118,7 @@ std::shared_ptr<const RobotConfig> Robot::parameters() const { return impl_->mad
 std::shared_ptr<const RobotConfig> Robot::parameters_with(const RobotConfig& base,
                                                           std::span<const std::pair<std::size_t, ActuatorConfig>> changes,
                                                           std::int64_t dt_ns) const {
+  impl_->check(&base);
   Problems problems;
   if (dt_ns < 1 || dt_ns > kLongestStep_ns) problems.add({"", "dt_ns", std::to_string(dt_ns), "is out of range", "1 … 16000000"});
   for (const auto& [actuator, to] : changes) {
@@ -148,7 +180,7 @@ void Robot::Impl::set_parameters(std::size_t i, const UnitConfig& unit) {
   const UnitConfig before = config.actuators[i].unit;
   BusLine& bus = *buses[config.actuators[i].bus];
   const std::shared_ptr<device::Unit> next = unit_for(unit);
-  config.actuators[i].unit = unit;
+  config.actuators[i].unit = next->config();
   config.actuators[i].prepared = nullptr;
   made_of = std::make_shared<const RobotConfig>(config);
   {
@@ -166,6 +198,7 @@ void Robot::Impl::set_parameters(std::size_t i, const UnitConfig& unit) {
 /// All that may fail comes first, but for the clusters' memory.
 void Robot::Impl::use(const std::shared_ptr<const RobotConfig>& to) {
   if (to == made_of) return;
+  check(to.get());
   home();
   std::vector<std::shared_ptr<device::Unit>> next = units;
   for (std::size_t i = 0; i < units.size(); ++i)

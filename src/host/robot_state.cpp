@@ -4,6 +4,7 @@
 #include <string>
 
 #include "host/robot_impl.hpp"
+#include "vsa/errors.hpp"
 #include "vsa/state_io.hpp"
 
 namespace vsa::host {
@@ -91,6 +92,9 @@ void Robot::save(std::span<double> out) const {
 }
 
 void Robot::save_tight(state::Rewriter& out) const {
+  if (out.room() < impl_->numbers)
+    throw InputError(Problem{"", "state", std::to_string(out.room()) + " numbers", "is too little room for one",
+                             std::to_string(impl_->numbers) + " and more"});
   impl_->write_numbers(out);
   throw_if_any(out.fault(), {});
 }

@@ -189,11 +189,17 @@ void TreeInertia::mobility(const std::vector<TreeBody>& bodies, std::span<const 
 }
 
 std::vector<std::vector<std::size_t>> joined(const std::vector<TreeBody>& bodies, std::span<const std::size_t> of) {
+  constexpr const char* kHere = "vsa::host::joined";
   std::vector<std::size_t> root;  // of each of `of`: the last body that moves on the way to the ground
   for (std::size_t body : of) {
+    require(body < bodies.size(), kHere, "no such body");
     std::size_t last = body;
-    for (; body != TreeBody::kGround; body = bodies[body].parent)
+    while (body != TreeBody::kGround) {
       if (bodies[body].joint != TreeBody::Joint::fixed) last = body;
+      const std::size_t parent = bodies[body].parent;
+      require(parent == TreeBody::kGround || parent < body, kHere, "parents come before their children");
+      body = parent;
+    }
     root.push_back(last);
   }
   std::vector<std::vector<std::size_t>> out;

@@ -3,11 +3,16 @@
 // Every public function of vsa::engine with wrong sizes, numbers that are none, other worlds' objects and worlds that were moved
 // from: an error in words, and nothing else. Worth most under the sanitizers (preset asan).
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 
 #include "arm.hpp"
+#include "vsa/engine/mjcf.hpp"
 #include "vsa/motion/gait.hpp"
+#include "vsa/output_file.hpp"
+#include "vsa/seat/seat.hpp"
 
 namespace vsa::engine::testing {
 namespace {
@@ -162,6 +167,17 @@ TEST(Hostile, ObjectsOfAnotherWorldAreRefused) {
     EXPECT_THROW(w.apply_wrench(link, {}), InputError);
     EXPECT_THROW(w.jacobian(link, {}, j), InputError);
   }
+  for (const LinkHandle& link : {LinkHandle{}, other.link("arm::hand")}) {
+    EXPECT_THROW((void)w.link_parameters(link), InputError);
+    EXPECT_THROW((void)w.link_parameters(*w.parameters(), link), InputError);
+    EXPECT_THROW(w.set_link_parameters(link, {}), InputError);
+    EXPECT_THROW((void)w.parameters_with(*w.parameters(), {{}, {{link, {}}}}), InputError);
+  }
+  for (const ActuatorRef& ref : refs) {
+    EXPECT_THROW((void)w.actuator_parameters(*w.parameters(), ref), InputError);
+    EXPECT_THROW((void)w.parameters_with(*w.parameters(), {{{ref, w.robot(0).config().actuators[0]}}, {}}), InputError);
+  }
+  for (const std::size_t i : {std::size_t{1}, static_cast<std::size_t>(-1)}) EXPECT_THROW((void)w.seat(i), InputError);
   EXPECT_THROW(w.apply_wrench(w.link("floor::l"), {{1, 0, 0}, {}, {}}), InputError) << "a static link";
   Pull pull;
   pull.link = 1'000'000;
@@ -186,12 +202,152 @@ TEST(Hostile, SnapshotsOfAnotherWorldAreRefusedAndNothingChanged) {
   EXPECT_EQ(w.time_ns(), 30'000'000);
 }
 
+// All but the last have the links, joints and actuators of arm() by name.
+std::vector<World> worlds_like_arms() {
+  std::string heavier = arm(), shaped = arm(), stopped = arm();
+  heavier.replace(heavier.find("<mass>0.2"), 9, "<mass>0.3");
+  const std::string shape = "<geometry><sphere><radius>0.01</radius></sphere></geometry>";
+  shaped.replace(shaped.find("<link name='fore'>"), 18,
+                 "<link name='fore'><collision name='a'>" + shape + "</collision><collision name='b'>" + shape + "</collision>");
+  stopped.replace(stopped.find("<upper>2.5"), 10, "<upper>1.5");
+  std::vector<World> out;
+  for (const std::string& text : {heavier, shaped, stopped, arm("anydrive_ad119e20"), arm("sea_hardening_example"), other_arm()})
+    out.push_back(World::load_string(text));
+  WorldOptions bare;
+  bare.actuators = false;
+  out.push_back(World::load_string(arm(), bare));
+  return out;
+}
+
+TEST(Hostile, ParametersOfAnotherWorldAreRefusedAndNothingChanged) {
+  std::vector<World> all = worlds_like_arms();
+  all.push_back(World::load_string(arm()));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    World& w = all[i];
+    w.run(0.03);
+    World untouched = w.clone();
+    const LinkHandle fore = w.link("arm::fore");
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (k == i) continue;
+      const auto theirs = all[k].parameters();
+      EXPECT_THROW(w.set_parameters(*theirs), InputError) << i << " " << k;
+      EXPECT_THROW(w.use(*theirs), InputError) << i << " " << k;
+      EXPECT_THROW((void)w.parameters_with(*theirs, {}), InputError) << i << " " << k;
+      EXPECT_THROW((void)w.link_parameters(*theirs, fore), InputError) << i << " " << k;
+      if (w.actuators().empty()) continue;
+      EXPECT_THROW((void)w.actuator_parameters(*theirs, w.actuators().front()), InputError) << i << " " << k;
+    }
+    for (World* x : {&w, &untouched}) x->run(0.03);
+    EXPECT_EQ(w.state_hash(), untouched.state_hash()) << i;
+  }
+  World same = World::load_string(arm());
+  EXPECT_NO_THROW(same.set_parameters(*all.back().parameters())) << "of the same file";
+}
+
+TEST(Hostile, LinksThatNoBodyCouldBeAreRefused) {
+  World w = World::load_string(arm());
+  const LinkHandle fore = w.link("arm::fore"), ground = w.link("floor::l");
+  World untouched = w.clone();
+  const LinkParameters now = w.link_parameters(fore);
+  const auto refused = [&](LinkHandle link, auto&& spoil) {
+    LinkParameters to = w.link_parameters(link);
+    spoil(to);
+    EXPECT_THROW(w.set_link_parameters(link, to), InputError);
+    EXPECT_THROW((void)w.parameters_with(*w.parameters(), {{}, {{link, to}}}), InputError);
+  };
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, -1.0}) {
+    refused(fore, [&](LinkParameters& p) { p.mass_kg = bad; });
+    refused(fore, [&](LinkParameters& p) { p.inertia_kgm2[1] = bad; });
+    refused(fore, [&](LinkParameters& p) { p.friction = bad; });
+    refused(ground, [&](LinkParameters& p) { p.mass_kg = bad; });
+    refused(ground, [&](LinkParameters& p) { p.friction = bad; });
+  }
+  refused(fore, [](LinkParameters& p) { p.mass_kg = 0; });
+  refused(fore, [](LinkParameters& p) { p.inertia_kgm2 = {1, 1, 3}; });
+  refused(ground, [](LinkParameters& p) { p.friction = std::nullopt; });
+  host::ActuatorConfig broken = w.robot(0).config().actuators[0];
+  broken.unit.actuator.shaft_inertia_kgm2 = kNan;
+  EXPECT_THROW((void)w.parameters_with(*w.parameters(), {{{w.actuators()[0], broken}}, {}}), InputError);
+  broken.unit.actuator.transmission = nullptr;
+  EXPECT_THROW((void)w.parameters_with(*w.parameters(), {{{w.actuators()[0], broken}}, {}}), InputError);
+  EXPECT_EQ(w.link_parameters(fore), now);
+  for (World* x : {&w, &untouched}) x->run(0.03);
+  EXPECT_EQ(w.state_hash(), untouched.state_hash());
+}
+
+TEST(Hostile, NumbersThatAreNoStateOfThisWorldAreRefusedAndNothingChanged) {
+  World w = World::load_string(arm());
+  w.run(0.02);
+  const std::size_t n = w.state_size();
+  ASSERT_EQ(n, w.state_layout().size());
+  const std::uint64_t hash = w.state_hash();
+  std::vector<double> state(n), numbers(n + 1, kNan);
+  w.save(state);
+  for (const std::size_t wrong : {std::size_t{0}, n - 1, n + 1}) {
+    EXPECT_THROW(w.save(std::span(numbers).first(wrong)), InputError);
+    EXPECT_THROW(w.restore(std::span<const double>(numbers).first(wrong)), InputError);
+  }
+  EXPECT_THROW(w.restore(std::span<const double>(numbers).first(n)), InputError);
+  for (const double bad : {kNan, 1e300}) {
+    for (std::size_t k = 0; k < n; ++k) {
+      std::vector<double> spoiled = state;
+      spoiled[k] = bad;
+      try {
+        w.restore(spoiled);
+        w.restore(state);  // of a number that may be anything
+      } catch (const InputError&) {
+        EXPECT_EQ(w.state_hash(), hash) << k;
+      }
+    }
+  }
+  EXPECT_EQ(w.state_hash(), hash);
+}
+
+TEST(Hostile, FilesThatHoldNoStateOfThisWorldAreRefused) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "vsa_hostile_files";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  World w = World::load_string(arm());
+  w.run(0.02);
+  const std::uint64_t hash = w.state_hash();
+  for (const std::filesystem::path& bad : {std::filesystem::path(), std::filesystem::path("/"), folder, folder / "nobody" / "x"})
+    EXPECT_THROW(w.save_file(bad), OutputError) << bad;
+  World::load_string(other_arm()).save_file(folder / "other");
+  std::ofstream(folder / "empty");
+  std::ofstream(folder / "text") << std::string(100'000, 'x');
+  for (const std::filesystem::path& bad : {std::filesystem::path(), std::filesystem::path("/"), folder, folder / "nobody",
+                                           folder / "other", folder / "empty", folder / "text"})
+    EXPECT_THROW(w.restore_file(bad), InputError) << bad;
+  EXPECT_EQ(w.state_hash(), hash);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Hostile, WorldsThatCannotBeExportedAreRefused) {
+  for (const char* bad : {"", "/", "no such file.sdf", "no such file.xml"}) {
+    EXPECT_THROW((void)export_mjcf(bad), InputError) << bad;
+    EXPECT_THROW((void)export_plugin_mjcf(bad), InputError) << bad;
+    static_cast<void>(mjcf_of(bad));
+  }
+  for (const char* mjcf : {"<mujoco", "<else/>", "x"})
+    EXPECT_THROW((void)export_plugin_mjcf("bench_free.sdf", {}, mjcf), InputError) << mjcf;
+  std::vector<WorldOptions> of_no_file(4);
+  of_no_file[0].step_s = kNan;
+  of_no_file[1].step_s = 5e-4;
+  of_no_file[2].actuators = false;
+  of_no_file[3].actuator.type = "sea_example";
+  for (const WorldOptions& options : of_no_file) EXPECT_THROW((void)export_mjcf("bench_free.sdf", options), InputError);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_THROW((void)export_plugin_mjcf("bench_free.sdf", of_no_file[i]), InputError) << i;
+  EXPECT_NO_THROW((void)export_plugin_mjcf("bench_free.sdf", of_no_file[3])) << "the plug-in's actuators can be others";
+}
+
 TEST(Hostile, AWorldThatWasMovedFromSaysSo) {
   World full = World::load_string(arm());
   const auto snapshot = full.snapshot();
   const ActuatorRef ref = full.actuators().front();
   const JointHandle joint = full.joint("arm::elbow");
   const LinkHandle link = full.link("arm::fore");
+  const auto parameters = full.parameters();
+  const LinkParameters of_link = full.link_parameters(link);
   World taken = std::move(full);
   World& w = full;  // NOLINT(bugprone-use-after-move): that is what is tested
   std::vector<Contact> contacts;
@@ -251,6 +407,27 @@ TEST(Hostile, AWorldThatWasMovedFromSaysSo) {
   says_so([&] { return w.restore(*snapshot), 0; });
   says_so([&] { return w.reset(), 0; });
   says_so([&] { return w.warnings().size(); });
+  says_so([&] { return w.substeps(); });
+  says_so([&] { return w.seat(0).model(); });
+  says_so([&] { return w.body_energy(); });
+  says_so([&] { return w.hands().size(); });
+  says_so([&] { return w.types(); });
+  says_so([&] { return w.link_parameters(link); });
+  says_so([&] { return w.link_parameters(*parameters, link); });
+  says_so([&] { return w.set_link_parameters(link, of_link), 0; });
+  says_so([&] { return w.parameters(); });
+  says_so([&] { return w.parameters_with(*parameters, {}); });
+  says_so([&] { return w.actuator_parameters(*parameters, ref); });
+  says_so([&] { return w.set_parameters(*parameters), 0; });
+  says_so([&] { return w.use(*parameters), 0; });
+  says_so([&] { return w.state_layout(); });
+  says_so([&] { return w.state_size(); });
+  says_so([&] { return w.save(numbers), 0; });
+  says_so([&] { return w.restore(std::span<const double>(numbers)), 0; });
+  says_so([&] { return w.state_hash(); });
+  says_so([&] { return w.save_file("nowhere"), 0; });
+  says_so([&] { return w.restore_file("nowhere"), 0; });
+  EXPECT_TRUE(w.has_contacts() && w.has_hands()) << "of any world";
   w = std::move(taken);
   EXPECT_EQ(w.time_ns(), 0) << "and works again once it is given a world";
 }

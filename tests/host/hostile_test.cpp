@@ -10,9 +10,14 @@
 
 #include "host/free_flanges.hpp"
 #include "host/topics_fixture.hpp"
+#include "support/servos.hpp"
+#include "vsa/elastic/series_spring.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/host/mobility_watch.hpp"
+#include "vsa/host/resolution.hpp"
 #include "vsa/host/topics.hpp"
 #include "vsa/host/tree_inertia.hpp"
+#include "vsa/state_io.hpp"
 
 namespace {
 
@@ -130,6 +135,105 @@ TEST(HostileRobot, NumbersThatAreNoneAreRefused) {
   EXPECT_EQ(r.read(0).equilibrium_command_rad, 0.0);
 }
 
+TEST(HostileRobot, ParametersOfAnotherRobotOrOfNoneAreRefusedAndNothingChanged) {
+  Bench bench(chain(2)), untouched(chain(2));
+  Robot& r = bench.robot;
+  for (Bench* b : {&bench, &untouched}) b->run(3);
+  using Parameters = std::shared_ptr<const vsa::host::RobotConfig>;
+  const auto spoiled = [&](auto&& spoil) -> Parameters {
+    auto config = *r.parameters();
+    spoil(config);
+    return std::make_shared<const vsa::host::RobotConfig>(config);
+  };
+  using Spoiled = vsa::host::RobotConfig;
+  const std::vector<Parameters> of_others{
+      nullptr,
+      Robot(chain(1)).parameters(),
+      Robot(chain(3)).parameters(),
+      Robot({}).parameters(),
+      spoiled([](Spoiled& c) { c.actuators[1].name = "else"; }),
+      spoiled([](Spoiled& c) { c.actuators[1].unit.actuator.transmission = nullptr; }),
+      spoiled([](Spoiled& c) { c.actuators[1].unit.program.model = vsa::firmware::Model::advanced; }),
+      spoiled([](Spoiled& c) { c.actuators[1].unit.actuator.transmission = std::make_shared<vsa::elastic::SeriesSpring>(2.0); }),
+      spoiled([](Spoiled& c) { c.actuators[1].unit.servo.emplace(); })};
+  for (const Parameters& theirs : of_others) {
+    EXPECT_THROW(r.check(theirs), InputError);
+    EXPECT_THROW(r.set_parameters(theirs), InputError);
+    EXPECT_THROW(r.use(theirs), InputError);
+    if (!theirs) continue;
+    EXPECT_THROW((void)r.parameters_with(*theirs, {}, 1'000'000), InputError);
+  }
+  const Parameters broken = spoiled([](Spoiled& c) { c.actuators[1].unit.actuator.shaft_inertia_kgm2 = kNan; });
+  EXPECT_THROW(r.set_parameters(broken), InputError);
+  EXPECT_THROW(r.use(broken), InputError);
+  const Parameters now = r.parameters();
+  std::vector<std::pair<std::size_t, vsa::host::ActuatorConfig>> change{{1, broken->actuators[1]}};
+  EXPECT_THROW((void)r.parameters_with(*now, change, 1'000'000), InputError);
+  change[0] = {2, now->actuators[1]};
+  EXPECT_THROW((void)r.parameters_with(*now, change, 1'000'000), InputError);
+  change[0].first = kNowhere;
+  EXPECT_THROW((void)r.parameters_with(*now, change, 1'000'000), InputError);
+  for (const std::int64_t dt :
+       {std::int64_t{0}, std::int64_t{-1}, std::int64_t{16'000'001}, std::numeric_limits<std::int64_t>::max()})
+    EXPECT_THROW((void)r.parameters_with(*now, {}, dt), InputError) << dt;
+  EXPECT_EQ(r.parameters(), now);
+  EXPECT_TRUE(r.has_own_memories());
+  r.renew_memories();
+  for (Bench* b : {&bench, &untouched}) b->run(5);
+  EXPECT_EQ(r.state_hash(), untouched.robot.state_hash());
+}
+
+TEST(HostileRobot, NumbersThatAreNoStateOfItsOwnAreRefusedAndNothingChanged) {
+  Bench bench(chain(2));
+  Robot& r = bench.robot;
+  bench.run(3);
+  const std::uint64_t hash = r.state_hash();
+  const std::size_t n = r.state_size();
+  ASSERT_EQ(n, r.state_layout().size());
+  std::vector<double> numbers(n + 1, kNan);
+  for (const std::size_t wrong : {std::size_t{0}, n - 1, n + 1}) {
+    EXPECT_THROW(r.save(std::span(numbers).first(wrong)), InputError);
+    EXPECT_THROW(r.restore(std::span<const double>(numbers).first(wrong)), InputError);
+    EXPECT_THROW(r.check(std::span<const double>(numbers).first(wrong)), InputError);
+  }
+  EXPECT_THROW(r.restore(std::span<const double>(numbers).first(n)), InputError);
+  EXPECT_THROW((void)r.restore_tight({}), InputError);
+  EXPECT_THROW((void)r.restore_tight(numbers), InputError);
+  vsa::state::Rewriter small(3, n - 1), right(3, n);
+  EXPECT_THROW(r.save_tight(small), InputError);
+  r.save_tight(right);
+  EXPECT_THROW(r.save_tight(right), InputError) << "behind the one that stands there, without begin()";
+  const std::vector<double> tight(right.numbers().begin() + 3, right.numbers().end());
+  for (std::size_t k = 0; k < tight.size(); ++k)
+    EXPECT_THROW((void)r.restore_tight(std::span(tight).first(k)), InputError) << k << " of " << tight.size();
+  vsa::state::Rewriter taken = std::move(right);
+  EXPECT_THROW(r.save_tight(right), InputError);  // NOLINT(bugprone-use-after-move): that is what is tested
+  EXPECT_EQ(r.state_hash(), hash);
+  EXPECT_EQ(r.restore_tight(tight), tight.size());
+  EXPECT_EQ(r.state_hash(), hash);
+}
+
+TEST(HostileRobot, GoesBackToTheFirstSampleWhereNothingWasKept) {
+  Bench bench(chain(2));
+  const std::uint64_t first = bench.robot.state_hash();
+  bench.run(3);
+  bench.robot.go_back();
+  EXPECT_EQ(bench.robot.state_hash(), first);
+}
+
+TEST(HostileRobot, DirectCommandsAreForWhoTakesThem) {
+  Robot r(chain(1));
+  EXPECT_THROW(r.command_direct(0, {1, 1}), InputError) << "a qbmove's program takes no voltages";
+  auto config = chain(1);
+  config.actuators[0].unit = vsa::test::series(vsa::test::motor_voltages(), 10);
+  Robot direct(config);
+  for (const std::size_t i : {std::size_t{1}, kNowhere}) EXPECT_THROW(direct.command_direct(i, {1, 1}), InputError);
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    EXPECT_THROW(direct.command_direct(0, {bad, 0}), InputError);
+    EXPECT_THROW(direct.command_direct(0, {0, bad}), InputError);
+  }
+}
+
 TEST(HostileRobot, AConfigThatNoRobotCouldHaveIsRefused) {
   const auto refused = [](auto&& spoil) {
     auto config = chain(2);
@@ -149,6 +253,13 @@ TEST(HostileRobot, AConfigThatNoRobotCouldHaveIsRefused) {
   refused([](auto& c) { c.state_rate_Hz = 0; });
   refused([](auto& c) { c.record = {"out", kNan}; });
   refused([](auto& c) { c.buses.clear(); });
+  refused([](auto& c) { c.actuators[1].unit.actuator.transmission = nullptr; });
+  refused([](auto& c) { c.actuators[1].unit.substep_max_s = kNan; });
+  vsa::Problems problems;
+  auto config = chain(2);
+  config.actuators[1].unit.actuator.transmission = nullptr;
+  vsa::host::validate(config, "there: ", problems);
+  EXPECT_FALSE(problems.list().empty());
   Robot none{{}};
   none.advance(0, 1'000'000, {}, {});
   none.reset();
@@ -157,6 +268,8 @@ TEST(HostileRobot, AConfigThatNoRobotCouldHaveIsRefused) {
 TEST(HostileRobot, OneThatWasMovedFromSaysSo) {
   Bench bench(chain(1));
   const auto snapshot = bench.robot.snapshot();
+  const auto parameters = bench.robot.parameters();
+  std::vector<double> numbers(bench.robot.state_size());
   Robot taken = std::move(bench.robot);
   Robot& r = bench.robot;
   EXPECT_THROW((void)r.config(), std::logic_error);
@@ -181,6 +294,28 @@ TEST(HostileRobot, OneThatWasMovedFromSaysSo) {
   EXPECT_THROW(r.restore(*snapshot), std::logic_error);
   EXPECT_THROW(r.check(*snapshot), std::logic_error);
   EXPECT_THROW(r.reset(), std::logic_error);
+  EXPECT_THROW(r.join({}), std::logic_error);
+  EXPECT_THROW((void)r.mobility_size(), std::logic_error);
+  EXPECT_THROW(r.command_direct(0, {}), std::logic_error);
+  EXPECT_THROW((void)r.follow(std::vector<Robot::Path>{}), std::logic_error);
+  EXPECT_THROW((void)r.parameters(), std::logic_error);
+  EXPECT_THROW((void)r.parameters_with(*parameters, {}, 1'000'000), std::logic_error);
+  EXPECT_THROW(r.set_parameters(parameters), std::logic_error);
+  EXPECT_THROW(r.use(parameters), std::logic_error);
+  EXPECT_THROW(r.check(parameters), std::logic_error);
+  EXPECT_THROW(r.renew_memories(), std::logic_error);
+  EXPECT_THROW((void)r.has_own_memories(), std::logic_error);
+  EXPECT_THROW((void)r.state_layout(), std::logic_error);
+  EXPECT_THROW((void)r.state_size(), std::logic_error);
+  EXPECT_THROW(r.save(numbers), std::logic_error);
+  EXPECT_THROW(r.restore(std::span<const double>(numbers)), std::logic_error);
+  EXPECT_THROW(r.check(std::span<const double>(numbers)), std::logic_error);
+  vsa::state::Rewriter tight(0, numbers.size());
+  EXPECT_THROW(r.save_tight(tight), std::logic_error);
+  EXPECT_THROW((void)r.restore_tight(numbers), std::logic_error);
+  EXPECT_THROW((void)r.state_hash(), std::logic_error);
+  EXPECT_THROW(r.keep(), std::logic_error);
+  EXPECT_THROW(r.go_back(), std::logic_error);
   r = std::move(taken);
   EXPECT_EQ(r.size(), 1U) << "and works again once it is given a robot";
 }
@@ -224,6 +359,43 @@ TEST(HostileTree, WrongSizesAndParentsEndTheProgramInWords) {
   vsa::host::TreeInertia none(0);
   none.update({});
   none.mobility({}, {}, {});
+}
+
+TEST(HostileTree, BodiesThatHangOnNoneOrOnThemselvesEndTheProgramInWords) {
+  using vsa::host::TreeBody;
+  std::vector<TreeBody> bodies(2);
+  bodies[1].joint = TreeBody::Joint::revolute;
+  const std::vector<std::size_t> last{1}, beyond{2};
+  EXPECT_DEATH((void)vsa::host::joined(bodies, beyond), "no such body");
+  EXPECT_DEATH((void)vsa::host::joined({}, last), "no such body");
+  for (const std::size_t wrong : {std::size_t{1}, std::size_t{2}, kNowhere - 1}) {
+    bodies[1].parent = wrong;
+    EXPECT_DEATH((void)vsa::host::joined(bodies, last), "before their children") << wrong;
+  }
+  EXPECT_TRUE(vsa::host::joined({}, {}).empty());
+}
+
+TEST(HostileTree, AWatchOverOtherJointsEndsTheProgramInWords) {
+  vsa::host::MobilityWatch watch(2), none;
+  std::vector<JointIn> joints(3);
+  EXPECT_DEATH((void)watch.due(std::span<const JointIn>(joints).first(1)), "one entry a driven joint");
+  EXPECT_DEATH((void)watch.due(joints), "one entry a driven joint");
+  EXPECT_DEATH((void)none.due(joints), "one entry a driven joint");
+  EXPECT_TRUE(none.due({}));
+  joints[0].angle_rad = kNan;
+  EXPECT_TRUE(watch.due(std::span<const JointIn>(joints).first(2)));
+}
+
+TEST(HostileTree, AStepThatIsNoNumberResolvesNothingWrong) {
+  for (const double x : {kNan, -kInfinity, -1.0, 0.0}) {
+    EXPECT_EQ(vsa::host::resolution(x).radius, 1);
+    EXPECT_EQ(vsa::host::resolution(x).frequency, 1);
+  }
+  for (const double x : {1e-300, 1e3, 1e75, 1e200, kInfinity}) {
+    const vsa::host::Resolution r = vsa::host::resolution(x);
+    EXPECT_TRUE(r.radius >= 0 && r.radius <= 1 && r.frequency >= 0 && r.frequency <= 1 + 1e-9)
+        << x << ": " << r.radius << ", " << r.frequency;
+  }
 }
 
 TEST(HostileTree, MatricesThatAreNoneLeaveEachJointByItself) {

@@ -12,6 +12,7 @@
 
 #include "host/free_flanges.hpp"
 #include "support/ledger.hpp"
+#include "vsa/elastic/series_spring.hpp"
 #include "vsa/errors.hpp"
 
 long allocation_count();  // allocations.cpp
@@ -245,6 +246,27 @@ TEST(Robot, SaysWhatTheWholeGetsWrong) {
   } catch (const vsa::InputError& e) {
     EXPECT_EQ(e.problems().size(), 2u);
   }
+}
+
+TEST(Robot, UnitsThatAreAlikeHaveOneLawWhoeverMadeThem) {
+  RobotConfig config = chain(4);
+  const auto with = [](double stiffness_Nm_per_rad) {
+    vsa::device::UnitConfig unit = vsa::test::maker_pro();
+    unit.actuator.transmission = std::make_shared<vsa::elastic::SeriesSpring>(stiffness_Nm_per_rad);
+    return unit;
+  };
+  for (ActuatorConfig& a : config.actuators) a.unit = with(2.0);
+  config.actuators[2].unit = with(3.0);
+  config.actuators[3].unit.actuator.supply_V += 1;
+  Robot robot(config);
+  const auto law = [&robot](std::size_t i) { return robot.config().actuators[i].unit.actuator.transmission.get(); };
+  EXPECT_EQ(law(0), law(1));
+  EXPECT_NE(law(0), law(2)) << "another spring";
+  EXPECT_NE(law(0), law(3)) << "another unit";
+  robot.set_parameters(2, with(2.0));
+  EXPECT_EQ(law(0), law(2));
+  robot.set_parameters(1, with(3.0));
+  EXPECT_NE(law(0), law(1));
 }
 
 TEST(Robot, StepsOfAnyLengthSeeTheSameTicks) {

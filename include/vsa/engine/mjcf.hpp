@@ -16,7 +16,8 @@ struct ExportedFile {
 };
 
 /// A world in MuJoCo's format, with what else a World needs in a file beside it (vsa/physics/mjcf.hpp): loaded again it moves bit for
-/// bit as this one. NAME is the stem of the file, or "world" for a text. Throws InputError with all problems.
+/// bit as this one. NAME is the stem of the file, or "world" for a text. Throws InputError with all problems, and for options that ask
+/// for another step or other actuators than the file's.
 [[nodiscard]] std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const WorldOptions& options = {});
 
 /// A world for MuJoCo with the plug-in, as export_plugin_mjcf() writes it.
@@ -27,7 +28,8 @@ struct PluginMjcf {
 
 /// A world for a MuJoCo with vsasim's plug-in (docs/howto/mujoco.md): its MJCF, which names the same files as export_mjcf()'s, and for
 /// each actuator an instance of vsasim.unit, its actuators and a sensor; a key "start" with the joints and controls of the first
-/// sample. Of an SDF, a URDF or an MJCF. Throws InputError with all problems.
+/// sample. Of an SDF, a URDF or an MJCF. Throws InputError with all problems, and for options that ask for another step than the
+/// file's.
 /// `mjcf`: the MJCF of export_mjcf(), where that was made already.
 [[nodiscard]] PluginMjcf export_plugin_mjcf(const std::filesystem::path& file, const WorldOptions& options = {},
                                             std::string mjcf = {});

@@ -77,8 +77,8 @@ struct ParameterChanges {
 };
 
 /// The embedded simulator: bodies and contacts, actuators with their firmware and buses. It owns time; the same inputs give the
-/// same bits. One that was moved from throws std::logic_error from everything but its destructor and assignment. A motion::Gait
-/// plays on it.
+/// same bits. One that was moved from throws std::logic_error from everything but its destructor, assignment, has_contacts() and
+/// has_hands(). A motion::Gait plays on it.
 class World : public motion::Stage, public host::Simulation {
  public:
   /// A file, or the name of a built-in world ("snake_flat.sdf"). Throws InputError with all problems. Safe from several
@@ -204,6 +204,7 @@ class World : public motion::Stage, public host::Simulation {
   /// As set_link_parameters() and host::Robot::set_parameters() of each that differs. InputError: of another world.
   void set_parameters(const Parameters& to);
   /// Goes on with those and leaves the state as it is, for one that came from a world with them. Each copy of a Batch is stepped so.
+  /// InputError: of another world.
   void use(const Parameters& to);
 
   struct Snapshot;  ///< opaque, copyable: all of a world's state, without hands and parameters

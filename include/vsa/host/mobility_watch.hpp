@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "vsa/host/robot.hpp"
+#include "vsa/owner.hpp"
 
 namespace vsa::host {
 
@@ -21,8 +22,10 @@ class MobilityWatch {
   MobilityWatch() = default;
   explicit MobilityWatch(std::size_t joints) : angles_(joints) {}  ///< how many driven joints
 
-  /// Once before each step. True: B is due, and is taken to be that of these angles.
+  /// Once before each step. True: B is due, and is taken to be that of these angles. Another number of joints: one line on stderr,
+  /// and abort.
   [[nodiscard]] bool due(std::span<const JointIn> joints) noexcept {
+    require(joints.size() == angles_.size(), "vsa::host::MobilityWatch::due", "joints has one entry a driven joint");
     bool now = steps_left_-- <= 0;
     for (std::size_t i = 0; i < angles_.size() && !now; ++i) now = std::abs(joints[i].angle_rad - angles_[i]) > kTurned_rad;
     if (!now) return false;

@@ -23,7 +23,8 @@ struct Resolution {
 /// x = ω·dt ≥ 0.
 [[nodiscard]] inline Resolution resolution(double x) noexcept {
   if (!(x > 0)) return {};
-  const double k = x * x, w = actuator::lead_weight(k), gain = k / (1.0 + k * (0.25 + 0.75 * w));
+  constexpr double kEndless = 1e150;  // its square is finite, and nothing is left of such a swing after a step
+  const double k = std::fmin(x * x, kEndless), w = actuator::lead_weight(k), gain = k / (1.0 + k * (0.25 + 0.75 * w));
   const double product = 1.0 - gain * w, half_sum = 1.0 - 0.5 * gain * (1.0 + w);
   const double rest = std::fmax(product - half_sum * half_sum, 0.0);
   return {std::sqrt(product), std::atan2(std::sqrt(rest), half_sum) / x};

@@ -113,8 +113,9 @@ class Robot {
   /// bus with a serial port has one of its own.
   [[nodiscard]] Robot clone() const;
 
-  [[nodiscard]] const RobotConfig& config() const;  ///< as it is now: set_parameters() changes it
-  [[nodiscard]] std::size_t size() const;           ///< number of actuators
+  /// As it is now: set_parameters() changes it. Units that are alike (device::alike) have one law together.
+  [[nodiscard]] const RobotConfig& config() const;
+  [[nodiscard]] std::size_t size() const;                                               ///< number of actuators
   [[nodiscard]] std::optional<std::size_t> find(std::string_view actuator_name) const;  ///< its index; none: no such name
 
   /// Which actuators' joints move each other: those of one kinematic tree. An actuator that is in none moves its own joint only.
@@ -203,10 +204,13 @@ class Robot {
   [[nodiscard]] std::shared_ptr<const RobotConfig> parameters_with(const RobotConfig& base,
                                                                    std::span<const std::pair<std::size_t, ActuatorConfig>> changes,
                                                                    std::int64_t dt_ns) const;
-  /// set_parameters() of every actuator whose own differ. They must be of this robot or a clone; so below.
+  /// set_parameters() of every actuator whose own differ.
   void set_parameters(const std::shared_ptr<const RobotConfig>& parameters);
   /// Goes on with those, the state as it is: for a state that came from a robot with them. Allocates.
   void use(const std::shared_ptr<const RobotConfig>& parameters);
+  /// Whether the last three take them for their own: InputError for none, and for actuators of other names or controllers than this
+  /// robot's. Values that no unit could have they refuse themselves.
+  void check(const std::shared_ptr<const RobotConfig>& parameters) const;
   /// Programs whose memory holds other firmware parameters than the robot's get these, with their ids: after a restore() of numbers
   /// that came from a robot with others.
   void renew_memories();
@@ -241,7 +245,8 @@ class Robot {
   void restore(std::span<const double> in);        ///< as restore() of a snapshot, from such numbers
   void check(std::span<const double> in) const;    ///< throws what restore() would
   /// The same less the room that nothing takes (vsa/state_io.hpp), for who does it at every step: the state says how many they are.
-  void save_tight(state::Rewriter& out) const;            ///< behind what was written there since its begin()
+  /// Behind what was written there since its begin(). InputError, too: room for less than state_size().
+  void save_tight(state::Rewriter& out) const;
   std::size_t restore_tight(std::span<const double> in);  ///< as restore(), from the front; how many it took
   [[nodiscard]] std::uint64_t state_hash() const;         ///< of the numbers that save() gives; allocates
 

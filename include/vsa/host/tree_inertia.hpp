@@ -66,7 +66,8 @@ class TreeInertia {
   std::vector<Node> nodes_;
 };
 
-/// Joints whose torques move each other: indices into `of`, by trees that no ground separates.
+/// Joints whose torques move each other: indices into `of`, by trees that no ground separates. An index of no body, or a parent
+/// behind its child: one line on stderr, and abort.
 [[nodiscard]] std::vector<std::vector<std::size_t>> joined(const std::vector<TreeBody>& bodies, std::span<const std::size_t> of);
 
 }  // namespace vsa::host

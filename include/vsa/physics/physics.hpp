@@ -117,7 +117,7 @@ class Physics {
   /// force and the state stay.
   [[nodiscard]] virtual std::shared_ptr<const Bodies> bodies_with(const Bodies& base,
                                                                   std::span<const scene::LinkParameters> links) = 0;
-  /// Goes on with those, of this world or a copy; the state stays.
+  /// Goes on with those; the state stays. InputError, here and above: of another world.
   virtual void use(std::shared_ptr<const Bodies> bodies) = 0;
 };
 

@@ -95,6 +95,12 @@ std::shared_ptr<const MujocoBodies::Surfaces> MujocoBodies::surfaces_with(const 
   return out;
 }
 
+bool MujocoBodies::fits(const mjModel& m) const {
+  std::ptrdiff_t masses = 0;
+  for (const Field& f : fields_of(const_cast<mjModel&>(m))) masses += f.count;
+  return static_cast<std::ptrdiff_t>(masses_->size()) == masses && static_cast<int>(surfaces_->mu.size()) == m.ngeom;
+}
+
 void MujocoBodies::put_masses_into(mjModel& m) const {
   const mjtNum* from = masses_->data();
   for (const Field& f : fields_of(m)) {

@@ -35,6 +35,7 @@ class MujocoBodies final : public Bodies {
   MujocoBodies(const MujocoBodies& base, std::span<const scene::LinkParameters> links, const LinkObjects& objects, mjModel& model,
                mjData& scratch);
   [[nodiscard]] std::span<const scene::LinkParameters> links() const override { return links_; }
+  [[nodiscard]] bool fits(const mjModel& model) const;  ///< whether they are of such a model
   /// What differs between a model that has `now` and one with these.
   void put_into(mjModel& model, const MujocoBodies& now) const;
   void put_masses_into(mjModel& model) const;

@@ -108,12 +108,24 @@ mjModel& MujocoPhysics::own_model() {
   return *model_;
 }
 
+namespace {
+
+/// InputError where they aren't of such a model.
+const MujocoBodies& of_model(const mjModel& model, const Bodies* bodies) {
+  const auto* of = dynamic_cast<const MujocoBodies*>(bodies);
+  if (of == nullptr || !of->fits(model)) throw InputError(Problem{"", "bodies", "", "another world's", "this one's or a copy's"});
+  return *of;
+}
+
+}  // namespace
+
 std::shared_ptr<const Bodies> MujocoPhysics::bodies_with(const Bodies& base, std::span<const scene::LinkParameters> links) {
   mjModel& m = own_model();
+  const MujocoBodies& from = of_model(m, &base);
   view_stale_ = true;
   std::shared_ptr<const MujocoBodies> made;
   try {
-    made = std::make_shared<const MujocoBodies>(dynamic_cast<const MujocoBodies&>(base), links, objects_, m, *view_);
+    made = std::make_shared<const MujocoBodies>(from, links, objects_, m, *view_);
   } catch (...) {
     bodies_->put_masses_into(m);  // MuJoCo gave up on the way
     throw;
@@ -124,9 +136,9 @@ std::shared_ptr<const Bodies> MujocoPhysics::bodies_with(const Bodies& base, std
 
 void MujocoPhysics::use(std::shared_ptr<const Bodies> bodies) {
   if (bodies == bodies_) return;
-  auto next = std::dynamic_pointer_cast<const MujocoBodies>(std::move(bodies));
-  next->put_into(own_model(), *bodies_);
-  bodies_ = std::move(next);
+  mjModel& m = own_model();
+  of_model(m, bodies.get()).put_into(m, *bodies_);
+  bodies_ = std::static_pointer_cast<const MujocoBodies>(std::move(bodies));
   changed();
 }
 
