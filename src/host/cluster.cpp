@@ -50,20 +50,21 @@ std::vector<std::size_t> group_buses(const ClusterParts& parts) {
 /// Buses whose joints all move alone go together until their units fill the lanes.
 void fill_lanes(std::vector<std::vector<BusLine*>>& buses, std::vector<std::vector<Tree>>& trees) {
   constexpr std::size_t kLanes = 8, kMost = 64;
-  std::optional<std::size_t> into;
+  const std::size_t none = buses.size();
+  std::size_t into = none;
   for (std::size_t g = 0; g < buses.size(); ++g) {
     const bool alone = std::all_of(trees[g].begin(), trees[g].end(), [](const Tree& t) { return t.joints.size() == 1; });
     const bool client = std::any_of(buses[g].begin(), buses[g].end(), [](BusLine* bus) { return bus->port() != nullptr; });
     if (!alone || client || trees[g].empty()) continue;
-    if (into && trees[*into].size() + trees[g].size() <= kMost) {
-      buses[*into].insert(buses[*into].end(), buses[g].begin(), buses[g].end());
-      std::move(trees[g].begin(), trees[g].end(), std::back_inserter(trees[*into]));
+    if (into != none && trees[into].size() + trees[g].size() <= kMost) {
+      buses[into].insert(buses[into].end(), buses[g].begin(), buses[g].end());
+      std::move(trees[g].begin(), trees[g].end(), std::back_inserter(trees[into]));
       buses[g].clear();
       trees[g].clear();
     } else {
       into = g;
     }
-    if (trees[*into].size() % kLanes == 0) into.reset();
+    if (trees[into].size() % kLanes == 0) into = none;
   }
 }
 
