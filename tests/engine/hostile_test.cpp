@@ -313,7 +313,7 @@ TEST(Hostile, FilesThatHoldNoStateOfThisWorldAreRefused) {
   for (const std::filesystem::path& bad : {std::filesystem::path(), std::filesystem::path("/"), folder, folder / "nobody" / "x"})
     EXPECT_THROW(w.save_file(bad), OutputError) << bad;
   World::load_string(other_arm()).save_file(folder / "other");
-  std::ofstream(folder / "empty");
+  std::ofstream(folder / "empty") << "";
   std::ofstream(folder / "text") << std::string(100'000, 'x');
   for (const std::filesystem::path& bad : {std::filesystem::path(), std::filesystem::path("/"), folder, folder / "nobody",
                                            folder / "other", folder / "empty", folder / "text"})
