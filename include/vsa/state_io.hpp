@@ -105,9 +105,8 @@ class Rewriter : public Writer {
     seen_.clear();
     bytes_.clear();
   }
-  [[nodiscard]] std::size_t room() const noexcept {
-    return numbers_.size() - std::min(at(), numbers_.size());
-  }                                                                                           ///< for so many more
+  /// For so many more.
+  [[nodiscard]] std::size_t room() const noexcept { return numbers_.size() - std::min(at(), numbers_.size()); }
   [[nodiscard]] std::span<double> own() noexcept { return std::span(numbers_).first(own_); }  ///< the own numbers, to be written
   [[nodiscard]] std::span<const double> numbers() const noexcept { return std::span(numbers_).first(at()); }  ///< own ones, too
 
