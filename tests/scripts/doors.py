@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-"""Whether tests try every public function of vsa::engine and vsa::host with nonsense: python3 doors.py SOURCES
+"""Whether tests try every public function of vsa::engine and vsa::host with nonsense: python3 doors.py [SOURCES]
 
 Asks Doxygen for the functions and the hostile tests (tests/*/hostile_test.cpp) for their names. Code 1 with a line each that no test
 calls; 77 without Doxygen. It sees names, not overloads, and not what a test does with them.
@@ -45,4 +45,4 @@ def main(root):
 
 
 if __name__ == "__main__":
-    sys.exit(main(pathlib.Path(sys.argv[1]).resolve()))
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2]))
