@@ -114,6 +114,19 @@ auto find(const Signals<Of>& list, const std::string& name) -> double (*)(const 
   return nullptr;
 }
 
+/// Unnamed as the types that it knows: GCC 14 crashes on such a member of Impl in a unity source.
+struct Watch {
+  Statistic statistic;
+  double from_s, to_s;
+  double (*actuator)(const ActuatorReading&) = nullptr;
+  std::optional<std::size_t> which{};  // actuator; none: all
+  double (*joint)(const JointMotion&) = nullptr;
+  engine::JointHandle joint_at{};
+  double (*link)(const LinkMotion&) = nullptr;
+  engine::LinkHandle link_at{};
+  double (*whole)(const Whole&) = nullptr;
+};
+
 }  // namespace
 
 std::vector<std::string> signal_names(const std::string& of) {
@@ -135,18 +148,6 @@ void check_signal(const Measure& m) {
 }
 
 struct Observer::Impl {
-  struct Watch {
-    Statistic statistic;
-    double from_s, to_s;
-    double (*actuator)(const ActuatorReading&) = nullptr;
-    std::optional<std::size_t> which{};  // actuator; none: all
-    double (*joint)(const JointMotion&) = nullptr;
-    engine::JointHandle joint_at{};
-    double (*link)(const LinkMotion&) = nullptr;
-    engine::LinkHandle link_at{};
-    double (*whole)(const Whole&) = nullptr;
-  };
-
   Impl(const std::vector<Measure>& measures, const World& world, double window_s)
       : model(scenario::travelling_model(world)), travel(window_s, 1 / kTravelRate_Hz), cadence(kTravelRate_Hz) {
     Problems problems;
@@ -254,7 +255,7 @@ Observer::~Observer() = default;
 void Observer::sample(const World& world) { impl_->sample(world); }
 std::vector<double> Observer::values() const {
   std::vector<double> out;
-  for (const Impl::Watch& w : impl_->watches) out.push_back(w.statistic.value());
+  for (const Watch& w : impl_->watches) out.push_back(w.statistic.value());
   return out;
 }
 
