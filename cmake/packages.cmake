@@ -58,7 +58,7 @@ foreach(file ${VSA_LODEPNG_INCLUDE_DIR}/lodepng.h ${VSA_HACD_INCLUDE_DIR}/hacdHA
   endif()
 endforeach()
 vsa_owners(development_needs ${found})
-list(APPEND development_needs ${owners_of_links} "pkg-config | pkgconf")
+list(APPEND development_needs ${owners_of_links} "pkgconf | pkg-config")
 list(REMOVE_DUPLICATES development_needs)
 
 # vsa_package(COMPONENT NAME SUMMARY TEXT… [SECTION s] [ALL] [DEPENDS d…] [SUGGESTS s…]): one package. TEXT: lines of its description.

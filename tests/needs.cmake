@@ -32,6 +32,10 @@ set(VSA_NEEDS_SDF_engine
   Hostile.NamesThatNobodyHasAreRefused
   Hostile.ObjectsOfAnotherWorldAreRefused
   Hostile.SnapshotsOfAnotherWorldAreRefusedAndNothingChanged
+  Hostile.ParametersOfAnotherWorldAreRefusedAndNothingChanged
+  Hostile.LinksThatNoBodyCouldBeAreRefused
+  Hostile.NumbersThatAreNoStateOfThisWorldAreRefusedAndNothingChanged
+  Hostile.FilesThatHoldNoStateOfThisWorldAreRefused
   Hostile.AWorldThatWasMovedFromSaysSo
   Hostile.GaitsThatCannotBePlayedAreRefused
   Run.*
@@ -96,6 +100,8 @@ set(VSA_NEEDS_SDF_chain
 )
 set(VSA_NEEDS_SDF_apps
   Export.WritesAWorldAsMjcfWhichRunsWhereItStands
+  Export.WritesAnMjcfForThePluginBesideTheOthers
+  Export.TellsWhatOfARobotMujocoCannotBeTold
   Run.ABlowUpIsAFailureThatTellsTimeAndLinkAndKeepsTheRecord
   Doctor.AWorldsOwnSystemsNeedPhysicsAmongThem
   Doctor.AWorldWithoutARobotOrThatDoesNotLoadIsAProblem

@@ -1,13 +1,17 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // What the MuJoCo plug-in adds: the snake's step in the embedded engine, and in the same MuJoCo with the plug-in's units beside it
-// (tests/mujoco/rig.hpp), told the same. They move alike, so turns of a few steps by each are the same work at the same time on the
-// same busy machine: processor time, and of the ratios medians over the turns.
+// (tests/mujoco/rig.hpp), told the same; and in MuJoCo alone, which is given the torques that the engine's actuators had. They move
+// alike, so turns of a few steps by each are the same work at the same time on the same busy machine: processor time, and of the ratios
+// medians over the turns.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "mujoco/motion.hpp"
@@ -39,6 +43,34 @@ void tell(int step, std::size_t units, double time_s, Tell&& one) {
   for (std::size_t i = 0; i < units; ++i) one(i, mujoco::test::command_at(i, time_s));
 }
 
+/// mj_step() of the same file and nothing else.
+class Alone {
+ public:
+  Alone(const std::filesystem::path& file, const engine::World& world) {
+    std::array<char, 1000> error{};
+    model_.reset(mj_loadXML(file.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
+    if (model_ == nullptr) throw std::runtime_error(error.data());
+    data_.reset(mj_makeData(model_.get()));
+    mj_resetDataKeyframe(model_.get(), data_.get(), 0);
+    for (const engine::ActuatorRef& ref : world.actuators()) {
+      const int joint = mj_name2id(model_.get(), mjOBJ_JOINT,
+                                   ("qbmove_snake::" + world.robot(ref.robot).config().actuators[ref.index].joint).c_str());
+      if (joint < 0) throw std::runtime_error("a joint isn't found");
+      dof_.push_back(model_->jnt_dofadr[joint]);
+    }
+  }
+  void step(const double* torques) {
+    for (std::size_t i = 0; i < dof_.size(); ++i) data_->qfrc_applied[dof_[i]] = torques[i];
+    mj_step(model_.get(), data_.get());
+  }
+  [[nodiscard]] double speed(std::size_t actuator) const { return data_->qvel[dof_[actuator]]; }
+
+ private:
+  std::unique_ptr<mjModel, mujoco::test::Deleter> model_;
+  std::unique_ptr<mjData, mujoco::test::Deleter> data_;
+  std::vector<int> dof_;
+};
+
 }  // namespace
 
 int main() {
@@ -52,9 +84,18 @@ int main() {
   data.key(0);
   blind_data.key(0);
   const std::size_t n = world.actuators().size();
-  const auto own_step = [&](int k) {
-    tell(k, n, world.time_s(), [&](std::size_t i, auto c) { world.command(world.actuators()[i], c.equilibrium, c.preset); });
-    world.step();
+  const auto step_of = [n](engine::World& w, int k) {
+    tell(k, n, w.time_s(), [&](std::size_t i, auto c) { w.command(w.actuators()[i], c.equilibrium, c.preset); });
+    w.step();
+  };
+  engine::World told = world.clone();  // goes ahead, for its torques
+  Alone alone(file, world);
+  std::vector<double> torques(n * kSteps);
+  const auto go_ahead = [&] {
+    for (std::size_t k = 0; k < kSteps; ++k) {
+      step_of(told, static_cast<int>(k));
+      for (std::size_t i = 0; i < n; ++i) torques[k * n + i] = told.read(told.actuators()[i]).mean_torque_Nm;
+    }
   };
   const auto in_mujoco = [&](mujoco::test::Data& d, int k) {
     tell(k, n, d.d().time, [&](std::size_t i, auto c) {
@@ -63,17 +104,25 @@ int main() {
     });
     d.step();
   };
-  std::array<std::vector<double>, 3> us, ratio;
+  std::array<std::vector<double>, 4> us, ratio;
   for (int turn = 0; turn < kTurns; ++turn) {
-    const std::array<double, 3> now{us_per_step(own_step), us_per_step([&](int k) { in_mujoco(blind_data, k); }),
-                                    us_per_step([&](int k) { in_mujoco(data, k); })};
+    go_ahead();
+    const std::array<double, 4> now{us_per_step([&](int k) { step_of(world, k); }),
+                                    us_per_step([&](int k) { in_mujoco(blind_data, k); }),
+                                    us_per_step([&](int k) { in_mujoco(data, k); }),
+                                    us_per_step([&](int k) { alone.step(&torques[static_cast<std::size_t>(k) * n]); })};
     for (std::size_t i = 0; i < now.size(); ++i) {
       us[i].push_back(now[i]);
       ratio[i].push_back(now[i] / now[0]);
     }
   }
   std::printf("snake_flat, %zu units, MuJoCo %s, us a step, medians of %d turns:\n", n, mj_versionString(), kTurns);
-  const std::array<const char*, 3> what{"embedded engine", "plug-in's units", "and 12 sensors"};
+  const std::array<const char*, 4> what{"embedded engine", "plug-in's units", "and 12 sensors", "MuJoCo alone"};
   for (std::size_t i = 0; i < what.size(); ++i)
     std::printf("  %-16s %.1f (%+.1f %%)\n", what[i], median(us[i]), 100 * (median(ratio[i]) - 1));
+  double off = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    off = std::max(off, std::abs(alone.speed(i) - world.read(world.actuators()[i]).shaft_speed_rad_per_s));
+  std::printf("embedded engine / MuJoCo alone %.3f; at the end their joints' speeds differ by %.2g rad/s\n", 1 / median(ratio[3]),
+              off);
 }

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
+#include "device/lanes/table.hpp"
 #include "device/unit_lanes.hpp"
 
 namespace vsa::device {
@@ -14,58 +16,56 @@ using namespace solver;
 
 /// A factor of other slopes may leave this part of what may be left over at all.
 constexpr double kStale = 0.1;
-
-/// A = L D Lᵀ in place, lower triangle by rows: L below the diagonal, 1/D on it. `column` holds n. False: not positive definite.
-bool factor(std::span<double> a, std::size_t size, double* column) noexcept {
-  const std::size_t n = size;
-  for (std::size_t j = 0; j < n; ++j) {
-    const double pivot = a[j * n + j], reciprocal = 1.0 / pivot;
-    if (!(pivot > 0) || !std::isfinite(pivot)) return false;
-    a[j * n + j] = reciprocal;
-    for (std::size_t k = j + 1; k < n; ++k) column[k] = a[k * n + j];
-    for (std::size_t i = j + 1; i < n; ++i) {
-      double* const row = &a[i * n];
-      const double l = row[j] * reciprocal;
-      row[j] = l;
-      for (std::size_t k = j + 1; k <= i; ++k) row[k] -= l * column[k];
-    }
-  }
-  return true;
-}
-
-/// Solves with that factor, in place, for x[first] and what follows; what comes before is 0 in the right-hand side and left alone.
-void substitute(std::span<const double> a, std::size_t size, std::span<double> x, std::size_t first = 0) noexcept {
-  const std::size_t n = size;
-  for (std::size_t i = first; i < n; ++i) {
-    double sum = x[i];
-    for (std::size_t k = first; k < i; ++k) sum -= a[i * n + k] * x[k];
-    x[i] = sum;
-  }
-  for (std::size_t i = first; i < n; ++i) x[i] *= a[i * n + i];
-  for (std::size_t i = n; i-- > first + 1;) {
-    const double xi = x[i];
-    for (std::size_t k = first; k < i; ++k) x[k] -= a[i * n + k] * xi;
-  }
-}
+/// How often a move by such a factor is mended before a new one is made.
+constexpr int kMends = 2;
 
 }  // namespace
 
 JointSolver::JointSolver(std::size_t joints, std::string_view instructions)
     : n_(joints),
+      stride_((joints + kBlock - 1) / kBlock * kBlock),
+      algebra_(instructions == "none" ? &lane_tables().back() : &lane_table(instructions)),
       mobility_(joints * joints),
-      inertia_(joints * joints),
-      work_(joints * joints),
+      inertia_(joints * stride_),
+      lower_inertia_(joints * stride_),
+      lower_(joints * stride_),
+      upper_(joints * stride_),
+      reciprocal_(stride_),
+      off_(stride_),
+      move_(stride_),
+      change_(stride_),
+      gradient_(stride_),
       dy_(joints),
-      off_(joints),
-      move_(joints),
-      gradient_(joints),
       factored_(joints),
       column_(joints),
       trials_(joints, joints > 1 ? joints : 0, instructions),
       tried_(joints) {}
 
+/// lower_ holds A's lower triangle by rows and becomes L, where A = L D Lᵀ. False: A isn't positive definite.
+bool JointSolver::factor() noexcept {
+  for (std::size_t j = 0; j < n_; ++j) {
+    double& diagonal = lower_[j * stride_ + j];
+    const double pivot = diagonal, reciprocal = 1.0 / pivot;
+    if (!(pivot > 0) || !std::isfinite(pivot)) return false;
+    reciprocal_[j] = reciprocal;
+    diagonal = 0;
+    for (std::size_t k = j + 1; k < n_; ++k) column_[k] = lower_[k * stride_ + j];
+    for (std::size_t i = j + 1; i < n_; ++i) {
+      double* const row = &lower_[i * stride_];
+      const double l = row[j] * reciprocal;
+      upper_[j * stride_ + i] = row[j] = l;
+      for (std::size_t k = j + 1; k <= i; ++k) row[k] -= l * column_[k];
+    }
+  }
+  return true;
+}
+
+void JointSolver::substitute(Row& x) const noexcept {
+  algebra_->substitute({n_, stride_, lower_.data(), upper_.data(), reciprocal_.data()}, x.data());
+}
+
 void JointSolver::set(std::span<const double> mobility, std::int64_t dt_ns) noexcept {
-  if (dt_ns == dt_ns_ && std::equal(mobility.begin(), mobility.end(), mobility_.begin())) return;
+  if (dt_ns == dt_ns_ && std::memcmp(mobility.data(), mobility_.data(), mobility_.size() * sizeof(double)) == 0) return;
   dt_ns_ = dt_ns;
   std::copy(mobility.begin(), mobility.end(), mobility_.begin());
   factor_mobility();
@@ -74,36 +74,39 @@ void JointSolver::set(std::span<const double> mobility, std::int64_t dt_ns) noex
 void JointSolver::factor_mobility() noexcept {
   const double dt = static_cast<double>(dt_ns_) * 1e-9, scale = 2.0 / (dt * dt);
   std::fill(inertia_.begin(), inertia_.end(), 0.0);
-  std::copy(mobility_.begin(), mobility_.end(), work_.begin());
-  const bool coupled = n_ > 1 && factor(work_, n_, column_.data());
+  for (std::size_t i = 0; i < n_; ++i) std::copy_n(&mobility_[i * n_], i + 1, &lower_[i * stride_]);
+  const bool coupled = n_ > 1 && factor();
   for (std::size_t j = 0; j < n_; ++j) {
-    std::span<double> row(&inertia_[j * n_], n_);
+    double& diagonal = inertia_[j * stride_ + j];
     const double b = mobility_[j * n_ + j];
-    row[j] = coupled ? scale : b > 0 && std::isfinite(b) ? scale / b : 0.0;
+    diagonal = b > 0 && std::isfinite(b) ? scale / b : 0.0;
     if (!coupled) continue;
-    substitute(work_, n_, row, j);
-    for (std::size_t i = j + 1; i < n_; ++i) inertia_[i * n_ + j] = row[i];
+    std::fill(move_.begin(), move_.end(), 0.0);
+    move_[j] = scale;
+    substitute(move_);
+    for (std::size_t i = j; i < n_; ++i) inertia_[j * stride_ + i] = inertia_[i * stride_ + j] = move_[i];
   }
+  for (std::size_t i = 0; i < n_; ++i) std::copy_n(&inertia_[i * stride_], i + 1, &lower_inertia_[i * stride_]);
 }
 
 void JointSolver::gradient() noexcept {
-  for (std::size_t i = 0; i < n_; ++i) off_[i] = dy_[i] - tried_.free[i];
+  bool away = false;  // a first guess is not
   for (std::size_t i = 0; i < n_; ++i) {
-    const double* const row = &inertia_[i * n_];
-    double sum = tried_.last_torque[i] - tried_.torque[i];
-    for (std::size_t k = 0; k < n_; ++k) sum += row[k] * off_[k];
-    gradient_[i] = sum;
+    off_[i] = dy_[i] - tried_.free[i];
+    away = away || off_[i] != 0.0;
+    gradient_[i] = tried_.last_torque[i] - tried_.torque[i];
   }
+  if (away) algebra_->add_product(inertia_.data(), n_, stride_, off_.data(), gradient_.data());
 }
 
 /// The factor of C⁻¹ + S. False: there is none, and none is kept.
 bool JointSolver::factor_slopes() noexcept {
-  std::copy(inertia_.begin(), inertia_.end(), work_.begin());
+  std::copy(lower_inertia_.begin(), lower_inertia_.end(), lower_.begin());
   for (std::size_t i = 0; i < n_; ++i) {
-    work_[i * n_ + i] += tried_.slope[i];
+    lower_[i * stride_ + i] += tried_.slope[i];
     factored_[i] = tried_.slope[i];
   }
-  const bool good = factor(work_, n_, column_.data());
+  const bool good = factor();
   if (!good) factored_[0] = std::numeric_limits<double>::quiet_NaN();  // stale, whatever the slopes
   return good;
 }
@@ -111,24 +114,33 @@ bool JointSolver::factor_slopes() noexcept {
 /// move_ := −(C⁻¹ + S)⁻¹ g
 void JointSolver::newton() noexcept {
   for (std::size_t i = 0; i < n_; ++i) move_[i] = -gradient_[i];
-  substitute(work_, n_, move_);
+  substitute(move_);
 }
 
-/// Whether move_ leaves too much of a torque, its factor's slopes being others than those found.
+/// Whether what came to move_ last leaves too much of a torque, the factor's slopes being others than those found.
 bool JointSolver::stale() const noexcept {
   for (std::size_t i = 0; i < n_; ++i) {
-    const double left = std::abs((tried_.slope[i] - factored_[i]) * move_[i]);
+    const double left = std::abs((tried_.slope[i] - factored_[i]) * change_[i]);
     if (!(left <= kStale * (kLeft * std::abs(tried_.torque[i]) + kLeft_Nm))) return true;
   }
   return false;
 }
 
-/// Newton's move_, with the last factor where that does. False: with no new one either.
+/// Newton's move_ by the last factor, which is of slopes F, mended a few times: m += (C⁻¹ + F)⁻¹ (F − S) Δm of what came last. By a
+/// new factor where that isn't enough; false: there is none.
 bool JointSolver::fresh_newton() noexcept {
   newton();
-  if (!stale()) return true;
-  if (!factor_slopes()) return false;
-  newton();
+  std::copy(move_.begin(), move_.end(), change_.begin());
+  for (int mends = 0; stale(); ++mends) {
+    if (mends == kMends) {
+      if (!factor_slopes()) return false;
+      newton();
+      return true;
+    }
+    for (std::size_t i = 0; i < n_; ++i) change_[i] *= factored_[i] - tried_.slope[i];
+    substitute(change_);
+    for (std::size_t i = 0; i < n_; ++i) move_[i] += change_[i];
+  }
   return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -190,12 +191,21 @@ double astray(const char* types, std::int64_t dt_ns, unsigned seed) {
   return std::sqrt(wrong / pulled);
 }
 
-/// Half of such runs are within 4e-6; a few steps at a friction's edge are off by more (2,240 runs: 0.0024 at most).
+/// Half of such runs are within 1.3e-6, 99 of 100 within 4e-5; a few steps at a friction's edge are off by more (2,240 runs: 0.0024 at
+/// most).
 TEST(JointSolver, ForeseesWhatItsTorquesThenDo) {
-  for (unsigned seed = 1; seed < 6; ++seed)
-    for (const std::int64_t dt_ns : {100'000, 250'000, 500'000, 700'000, 1'000'000, 2'000'000, 3'300'000})
-      for (const char* types : {"a", "b", "c", "aa", "abc", "bbbbb", "cabbac", "aaaaaaaaaaaa"})
-        EXPECT_LT(astray(types, dt_ns, seed), 0.005) << types << ", " << dt_ns << " ns, seed " << seed;
+  std::vector<double> all;
+  for (unsigned seed = 1; seed < 6; ++seed) {
+    for (const std::int64_t dt_ns : {100'000, 250'000, 500'000, 700'000, 1'000'000, 2'000'000, 3'300'000}) {
+      for (const char* types : {"a", "b", "c", "aa", "abc", "bbbbb", "cabbac", "aaaaaaaaaaaa"}) {
+        all.push_back(astray(types, dt_ns, seed));
+        EXPECT_LT(all.back(), 0.005) << types << ", " << dt_ns << " ns, seed " << seed;
+      }
+    }
+  }
+  std::sort(all.begin(), all.end());
+  EXPECT_LT(all[all.size() / 2], 1e-5);
+  EXPECT_LT(all[all.size() * 95 / 100], 1e-4);
 }
 
 TEST(JointTrials, RefuseInstructionsThatThisMachineHasnt) {

@@ -4,7 +4,9 @@
 # sign.sh ROOT: what scripts/sign.sh signs is verified, and what was changed afterwards isn't; files that the sums don't tell of or that
 # differ aren't signed. With a key made for the test. 77: no GnuPG here.
 set -eu
-command -v gpg >/dev/null || { echo "signing left out: gpg isn't installed (Debian: gnupg)"; exit 77; }
+for tool in gpg gpg-agent; do
+  command -v "$tool" >/dev/null || { echo "signing left out: $tool isn't installed (Debian: gnupg)"; exit 77; }
+done
 root=$1
 work=$(mktemp -d)
 # The agent that gpg starts is of this folder alone, and ends with it.

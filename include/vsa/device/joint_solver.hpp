@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,20 @@ inline constexpr double kOvershoot = 0.9, kOvershootLater = 0.3;
 inline constexpr int kEarly = 8;  ///< rounds before kOvershootLater holds
 /// The torque that may be left over where no round settles.
 inline constexpr double kLeft = 1e-3, kLeft_Nm = 1e-4;  ///< of a torque; N·m
+/// Memory that begins on a line of the cache, for vectors of any width.
+template <class T>
+struct OnLine {
+  using value_type = T;                         ///< as a standard allocator has it, like all that follows
+  static constexpr std::align_val_t kLine{64};  ///< bytes
+  OnLine() = default;                           ///< any is like any other
+  template <class U>
+  explicit OnLine(const OnLine<U>& /*other*/) noexcept {}  ///< likewise
+  /// Room for n.
+  [[nodiscard]] T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kLine)); }
+  void deallocate(T* p, std::size_t /*n*/) noexcept { ::operator delete(p, kLine); }          ///< of allocate()
+  friend bool operator==(const OnLine& /*a*/, const OnLine& /*b*/) noexcept { return true; }  ///< any is like any other
+};
+using Row = std::vector<double, OnLine<double>>;  ///< numbers that begin on a line
 }  // namespace solver
 
 /// Solves one tree's step: the Δy of all its joints with the torques that they cause in each other. One thread; after the
@@ -72,12 +87,19 @@ class JointSolver {
   void guess() noexcept;
   [[nodiscard]] double along() const noexcept;
 
+  bool factor() noexcept;
+  void substitute(solver::Row& x) const noexcept;
+
   std::size_t n_;
+  std::size_t stride_;  // of a row, with zeros behind its n_ numbers: whole vectors
+  const LaneTable* algebra_;
   std::int64_t dt_ns_ = 0;
-  std::vector<double> mobility_;  // as set
-  std::vector<double> inertia_;   // C⁻¹
-  std::vector<double> work_;      // the factor of C⁻¹ + S
-  std::vector<double> dy_, off_, move_, gradient_, factored_, column_;
+  std::vector<double> mobility_;         // as set
+  solver::Row inertia_, lower_inertia_;  // C⁻¹, and 0 above its diagonal
+  // The factor of C⁻¹ + S: L without its diagonal of ones and its transpose, 0 elsewhere; 1/D.
+  solver::Row lower_, upper_, reciprocal_;
+  solver::Row off_, move_, change_, gradient_;
+  std::vector<double> dy_, factored_, column_;
   JointTrials trials_;
   TrialColumns tried_;
 };

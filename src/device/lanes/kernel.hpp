@@ -7,6 +7,7 @@
 
 #include <new>
 
+#include "device/lanes/algebra.hpp"
 #include "device/lanes/loop.hpp"
 #include "device/lanes/table.hpp"
 #include "device/unit_lanes.hpp"
@@ -207,7 +208,9 @@ template <class T>
           put_loop<kWidth, Isa>,
           take_loop<kWidth, Isa>,
           tick<kWidth, Isa>,
-          refer<kWidth, Isa>};
+          refer<kWidth, Isa>,
+          add_product<T>,
+          substitute<T>};
 }
 
 }  // namespace vsa::device::lane_kernel

@@ -43,6 +43,17 @@ struct TickStep {
   const double* volts_of_duty[2]{};  ///< of each motor, of −100 … 100 %
 };
 
+/// How many numbers the rows of a solver's matrices are a multiple of (lanes/algebra.hpp): the lanes of the widest set.
+inline constexpr std::size_t kBlock = 8;
+
+/// A symmetric positive definite matrix of n rows as L D Lᵀ, in rows of `stride` numbers.
+struct Factor {
+  std::size_t n = 0, stride = 0;
+  const double *lower = nullptr,  ///< L without its diagonal of ones, 0 elsewhere
+      *upper = nullptr,           ///< Lᵀ likewise
+          *reciprocal = nullptr;  ///< one row: 1/D
+};
+
 struct LaneTable {
   const char* name;
   int width;
@@ -71,6 +82,9 @@ struct LaneTable {
   void (*take_loop)(const void* loop, int lane, UnitState& to) noexcept;
   void (*tick)(void* loop, const TickStep& io) noexcept;
   void (*refer)(void* loop, int lane, const std::int32_t* refs) noexcept;
+  // Matrices of a solver (lanes/algebra.hpp).
+  void (*add_product)(const double* matrix, std::size_t rows, std::size_t stride, const double* x, double* y) noexcept;
+  void (*substitute)(const Factor& factor, double* x) noexcept;
 };
 
 /// Those that this machine can run, the fastest first; the last runs on any.
