@@ -105,7 +105,7 @@ void Emulation::take_faults() {
   }
   for (const auto& [i, faults] : taken) {
     Unit::set_faults(states_[i], faults);
-    port_.locked([this, i = i, &faults = faults] { chain_.set_wiring(i, faults.wiring(), faults.seed); });
+    port_.locked([this, unit = i, &of = faults] { chain_.set_wiring(unit, of.wiring(), of.seed); });
   }
 }
 

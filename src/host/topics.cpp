@@ -104,19 +104,19 @@ void RobotTopics::Impl::connect_commands(TopicTransport& transport, Problems& pr
     for (const auto& [leaf, channel] :
          {std::pair{"cmd_equilibrium", Channel::equilibrium}, std::pair{"cmd_preset", Channel::preset}}) {
       const std::string topic = joint_topic(model, robot.config().actuators[i].name, leaf);
-      const auto handler = [gate = gate, topic, i, c = channel](double value) {
-        gate->pass([&](TopicCommands& to) { to.single(topic, i, c, value); });
+      const auto handler = [door = gate, topic, i, c = channel](double value) {
+        door->pass([&](TopicCommands& to) { to.single(topic, i, c, value); });
       };
       check(transport.on_double(topic, handler), topic);
     }
   }
   const std::string cmd = model_topic(model, "vsa/cmd");
-  const auto on_trajectory = [gate = gate, cmd](const Trajectory& m) {
-    gate->pass([&](TopicCommands& to) { to.trajectory(cmd, m); });
+  const auto on_trajectory = [door = gate, cmd](const Trajectory& m) {
+    door->pass([&](TopicCommands& to) { to.trajectory(cmd, m); });
   };
   check(transport.on_trajectory(cmd, on_trajectory), cmd);
   const std::string array = model_topic(model, "vsa/cmd_array");
-  const auto on_array = [gate = gate, array](const ActuatorsCmd& m) { gate->pass([&](TopicCommands& to) { to.array(array, m); }); };
+  const auto on_array = [door = gate, array](const ActuatorsCmd& m) { door->pass([&](TopicCommands& to) { to.array(array, m); }); };
   check(transport.on_actuators(array, on_array), array);
 }
 

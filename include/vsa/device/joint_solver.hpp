@@ -6,7 +6,7 @@
 //   g(Δy) = C⁻¹ (Δy − free) − τ(Δy) + τ_last = 0
 //
 // g is a gradient: of the kinetic part and the springs' energies over the path, convex where the laws are. Newton with C⁻¹ + S,
-// S = −∂τ/∂Δy of each joint, by LDLᵀ; a step that overshoots is shortened until the slope along it no longer grows.
+// S = −∂τ/∂Δy of each joint, by one LDLᵀ, mended for later S; a step that overshoots is shortened until its slope grows no more.
 // A unit that takes a step for its last isn't tried again: its torque goes on linearly while that is near enough.
 //
 // States: none. Matrices are kept until the mobility or the step length changes.
