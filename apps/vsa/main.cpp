@@ -25,6 +25,7 @@
 #include "unit/set.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/topics/transport.hpp"
 
 namespace {
 
@@ -123,9 +124,7 @@ int run_application(int argc, char** argv) {
   return exit_code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int exit_code_of(int argc, char** argv) {
   try {
     return run_application(argc, argv);
   } catch (const vsa::InputError& error) {
@@ -136,3 +135,7 @@ int main(int argc, char** argv) {
     return vsa::app::kFailed;
   }
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { vsa::topics::leave(exit_code_of(argc, argv)); }

@@ -74,8 +74,8 @@ class Reader {
     return override_text({std::string(tag.key), number_text(std::round(*angle * kRawPerTurn / (2 * kPi)))});
   }
 
-  /// The drive has one set of numbers for both motors, so mot_1_… and mot_2_… must agree; the one-motor actuators' mot_… stands
-  /// alone.
+  /// What a tag overrides is of both motors, so mot_1_… and mot_2_… must agree (a difference is drive_2's); the one-motor actuators'
+  /// mot_… stands alone.
   void take_pair(const OlderTag& tag, const std::string& name, const std::string& value) {
     const std::string path = element_path(path_, name);
     out_.motor_at_pulley = true;
@@ -84,13 +84,15 @@ class Reader {
       const std::string other = (first ? "mot_2_" : "mot_1_") + name.substr(6);
       const XMLElement* partner = e_.FirstChildElement(other.c_str());
       if (partner == nullptr) {
-        xml_.add(path, value, "both motors have one set of numbers here, and " + other + " is missing",
-                 other + " of the same value");
+        xml_.add(path, value, "a tag sets both motors here, and " + other + " is missing",
+                 other + " of the same value; overrides of drive_2.… for unlike motors");
         return;
       }
       const auto one = parse_number(value), two = parse_number(xml_.text(*partner, element_path(path_, other)));
       if (one && two && *one != *two) {
-        if (first) xml_.add(path, value, "both motors have one set of numbers here, and " + other + " differs", "equal values");
+        if (first)
+          xml_.add(path, value, "a tag sets both motors here, and " + other + " differs",
+                   "equal values; overrides of drive.… and drive_2.… for unlike motors");
         return;
       }
       if (second && one) return;  // taken with the first
@@ -125,8 +127,8 @@ std::string file_of(const XMLElement& root) {
 std::string type_of(const XMLElement& root, bool of_2015) {
   const std::string file = file_of(root);
   if (of_2015) return "qbmove_maker_pro_6_1";
-  if (file == "libbavs_plugin.so" || root.FirstChildElement("spring_k_e") != nullptr) return "YOUR_TYPE_OF_A_BAVS";
-  if (file == "libawas_ii_plugin.so" || root.FirstChildElement("spring_Ks") != nullptr) return "YOUR_TYPE_OF_AN_AWAS_II";
+  if (file == "libbavs_plugin.so" || root.FirstChildElement("spring_k_e") != nullptr) return "bavs_example";
+  if (file == "libawas_ii_plugin.so" || root.FirstChildElement("spring_Ks") != nullptr) return "awas_2_example";
   const bool one_spring = root.FirstChildElement("spring_k") != nullptr || root.FirstChildElement("stiffness") != nullptr;
   return file == "libsea_plugin.so" || one_spring ? "sea_example" : "qbmove_advanced";
 }

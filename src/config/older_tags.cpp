@@ -21,10 +21,10 @@ constexpr std::string_view kGainP = "firmware.kp_pct_per_tick, see docs/howto/mi
 constexpr std::string_view kGainI = "firmware.ki_pct_per_tick, see docs/howto/migration.md for the arithmetic";
 constexpr std::string_view kGainD = "firmware.kd_pct_per_tick, see docs/howto/migration.md for the arithmetic";
 constexpr std::string_view kGainWhy = "was a torque in N·m a rad; the unit's firmware gives a voltage, in % PWM a tick";
-constexpr std::string_view kLever = "a law of your own, see docs/reference/config.md";
-constexpr std::string_view kLeverWhy = "there is no such law yet: AwAS-II's lever with a moving pivot";
-constexpr std::string_view kExponential = "a law of your own, see docs/reference/config.md";
-constexpr std::string_view kExponentialWhy = "there is no such law yet: the BAVS's exponential springs";
+constexpr std::string_view kLever = "the type awas_2_example and its elastic.… (law lever_pivot), see docs/reference/config.md";
+constexpr std::string_view kLeverWhy = "the AwAS-II's lever is a law with its own names and a start of its own here";
+constexpr std::string_view kExponential = "the type bavs_example and its elastic.… (law two_exp), see docs/reference/config.md";
+constexpr std::string_view kExponentialWhy = "the BAVS's springs are a law here, with the products of the toolbox's numbers";
 constexpr std::string_view kPublishWhy = "nothing is switched on for a topic here: a state is published while somebody listens";
 constexpr std::string_view kModeWhy =
     "the unit takes equilibrium and preset here, the toolbox's mode 6, and moves its motors to them";

@@ -82,6 +82,7 @@ void JointTrials::group(std::span<const JointInStep> joints) noexcept {
       const std::size_t needs = block_lines(*table);
       if (used + needs > memory_.size()) used = 0;  // of solve_each: one block after the other
       groups_.push_back({.first = first, .count = count, .lanes = table, .block = &memory_[used], .plan = plan.data()});
+      if (!each_alone_) table->begin_trials_plan(&memory_[used]);
       used += needs;
       first += count;
     }

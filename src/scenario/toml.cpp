@@ -155,9 +155,11 @@ Scenario read(TomlSection& top, TomlSection& run, const fs::path& file, Problems
   return out;
 }
 
-std::string text(const Scenario& scenario, double duration_s) {
+std::string text(const Scenario& scenario, double duration_s, const toml::table& own) {
   std::ostringstream out;
-  out << toml::table{{"scenario", run_table(scenario, duration_s)}} << '\n';
+  toml::table run = run_table(scenario, duration_s);
+  for (const auto& [key, value] : own) run.insert(key, value);
+  out << toml::table{{"scenario", std::move(run)}} << '\n';
   if (!scenario.set.empty()) out << '\n' << toml::table{{"set", set_table(scenario.set)}} << '\n';
   if (const toml::table motion = motion_table(scenario); !motion.empty()) out << '\n' << toml::table{{"motion", motion}} << '\n';
   if (!scenario.commands.empty()) out << '\n' << toml::table{{"command", commands_array(scenario)}} << '\n';

@@ -1,9 +1,12 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // A build without a transport: there is nobody to talk to.
+#include <cstdlib>
+
 #include "vsa/errors.hpp"
 #include "vsa/topics/command_client.hpp"
 #include "vsa/topics/feature.hpp"
+#include "vsa/topics/transport.hpp"
 #include "vsa/topics/world_server.hpp"
 
 namespace vsa::topics {
@@ -20,6 +23,9 @@ void WorldServer::stepped() {}
 void WorldServer::idle() {}
 std::uint64_t WorldServer::refused() const noexcept { return 0; }
 std::uint64_t WorldServer::heard() const { return 0; }
+
+void prefer_loopback() {}
+void leave(int exit_code) { std::exit(exit_code); }
 
 struct CommandClient::Impl {};
 CommandClient::CommandClient() { refuse(); }

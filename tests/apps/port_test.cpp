@@ -125,6 +125,7 @@ TEST(Emulate, AClientAtAnotherRateGetsNothingAndTheUserIsTold) {
   Emulated patient({"--any-rate"});
   ASSERT_TRUE(patient.ready);
   expect(patient.vsa({"ping", "--id", "1", "--baud-Hz", "460800"}), 0, {"1     6"});
+  expect(patient.vsa({"ping", "--id", "1", "--dialect", "7"}), 0, {"1     7"});  // as it was told, whatever the unit's
   EXPECT_EQ(patient.end().err, "");
 }
 

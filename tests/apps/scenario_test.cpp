@@ -2,7 +2,6 @@
 //
 // Runs that are files: `vsa run SCENARIO.toml`, and the one that each record holds.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <csignal>
 
@@ -15,7 +14,6 @@ using vsa::test::read_file;
 using vsa::test::run_vsa;
 using vsa::test::Scratch;
 using vsa::test::Subprocess;
-using vsa::test::Surroundings;
 using vsa::test::write_file;
 
 const fs::path kSource = VSA_SOURCE_DIR;
@@ -64,6 +62,7 @@ TEST(Scenario, TheExampleIsRepeatedBitForBitByItsRecord) {
   const auto second = run_vsa({"run", (scratch / "a/scenario.toml").string(), "--record", (scratch / "b").string()});
   ASSERT_EQ(second.exit_code, 0) << second.err;
   expect_equal_records(scratch / "a", scratch / "b");
+  EXPECT_NE(read_file(scratch / "a/scenario.toml").find("\ntopics = false\n"), std::string::npos) << "or others may command it";
   EXPECT_EQ(read_file(scratch / "a/scenario.toml"), read_file(scratch / "b/scenario.toml"));
 }
 
@@ -175,18 +174,15 @@ TEST(Scenario, ARecordDoesNotWriteOverTheScenarioItComesFrom) {
 
 TEST(Scenario, CommandsFromTopicsAreOwnedUpTo) {
   const Scratch scratch;
-  const std::string own = "vsa_scenario" + std::to_string(getpid());
-  const std::string port = std::to_string(32'000 + 2 * (getpid() % 6'000)), next = std::to_string(32'001 + 2 * (getpid() % 6'000));
-  const Surroundings around{
-      false, false, std::nullopt, {{"IGN_PARTITION", own}, {"IGN_DISCOVERY_MSG_PORT", port}, {"IGN_DISCOVERY_SRV_PORT", next}}};
-  Subprocess world({"run", "bench_load", "--realtime", "--record", (scratch / "out").string()}, around);
-  EXPECT_EQ(run_vsa({"command", "-20", "30", "--timeout-s", "120"}, around).exit_code, 0);
+  Subprocess world({"run", "bench_load", "--realtime", "--record", (scratch / "out").string()});
+  EXPECT_EQ(run_vsa({"command", "-20", "30", "--timeout-s", "120"}).exit_code, 0);
   world.send(SIGINT);
   EXPECT_EQ(world.wait().exit_code, 0);
   const std::string saved = read_file(scratch / "out/scenario.toml");
   EXPECT_NE(saved.find("Commands came on topics"), std::string::npos) << saved;
   EXPECT_NE(saved.find("duration_s = "), std::string::npos) << saved;
   EXPECT_EQ(saved.find("0000000"), std::string::npos) << "milliseconds as they are\n" << saved;
+  EXPECT_EQ(saved.find("topics ="), std::string::npos) << saved;
 }
 
 }  // namespace

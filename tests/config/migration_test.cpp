@@ -171,7 +171,8 @@ TEST(Migration, EachLibraryIsAnsweredWithItsPreset) {
   expect_pieces(answer("libsea_plugin.so"), {"<type>sea_example</type>"});
   expect_pieces(answer("libadvanced_plugin.so"), {"<type>qbmove_advanced</type>"});
   expect_pieces(answer("libvsa-robot.so"), {"<joint>j</joint><type>qbmove_advanced</type>"});
-  expect_pieces(answer("libbavs_plugin.so"), {"YOUR_TYPE_OF_A_BAVS"});
+  expect_pieces(answer("libbavs_plugin.so"), {"<type>bavs_example</type>"});
+  expect_pieces(answer("libawas_ii_plugin.so"), {"<type>awas_2_example</type>"});
 }
 
 TEST(Migration, MotorsThatDifferOrComeAloneAreRefused) {

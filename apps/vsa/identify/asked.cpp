@@ -106,7 +106,7 @@ int write_results(const Asked& asked, Identification r, Console& console) {
   console.wipe();
   for (const std::string& w : warnings(r)) console.line("warning: " + w);
   std::cout << identification_text(r) << "written: " << (out / "report.html").string() << ", results.json";
-  std::cout << (determined ? ", " + r.name + ".toml\n" : "; no preset, as the data don't determine it\n");
+  std::cout << (determined ? ", " + r.name + ".toml\n" : "; no type, as the data don't determine it\n");
   return std::cout.flush() && determined ? kDone : kFailed;
 }
 

@@ -21,7 +21,7 @@ Recordings: load_torque_Nm,deflection_rad[,time_s|sample], the commanded preset 
 or branch means (…_branches.csv). Period and amplitude of the sweep are common to all.
 
 Writes report.html, results.json and identified.toml, an actuator type for vsa. Where the data don't determine a parameter it
-says which, writes no preset and ends with 1.
+says which, writes no type and ends with 1.
 
 --compare FILE fits each hypothesis of a TOML file to the recordings that it names, and with each of them left out, and
 writes comparison.md, comparison.json and every fit into --out; begun again it goes on. docs/howto/identify.md tells the

@@ -42,7 +42,7 @@ struct IdentifyOptions {
 /// `vsa identify RECORDING.csv… --type NAME --parameters …`, and `vsa identify --compare FILE` (compare.hpp). Sets the exit code
 /// when it was the subcommand.
 void setup_identify(CLI::App& app, int& exit_code);
-/// Writes its files only when all is done; no preset file, and exit code 1, where the data don't determine every parameter.
+/// Writes its files only when all is done; no type's file, and exit code 1, where the data don't determine every parameter.
 int run_identify(const IdentifyOptions& options);
 
 }  // namespace vsa::app

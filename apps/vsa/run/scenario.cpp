@@ -69,7 +69,8 @@ std::string scenario_text(const RunOptions& options, double duration_s, const st
   std::ostringstream out;
   out << "# Written by vsa run; `vsa run` with this file repeats the run.\n";
   for (const std::string& remark : remarks) out << "# " << remark << '\n';
-  out << '\n' << scenario::text(options, duration_s);
+  // Nobody's commands reach the repetition of a run that none could reach.
+  out << '\n' << scenario::text(options, duration_s, options.no_topics ? toml::table{{"topics", false}} : toml::table{});
   const auto number = [](double value) {
     const std::string text = config::number_text(value);
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -25,7 +24,7 @@ constexpr double kScan_ms = 5;
 
 constexpr const char* kPingNotes =
     R"(Without PORT the only virtual port that runs is taken. Devices such as /dev/ttyUSB0 are listed, never tried unasked:
-they may be anything.
+they may be anything. Without --id and --timeout-ms each of the 254 has 5 ms for its answer.
 
 Examples:
   vsa ping
@@ -61,19 +60,16 @@ int run_ping(UnitPortOptions options) {
   const bool scan = options.ids.empty();
   const std::vector<std::uint8_t> ids = scan ? all_ids() : parse_ids(options.ids);
   if (options.port.empty()) options.port = only_port();
-  if (scan) options.timeout_ms = std::min(options.timeout_ms, kScan_ms);
   UnitPort port(options);
   std::vector<std::vector<std::string>> rows{{"unit", "dialect", "answered in", "serial number"}};
   std::vector<int> silent;
   for (const std::uint8_t id : ids) {
-    bus::Client client = port.client(bus::Dialect::six);
-    const auto before = Clock::now();
-    const auto dialect = client.dialect(id);
-    const auto took = Clock::now() - before;
+    const auto dialect = options.dialect ? bus::Result<bus::Dialect>(port.dialect(id)) : port.client(bus::Dialect::six).dialect(id);
     if (!dialect && dialect.error() != bus::ClientError::timeout) static_cast<void>(port.take(dialect, id, "a ping"));
+    const auto before = Clock::now();
     const auto reply = dialect ? port.client(*dialect).ping(id) : bus::Result<bus::PingReply>(dialect.error());
     if (reply)
-      rows.push_back(row(id, *dialect, *reply, took));
+      rows.push_back(row(id, *dialect, *reply, Clock::now() - before));
     else if (!scan)
       silent.push_back(id);
   }
@@ -92,7 +88,10 @@ void setup_ping(CLI::App& app, int& exit_code) {
   sub->add_option("--id", options->ids, "Units, such as 3 or 1-12 or 1,3,5; default: all, 1 to 254");
   add_port_options(*sub, *options);
   sub->footer(kPingNotes);
-  sub->callback([options, &exit_code] { exit_code = run_ping(*options); });
+  sub->callback([options, sub, &exit_code] {
+    if (options->ids.empty() && sub->count("--timeout-ms") == 0) options->timeout_ms = kScan_ms;
+    exit_code = run_ping(*options);
+  });
 }
 
 }  // namespace vsa::app

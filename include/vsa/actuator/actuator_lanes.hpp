@@ -254,12 +254,12 @@ template <class T>
 SegmentResultOf<T> Actuator::attempt(const ActuatorStateOf<T>& s, SegmentOf<T>& seg, T dq, bool rough,
                                      lanes::Truth<T> which) const noexcept {
   if (!seg.tried) foresee(s, seg);
-  using Trial = TrialOf<T>;
   // Those of several that don't try keep what they have; those that have found it find it again, as long as the others go on.
-  Trial apart;
-  const bool in_place = lanes::all(which);
-  if (!in_place) apart = seg.found;
-  Trial& t = in_place ? seg.found : apart;
+  TrialOf<T>* trial = &seg.found;
+  if constexpr (!lanes::kScalar<T>) {
+    if (!lanes::all(which)) *(trial = &seg.apart) = seg.found;
+  }
+  TrialOf<T>& t = *trial;
   for (int i = 0; i < motors<T>(); ++i) t.dx[i] += t.gain[i] * (dq - t.dq);
   t.dq = dq;
   const elastic::PositionsOf<T>& from = s.origin.at;
@@ -295,7 +295,7 @@ SegmentResultOf<T> Actuator::attempt(const ActuatorStateOf<T>& s, SegmentOf<T>& 
   r.settled = r.settled | lanes::truth<T>(!rough);
   r.torque = t.mean.torque;
   r.slope = t.slope;
-  if (!in_place) step::take_over(which, seg.found, t);
+  if (trial != &seg.found) step::take_over(which, seg.found, t);
   return r;
 }
 

@@ -93,6 +93,8 @@ struct PwmInSegment {
 };
 /// Instead of it in lanes, which have no such motors.
 struct NoPwm {};
+/// What one unit has no need of.
+struct Nothing {};
 
 /// A segment while it is solved: begun once, tried for as many shaft displacements as its owner needs, finished once.
 template <class T>
@@ -135,7 +137,8 @@ class SegmentOf {
   // displacement and lag.
   double ramp = 0, spread = 0;
   std::array<double, 2> lag{};
-  Trial found;  // by the last trial
+  Trial found;                                                                        // by the last trial
+  [[no_unique_address]] std::conditional_t<lanes::kScalar<T>, Nothing, Trial> apart;  // by one of some lanes
 
   /// w·(q' − middle of the path): by how much the springs look ahead.
   [[nodiscard]] T shift(T dq) const noexcept {

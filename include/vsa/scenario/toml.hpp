@@ -18,7 +18,7 @@ namespace vsa::scenario {
                             Problems& problems);
 
 /// The tables that repeat a run of `duration_s` (0: none is said). Files are named so that it may lie anywhere: built-in ones by name,
-/// others by their whole path. Numbers are as short as can be.
-[[nodiscard]] std::string text(const Scenario& scenario, double duration_s);
+/// others by their whole path. Numbers are as short as can be. `own`: more for [scenario], of the caller's keys.
+[[nodiscard]] std::string text(const Scenario& scenario, double duration_s, const toml::table& own = {});
 
 }  // namespace vsa::scenario

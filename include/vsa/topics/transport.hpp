@@ -9,4 +9,9 @@ namespace vsa::topics {
 /// all addresses.
 void prefer_loopback();
 
+/// Ends the process as std::exit does, but where it talked by topics without the destructors of static objects: ignition-transport 11
+/// keeps two callbacks of its discovery in such objects (Discovery::registrationCb) and leaves the thread that calls them running, so
+/// that a program that ends while another robot tells of itself would crash now and then.
+[[noreturn]] void leave(int exit_code);
+
 }  // namespace vsa::topics

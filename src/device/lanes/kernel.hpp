@@ -75,10 +75,13 @@ struct Trials {
 };
 
 template <class T>
+void begin_trials_plan(void* memory) noexcept {
+  new (&static_cast<Trials<T>*>(memory)->plan) Plan<T>();
+}
+template <class T>
 [[gnu::flatten]] void begin_trials(Unit& unit, void* memory, const BlockTrials& io) noexcept {
   Trials<T>& t = *std::launder(static_cast<Trials<T>*>(memory));
   const UnitPhysics<T> physics = unit.template steps<T>();
-  new (&t.plan) Plan<T>();
   t.plan.in = {load<T>(io.angle), load<T>(io.speed), load<T>(io.inverse_inertia)};
   set_out<T>(unit, physics, t.s, t.plan, io.dt_s, {load<T>(io.voltage[0]), load<T>(io.voltage[1])});
   const ShaftTorqueOf<T> r = physics.foresee(t.s, t.plan, lanes::clamp(t.plan.free, -T(io.reach), io.reach));
@@ -198,6 +201,7 @@ template <class T>
           begin_plan<T>,
           step<T>,
           sizeof(Trials<T>),
+          begin_trials_plan<T>,
           begin_trials<T>,
           attempt<T>,
           carry<T>,

@@ -68,7 +68,8 @@ struct LaneTable {
   unsigned (*step)(Unit& unit, void* block, void* plan, const BlockStep& io) noexcept;
   // A step that somebody else solves (vsa/device/joint_trials.hpp), with as much of a unit's as a step has; put and take serve here,
   // too. Bits are for lanes: of those that try, and of those that settled.
-  std::size_t trials_bytes;  ///< aligned to 64
+  std::size_t trials_bytes;                         ///< aligned to 64
+  void (*begin_trials_plan)(void* block) noexcept;  ///< once, as begin_plan
   void (*begin_trials)(Unit& unit, void* block, const BlockTrials& io) noexcept;
   void (*attempt)(Unit& unit, void* block, const double* dy, bool rough, unsigned which, double* torque, double* slope) noexcept;
   unsigned (*carry)(const Unit& unit, const void* block, const double* move, double dt_s, double* torque, double* slope) noexcept;
