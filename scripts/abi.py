@@ -10,6 +10,7 @@ that with packaging/abi/vsasim-MAJOR.MINOR-COMPILER-MACHINE.abi. What headers ho
 check    code 1 where something went or changed under the same minor version; what only came is listed. With a compiler or machine that
          nothing was recorded with it says so and compares nothing; where a minor version has no record at all, code 1.
 record   writes that file; says what it breaks.
+Either: code 2 where a tool fails or something that they need is missing.
 """
 import json
 import pathlib
@@ -246,6 +247,9 @@ if __name__ == "__main__":
         sys.exit(2)
     try:
         sys.exit(main(sys.argv[1], pathlib.Path(sys.argv[2]).resolve()))
+    except subprocess.CalledProcessError as error:  # not 1, which is "incompatible"
+        print(f"abi.py: {shlex.join(error.cmd)}: exit code {error.returncode}\n{error.stderr}", file=sys.stderr)
+        sys.exit(2)
     except (RuntimeError, OSError) as error:
         print(f"abi.py: {error}", file=sys.stderr)
         sys.exit(2)

@@ -9,6 +9,7 @@ Lines are gcov's, by gcovr.
 import collections
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -19,7 +20,7 @@ WORST = 10
 def lines_by_file(build):
     """FILE: (lines that ran, lines)."""
     out = build / "coverage.json"
-    subprocess.run(["gcovr", "--root", ROOT, "--object-directory", build, "--filter", f"{ROOT}/src/", "--filter", f"{ROOT}/include/",
+    subprocess.run(["gcovr", "--root", ROOT, "--object-directory", build, "--filter", re.escape(f"{ROOT}/src/"), "--filter", re.escape(f"{ROOT}/include/"),
                     "--exclude-directories", ".*CompilerId.*", "--gcov-ignore-parse-errors", "--json", out, build], check=True, stdout=subprocess.DEVNULL)
     found = {}
     for file in json.loads(out.read_text(encoding="utf-8"))["files"]:
@@ -74,6 +75,8 @@ if __name__ == "__main__":
     try:
         tree, percent = pathlib.Path(sys.argv[1]).resolve(strict=True), float(sys.argv[2])
         wanted = sys.argv[3] if len(sys.argv) > 3 else ""
+        if not 0 <= percent <= 100:  # not of NaN either, which no part of the lines is below
+            raise ValueError(f"PERCENT = {percent:g} (allowed: 0 to 100)")
     except (IndexError, ValueError, OSError) as error:
         print(f"coverage.py: {error}; usage: coverage.py BUILD PERCENT [LABEL]", file=sys.stderr)
         sys.exit(2)

@@ -3,7 +3,8 @@
 #
 # dist.sh [BUILD] [OUT]: the source archive OUT/vsasim-VERSION.tar.xz (build/dist unless said otherwise) of the last commit, with the
 # pages bundled in BUILD (build/release) in web/prebuilt, so that it is built without npm, and without git. The same commit makes the
-# same bytes: times are the version's day, names are sorted, nobody owns it.
+# same bytes: times are the version's day, names are sorted, nobody owns it. OUT then has this archive only: those of other versions,
+# and the signature of sums that are no longer, go.
 set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
@@ -23,7 +24,8 @@ git archive --format=tar --prefix="$name/" HEAD | tar -x -C "$work"
 mkdir "$work/$name/web/prebuilt"
 for page in replay.html live.html report.html bundled.json; do cp "$build/share/vsa/web/$page" "$work/$name/web/prebuilt"; done
 mkdir -p "$out"
+rm -f "$out"/vsasim-[0-9]*.tar.xz "$out/SHA256SUMS" "$out/SHA256SUMS.asc"
 LC_ALL=C tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$epoch" --mode=u+rwX,go+rX,go-w --format=gnu -cf "$work/$name.tar" "$name"
 xz -9 -T1 -c "$work/$name.tar" >"$out/$name.tar.xz"
-(cd "$out" && sha256sum -- *.tar.xz >SHA256SUMS)
+(cd "$out" && sha256sum -- "$name.tar.xz" >SHA256SUMS)
 echo "dist: $out/$name.tar.xz, $(($(wc -c <"$out/$name.tar.xz") / 1024)) KiB"

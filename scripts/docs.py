@@ -47,11 +47,17 @@ class Doxygen:
         into.mkdir(parents=True)
         self.log, self.tags = into.parent.parent / "doxygen.txt", into.parent.parent / "tags.xml"
         settings = (ROOT / "scripts/site/Doxyfile").read_text(encoding="utf-8")
-        settings += (f"INPUT = {ROOT}/include/vsa {ROOT}/scripts/site/namespaces.dox\nSTRIP_FROM_PATH = {ROOT}/include\nOUTPUT_DIRECTORY = {into}\n"
-                     f"PROJECT_NUMBER = {version}\nWARN_LOGFILE = {self.log}\nGENERATE_TAGFILE = {self.tags}\n")
+        # In quotes: a path may have blanks.
+        settings += (f'INPUT = "{ROOT}/include/vsa" "{ROOT}/scripts/site/namespaces.dox"\nSTRIP_FROM_PATH = "{ROOT}/include"\n'
+                     f'OUTPUT_DIRECTORY = "{into}"\nPROJECT_NUMBER = {version}\nWARN_LOGFILE = "{self.log}"\nGENERATE_TAGFILE = "{self.tags}"\n')
         run("doxygen", "-", input=settings)
         self.pages = {}
-        for compound in xml.etree.ElementTree.parse(self.tags).getroot().iter("compound"):
+        compounds = list(xml.etree.ElementTree.parse(self.tags).getroot().iter("compound")) if self.tags.is_file() else []
+        # Who looked at no header has no complaint either; namespaces it has from namespaces.dox.
+        if all(c.get("kind") == "namespace" for c in compounds):
+            said = self.log.read_text(encoding="utf-8") if self.log.is_file() else ""
+            sys.exit(f"docs.py: Doxygen found no class in {ROOT}/include/vsa\n{said}")
+        for compound in compounds:
             if compound.get("kind") == "file":
                 path = compound.findtext("path", "") + compound.findtext("name", "")
                 page = compound.findtext("filename", "")

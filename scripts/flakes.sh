@@ -4,7 +4,7 @@
 # flakes.sh BUILD: looks for tests that fail now and then. Runs each test of BUILD but the long ones FLAKES_N times (50) beside 0, 2 and
 # 6 busy processes (FLAKES_LOADS), one test at a time; in every second run a program of GoogleTest's takes its tests in another order.
 # FLAKES_FILTER chooses tests (ctest -R). Prints one table, also when it is interrupted, keeps what failing runs said in FLAKES_OUT
-# (out/flakes), and ends with 1 if any run failed.
+# (out/flakes; one that is there is empty or of an earlier run, whose files go), and ends with 1 if any run failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=$1
@@ -12,9 +12,13 @@ runs=${FLAKES_N:-50} filter=${FLAKES_FILTER:-.} loads=${FLAKES_LOADS:-0 2 6} out
 
 tests=$(ctest --test-dir "$build" -N -LE long -R "$filter" 2>/dev/null | sed -n 's/^ *Test *#[0-9]*: //p')
 [ -n "$tests" ] || { echo "flakes.sh: no test matches FLAKES_FILTER = $filter" >&2; exit 2; }
-rm -rf "$out"
-mkdir -p "$out"
 results=$out/runs.txt # test, load, result, seconds: one line a run
+if [ -n "$(ls -A "$out" 2>/dev/null)" ] && [ ! -f "$results" ]; then
+  echo "flakes.sh: FLAKES_OUT = '$out' (allowed: a new or empty folder, or one with an earlier run's runs.txt)" >&2
+  exit 2
+fi
+mkdir -p "$out"
+rm -f "$results" "$out"/*.[0-9]*.[0-9]*.txt
 : > "$results"
 
 # A busy process looks now and then whether this one is still there, should it be killed without a chance to end them.

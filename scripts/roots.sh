@@ -2,7 +2,7 @@
 #
 # For scripts that make roots of other systems with debootstrap; sourced. Mirror, proxy and certificates are those of this machine's
 # apt. What is mounted is mounted in a namespace of its own and is gone with the command.
-roots_folder="${XDG_CACHE_HOME:-$HOME/.cache}/vsasim"
+roots_folder="${XDG_CACHE_HOME:-${HOME:-/root}/.cache}/vsasim" # HOME: none by cron and in some containers
 
 # find_mirror SUITE: the first of the repositories that this machine's apt knows that has the suite.
 find_mirror() {

@@ -6,8 +6,8 @@ Three programs run all the time: twelve emulated units on a serial port (with lo
 with topics and live view, a batch in Python. Around them, at random but from SEED: clients of the port that come, go and are killed;
 viewers of the page that come, vanish and send garbage; commands by topics; faults of joints by the service; short recorded runs.
 
-Looks at memory, descriptors and threads of the three, at the round trips of the port's clients, and at whether equal runs gave equal
-bytes. Ctrl-C or SIGTERM ends it earlier, and what it has seen until then is judged. Writes OUT/soak.html and OUT/soak.json; prints the
+Looks at memory, descriptors and threads of the three, at answers and round trips of the port's clients, and at whether equal runs gave
+equal bytes. Ctrl-C or SIGTERM ends it earlier, and what it has seen until then is judged. Writes OUT/soak.html and OUT/soak.json; prints the
 verdicts; exit code 1 where one is broken, 2 for wrong use.
 """
 import hashlib
@@ -35,6 +35,7 @@ FAULTS = ["off", "lost_byte=0.02", "flipped_byte=0.02", "late_s=0.0005", "stuck=
 OF_TOPICS = ("commands by topics", "faults by the service")  # visits, each a client of its own
 GROWTH = 1.05  # of resident memory, last quarter over second: what a program may gain
 KEPT_MB = 0.032  # by ZeroMQ of each client of topics that has gone (libzmq 4286), for as long as the world lives
+ANSWERED = 0.9  # of exchanges: bytes are lost and flipped on purpose, which took the answers of 2.5 % of them in an hour
 SLACK = (0, 5, 0)  # memory, descriptors, threads after the visitors, over before them: ZeroMQ's connections to clients that have gone
 
 
@@ -88,7 +89,9 @@ class Subject:
 class Soak:
     def __init__(self, build, out, seed, end):
         self.build, self.out, self.seed, self.end = build, out, seed, end
-        self.counts, self.wrong, self.trips, self.digests, self.lock = {}, [], [], set(), threading.Lock()
+        self.begin = time.monotonic()  # of the visits
+        self.counts, self.wrong, self.digests, self.lock = {}, [], set(), threading.Lock()
+        self.trips = []  # of each exchange on the port: when its client was through, µs or None without an answer
         self.view_port = 0
         self.vsa = str(build / "bin/vsa")
         self.port = str(out / "port")
@@ -138,7 +141,7 @@ class Soak:
         self.count("exchanges without an answer", lines.count("-"))
         at = time.monotonic()
         with self.lock:
-            self.trips += [(at, float(line)) for line in lines if line != "-"]
+            self.trips += [(at, None if line == "-" else float(line)) for line in lines]
 
     def viewer(self, chance):
         with socket.create_connection(("127.0.0.1", self.view_port), timeout=30) as page:
@@ -206,6 +209,16 @@ def quarter(values, which):
     return values[n * which // 4 : n * (which + 1) // 4]
 
 
+def answered(soak):
+    """(answers, exchanges) in each quarter of the time. What came after the end is of the last."""
+    long, found = max(soak.end - soak.begin, 1e-9), [[0, 0] for _ in range(4)]
+    for at, trip in soak.trips:
+        of = found[min(max(int(4 * (at - soak.begin) / long), 0), 3)]
+        of[0] += trip is not None
+        of[1] += 1
+    return found
+
+
 def verdicts(soak, subjects, idle, ends):
     """(what, held, figure) each."""
     out = []
@@ -226,7 +239,10 @@ def verdicts(soak, subjects, idle, ends):
     rounds = set(re.findall(r"[0-9a-f]{64}", subjects[2].said()))
     out.append(("rounds of the batch come to the same", len(rounds) == 1, f"{len(rounds)} results"))
     out.append(("visitors had nothing to complain of", not soak.wrong, "; ".join(soak.wrong[:5]) or "nothing"))
-    trips = [t for _, t in sorted(soak.trips)]
+    parts = answered(soak)
+    out.append((f"units answer at least {100 * ANSWERED:.0f} % of the exchanges in each quarter of the time",
+                all(n > 0 and yes >= ANSWERED * n for yes, n in parts), ", ".join(f"{100 * yes / n:.1f} % of {n}" if n else "no exchange" for yes, n in parts)))
+    trips = [trip for _, trip in sorted(soak.trips, key=lambda exchange: exchange[0]) if trip is not None]
     early, late = (statistics.median(quarter(trips, k) or [0]) for k in (1, 3))
     out.append(("round trips, median of the last quarter at most twice the second's", late <= 2 * early, f"{early:.0f} → {late:.0f} µs"))
     return out
@@ -255,6 +271,7 @@ def main(build, hours, out, seed):
               (soak.recorded_run, (5, 20))]
     if os.path.exists(SERVICE):
         visits.append((soak.saboteur, (5, 15)))
+    soak.begin = time.monotonic()
     threads = [soak.until_the_end(i, visit, pause) for i, (visit, pause) in enumerate(visits)]
     period, next_look = max(1.0, 3600 * hours / 1000), 0.0
     while time.monotonic() < soak.end:

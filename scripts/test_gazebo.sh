@@ -36,6 +36,7 @@ if [ "$what" = test ]; then
   say "embedded engine's bench runs after $(($(date +%s) - start)) s"
 fi
 
+mkdir -p build
 run sh -c '
   set -e
   cmake -S . -B build/classic -G Ninja -DCMAKE_BUILD_TYPE=Release -DVSA_SIMULATOR=OFF -DVSA_TESTS=OFF -DVSA_BENCH=OFF \

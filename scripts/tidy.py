@@ -19,6 +19,7 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -75,12 +76,18 @@ def reached(file, folders):
     return sorted(seen)
 
 
+def include_folders(command):
+    """Of a command as a shell takes it: -IFOLDER and -I FOLDER, in quotes where a name has blanks."""
+    words = shlex.split(command)
+    return [word[2:] or after for word, after in zip(words, [*words[1:], ""]) if word.startswith("-I")]
+
+
 def states(commands):
     """Of each source: a sum of all that decides what clang-tidy says of it."""
     tool = subprocess.run(["clang-tidy", "--version"], capture_output=True, text=True, check=False).stdout
     out = {}
     for file, command in commands.items():
-        folders = tuple(f for f in re.findall(r" -I(\S+)", command["command"]) if pathlib.Path(f).is_relative_to(ROOT))
+        folders = tuple(f for f in include_folders(command["command"]) if pathlib.Path(f).is_relative_to(ROOT))
         parts = [tool, command["command"], digest(__file__), digest(ROOT / ".clang-tidy"), *(f + digest(f) for f in reached(file, folders))]
         out[file] = hashlib.sha256("\n".join(parts).encode()).hexdigest()
     return out
@@ -111,7 +118,8 @@ def groups(commands):
     """Lists of files of a folder with one command but for their names."""
     alike = {}
     for file in sorted(commands):
-        command = re.sub(r" -o \S+", "", commands[file]["command"].replace(file, ""))
+        words = shlex.split(commands[file]["command"])
+        command = tuple(word for before, word in zip(["", *words], words) if "-o" not in (before, word) and word != file)
         alike.setdefault((os.path.dirname(file), command), []).append(file)
     return [files[k : k + TOGETHER] for files in alike.values() for k in range(0, len(files), TOGETHER)]
 

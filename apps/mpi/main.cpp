@@ -12,6 +12,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -67,9 +68,12 @@ std::optional<Asks> agreed(const Job& job, const std::string& what, Read&& read)
 }
 
 /// What every rank does with its share of the runs.
+/// 0: as many as the machine runs.
+unsigned threads_of(unsigned asked) { return asked != 0 ? asked : std::max(1U, std::thread::hardware_concurrency()); }
+
 RankWork rank_work(unsigned threads, sweep::Log& log) {
   RankWork work;
-  work.threads = std::max(1U, threads);
+  work.threads = threads_of(threads);
   work.done = [&log](const sweep::Outcome& outcome) { log.add(outcome); };
   work.wanted = [] { return interrupted() == 0; };
   return work;
@@ -209,7 +213,7 @@ int run_compare_job(const Job& job, const CompareOptions& options) {
   if (!what) return kBadInput;
   Console console;
   RankWork work;
-  work.threads = static_cast<unsigned>(std::max(1, options.threads.value_or(1)));
+  work.threads = threads_of(static_cast<unsigned>(options.threads.value_or(1)));
   work.done = [&](const sweep::Outcome& outcome) { tell_failed(*what, outcome, console); };
   work.wanted = [] { return interrupted() == 0; };
   Led led(job, work);

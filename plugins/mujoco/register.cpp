@@ -24,10 +24,12 @@
 #include <string>
 #include <vector>
 
+#include "bind.hpp"
 #include "engine.hpp"
 #include "units.hpp"
 #include "versions.hpp"
 #include "vsa/config/installed.hpp"
+#include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::mujoco {
@@ -105,23 +107,39 @@ Robot* robot_of(const mjData& d, int instance) {
   return reinterpret_cast<Robot*>(d.plugin_data[instance]);  // NOLINT(performance-no-int-to-ptr): MuJoCo's way
 }
 
-/// Units that were never stepped, for mjData of one model to be made from: the model's files are read once, and an edited type is of
-/// effect in the next model, not between two mjData of one.
+/// Units that were never stepped, for mjData of one model to be made from: the types' files are read once, and an edited type is of
+/// effect in the next model that is compiled, not between two mjData of one (unless another was compiled in between). A binary
+/// model isn't compiled: it gets the units of a model like it, while an mjData of that lives.
 class Patterns {
  public:
   std::shared_ptr<const Units> get(const mjModel& m, const std::vector<Unit>& units) {
     const std::lock_guard lock(mutex_);
     std::weak_ptr<const Units>& at = all_[key_of(m, units)];
     std::shared_ptr<const Units> out = at.lock();
+    if (out) check(m, units);
     if (!out) at = out = std::make_shared<const Units>(m, units);
     std::erase_if(all_, [](const auto& one) { return one.second.expired(); });
     return out;
   }
 
+  /// A model is being compiled, and its types' files may have changed. What lives keeps its units.
+  void forget() {
+    const std::lock_guard lock(mutex_);
+    all_.clear();
+  }
+
  private:
+  /// What Units asks of a model, where it gets those of another: neither gears nor ranges are in the key. Their number is.
+  static void check(const mjModel& m, const std::vector<Unit>& units) {
+    Problems problems;
+    check_options(m, problems);
+    for (const Unit& u : units) static_cast<void>(joint_of(m, u, u.actuators.size(), problems));
+    problems.throw_if_any();
+  }
+
   /// All that units are made of.
   static std::string key_of(const mjModel& m, const std::vector<Unit>& units) {
-    std::string key = std::to_string(m.opt.timestep) + ' ' + std::to_string(m.opt.integrator);
+    std::string key = config::number_text(m.opt.timestep) + ' ' + std::to_string(m.opt.integrator);
     for (const Unit& u : units) {
       key += '\n' + u.spec.name;
       for (const auto& [name, value] : u.spec.said) key += '\t' + name + '=' + value;
@@ -129,7 +147,8 @@ class Patterns {
         const int joint = m.actuator_trnid[2 * a];
         key += "\tactuator " + std::to_string(a) + " joint " + std::to_string(joint);
         if (m.actuator_trntype[a] != mjTRN_JOINT) continue;  // refused
-        key += " at " + std::to_string(m.jnt_qposadr[joint]) + " from " + std::to_string(m.qpos0[m.jnt_qposadr[joint]]);
+        key += ' ' + joint_name(m, joint) + " type " + std::to_string(m.jnt_type[joint]) + " at " +
+               std::to_string(m.jnt_qposadr[joint]) + " from " + config::number_text(m.qpos0[m.jnt_qposadr[joint]]);
         for (int dof = m.jnt_dofadr[joint]; dof >= 0; dof = m.dof_parentid[dof]) key += ' ' + std::to_string(dof);
       }
     }
@@ -158,6 +177,7 @@ int number_of_states(const mjModel* m, int instance) {
   try {
     const std::vector<int> instances = instances_of(*m);
     if (instances.front() != instance) return 0;
+    patterns.forget();
     std::vector<UnitSpec> specs;
     for (const int i : instances) specs.push_back(spec_of(*m, i, "unit_" + std::to_string(i)));
     return static_cast<int>(Units::state_size(specs));

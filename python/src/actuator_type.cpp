@@ -82,8 +82,8 @@ void bind_parameters(Class& c) {
           "Sets a parameter, in its key's unit, with the checks and texts of `vsa run --set`. InputError: no such key, out of its\n"
           "bounds; then nothing has changed.")
       .def(
-          "update", [](PyActuatorType& t, const py::dict& values) { t.set(settings(values)); }, py::arg("values"),
-          "Sets several parameters, all or none: dict of key to value.")
+          "update", [](PyActuatorType& t, const py::object& values) { t.set(settings(dict_of(values, "values"))); },
+          py::arg("values"), "Sets several parameters, all or none: dict of key to value.")
       .def("__getitem__", [](const PyActuatorType& t, const std::string& key) { return value_of(t.entry(key)); })
       .def("__setitem__",
            [](PyActuatorType& t, const std::string& key, const py::object& value) {
@@ -142,8 +142,8 @@ void bind_law(Class& c) {
   const auto vectorized = [](double (*of)(const elastic::Response&)) {
     return [of](const PyActuatorType& t, const py::object& shaft, const py::object& equilibrium, const py::object& preset) {
       const auto f = [&t, of](double q, double e, double p) { return of(at_rest(t, q, e, p)); };
-      using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
-      return py::vectorize(f)(Array(shaft), Array(equilibrium), Array(preset));
+      return py::vectorize(f)(real_array(shaft, "shaft_rad"), real_array(equilibrium, "equilibrium_rad"),
+                              real_array(preset, "preset"));
     };
   };
   const auto add = [&](const char* name, const char* doc, double (*of)(const elastic::Response&)) {

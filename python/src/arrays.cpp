@@ -2,6 +2,7 @@
 #include "arrays.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "vsa/checks.hpp"
 #include "vsa/config/text.hpp"
@@ -19,17 +20,6 @@ std::string shape_text(const py::array& a) { return text(a.attr("shape")); }
   throw py::type_error(std::string(name) + ": " + found + " (allowed: real numbers)");
 }
 
-py::array_t<double, kFlags> real_array(const py::handle& given, const char* name) {
-  const auto any = py::array::ensure(given);
-  if (!any) {
-    PyErr_Clear();
-    refuse_type(name, "isn't an array of numbers");
-  }
-  const char kind = any.dtype().kind();
-  if (any.size() > 0 && kind != 'f' && kind != 'i' && kind != 'u') refuse_type(name, "has dtype " + text(any.dtype()));
-  return py::array_t<double, kFlags>(any);
-}
-
 void check_finite(const std::vector<double>& values, const char* name) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
@@ -38,7 +28,29 @@ void check_finite(const std::vector<double>& values, const char* name) {
   }
 }
 
+std::vector<std::size_t> masked(const py::array& mask, std::size_t count, const std::string& one) {
+  if (mask.shape(0) != static_cast<py::ssize_t>(count))
+    throw InputError({"", "which", "a mask of " + std::to_string(mask.shape(0)), "has another length",
+                      "one for each " + one + ": " + std::to_string(count)});
+  const auto flags = py::array_t<bool, kFlags>(mask);
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < count; ++i)
+    if (flags.data()[i]) out.push_back(i);
+  return out;
+}
+
 }  // namespace
+
+RealArray real_array(const py::handle& given, const char* name) {
+  const auto any = py::array::ensure(given);
+  if (!any) {
+    PyErr_Clear();
+    refuse_type(name, "isn't an array of numbers");
+  }
+  const char kind = any.dtype().kind();
+  if (any.size() > 0 && kind != 'f' && kind != 'i' && kind != 'u') refuse_type(name, "has dtype " + text(any.dtype()));
+  return RealArray(any);
+}
 
 std::vector<double> numbers(const py::handle& given, std::size_t n, const char* name, bool scalar) {
   const auto a = real_array(given, name);
@@ -89,7 +101,7 @@ py::array_t<double> state_numbers(const py::handle& given, std::size_t n) {
   if (!any.dtype().equal(float64())) throw py::type_error("state: has dtype " + text(any.dtype()) + " (allowed: float64)");
   if (any.ndim() != 1 || any.shape(0) != static_cast<py::ssize_t>(n))
     throw InputError({"", "state", "shape " + shape_text(any), "has another shape", "(" + std::to_string(n) + ",)"});
-  return py::array_t<double, kFlags>(any);
+  return RealArray(any);
 }
 
 py::array_t<double> copied(const std::vector<double>& values) {
@@ -108,6 +120,36 @@ void fill(const py::array& to, const py::object& value, const char* name) {
     throw InputError({"", name, "shape " + text(given.attr("shape")), "has another shape",
                       text(to.attr("shape")) + " or what broadcasts to it"});
   }
+}
+
+std::size_t index_of(const py::handle& which, std::size_t count, const std::string& one) {
+  if (!py::hasattr(which, "__index__")) throw py::type_error(one + ": " + text(py::type::handle_of(which)) + " is no index");
+  const py::object index = which.attr("__index__")();
+  if (index < py::int_(0) || index >= py::int_(count))
+    throw py::index_error(one + " " + text(index) + ": there are " + std::to_string(count) + ", from 0");
+  return py::cast<std::size_t>(index);
+}
+
+std::vector<std::size_t> chosen(const py::object& which, std::size_t count, const std::string& one) {
+  std::vector<std::size_t> out;
+  if (which.is_none()) {
+    out.resize(count);
+    std::iota(out.begin(), out.end(), std::size_t{0});
+    return out;
+  }
+  const auto any = py::array::ensure(which);
+  const std::string allowed = "integers (k,), or a mask of bool with one for each " + one;
+  if (!any) {
+    PyErr_Clear();
+    throw InputError({"", "which", text(py::type::of(which)), "isn't an array", allowed});
+  }
+  if (any.ndim() != 1) throw InputError({"", "which", "shape " + text(any.attr("shape")), "has another shape", allowed});
+  const char kind = any.dtype().kind();
+  if (kind == 'b') return masked(any, count, one);
+  if (any.size() == 0) return out;
+  if (kind != 'i' && kind != 'u') throw InputError({"", "which", "dtype " + text(any.dtype()), "names none", allowed});
+  for (const py::handle index : any) out.push_back(index_of(index, count, one));
+  return out;
 }
 
 py::dtype record_dtype(const std::vector<Field>& fields, std::size_t size) {

@@ -15,6 +15,10 @@
 
 namespace vsa::python {
 
+using RealArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
+/// Of any shape, from anything that NumPy takes for real numbers. TypeError for what it doesn't: None, texts, bool.
+[[nodiscard]] RealArray real_array(const py::handle& given, const char* name);
+
 /// (n,) from anything that NumPy takes for real numbers; `scalar`: one number stands for all. Copies.
 [[nodiscard]] std::vector<double> numbers(const py::handle& given, std::size_t n, const char* name, bool scalar = false);
 /// The same of any length.
@@ -40,6 +44,11 @@ template <std::size_t N>
 
 /// `to` := what broadcasts to it. TypeError for what is no real numbers, InputError for another shape.
 void fill(const py::array& to, const py::object& value, const char* name);
+
+/// One of `count` things by its index, some of them by indices or by a mask, None: all. `one` is what messages call it: "copy".
+/// TypeError, IndexError; InputError with `which`.
+[[nodiscard]] std::size_t index_of(const py::handle& which, std::size_t count, const std::string& one);
+[[nodiscard]] std::vector<std::size_t> chosen(const py::object& which, std::size_t count, const std::string& one);
 
 /// Fields of a struct, for a structured dtype: `length` doubles (or whatever `format` says) at an offset.
 struct Field {

@@ -5,7 +5,6 @@
 
 #include <memory>
 #include <new>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,8 +16,6 @@ namespace vsa::python {
 namespace {
 
 using batch::Batch;
-
-std::string text(const py::handle& thing) { return py::str(thing); }
 
 std::unique_ptr<Batch> make(PyWorld& world, py::ssize_t copies, py::ssize_t threads) {
   if (copies < 1) throw InputError({"", "copies", std::to_string(copies), "out of range", "1 or more"});
@@ -35,9 +32,8 @@ std::unique_ptr<Batch> make(PyWorld& world, py::ssize_t copies, py::ssize_t thre
 }  // namespace
 
 PyBatch::PyBatch(PyWorld& world, py::ssize_t copies, py::ssize_t threads)
-    : batch_(make(world, copies, threads)), actuators(world.actuator_names()), joints(world.joint_names()), all_(batch_->size()) {
+    : batch_(make(world, copies, threads)), actuators(world.actuator_names()), joints(world.joint_names()) {
   for (const scene::LinkInfo& link : batch_->world().links()) links.push_back(link.name);
-  std::iota(all_.begin(), all_.end(), std::size_t{0});
 }
 
 Batch& PyBatch::get() {
@@ -52,42 +48,9 @@ void PyBatch::step(py::ssize_t n, const py::object& which) {
   alone([&](Batch& batch) { batch.step(static_cast<int>(n), those, [&] { signals.look(); }); });
 }
 
-std::vector<std::size_t> PyBatch::chosen(const py::object& which) const {
-  if (which.is_none()) return all_;
-  const auto any = py::array::ensure(which);
-  const char* const allowed = "integers (k,), or a mask of bool with one for each copy";
-  if (!any) {
-    PyErr_Clear();
-    throw InputError({"", "which", text(py::type::of(which)), "isn't an array", allowed});
-  }
-  if (any.ndim() != 1) throw InputError({"", "which", "shape " + text(any.attr("shape")), "has another shape", allowed});
-  const char kind = any.dtype().kind();
-  if (kind == 'b') return masked(any);
-  if (any.size() == 0) return {};
-  if (kind != 'i' && kind != 'u') throw InputError({"", "which", "dtype " + text(any.dtype()), "doesn't name copies", allowed});
-  std::vector<std::size_t> out;
-  for (const py::handle index : any) out.push_back(copy(index));
-  return out;
-}
+std::vector<std::size_t> PyBatch::chosen(const py::object& which) const { return python::chosen(which, batch_->size(), "copy"); }
 
-std::size_t PyBatch::copy(const py::handle& which) const {
-  if (!py::hasattr(which, "__index__")) throw py::type_error("copy: " + text(py::type::handle_of(which)) + " is no index");
-  const py::object index = which.attr("__index__")();
-  if (index < py::int_(0) || index >= py::int_(batch_->size()))
-    throw py::index_error("copy " + text(index) + ": there are " + std::to_string(batch_->size()) + ", from 0");
-  return py::cast<std::size_t>(index);
-}
-
-std::vector<std::size_t> PyBatch::masked(const py::array& mask) const {
-  if (mask.shape(0) != static_cast<py::ssize_t>(batch_->size()))
-    throw InputError({"", "which", "a mask of " + std::to_string(mask.shape(0)), "has another length",
-                      "one for each copy: " + std::to_string(batch_->size())});
-  const auto flags = py::array_t<bool, py::array::c_style | py::array::forcecast>(mask);
-  std::vector<std::size_t> out;
-  for (const std::size_t c : all_)
-    if (flags.data()[c]) out.push_back(c);
-  return out;
-}
+std::size_t PyBatch::copy(const py::handle& which) const { return index_of(which, batch_->size(), "copy"); }
 
 namespace {
 

@@ -44,16 +44,12 @@ class PyBatch {
    private:
     bool& flag_;
   };
-  [[nodiscard]] std::vector<std::size_t> masked(const py::array& mask) const;
 
   std::unique_ptr<batch::Batch> batch_;
   bool stepping_ = false;  // read and written with the GIL
 
  public:
   std::vector<std::string> actuators, joints, links;
-
- private:
-  std::vector<std::size_t> all_;
 };
 
 using BatchClass = py::class_<PyBatch, std::shared_ptr<PyBatch>>;

@@ -38,6 +38,10 @@ std::vector<double> spread_out(const py::object& value, std::size_t copies, std:
   const char kind = given ? given.dtype().kind() : 'O';
   if (kind != 'f' && kind != 'i' && kind != 'u')
     throw py::type_error("value: " + std::string(py::str(py::type::of(value))) + " (allowed: numbers, one text, one bool)");
+  if (!one && given.ndim() == 1 && given.size() > 1)  // NumPy's rule would give it to the owners, unasked
+    throw InputError(
+        {"", "value", "shape " + std::string(py::str(given.attr("shape"))), "could be for copies as well as for owners",
+         "a number, or an array of shape (copies, owners): (" + std::to_string(copies) + ", " + std::to_string(owners) + ")"});
   std::vector<double> out(copies * owners);
   py::array to(float64(),
                one ? std::vector<py::ssize_t>{static_cast<py::ssize_t>(copies)}
@@ -129,8 +133,8 @@ constexpr const char* kSet =
     "actuator\n"
     "(name or index) or a link (name); None: every one that has the key. key: of the actuator's type (ActuatorType.keys), or\n"
     "link.mass_kg (the inertia goes in proportion), link.inertia_factor (on top, 1e-6 … 1e6), link.friction (of all its shapes).\n"
-    "value: a number, (k,) or, where who is None, (k, owners); or one text (\"coast\") or bool. Motion goes on as after\n"
-    "World.set_parameters. InputError with copy, name, key and what is allowed; nothing has changed then.";
+    "value: a number, (k,) or, where who is None, (k, owners), (k, 1), (1, owners); or one text (\"coast\") or bool. Motion goes\n"
+    "on as after World.set_parameters. InputError with copy, name, key and what is allowed; nothing has changed then.";
 constexpr const char* kRandomize =
     "A draw for each parameter and copy (all, or those in `which`, as in step): what is a dict of key, or (who, key), to "
     "uniform(),\n"

@@ -29,6 +29,8 @@ void bind_batch(py::module_& m);
 void bind_study(py::module_& m);
 void bind_identify(py::module_& m);
 
+/// A dict, or its copy of any other Mapping. TypeError for anything else.
+[[nodiscard]] py::dict dict_of(const py::object& mapping, const char* name);
 /// {"drive.friction_Nm": 0.7} → overrides: numbers as the shortest text that reads back the same, switches as true and false, texts
 /// as they are. None: empty. TypeError for anything else.
 [[nodiscard]] std::vector<config::Override> settings(const py::object& set);

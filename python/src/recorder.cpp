@@ -28,7 +28,7 @@ class PyRecorder {
     (void)world_->get();
     std::vector<record::Statistic> statistics;
     if (!summary.is_none()) {
-      for (const auto& [label, value] : py::cast<py::dict>(summary)) statistics.push_back({py::str(label), py::str(value)});
+      for (const auto& [label, value] : dict_of(summary, "summary")) statistics.push_back({py::str(label), py::str(value)});
     }
     world_->detach(recorder_);
     finished_ = true;

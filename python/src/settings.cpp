@@ -13,11 +13,16 @@ std::string setting_text(const py::handle& value, const std::string& key) {
   throw py::type_error(key + ": " + std::string(py::str(py::type::handle_of(value))) + " (allowed: int, float, bool, str)");
 }
 
+py::dict dict_of(const py::object& mapping, const char* name) {
+  if (!py::isinstance(mapping, py::module_::import("collections.abc").attr("Mapping")))
+    throw py::type_error(std::string(name) + ": " + std::string(py::str(py::type::of(mapping))) + " (allowed: a dict)");
+  return py::dict(mapping);
+}
+
 std::vector<config::Override> settings(const py::object& set) {
   std::vector<config::Override> out;
   if (set.is_none()) return out;
-  if (!py::isinstance<py::dict>(set)) throw py::type_error("set: isn't a dict of parameters, as {\"drive.friction_Nm\": 0.7}");
-  for (const auto& [key, value] : py::reinterpret_borrow<py::dict>(set)) {
+  for (const auto& [key, value] : dict_of(set, "set")) {
     const std::string name = py::str(key);
     out.push_back({name, setting_text(value, name)});
   }

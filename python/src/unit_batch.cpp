@@ -74,34 +74,10 @@ void step(PyUnitBatch& b, py::ssize_t n, double dt_s) {
   levers.step(static_cast<int>(n), std::llround(dt_s * 1e9), [&] { signals.look(); });
 }
 
-/// None: all; indices; a mask.
-std::vector<std::size_t> chosen(const LeverBatch& b, const py::object& which) {
-  std::vector<std::size_t> out;
-  const auto all = static_cast<py::ssize_t>(b.size());
-  if (which.is_none()) {
-    for (std::size_t i = 0; i < b.size(); ++i) out.push_back(i);
-    return out;
-  }
-  const auto any = py::array::ensure(which);
-  const char* const allowed = "integers (k,), or a mask of bool with one for each unit";
-  if (!any) PyErr_Clear();
-  const char kind = any && any.ndim() == 1 ? any.dtype().kind() : 'O';
-  const bool mask = kind == 'b' && any.shape(0) == all;
-  if (!mask && kind != 'i' && kind != 'u') throw InputError({"", "which", text(which), "doesn't name units", allowed});
-  for (py::ssize_t k = 0; k < any.shape(0); ++k) {
-    const auto at = mask ? (any[py::int_(k)].cast<bool>() ? k : -1) : any[py::int_(k)].cast<py::ssize_t>();
-    if (mask && at < 0) continue;
-    if (at < 0 || at >= all)
-      throw py::index_error("unit " + std::to_string(at) + ": there are " + std::to_string(all) + ", from 0");
-    out.push_back(static_cast<std::size_t>(at));
-  }
-  return out;
-}
-
 void reset(PyUnitBatch& b, const py::object& which, const py::object& equilibrium, const py::object& preset,
            const py::object& shaft, const py::object& speed) {
   LeverBatch& levers = b.get();
-  const std::vector<std::size_t> those = chosen(levers, which);
+  const std::vector<std::size_t> those = chosen(which, levers.size(), "unit");
   const auto q = numbers(equilibrium, those.size(), "equilibrium_rad", true), p = numbers(preset, those.size(), "preset", true);
   const auto at = shaft.is_none() ? q : numbers(shaft, those.size(), "shaft_rad", true);
   const auto v = numbers(speed, those.size(), "shaft_speed_rad_per_s", true);

@@ -2,7 +2,6 @@
 //
 // Mass matrix, forces and energies of a world.
 #include <map>
-#include <variant>
 
 #include "arrays.hpp"
 #include "linearization.hpp"
@@ -44,11 +43,10 @@ py::tuple zeros() { return py::make_tuple(0.0, 0.0, 0.0); }
 
 void bind_matrices(WorldClass& c) {
   c.def_property_readonly(
-       "dof_count", [](PyWorld& w) { return w.any_thread().dof_count(); },
+       "dof_count", [](PyWorld& w) { return w.get().dof_count(); },
        "Degrees of freedom: int. joint_info() and free_dof() tell whose they are; in all below M v̇ + bias = torques.")
       .def(
-          "free_dof", [](PyWorld& w, const std::string& link) { return w.any_thread().free_dof(w.any_thread().link(link)); },
-          py::arg("link"),
+          "free_dof", [](PyWorld& w, const std::string& link) { return w.get().free_dof(w.get().link(link)); }, py::arg("link"),
           "The first of six of a link that flies free (velocity in world axes, angular velocity in its own): int, or None.")
       .def(
           "mass_matrix", [](PyWorld& w, const py::object& out) { return filled(w, out, &engine::World::mass_matrix, true); },
@@ -67,7 +65,22 @@ void bind_matrices(WorldClass& c) {
            "axes.");
 }
 
-using Angles = std::map<std::string, double>;
+double number_of(const py::handle& given, const char* name) {
+  py::detail::make_caster<double> number;
+  if (!number.load(given, true))
+    throw py::type_error(std::string(name) + ": " + std::string(py::str(py::type::handle_of(given))) + " (allowed: a number)");
+  return py::detail::cast_op<double>(number);
+}
+
+linear_world::Named named(const py::object& given, const char* name) {
+  std::map<std::string, double> out;  // in the order of names, whatever the dict's
+  if (given.is_none()) return {};
+  for (const auto& [key, value] : dict_of(given, name)) {
+    if (!py::isinstance<py::str>(key)) throw py::type_error(std::string(name) + ": " + std::string(py::str(key)) + " is no name");
+    out.emplace(py::cast<std::string>(key), number_of(value, name));
+  }
+  return {out.begin(), out.end()};
+}
 
 constexpr const char* kLinearize =
     "All joints that move with the world's actuators about a point of rest, as `vsa linearize WORLD` does: WorldLinearization. "
@@ -78,16 +91,16 @@ constexpr const char* kLinearize =
     "firmware,\n"
     "friction: as ActuatorType.linearize. The world isn't changed. InputError: what the command refuses; SimulationError.";
 
-study::WorldLinearization linearize(PyWorld& w, const std::optional<Angles>& angles,
-                                    const std::variant<std::monostate, double, Angles>& preset,
-                                    const std::optional<Angles>& equilibria, const std::string& firmware,
-                                    const std::string& friction) {
-  const auto named = [](const Angles& of) { return linear_world::Named(of.begin(), of.end()); };
+study::WorldLinearization linearize(PyWorld& w, const py::object& angles, const py::object& preset, const py::object& equilibria,
+                                    const std::string& firmware, const std::string& friction) {
   linear_world::WorldPoint point;
-  if (angles) point.angles = named(*angles);
-  if (const auto* all = std::get_if<double>(&preset)) point.preset = *all;
-  if (const auto* some = std::get_if<Angles>(&preset)) point.presets = named(*some);
-  if (equilibria) point.equilibria_rad = named(*equilibria);
+  point.angles = named(angles, "angles");
+  point.equilibria_rad = named(equilibria, "equilibrium_rad");
+  if (py::hasattr(preset, "keys")) {
+    point.presets = named(preset, "preset");
+  } else if (!preset.is_none()) {
+    point.preset = number_of(preset, "preset");
+  }
   return linearized(w.get(), point, firmware, friction);
 }
 

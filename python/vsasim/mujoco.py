@@ -14,10 +14,13 @@ add() does the same to the text of an MJCF, and needs no MuJoCo.
 """
 import ctypes
 import dataclasses
+import numbers
 import os
 import pathlib
 import xml.etree.ElementTree as ElementTree
 from typing import Any, Dict, List, Mapping, Optional, Union
+
+import numpy as np
 
 from . import ActuatorType
 
@@ -52,7 +55,7 @@ def _folders() -> List[pathlib.Path]:
     """Where a build tree and an installation have libraries for others."""
     package = pathlib.Path(__file__).resolve().parent
     out = [package / "lib"]
-    for up in package.parents[:4]:
+    for up in list(package.parents)[:4]:  # a slice of parents itself needs Python 3.10
         out += [up / "lib" / "vsasim", up / "vsasim"]
         out += sorted(up.glob("*-linux-gnu*/vsasim"))
     given = os.environ.get("VSA_MUJOCO_PATH")
@@ -141,16 +144,25 @@ class Unit:
                 f"{self.type!r} is a file: say how many controls it takes (controls=2: equilibrium and preset; 1: equilibrium)"
             )
         else:
-            made = ActuatorType.load(self.type, dict(self.override or {}))
+            made = ActuatorType.load(self.type, {key: _text(value) for key, value in (self.override or {}).items()})
             if made.controller == "motor_voltages":
-                endings = ["_motor_1", "_motor_2"][: len(made.references(0.0, 0.0))]
+                endings = ["_motor_1", "_motor_2"][: len(made.reference_range_rad)]
             else:
                 endings = ["", "_preset"] if made.preset_unit or made.controller == "torque_servo" else [""]
         return [f"{self.name}{ending}" for ending in endings]
 
 
 def _text(value: Any) -> str:
-    return value if isinstance(value, str) else repr(value)
+    """As the plug-in reads it: NumPy's numbers without NumPy's names, which their repr() has."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    raise TypeError(f"{value!r} is neither a number, a bool nor a text")
 
 
 def add(mjcf: str, joint: str, type: str, **more: Any) -> str:

@@ -136,10 +136,15 @@ void World::save_file(const std::filesystem::path& file) const {
   for (const double v : numbers) put_word(text, bits_as<std::uint64_t>(v));
   std::filesystem::path part = file;
   part += ".part";
-  OutputFile out(part);
-  out.append(text);
-  out.close();
   std::error_code error;
+  try {
+    OutputFile out(part);
+    out.append(text);
+    out.close();
+  } catch (const OutputError&) {
+    std::filesystem::remove(part, error);
+    throw;
+  }
   std::filesystem::rename(part, file, error);
   if (!error) return;
   std::filesystem::remove(part);

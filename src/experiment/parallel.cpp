@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -23,7 +24,10 @@ void run_in_parallel(std::size_t count, unsigned threads, const std::function<vo
   };
   const std::size_t wanted = threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
   std::vector<std::thread> others;
-  for (std::size_t i = 1; i < std::min(wanted, count); ++i) others.emplace_back(work);
+  try {
+    for (std::size_t i = 1; i < std::min(wanted, count); ++i) others.emplace_back(work);
+  } catch (const std::system_error&) {  // no more threads to be had: those that there are do it
+  }
   work();
   for (std::thread& thread : others) thread.join();
   for (const std::exception_ptr& failure : failures) {

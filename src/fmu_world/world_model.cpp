@@ -8,6 +8,7 @@
 #include "vsa/config/text.hpp"
 #include "vsa/elastic/transmission.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::fmu {
 namespace {
@@ -79,6 +80,10 @@ std::vector<Variable> WorldModel::make_variables() {
 
 void WorldModel::add_actuator(std::vector<Variable>& out, const engine::ActuatorRef& ref, const std::string& prefix) {
   const host::ActuatorConfig& config = world_.robot(ref.robot).config().actuators[ref.index];
+  // Of the shaft, whose numbers are m and N where it slides.
+  const auto shaft = [slides = config.unit.actuator.linear()](std::string_view unit) {
+    return slides ? sliding(unit) : std::string(unit);
+  };
   Actuator a;
   a.ref = ref;
   a.voltages = config.unit.is(control::ServoKind::motor_voltages);
@@ -89,7 +94,7 @@ void WorldModel::add_actuator(std::vector<Variable>& out, const engine::Actuator
     for (std::size_t m = 0; m < a.motors; ++m)
       out.push_back(variable(prefix + "motor_" + std::to_string(m + 1) + "_voltage", "V", "within the supply", Causality::input));
   } else {
-    out.push_back(variable(prefix + "equilibrium", "rad", "commanded equilibrium position", Causality::input));
+    out.push_back(variable(prefix + "equilibrium", shaft("rad"), "commanded equilibrium position", Causality::input));
     out.back().start = config.initial_equilibrium_rad;
     if (a.has_preset) {
       out.push_back(
@@ -99,13 +104,13 @@ void WorldModel::add_actuator(std::vector<Variable>& out, const engine::Actuator
   }
   a.preset = a.equilibrium + 1;
   a.first_output = static_cast<Reference>(out.size());
-  out.push_back(output(prefix + "shaft_angle", "rad", "of the joint"));
-  out.push_back(output(prefix + "shaft_speed", "rad/s", "of the joint"));
-  out.push_back(output(prefix + "torque", "N·m", "on the joint by springs and frictions"));
-  out.push_back(output(prefix + "mean_torque", "N·m", "the same, mean over the world's last step"));
-  out.push_back(output(prefix + "stiffness", "N·m/rad", "of the springs about the shaft, pulleys held"));
-  out.push_back(output(prefix + "deflection", "rad", "shaft less attained equilibrium"));
-  out.push_back(output(prefix + "equilibrium_attained", "rad", "where the pulleys put the equilibrium"));
+  out.push_back(output(prefix + "shaft_angle", shaft("rad"), "of the joint"));
+  out.push_back(output(prefix + "shaft_speed", shaft("rad/s"), "of the joint"));
+  out.push_back(output(prefix + "torque", shaft("N·m"), "on the joint by springs and frictions"));
+  out.push_back(output(prefix + "mean_torque", shaft("N·m"), "the same, mean over the world's last step"));
+  out.push_back(output(prefix + "stiffness", shaft("N·m/rad"), "of the springs about the shaft, pulleys held"));
+  out.push_back(output(prefix + "deflection", shaft("rad"), "shaft less attained equilibrium"));
+  out.push_back(output(prefix + "equilibrium_attained", shaft("rad"), "where the pulleys put the equilibrium"));
   const std::string preset(config.unit.actuator.transmission->preset_unit());
   out.push_back(output(prefix + "preset_attained", preset.empty() ? "1" : preset, "where the pulleys put the preset"));
   for (std::size_t m = 0; m < a.motors; ++m) {

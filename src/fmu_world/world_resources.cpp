@@ -67,7 +67,7 @@ class Collector {
   }
 
   void add_mjcf(const fs::path& file) {
-    constexpr std::string_view kFile = " file=";
+    constexpr std::string_view kFile = "file=", kBlanks = " \t\r\n";
     if (!seen_.insert(file.string()).second) return;
     std::string text = bytes_of(file);
     for (const char* elsewhere : {"meshdir=", "texturedir=", "assetdir="})
@@ -75,6 +75,7 @@ class Collector {
         throw InputError(
             {file.string(), elsewhere, "", "names a folder, which an FMU doesn't take along", "files beside the MJCF"});
     for (std::size_t at = text.find(kFile); file.extension() == ".xml" && at != std::string::npos; at = text.find(kFile, at + 1)) {
+      if (at == 0 || kBlanks.find(text[at - 1]) == std::string_view::npos) continue;  // the end of another word
       const std::size_t begin = at + kFile.size() + 1, end = text.find(text[begin - 1], begin);
       const fs::path named = text.substr(begin, end - begin);
       if (named != named.filename() || !fs::is_regular_file(file.parent_path() / named))

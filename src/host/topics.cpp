@@ -66,6 +66,7 @@ struct RobotTopics::Impl {
       message.names.push_back(actuator.name);
       message.first_joint.push_back(message.joints.size());
       message.commands.emplace_back();
+      message.units.push_back({actuator.unit.actuator.linear() ? "m" : "rad", std::string(actuator.unit.preset_unit())});
       message.joints.push_back({actuator.joint, 0, 0, 0});
       for (int m = 1; m <= motors_of(actuator); ++m)
         message.joints.push_back({actuator.name + "_motor_" + std::to_string(m), 0, 0, 0});

@@ -124,7 +124,8 @@ void put_unit(RobotModel& m, const Mounted& u) {
   m.c.block(u.first_output, j, outputs, 2) = c.block(2, 0, outputs, 2);
   m.c.block(u.first_output, u.first_state, outputs, n) = c.block(2, 2, outputs, n);
   const std::string unit = u.of->name + ' ';
-  m.outputs.push_back({unit + "spring torque", "N·m"});
+  const bool slides = u.of->unit.actuator.linear();
+  m.outputs.push_back({unit + (slides ? "spring force" : "spring torque"), slides ? "N" : "N·m"});
   for (int i = 0; i < u.plant.motors; ++i) {
     const bool frozen = u.loops.motors.empty();
     m.states.push_back({unit + motor_signal(i, "angle"), "rad"});

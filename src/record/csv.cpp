@@ -47,10 +47,13 @@ std::size_t slides(const RobotInfo& robot) {
 /// Linear actuators beside others: a column tells which.
 bool mixed(const RobotInfo& robot) { return slides(robot) > 0 && slides(robot) < robot.actuators.size(); }
 
-/// All but the motors' are the shaft's.
+/// All but the preset's and the motors' are the shaft's.
 std::string sliding_columns(const std::string& header) {
-  const std::size_t motors = header.find(",motor_1_rad");
-  return sliding(std::string_view(header).substr(0, motors)) + header.substr(motors);
+  const std::size_t preset = header.find("preset_command"), shaft = header.find(",deflection"),
+                    motors = header.find(",motor_1_rad");
+  const std::string_view all = header;
+  return sliding(all.substr(0, preset)) + header.substr(preset, shaft - preset) + sliding(all.substr(shaft, motors - shaft)) +
+         header.substr(motors);
 }
 
 std::string actuators_header(const RobotInfo& robot) {

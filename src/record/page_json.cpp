@@ -85,8 +85,8 @@ Json link(const scene::LinkInfo& l, const scene::Pose* fixed, Geometries& geomet
 }
 
 Json actuator_json(const ActuatorInfo& a) {
-  return {{"name", a.name},     {"joint", a.joint}, {"type", a.type}, {"preset_unit", a.preset_unit},
-          {"motors", a.motors}, {"links", a.links}};
+  return {{"name", a.name},     {"joint", a.joint},   {"type", a.type},  {"preset_unit", a.preset_unit},
+          {"linear", a.linear}, {"motors", a.motors}, {"links", a.links}};
 }
 
 }  // namespace

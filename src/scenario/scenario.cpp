@@ -9,6 +9,7 @@
 
 #include "vsa/checks.hpp"
 #include "vsa/config/find_file.hpp"
+#include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/motion/gait_text.hpp"
 #include "vsa/scoped_name.hpp"
@@ -22,9 +23,24 @@ namespace fs = std::filesystem;
 
 constexpr double kTravelWindow_s = 1.3;  // where no gait tells its period; close to Table II's 2π/4.71 s
 constexpr std::uint64_t kSeedsApart = 1000;
+constexpr std::string_view kBlanks = " \t\n\r\f\v";
 
 engine::Concave concave_of(const std::string& text) {
   return text == "hull" ? engine::Concave::hull : text == "decompose" ? engine::Concave::decompose : engine::Concave::refuse;
+}
+
+/// Flags come behind the scenario's own, and of a key the last said counts.
+std::vector<config::Override> last_of_each(const std::vector<config::Override>& all) {
+  std::vector<config::Override> out;
+  for (auto o = all.begin(); o != all.end(); ++o)
+    if (std::none_of(o + 1, all.end(), [&](const config::Override& later) { return later.key == o->key; })) out.push_back(*o);
+  return out;
+}
+
+/// Where a fault says its seed, as a word of its own.
+bool has_seed(std::string_view fault) {
+  const std::size_t at = fault.find("seed=");
+  return at != std::string_view::npos && at > 0 && kBlanks.find(fault[at - 1]) != std::string_view::npos;
 }
 
 }  // namespace
@@ -56,7 +72,7 @@ engine::World load_world(const Scenario& scenario) {
   with.step_s = scenario.step_s;
   with.concave = concave_of(scenario.concave);
   with.actuator.flag = scenario.scenario.empty() ? "--set" : "--set or [set]";
-  with.actuator.overrides = config::parse_overrides(scenario.set, with.actuator.flag);
+  with.actuator.overrides = last_of_each(config::parse_overrides(scenario.set, with.actuator.flag));
   if (!scenario.type.empty()) {
     with.actuator.type = scenario.type;
     static_cast<void>(with.types.load(scenario.type, with.actuator.overrides));  // its problems, once and by their own names
@@ -85,7 +101,7 @@ std::optional<motion::Gait> load_motion(const Scenario& scenario) {
 std::vector<std::string> seeded_faults(const Scenario& scenario) {
   std::vector<std::string> faults = scenario.faults;
   for (std::size_t i = 0; scenario.seed && i < faults.size(); ++i) {
-    if (faults[i].find(" seed=") == std::string::npos) faults[i] += " seed=" + std::to_string(*scenario.seed + kSeedsApart * i);
+    if (!has_seed(faults[i])) faults[i] += " seed=" + std::to_string(*scenario.seed + kSeedsApart * i);
   }
   return faults;
 }
@@ -93,7 +109,8 @@ std::vector<std::string> seeded_faults(const Scenario& scenario) {
 void break_robots(engine::World& world, const std::vector<std::string>& faults) {
   Problems problems;
   for (const std::string& text : faults) {
-    const std::string who = text.substr(0, text.find(' '));
+    const std::string_view trimmed = config::trim(text);
+    const std::string who(trimmed.substr(0, trimmed.find_first_of(kBlanks)));
     bool known = false;
     try {
       for (std::size_t i = 0; i < world.robot_count(); ++i) {

@@ -136,7 +136,8 @@ std::string with_short_numbers(const std::string& text) {
   std::string out;
   for (const std::string& line : config::split(text, '\n')) {
     const std::size_t at = line.rfind(" = ") + 3;
-    const auto number = line.find(" = ") == std::string::npos ? std::nullopt : config::parse_number(line.substr(at));
+    const bool fraction = line.find(" = ") != std::string::npos && !config::parse_integer(line.substr(at));
+    const auto number = fraction ? config::parse_number(line.substr(at)) : std::nullopt;
     out +=
         (out.empty() ? "" : "\n") + (number && line.size() - at > kLong ? line.substr(0, at) + config::number_text(*number) : line);
   }

@@ -36,6 +36,7 @@ GreyImage pgm(const std::string& data, const fs::path& file) {
   const unsigned width = header_number(file, in), height = header_number(file, in), max = header_number(file, in);
   if (width == 0 || height == 0 || width > kMaxSide || height > kMaxSide || max == 0 || max > 65535)
     no_image(file, "broken PGM header");
+  if (in.tellg() < 0) no_image(file, "PGM ends too early");  // right behind its header
   image.width = width;
   image.height = height;
   const std::size_t start = static_cast<std::size_t>(in.tellg()) + 1, bytes = max > 255 ? 2 : 1;

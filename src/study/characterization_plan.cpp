@@ -92,6 +92,9 @@ class Planner {
     lone(options_.period_s.has_value(), "--period-s");
     lone(options_.amplitude_rad.has_value(), "--amplitude-rad");
     lone(options_.cycles.has_value(), "--cycles");
+    if (options_.load_kg && !wants(Experiment::stiffness) && !wants(Experiment::preset_step))
+      add("--load-kg", fmt::format("{}", *options_.load_kg), "the speed experiment has no load",
+          "--experiment stiffness, preset-step");
     const auto require = [&](const auto& value, const char* flag, double least, double most, const char* unit) {
       if (value && !(*value >= least && *value <= most)) {
         add(flag, fmt::format("{}", *value), "out of range", fmt::format("{} … {} {}", least, most, unit));

@@ -112,9 +112,10 @@ Json joints_json(const linear_world::WorldModel& w) {
 Json units_json(const linear::RobotModel& m) {
   Json out = Json::array();
   for (const linear::RobotModel::UnitRest& u : m.units) {
-    out.push_back({{"name", u.name},
-                   {"held_stiffness_Nm_per_rad", real(u.held_stiffness_Nm_per_rad)},
-                   {"static_stiffness_Nm_per_rad", real(u.static_stiffness_Nm_per_rad)}});
+    const Json stiffness{{"held_stiffness_Nm_per_rad", real(u.held_stiffness_Nm_per_rad)},
+                         {"static_stiffness_Nm_per_rad", real(u.static_stiffness_Nm_per_rad)}};
+    out.push_back({{"name", u.name}});
+    out.back().update(m.bodies.joints[u.joint].prismatic ? page::sliding_keys(stiffness) : stiffness);
     for (const auto& [key, values] :
          {std::pair{"pulley_rad", u.rest.at.x}, {"motor_V", u.rest.motor_V}, {"motor_A", u.rest.motor_A}})
       for (int i = 0; i < u.motors; ++i) out.back()[key].push_back(real(values[i]));
@@ -216,7 +217,10 @@ std::string to_json(const WorldLinearization& l, const std::string& command) {
     poles.push_back(pole_json(l.poles[i]));
     poles.back()["moves"] = l.moves[i];
   }
-  out["response"] = responses_json(l.responses);
+  // Where joints of both kinds are, a matrix has m and N in the rows and columns of those that slide.
+  const auto& joints = m.bodies.joints;
+  const bool slide = std::all_of(joints.begin(), joints.end(), [](const linear::BodyJoint& j) { return j.prismatic; });
+  out["response"] = slide ? page::sliding_keys(responses_json(l.responses)) : responses_json(l.responses);
   return page::results_text(out);
 }
 

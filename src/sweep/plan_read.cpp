@@ -40,14 +40,31 @@ std::string shown(const toml::table& table) {
   return out.str();
 }
 
+/// A type's file and those that it is based on.
+std::string type_contents(const std::string& name) {
+  const config::TypeLibrary library;
+  std::string all;
+  std::set<std::string> seen;
+  for (std::string next = name; !next.empty() && seen.insert(next).second;) {
+    const std::string text = read_file(library.find(next)).value_or("");
+    all += text;
+    try {
+      next = toml::parse(text)["type"]["base"].value_or(std::string());
+    } catch (const toml::parse_error&) {
+      break;  // Plan::check tells
+    }
+  }
+  return all;
+}
+
 /// What a key of the scenario names as files, as they are now.
 std::string contents(const std::string& key, const std::string& name, const fs::path& beside) {
   const bool world = key == "scenario.world", gait = key == "motion.file", type = key == "scenario.type" || key == "study.type";
   if (!world && !gait && !type) return "";
   try {
-    const auto file = world  ? config::find_file(name, "world", "models/worlds", ".sdf", beside)
-                      : gait ? config::find_file(name, "gait", "models/gaits", ".toml", beside)
-                             : config::find_file(name, "type", "actuators", ".toml", beside);
+    if (type) return type_contents(name);
+    const auto file = world ? config::find_file(name, "world", "models/worlds", ".sdf", beside)
+                            : config::find_file(name, "gait", "models/gaits", ".toml", beside);
     return read_file(file).value_or("");
   } catch (const InputError&) {
     return "";  // Plan::check tells
@@ -64,7 +81,8 @@ std::uint64_t fingerprint_of(const toml::table& root, const Plan::Impl& plan) {
   }
   for (const Axis& axis : plan.axes) {
     for (const Value& value : axis.values)
-      if (const auto* name = std::get_if<std::string>(&value)) h = hashed(h, contents(axis.keys.front(), *name, beside));
+      if (const auto* name = std::get_if<std::string>(&value))
+        for (const std::string& key : axis.keys) h = hashed(h, contents(key, *name, beside));
   }
   return h;
 }

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -79,7 +80,11 @@ Account run_pool(const Series& series, unsigned threads, const Work& work) {
     }
   };
   std::vector<std::thread> others;
-  for (std::size_t i = 1; i < account.threads; ++i) others.emplace_back(serve);
+  try {
+    for (std::size_t i = 1; i < account.threads; ++i) others.emplace_back(serve);
+  } catch (const std::system_error&) {  // no more threads to be had: those that there are do it
+    account.threads = others.size() + 1;
+  }
   serve();
   for (std::thread& thread : others) thread.join();
   if (failure) std::rethrow_exception(failure);

@@ -181,16 +181,17 @@ Plan::operator Series() const {
           }};
 }
 
-double Runner::estimate_s(std::size_t number, double probe_s) {
+double Runner::estimate_s(std::size_t number, double probe_s, const std::function<bool()>& wanted) {
   const Clock::time_point began = Clock::now();
   if (impl_->plan.impl_->is_study()) {
-    const auto whole = run(number);
+    const auto whole = run(number, wanted);
     return whole ? whole->wall_s : 0;
   }
   const auto ready = impl_->ready(number);
   const double loading_s = seconds_since(began);
   const std::int64_t first_ns = ready->world.time_ns();
-  while (ready->world.time_ns() < ready->end_ns && seconds_since(began) < loading_s + probe_s) ready->step();
+  while (ready->world.time_ns() < ready->end_ns && seconds_since(began) < loading_s + probe_s && (!wanted || wanted()))
+    ready->step();
   const auto simulated = static_cast<double>(std::max<std::int64_t>(1, ready->world.time_ns() - first_ns));
   return loading_s + (seconds_since(began) - loading_s) * static_cast<double>(ready->end_ns - first_ns) / simulated;
 }

@@ -13,7 +13,9 @@ namespace vsa::topics {
 namespace {
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-constexpr std::array<const char*, 3> kKeys{"actuator", "equilibrium_command_rad", "preset_command"};
+constexpr std::array<const char*, 5> kKeys{"actuator", "equilibrium_command_rad", "preset_command", "equilibrium_unit",
+                                           "preset_unit"};
+constexpr int kOldest = 3;  // of them: an older robot tells no units
 
 double number(const std::string& text) { return config::parse_number(text).value_or(std::numeric_limits<double>::quiet_NaN()); }
 
@@ -25,8 +27,8 @@ void set_data(msgs::Header& header, int index, const std::string& value) {
 }
 
 bool has_data(const msgs::Header& header) {
-  if (header.data_size() < static_cast<int>(kKeys.size())) return false;
-  for (int i = 0; i < static_cast<int>(kKeys.size()); ++i) {
+  if (header.data_size() < kOldest) return false;
+  for (int i = 0; i < std::min(header.data_size(), static_cast<int>(kKeys.size())); ++i) {
     if (header.data(i).key() != kKeys[static_cast<std::size_t>(i)] || header.data(i).value_size() != 1) return false;
   }
   return true;
@@ -91,6 +93,8 @@ void encode(const host::JointStates& states, msgs::Model& out) {
     set_data(*to.mutable_header(), 0, states.names[actuator]);
     set_data(*to.mutable_header(), 1, config::number_text(states.commands[actuator].equilibrium_rad));
     set_data(*to.mutable_header(), 2, config::number_text(states.commands[actuator].preset));
+    set_data(*to.mutable_header(), 3, states.units[actuator].equilibrium);
+    set_data(*to.mutable_header(), 4, states.units[actuator].preset);
     ++actuator;
   }
 }
@@ -104,6 +108,9 @@ host::JointStates decode(const msgs::Model& message) {
       out.first_joint.push_back(out.joints.size());
       out.names.push_back(joint.header().data(0).value(0));
       out.commands.push_back({number(joint.header().data(1).value(0)), number(joint.header().data(2).value(0))});
+      auto& units = out.units.emplace_back();
+      if (joint.header().data_size() >= static_cast<int>(kKeys.size()))
+        units = {joint.header().data(3).value(0), joint.header().data(4).value(0)};
     }
     out.joints.push_back({joint.name(), joint.axis1().position(), joint.axis1().velocity(), joint.axis1().force()});
   }

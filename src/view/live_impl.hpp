@@ -87,6 +87,7 @@ struct LiveView::Impl final : Host {
   const std::string run = std::to_string(std::chrono::system_clock::now().time_since_epoch().count());  ///< unlike any other's
   std::vector<std::string> gait_names;  ///< one per actuator; empty: not the gait's
   Recordings recordings;
+  std::vector<std::string> failed;  // of them, each with its reason
   FrameMaker frames;
   Factor factor;
   std::optional<double> speed;

@@ -108,6 +108,7 @@ void LiveView::Impl::collect() {
   std::vector<std::string> problems;
   if (!recordings.collect(problems)) return;
   for (const std::string& problem : problems) server->tell(plain_text("note", problem));
+  failed.insert(failed.end(), problems.begin(), problems.end());
   changed();
 }
 
@@ -145,6 +146,7 @@ void LiveView::Impl::sample() {
   try {
     recordings.sample(world);
   } catch (const record::RecordError& error) {
+    failed.emplace_back(error.what());
     server->tell(plain_text("note", std::string("The recording ended: ") + error.what()));
     guarded([&] { recordings.stop(world, error.what()); });
     changed();
@@ -183,6 +185,8 @@ void LiveView::standing() {
   impl_->stands = true;
   impl_->publish(false);
 }
+
+const std::vector<std::string>& LiveView::failed() const noexcept { return impl_->failed; }
 
 std::vector<fs::path> LiveView::finish(const std::string& why) {
   Impl& v = *impl_;

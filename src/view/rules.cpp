@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "vsa/elastic/travel.hpp"
 #include "vsa/units.hpp"
 #include "vsa/view/request.hpp"
 
@@ -14,6 +15,9 @@ Span equilibrium_span(const device::UnitConfig& unit, int motors) {
     const auto [low, high] = unit.reference_range_raw(i);
     out = {std::max(out.min, radians(Raw{low})), std::min(out.max, radians(Raw{high}))};
   }
+  // A shaft that slides goes its lead with each radian of a motor.
+  const double lead = unit.actuator.linear() ? elastic::shaft_per_pulley(*unit.actuator.transmission, 0) : 1.0;
+  if (lead != 1) out = {std::min(out.min * lead, out.max * lead), std::max(out.min * lead, out.max * lead)};
   return out;
 }
 

@@ -110,6 +110,7 @@ TEST(Characterize, AnActuatorWithoutAPresetHasOneRunAnExperiment) {
   EXPECT_EQ(read_file(scratch / "out" / "stiffness.csv").find("preset"), std::string::npos);
   expect_refused({"characterize", "sea_example", "--experiment", "preset-step", "--preset-rad", "0.2"},
                  {"--experiment = preset-step", "--preset-rad = 0.2", "no stiffness preset"});
+  expect_refused({"characterize", "sea_example", "--experiment", "speed", "--load-kg", "5"}, {"--load-kg = 5", "has no load"});
 }
 
 TEST(Characterize, AShorterStepIsTakenAndEndsTheWarningOfOneThatIsTooLong) {

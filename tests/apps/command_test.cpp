@@ -83,6 +83,25 @@ TEST_F(Command, EndsWellWhileTheOtherTellsOfItself) {
   }
 }
 
+TEST_F(Command, ALinearActuatorIsToldInItsOwnUnits) {
+  const vsa::test::Scratch scratch;
+  vsa::test::write_file(scratch / "press.sdf", R"(<sdf version="1.9"><world name="w"><model name="press">
+    <link name="base"><inertial><mass>1</mass></inertial></link>
+    <link name="plate"><inertial><mass>10</mass></inertial></link>
+    <joint name="foot" type="fixed"><parent>world</parent><child>base</child></joint>
+    <joint name="slide" type="prismatic"><parent>base</parent><child>plate</child><axis><xyz>0 0 1</xyz></axis></joint>
+    <plugin name="vsa::Robot" filename="libvsa-robot.so">
+      <actuator name="ram"><joint>slide</joint><type>linear_sea_example</type></actuator></plugin></model></world></sdf>)");
+  Subprocess world({"run", (scratch / "press.sdf").string(), "--realtime", "--record", (scratch / "out").string()}, around);
+  const auto result = run_vsa({"command", "0.02", "0", "--timeout-s", "120"}, around);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("ram follows 0.02 m"), std::string::npos) << result.out;
+  world.send(SIGINT);
+  EXPECT_EQ(world.wait().exit_code, 0);
+  const std::string table = vsa::test::read_file(scratch / "out/press_actuators.csv");
+  EXPECT_NE(table.find(",0.02,"), std::string::npos) << table.substr(table.size() - std::min<std::size_t>(table.size(), 300));
+}
+
 TEST_F(Command, SaysThatAPausedWorldDoesNotFollow) {
   Subprocess world({"run", "bench_load", "--paused"}, around);
   EXPECT_EQ(command_that_says("is the world paused?", {"10", "30"}).exit_code, 1);

@@ -172,6 +172,7 @@ TEST(GetAndSet, MoveAUnitAndReadWhereItIs) {
   expect(units.vsa({"set", "equilibrium", "10", "5"}, {"--id", "2"}), 0, {"motor 1 15.", "motor 2 5."});
   expect(units.vsa({"set", "inputs", "-910ticks", "910ticks"}), 0, {"motor 1 -10.00° (-910 ticks)"});
   expect(units.vsa({"get"}), 0, {"active", "inputs", "measurements", "currents", "mA", "shaft"});
+  expect(units.vsa({"get", "active"}, {"--id", "2-3"}), 1, {"on", "unit 3"});  // what unit 2 said isn't lost
   // The shaft is pulled to 10°; how fast is the motors' affair.
   const std::regex shaft("shaft ([0-9.-]+)°");
   double at = 0;

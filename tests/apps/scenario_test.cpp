@@ -114,6 +114,30 @@ TEST(Scenario, FlagsOverrideIt) {
   for (const char* part : {"duration_s = 0.2", "step_s = 0.0005", "j1 stuck=shaft", "period_s = 0.02", "preset_rad = 0.3",
                            "'drive.friction_Nm' = 0.7"})
     EXPECT_NE(saved.find(part), std::string::npos) << part << " isn't in\n" << saved;
+  // Of what the scenario sets, too: a record can be varied by flags, and the last said counts.
+  const auto again = run_vsa({"run", (scratch / "mine/scenario.toml").string(), "--set", "drive.friction_Nm=0.5", "--set",
+                              "drive.friction_Nm=0.4", "--record", (scratch / "again").string()});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(read_file(scratch / "again/scenario.toml").find("'drive.friction_Nm' = 0.4"), std::string::npos);
+  EXPECT_NE(read_file(scratch / "again/energy.csv"), read_file(scratch / "mine/energy.csv"));
+}
+
+TEST(Scenario, AFaultsWordsMayStandApartByAnyBlanks) {
+  const Scratch scratch;
+  const std::string one = read_file(kSource / "tests/sdf/robot_files/actuated.sdf");
+  const std::size_t begin = one.find("<model"), end = one.find("</model>") + 8;
+  std::string second = one.substr(begin, end - begin);
+  second.replace(second.find("\"m\""), 3, "\"second\"");
+  write_file(scratch / "two.sdf", one.substr(0, end) + second + one.substr(end));
+  const auto energies = [&](const std::string& fault) {
+    const auto r = run_vsa({"run", (scratch / "two.sdf").string(), "--no-topics", "--duration-s", "0.1", "--fault", fault,
+                            "--record", (scratch / "out").string()});
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    return read_file(scratch / "out/energy.csv");
+  };
+  const std::string off = energies("all off");
+  EXPECT_EQ(energies("all\toff"), off);
+  EXPECT_EQ(energies(" all off"), off);
 }
 
 TEST(Scenario, MistakesAreToldAllAtOnceWithFileAndKey) {

@@ -36,6 +36,10 @@ TEST(Sweep, ThreadsAndPartsGiveTheSameBytes) {
     EXPECT_EQ(r.exit_code, 0) << r.err;
   }
   EXPECT_FALSE(fs::exists(scratch / "parts/results.csv"));
+  Surroundings full;
+  full.full_stdout = true;
+  EXPECT_EQ(run_vsa({"sweep", plan(scratch), "--check"}, full).exit_code, 1);
+  EXPECT_EQ(run_vsa({"sweep", plan(scratch), "--run", "3"}, full).exit_code, 1);
   // Two merges at once.
   Subprocess first({"sweep", plan(scratch), "--out", scratch / "parts", "--merge"});
   Subprocess second({"sweep", plan(scratch), "--out", scratch / "parts", "--merge"});

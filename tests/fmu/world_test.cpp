@@ -8,6 +8,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <string>
 
 #include "importer.hpp"
 #include "vsa/errors.hpp"
@@ -47,6 +49,25 @@ TEST(World, TheSnakeGoesBitForBitAsInTheEngine) {
   EXPECT_EQ(fmu.get("qbmove_snake.center_of_mass_x"), world.center_of_mass("qbmove_snake")[0]);
   EXPECT_GT(std::abs(fmu.get("joint_3.shaft_angle")), 0.05);
   EXPECT_TRUE(fmu.log.empty()) << fmu.log[0];
+}
+
+TEST(World, ALinearActuatorsShaftIsInMetresAndNewtons) {
+  engine::WorldOptions with;
+  with.types = config::TypeLibrary({std::filesystem::path(VSA_SOURCE_DIR) / "actuators"});
+  const fmu::WorldModel model(engine::World::load_string(R"(<sdf version="1.9"><world name="w"><model name="press">
+    <link name="base"><inertial><mass>1</mass></inertial></link><link name="plate"><inertial><mass>10</mass></inertial></link>
+    <joint name="foot" type="fixed"><parent>world</parent><child>base</child></joint>
+    <joint name="slide" type="prismatic"><parent>base</parent><child>plate</child><axis><xyz>0 0 1</xyz></axis></joint>
+    <plugin name="vsa::Robot" filename="libvsa-robot.so">
+      <actuator name="ram"><joint>slide</joint><type>linear_sea_example</type></actuator></plugin></model></world></sdf>)",
+                                                    with));
+  std::map<std::string, std::string> units;
+  for (const fmu::Variable& v : model.variables()) units[v.name] = v.unit;
+  EXPECT_EQ(units["ram.equilibrium"], "m");
+  EXPECT_EQ(units["ram.shaft_speed"], "m/s");
+  EXPECT_EQ(units["ram.torque"], "N");
+  EXPECT_EQ(units["ram.stiffness"], "N/m");
+  EXPECT_EQ(units["ram.motor_1_angle"], "rad");
 }
 
 TEST(World, PointsBetweenItsStepsSeeTheStepBeforeAndThatIsToldOnce) {

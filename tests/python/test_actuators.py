@@ -1,7 +1,9 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 """Actuator types, units alone, studies and identification."""
+import collections
 import gc
 import math
+import types
 import unittest
 
 import numpy as np
@@ -60,6 +62,32 @@ class Types(unittest.TestCase):
             kind.get("drive.nothing")
         with self.assertRaisesRegex(vsasim.InputError, "qbmove_maker_pro"):
             vsasim.ActuatorType.load("nothing")
+
+    def test_any_mapping_of_parameters_will_do(self):
+        given = types.MappingProxyType({"drive.friction_Nm": 0.31})
+        told = {"drive.friction_Nm": "0.31"}
+        self.assertEqual(vsasim.ActuatorType.load("qbmove_maker_pro", given).overrides, told)
+        kind = vsasim.ActuatorType.load("qbmove_maker_pro")
+        kind.update(collections.ChainMap(given))
+        self.assertEqual(kind.overrides, told)
+        vsasim.World.load("bench_free", set=given)
+        with self.assertRaisesRegex(vsasim.InputError, "drive.friction_Nm = .-1"):
+            vsasim.study.characterize("qbmove_maker_pro", set=types.MappingProxyType({"drive.friction_Nm": -1}))
+        for wrong in ([("drive.friction_Nm", 0.31)], "drive.friction_Nm=0.31", None):
+            with self.assertRaisesRegex(TypeError, r"values: .*\(allowed: a dict\)"):
+                kind.update(wrong)
+
+    def test_the_law_takes_real_numbers_only(self):
+        kind = vsasim.ActuatorType.load("qbmove_maker_pro_paper")
+        for law in (kind.torque_Nm, kind.stiffness_Nm_per_rad, kind.energy_J):
+            for wrong in (None, "0.3", True, [None], 1j, [[0.1], [0.1, 0.2]]):
+                with self.subTest(law=law, wrong=wrong), self.assertRaisesRegex(TypeError, "shaft_rad: .*real numbers"):
+                    law(wrong)
+            with self.assertRaisesRegex(TypeError, "equilibrium_rad"):
+                law(0.1, None)
+            with self.assertRaisesRegex(TypeError, "preset"):
+                law(0.1, 0.0, "0.3")
+            self.assertEqual(law(np.int8(0)), law(0.0))
 
     def test_the_laws_torque_and_stiffness_are_the_energys_derivatives(self):
         kind = vsasim.ActuatorType.load("qbmove_maker_pro_paper")

@@ -187,6 +187,15 @@ class Parameters(unittest.TestCase):
         self.assertEqual([batch.text(c, "shaft", "drive.off_mode") for c in range(3)], ["coast", "brake", "coast"])
         np.testing.assert_array_equal(batch.values("drive.off_mode", 0), [1.0, 0.0, 1.0])
 
+    def test_numbers_for_all_owners_say_whose_they_are(self):
+        batch = vsasim.Batch(loaded(), 3)  # of three actuators
+        for value in ([0.5, 0.6, 0.7], np.full(2, 0.5)):
+            with self.assertRaisesRegex(vsasim.InputError, r"copies as well as for owners.*\(copies, owners\): \(3, 3\)"):
+                batch.set(None, None, "drive.friction_Nm", value)
+        for value in ([[0.5], [0.6], [0.7]], [[0.5, 0.6, 0.7]], np.arange(0.1, 1.0, 0.1).reshape(3, 3), [0.4], 0.5):
+            batch.set(None, None, "drive.friction_Nm", value)
+            np.testing.assert_array_equal(batch.values("drive.friction_Nm"), np.broadcast_to(value, (3, 3)))
+
     def test_what_cannot_be_is_told_and_changes_nothing(self):
         batch = vsasim.Batch(loaded("bench_load"), 3)
         before = batch.values("drive.friction_Nm")

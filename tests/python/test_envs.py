@@ -463,6 +463,44 @@ class Records(unittest.TestCase):
         self.assertEqual(done["score"], total)
         self.assertIn("qbmove_bench_throw_actuators.csv", files)
 
+    @staticmethod
+    def recorded(task):
+        with tempfile.TemporaryDirectory() as folder:
+            return vsasim.envs.record(task, lambda seen: Pole.baseline(Pole, seen, **Pole.baseline_parameters), folder, seed=3)
+
+    def test_a_task_that_changes_its_world_is_recorded_in_that_world(self):
+        link = next(name for name in vsasim.World.load(Pole.world_name).links if name.endswith("pole"))
+
+        class Heavy(Pole):
+            """Twice the pole."""
+
+            horizon = 30
+
+            def __init__(self, copies):
+                super().__init__(copies)
+                self.world.set_link_parameters(link, mass_kg=2 * self.world.link_parameters(link)["mass_kg"])
+
+        env = make(Heavy, 1, autoreset_mode="Disabled")
+        seen, _ = env.reset(seed=3)
+        total, over = 0.0, False
+        while not over:
+            seen, rewards, terminations, truncations, _ = env.step(env.task.baseline(seen, **Pole.baseline_parameters))
+            total, over = total + rewards[0], terminations[0] or truncations[0]
+        self.assertEqual(self.recorded(Heavy)["score"], total)
+
+    def test_a_record_that_goes_another_way_is_told(self):
+        class Rusting(Pole):
+            """With friction that comes in an episode."""
+
+            horizon = 30
+
+            def outcome(self, batch, which):
+                batch.set(None, None, "drive.friction_Nm", 2.0)
+                return super().outcome(batch, which)
+
+        with self.assertRaisesRegex(RuntimeError, "pole change parameters in an episode"):
+            self.recorded(Rusting)
+
 
 if __name__ == "__main__":
     unittest.main()

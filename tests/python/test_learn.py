@@ -1,12 +1,19 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 """The small learner: strategy, policy, and what the command says."""
+import contextlib
+import errno
+import io
+import os
 import subprocess
 import sys
+import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 from vsasim.envs import TASKS, make
-from vsasim.learn import Evolution, Policy, play, train
+from vsasim.learn import Evolution, Policy, commands, play, train
+from vsasim.learn.__main__ import main
 
 
 class Strategy(unittest.TestCase):
@@ -73,13 +80,35 @@ class Command(unittest.TestCase):
             (["grid", "jump"], "jump"),
             (["--threads", "-1", "grid", "throw"], "threads"),
             (["table", "--tests", "0"], "1 or more"),
+            (["table", "--seed", "-1"], "-1: 0 or more"),
+            (["table", "throw", "--out", "/dev/null/here"], "out = /dev/null/here: Not a directory"),
+            (["demo", "--out", "/proc/nothing/here"], "out = /proc/nothing/here"),
             (["table", "--preset-rad", "0.1"], "--constant"),
             (["table", "throw", "--constant", "--preset-rad", "0.9"], "throw: preset_rad = 0.9: out of range (allowed: 0.05 … 0.78"),
         ):
-            done = subprocess.run([sys.executable, "-m", "vsasim.learn", *arguments], capture_output=True, text=True)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(text, done.stderr)
-            self.assertNotIn("Traceback", done.stderr)
+            with self.subTest(arguments=arguments):
+                done = self.command(*arguments, timeout=20)  # before minutes of training
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(text, done.stderr.splitlines()[-1])
+                self.assertNotIn("Traceback", done.stderr)
+
+    @staticmethod
+    def command(*arguments, **options):
+        return subprocess.run([sys.executable, "-m", "vsasim.learn", *arguments], capture_output=True, text=True, **options)
+
+    def test_an_encoding_without_its_letters_is_no_reason_to_end(self):
+        done = self.command("--help", env={**os.environ, "PYTHONIOENCODING": "latin-1"}, encoding="latin-1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("seeds 1 ? 8", " ".join(done.stdout.split()))
+
+    def test_a_disk_that_is_full_afterwards_is_one_line(self):
+        said = io.StringIO()
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
+            full = OSError(errno.ENOSPC, "No space left on device")
+            with mock.patch.object(sys, "argv", ["learn", "demo", "--out", folder]):
+                with mock.patch.object(commands, "demo", side_effect=full):
+                    self.assertEqual(main(), 1)
+        self.assertEqual(said.getvalue(), "[Errno 28] No space left on device\n")
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import json
 import pathlib
 import tempfile
 import unittest
+from types import MappingProxyType
 
 import numpy as np
 import vsasim
@@ -123,6 +124,16 @@ class Meaning(unittest.TestCase):
         before = world.state_hash()
         world.linearize(angles={world.actuators[0]: 0.7})
         self.assertEqual(world.state_hash(), before)
+
+    def test_any_mapping_of_angles_and_presets_will_do(self):
+        world = vsasim.World.load("manipulator_3r")
+        angles, presets = {world.actuators[0]: 0.7}, {world.actuators[1]: 0.3}
+        as_dict = world.linearize(angles=angles, preset=presets)
+        other = world.linearize(angles=MappingProxyType(angles), preset=MappingProxyType(presets))
+        np.testing.assert_array_equal(other.A, as_dict.A)
+        for name, wrong in (("angles", [0.7]), ("angles", {1: 0.7}), ("equilibrium_rad", {"joint_1": "a"}), ("preset", {"joint_1": None})):
+            with self.subTest(name=name, wrong=wrong), self.assertRaisesRegex(TypeError, name):
+                world.linearize(**{name: wrong})
 
 
 class Errors(unittest.TestCase):

@@ -10,6 +10,7 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 from unittest import mock
 
+import numpy as np
 import vsasim
 import vsasim.mujoco as vm
 
@@ -33,6 +34,20 @@ class Finding(unittest.TestCase):
             with self.assertRaisesRegex(ImportError, "libvsa-mujoco-3.2.9.so"):  # an empty file is no library
                 vm.load("3.2.9")
 
+    def test_it_looks_above_the_package_where_parents_take_no_slice(self):
+        parents = type(pathlib.Path("/a/b").parents)
+        one = parents.__getitem__
+
+        def of_python_3_9(self, at):
+            if isinstance(at, slice):
+                raise TypeError("slice")
+            return one(self, at)
+
+        with mock.patch.object(parents, "__getitem__", of_python_3_9), mock.patch.dict(os.environ, {"VSA_MUJOCO_PATH": "/x"}):
+            folders = vm._folders()
+        self.assertEqual(folders[0], pathlib.Path("/x"))
+        self.assertIn(pathlib.Path(vm.__file__).resolve().parents[1] / "lib" / "vsasim", folders)
+
 
 class Adding(unittest.TestCase):
     def test_a_unit_has_an_instance_two_actuators_and_a_sensor(self):
@@ -55,6 +70,34 @@ class Adding(unittest.TestCase):
     def controls(name):
         made = vsasim.ActuatorType.load(name)
         return 1 if not made.preset_unit and made.controller in ("qbmove", "position_servo") else 2
+
+    def test_values_are_written_as_the_plugin_reads_them(self):
+        class Two(float):
+            def __repr__(self):
+                return f"np.float64({float(self)!r})"  # as NumPy 2's numbers
+
+        given = {"firmware.limits_on": False, "firmware.supply_limit": np.bool_(True), "drive.friction_Nm": Two(0.7)}
+        given.update({"firmware.resolution": np.int64(1), "drive.off_mode": "coast", "shaft.friction_Nm": np.float32(0.5)})
+        unit = vm.Unit("elbow", "qbmove_maker_pro_6_1", override=given, preset=Two(0.2), id=np.uint8(3), equilibrium=1)
+        config = unit.config()
+        self.assertEqual(
+            config["override"],
+            "firmware.limits_on=false firmware.supply_limit=true drive.friction_Nm=0.7 firmware.resolution=1 drive.off_mode=coast "
+            "shaft.friction_Nm=0.5",
+        )
+        self.assertEqual([config[key] for key in ("preset", "id", "equilibrium")], ["0.2", "3", "1"])
+        self.assertEqual(unit.actuators(), ["elbow", "elbow_preset"])
+        with self.assertRaisesRegex(TypeError, "None is neither a number"):
+            vm.Unit("elbow", "qbmove_maker_pro", override={"drive.friction_Nm": None}).config()
+
+    def test_voltages_take_an_actuator_a_motor(self):
+        for base, names in (("hebi_x8_9", ["elbow_motor_1"]), ("maccepa_edinburgh", ["elbow_motor_1", "elbow_motor_2"])):
+            with tempfile.TemporaryDirectory() as folder, mock.patch.dict(os.environ, {"VSA_ACTUATOR_PATH": folder}):
+                pathlib.Path(folder, "volts.toml").write_text(
+                    f'[type]\nname = "volts"\ntitle = "by voltages"\nbase = "{base}"\n[control]\nkind = "motor_voltages"\n',
+                    encoding="utf-8",
+                )
+                self.assertEqual(vm.Unit("elbow", "volts").actuators(), names)
 
     def test_a_second_unit_goes_beside_the_first(self):
         arm = ARM.replace("</body>", '<body><joint name="wrist"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/></body></body>')
@@ -211,6 +254,38 @@ class InMujocosPackage(unittest.TestCase):
         vm.attach(spec, "knee", "qbmove_maker_pro")
         with self.assertRaisesRegex(ValueError, "knee"):
             spec.compile()
+
+    def test_what_a_model_may_not_have_is_told_while_data_of_its_like_live(self):
+        import mujoco
+
+        vm.load()
+        text = vm.add(ARM, "elbow", "qbmove_maker_pro")
+        living = mujoco.MjData(mujoco.MjModel.from_xml_string(text))
+        for wrong, told in (('gear="2"', "gear"), ('forcerange="-1 1"', "forcerange")):
+            changed = text.replace('name="elbow" joint=', f'name="elbow" {wrong} joint=')
+            with self.subTest(wrong=wrong), self.assertRaisesRegex(ValueError, told):
+                mujoco.MjData(mujoco.MjModel.from_xml_string(changed))
+        self.assertEqual(living.qpos[0], 0)
+
+    def test_an_edited_type_is_of_effect_in_the_next_model_while_data_of_the_one_before_live(self):
+        import mujoco
+
+        vm.load()
+        text = vm.add(ARM, "elbow", "edited", controls=2)
+        living, angles = [], []
+        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(os.environ, {"VSA_ACTUATOR_PATH": folder}):
+            for friction in (0.1, 2.0):
+                pathlib.Path(folder, "edited.toml").write_text(
+                    '[type]\nname = "edited"\ntitle = "one that changes"\nbase = "qbmove_maker_pro_6_1"\n[drive]\n'
+                    f'friction_Nm = {{ value = {friction}, unit = "N·m", bounds = [0.0, 10.0], source = "this test" }}\n',
+                    encoding="utf-8",
+                )
+                model = mujoco.MjModel.from_xml_string(text)
+                living.append(mujoco.MjData(model))
+                living[-1].ctrl[:] = 0.5, 0.3
+                mujoco.mj_step(model, living[-1], 200)
+                angles.append(living[-1].qpos[0])
+        self.assertNotEqual(*angles)
 
     def run_example(self, name):
         file = pathlib.Path(__file__).parents[2] / "examples" / "mujoco" / name

@@ -50,6 +50,9 @@ class UnitBatch(unittest.TestCase):
         np.testing.assert_array_equal(units.shaft_rad, [before[0], 0.1, before[2], -0.1, before[4]])
         units.reset(np.array([True, False, False, False, False]), 0.2)
         self.assertEqual(units.shaft_rad[0], 0.2)
+        for nobody in ([], np.zeros(5, bool)):
+            units.reset(nobody, 0.7)
+        np.testing.assert_array_equal(units.shaft_rad, [0.2, 0.1, before[2], -0.1, before[4]])
         units.step(50)
         self.assertLess(abs(units.shaft_rad[3] + 0.1), 0.01)
 
@@ -82,6 +85,8 @@ class UnitBatch(unittest.TestCase):
                 call()
         with self.assertRaises(IndexError):
             units.reset([3])
+        with self.assertRaisesRegex(IndexError, "unit 9223372036854775813: there are 3"):
+            units.reset(np.array([2**63 + 5], np.uint64))
         with self.assertRaises(TypeError):
             units.push = "much"
         for name in ("equilibrium", "preset", "push"):

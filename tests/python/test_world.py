@@ -254,15 +254,21 @@ class Interrupts(unittest.TestCase):
                     world.read()
                 except RuntimeError as error:
                     seen.append(str(error))
+            for reading in (lambda: world.dof_count, lambda: world.free_dof(world.links[0])):
+                try:
+                    reading()
+                    seen.append("wasn't refused")
+                except RuntimeError as error:
+                    seen.append(str(error))
             world.command("shaft", 0.5)
 
         other = threading.Thread(target=look)
         other.start()
         with self.assertRaises(KeyboardInterrupt):
-            with Interrupting(lambda: bool(seen)):
+            with Interrupting(lambda: len(seen) > 2):
                 run()
         other.join()
-        self.assertIn("stepped in another thread", seen[0])
+        self.assertEqual(["stepped in another thread" in text for text in seen], [True] * 3)
         world.run(0.2)
         self.assertEqual(world.read("shaft")["equilibrium_command_rad"], 0.5)
 

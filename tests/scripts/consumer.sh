@@ -46,7 +46,7 @@ trap 'kill $emulate 2> /dev/null || true' EXIT
 exec 3< "$work/emulated"
 while read -r line <&3; do case $line in *Ctrl-C*) break ;; esac; done
 "$work/serial/serial_client" "$work/port" | tee "$work/moved"
-grep -qE '^asked for 10°: the shaft is at (7|8|9|10|11|12)' "$work/moved"
+grep -qE '^asked for 10°: the shaft is at (7|8|9|10|11|12)\.[0-9]°$' "$work/moved"
 kill $emulate
 wait $emulate
 test ! -e "$work/port"

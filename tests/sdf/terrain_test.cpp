@@ -83,7 +83,7 @@ TEST(Terrain, APngOfEightOrSixteenBitsHasTheSameGround) {
 
 TEST(Terrain, BrokenAndMissingPicturesAreNamed) {
   const TempDir dir("heightmap-bad");
-  for (const char* bytes : {"P5\n9 5\n65535\nshort", "P5\nx", "hello", "\x89PNG\r\n\x1a\nbroken"}) {
+  for (const char* bytes : {"P5\n9 5\n65535\nshort", "P5 2 2 255", "P5\nx", "hello", "\x89PNG\r\n\x1a\nbroken"}) {
     const std::string text = problems_of(world(terrain(dir.write("bad.pgm", bytes))));
     EXPECT_NE(text.find("terrain::l/collision[c]/geometry/heightmap/uri"), std::string::npos) << text;
   }

@@ -120,6 +120,23 @@ TEST(Plan, ItsFingerprintIsThatOfWhatItSaysAndOfTheFilesThatItNames) {
   EXPECT_NE(before, print(own));
 }
 
+TEST(Plan, ATypeOfTheSearchPathAndItsBaseAreSuchFiles) {
+  const Scratch scratch;
+  const std::string type = "\n[scenario]\nworld = \"bench_free\"\ntype = \"mine\"\nduration_s = 0.05\n" + kMeasure;
+  const std::string mine = "[type]\nname = \"mine\"\nbase = \"first\"\n", first = "[type]\nname = \"first\"\n";
+  scratch.write("mine.toml", mine);
+  scratch.write("first.toml", first);
+  setenv("VSA_ACTUATOR_PATH", (scratch / "").c_str(), 1);
+  const auto print = [&] { return plan_of(scratch, type).fingerprint(); };
+  const auto before = print();
+  scratch.write("first.toml", first + "# another\n");
+  const auto other_base = print();
+  scratch.write("mine.toml", mine + "# another\n");
+  EXPECT_NE(before, other_base);
+  EXPECT_NE(other_base, print());
+  unsetenv("VSA_ACTUATOR_PATH");
+}
+
 TEST(Plan, AScenariosFileIsTheBaseAndThePlansTablesReplaceItsOwn) {
   const Scratch scratch;
   scratch.write("base.toml",

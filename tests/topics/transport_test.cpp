@@ -128,6 +128,9 @@ TEST_F(IgnitionTransport, JointStatesArriveWithSimulatedStampsAndTheCommands) {
   EXPECT_EQ(state->names, std::vector<std::string>{"m::shoulder"});
   ASSERT_EQ(state->commands.size(), 1U);
   EXPECT_EQ(state->commands[0].preset, 0.2);
+  ASSERT_EQ(state->units.size(), 1U);
+  EXPECT_EQ(state->units[0].equilibrium, "rad");
+  EXPECT_EQ(state->units[0].preset, "rad");
 }
 
 TEST_F(IgnitionTransport, AClientFindsTheRobotAndItsCommandShowsInTheState) {

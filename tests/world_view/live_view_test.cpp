@@ -300,6 +300,8 @@ TEST(LiveView, TellsThatAReplayPageCouldNotBeWritten) {
   EXPECT_EQ(note.rfind("recording-001: ", 0), 0U) << note;
   EXPECT_NE(note.find("replay.html"), std::string::npos) << note;
   EXPECT_TRUE(stuck.run.view->finish("").empty());
+  ASSERT_EQ(stuck.run.view->failed().size(), 1U) << "the run's own terminal tells, too";
+  EXPECT_NE(stuck.run.view->failed()[0].find("replay.html"), std::string::npos);
 }
 
 TEST(LiveView, TellsWhyARecordingCantBegin) {

@@ -21,7 +21,7 @@ export class Curves {
     new ResizeObserver(() => this.resize()).observe(root);
   }
 
-  /** sources: [{name, color, data}]; several share a panel's lines by dash and differ by colour. */
+  /** sources: [{name, color, data, actuator}]; several share a panel's lines by dash and differ by colour. */
   show(panels, sources) {
     const empty = !sources.length || !this.run.frames;
     const same = !empty && panels.length === this.panels.length && panels.every((p, i) => p.title === this.panels[i].panel.title);

@@ -59,7 +59,7 @@ export class Modules {
   }
 
   sources() {
-    return this.chosen.map((a) => ({ name: a.name, color: this.color(a), data: a.data }));
+    return this.chosen.map((a) => ({ name: a.name, color: this.color(a), data: a.data, actuator: a }));
   }
 
   paint() {

@@ -3,38 +3,53 @@
 // Which curves there are. A line: [name, channel, dash]; `scale` takes the recorded unit to the shown one.
 
 import { series } from './palette.js';
+import { presetUnit, shaftUnits } from './units.js';
 
-const kDegree = 180 / Math.PI;
+/** Actuators by what `key` tells of them: [[key, actuators], …]. */
+function groups(actuators, key) {
+  const out = new Map();
+  for (const a of actuators) out.set(key(a), [...(out.get(key(a)) ?? []), a]);
+  return [...out];
+}
 
+/** What has different units has panels of its own, which say in `of` whose curves they draw. */
 export function actuatorPanels(actuators) {
-  const units = [...new Set(actuators.map((a) => a.preset_unit))];
-  const angle = units.length === 1 && units[0] === 'rad';
-  const hasPreset = units.some((u) => u !== '');
+  if (!actuators.length) return [];
+  const shafts = groups(actuators, shaftUnits);
+  const presets = groups(actuators.filter((a) => a.preset_unit !== ''), (a) => a.preset_unit);
   const twoMotors = actuators.some((a) => a.motors > 1);
-  const panels = [
-    {
-      title: 'Shaft angle',
-      unit: '°',
-      scale: kDegree,
-      digits: 1,
+  return [
+    ...shafts.map(([{ place }, of]) => ({
+      ...place,
+      title: `Shaft ${place.title.toLowerCase()}`,
+      of,
       lines: [
         ['shaft', 'shaft_rad', 'solid'],
         ['equilibrium', 'equilibrium_rad', 'dash'],
         ['commanded', 'equilibrium_command_rad', 'dot'],
       ],
-    },
-    {
+    })),
+    ...presets.map(([, of]) => ({
+      ...presetUnit(of[0]),
       title: 'Stiffness preset',
-      unit: angle ? '°' : units.join(', '),
-      scale: angle ? kDegree : 1,
-      digits: angle ? 1 : 3,
+      of,
       lines: [
         ['attained', 'preset', 'solid'],
         ['commanded', 'preset_command', 'dot'],
       ],
-    },
-    { title: 'Stiffness', unit: 'N·m/rad', scale: 1, digits: 2, lines: [['stiffness', 'stiffness_Nm_per_rad', 'solid']] },
-    { title: 'Torque on the shaft', unit: 'N·m', scale: 1, digits: 3, lines: [['torque', 'torque_Nm', 'solid']] },
+    })),
+    ...shafts.map(([{ stiffness }, of]) => ({
+      ...stiffness,
+      title: 'Stiffness',
+      of,
+      lines: [['stiffness', 'stiffness_Nm_per_rad', 'solid']],
+    })),
+    ...shafts.map(([{ load }, of]) => ({
+      ...load,
+      title: `${load.title} on the shaft`,
+      of,
+      lines: [[load.title.toLowerCase(), 'torque_Nm', 'solid']],
+    })),
     {
       title: twoMotors ? 'Motor currents' : 'Motor current',
       unit: 'A',
@@ -42,9 +57,13 @@ export function actuatorPanels(actuators) {
       digits: 3,
       lines: [['motor 1', 'current_1_A', 'solid'], ...(twoMotors ? [['motor 2', 'current_2_A', 'dash']] : [])],
     },
-    { title: 'Shaft speed', unit: 'rad/s', scale: 1, digits: 2, lines: [['speed', 'shaft_speed_rad_per_s', 'solid']] },
+    ...shafts.map(([{ speed }, of]) => ({
+      ...speed,
+      title: 'Shaft speed',
+      of,
+      lines: [['speed', 'shaft_speed_rad_per_s', 'solid']],
+    })),
   ];
-  return hasPreset ? panels : panels.filter((p) => p.title !== 'Stiffness preset');
 }
 
 /** Of the channels of a run's energies; those that its simulator doesn't tell are no numbers. */
@@ -82,10 +101,11 @@ export function energyPanels(energy) {
   return panels.filter((p) => p.lines.every(([, channel]) => !Number.isNaN(energy[channel][0])));
 }
 
-/** What a panel draws of these sources: [{label, color, dash, channel}]. */
+/** What a panel draws of these sources, which are all that is chosen: [{label, color, dash, channel}]. */
 export function linesOf(panel, sources) {
   const colors = series();
-  return sources.flatMap((source) =>
+  const drawn = panel.of ? sources.filter((source) => panel.of.includes(source.actuator)) : sources;
+  return drawn.flatMap((source) =>
     panel.lines.map(([label, channel, dash], i) => ({
       label: sources.length > 1 ? (panel.lines.length > 1 ? `${source.name} ${label}` : source.name) : label,
       // One source: a colour a line. Several: a colour a source, as on its chip.

@@ -27,7 +27,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kLook{100};    // between two looks for robots
 constexpr milliseconds kRepeat{200};  // a command that didn't show in a state by then is sent again
-constexpr double kSame_rad = 1e-9;
+constexpr double kSame = 1e-9;        // rad, m or of a preset
 
 double radians_of(double degrees) { return degrees * kPi / 180.0; }
 
@@ -60,65 +60,90 @@ std::optional<std::string> choose_model(const CommandOptions& options, const top
   return std::nullopt;
 }
 
-host::Trajectory command_for(const CommandOptions& options, const std::vector<std::string>& actuators) {
-  host::Trajectory command;
-  command.points.emplace_back();
-  for (const auto& name : actuators) {
-    command.names.push_back(name);
-    command.names.push_back(name + "_preset");
-    command.points.front().positions.push_back(radians_of(options.equilibrium_deg));
-    command.points.front().positions.push_back(radians_of(options.preset_deg));
-  }
-  return command;
+/// What is said in degrees where the actuator has rad, and as it is elsewhere: m, N·m/rad.
+double as_commanded(double said, const std::string& unit) { return unit == "rad" ? radians_of(said) : said; }
+
+std::string with_unit(double said, const std::string& unit) {
+  return unit == "rad" ? fmt::format("{}°", said) : fmt::format("{} {}", said, unit);
 }
 
-/// The actuators that the command goes to. Throws InputError for a joint that the robot doesn't have.
-std::vector<std::string> choose_actuators(const CommandOptions& options, const host::JointStates& state) {
-  if (options.joint.empty()) return state.names;
-  if (std::find(state.names.begin(), state.names.end(), options.joint) == state.names.end()) {
+/// What actuators are told, and in which units: all the same.
+struct Told {
+  std::vector<std::string> actuators;
+  host::JointStates::Units units;
+  double equilibrium = 0, preset = 0;
+
+  [[nodiscard]] bool has_preset() const { return !units.preset.empty(); }
+  [[nodiscard]] host::Trajectory trajectory() const {
+    host::Trajectory command;
+    command.points.emplace_back();
+    for (const auto& name : actuators) {
+      command.names.push_back(name);
+      command.points.front().positions.push_back(equilibrium);
+      if (!has_preset()) continue;
+      command.names.push_back(name + "_preset");
+      command.points.front().positions.push_back(preset);
+    }
+    return command;
+  }
+};
+
+/// The actuators that the command goes to, and what they get. Throws InputError for a joint that the robot doesn't have, and where a
+/// number would be in several units.
+Told choose(const CommandOptions& options, const host::JointStates& state) {
+  Told out;
+  for (std::size_t i = 0; i < state.names.size(); ++i) {
+    if (!options.joint.empty() && state.names[i] != options.joint) continue;
+    const host::JointStates::Units& units = state.units[i];
+    if (!out.actuators.empty() && (units.equilibrium != out.units.equilibrium || units.preset != out.units.preset))
+      throw InputError({"", "--joint", "", "the actuators of " + state.model + " have different units", list(state.names)});
+    out.actuators.push_back(state.names[i]);
+    out.units = units;
+  }
+  if (out.actuators.empty())
     throw InputError({"", "--joint", options.joint, "no such actuator in " + state.model, list(state.names)});
-  }
-  return {options.joint};
+  out.equilibrium = as_commanded(options.equilibrium_deg, out.units.equilibrium);
+  out.preset = as_commanded(options.preset_deg, out.units.preset);
+  return out;
 }
 
-bool follows(const CommandOptions& options, const host::JointStates& state, const std::vector<std::string>& actuators) {
-  return std::all_of(actuators.begin(), actuators.end(), [&](const std::string& name) {
+bool follows(const Told& told, const host::JointStates& state) {
+  return std::all_of(told.actuators.begin(), told.actuators.end(), [&](const std::string& name) {
     const auto at = std::find(state.names.begin(), state.names.end(), name);
     if (at == state.names.end()) return false;
     const auto& now = state.commands[static_cast<std::size_t>(at - state.names.begin())];
-    return std::abs(now.equilibrium_rad - radians_of(options.equilibrium_deg)) < kSame_rad &&
-           std::abs(now.preset - radians_of(options.preset_deg)) < kSame_rad;
+    const auto same = [](double a, double b) { return std::abs(a - b) < kSame * std::max(1.0, std::abs(b)); };
+    return same(now.equilibrium_rad, told.equilibrium) && (!told.has_preset() || same(now.preset, told.preset));
   });
 }
 
 int command_model(const CommandOptions& options, topics::CommandClient& client, const std::string& model,
                   Clock::time_point deadline) {
   client.watch(model);
-  std::vector<std::string> actuators;
-  host::Trajectory command;
+  Told told;
   Clock::time_point repeat_at{};
   std::int64_t first_ns = -1;
   bool time_moved = false;
   while (Clock::now() < deadline) {
     const auto state = client.wait_for_state(kRepeat);
-    if (state && actuators.empty()) {
-      actuators = choose_actuators(options, *state);
-      command = command_for(options, actuators);
+    if (state && told.actuators.empty()) {
+      told = choose(options, *state);
       first_ns = state->time_ns;
     }
     if (state) time_moved = time_moved || state->time_ns != first_ns;
-    if (state && repeat_at != Clock::time_point{} && follows(options, *state, actuators)) {
-      std::cout << fmt::format("{}: {} follow{} {}° with preset {}°, as far as {} limits allow\n", model, list(actuators),
-                               actuators.size() == 1 ? "s" : "", options.equilibrium_deg, options.preset_deg,
-                               actuators.size() == 1 ? "its" : "their");
+    if (state && repeat_at != Clock::time_point{} && follows(told, *state)) {
+      const bool one = told.actuators.size() == 1;
+      const std::string preset = told.has_preset() ? " with preset " + with_unit(options.preset_deg, told.units.preset) : "";
+      std::cout << fmt::format("{}: {} follow{} {}{}, as far as {} limits allow\n", model, list(told.actuators), one ? "s" : "",
+                               with_unit(options.equilibrium_deg, told.units.equilibrium), preset, one ? "its" : "their");
       return kDone;
     }
-    if (!actuators.empty() && Clock::now() >= repeat_at) {
-      client.send(command);
+    if (!told.actuators.empty() && Clock::now() >= repeat_at) {
+      client.send(told.trajectory());
       repeat_at = Clock::now() + kRepeat;
     }
   }
-  const char* why = actuators.empty() ? "its state didn't arrive"
+  const char* why = told.actuators.empty() ? "its state didn't arrive"
                     : time_moved
                         ? "its state doesn't show the command (a bus with a serial port takes none; the robot's own terminal tells)"
                         : "its simulated time stands still: is the world paused?";
@@ -153,8 +178,12 @@ int run_command(const CommandOptions& options) {
 void setup_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CommandOptions>();
   CLI::App* sub = app.add_subcommand("command", "Move a robot that runs; return once its state shows the command");
-  sub->add_option("EQUILIBRIUM_DEG", options->equilibrium_deg, "Equilibrium position, degrees")->required()->check(number_given());
-  sub->add_option("PRESET_DEG", options->preset_deg, "Stiffness preset, degrees")->required()->check(number_given());
+  sub->add_option("EQUILIBRIUM_DEG", options->equilibrium_deg, "Equilibrium position, degrees; m of a linear actuator")
+      ->required()
+      ->check(number_given());
+  sub->add_option("PRESET_DEG", options->preset_deg, "Stiffness preset, degrees; where it is no angle in its own unit")
+      ->required()
+      ->check(number_given());
   sub->add_option("--model", options->model, "Which robot; not needed while only one runs");
   sub->add_option("--joint", options->joint, "Which actuator; default: all of the robot's");
   sub->add_option("--timeout-s", options->timeout_s, "Give up after so many seconds")->capture_default_str()->check(number_given());

@@ -71,8 +71,8 @@ int run_run(const RunOptions& options) {
   std::optional<serial::ProcessorsAwake> awake;
   if (options.low_latency) awake.emplace();
   Console console;
+  catch_interrupts();  // before the session opens ports, whose links and locks it takes away at its end
   RunSession session(options, console);
-  catch_interrupts();
   int signal = 0;
   try {
     signal = session.run();

@@ -242,6 +242,7 @@ std::vector<record::Statistic> RunSession::finish(const std::string& note) {
   }
   if (view_) {
     for (const auto& page : view_->finish(note)) out.push_back({"recorded in the view", page.string()});
+    for (const std::string& problem : view_->failed()) out.push_back({"recording in the view failed", problem});
   }
   if (recorder_) {
     const auto page = recorder_->finish(out, note);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <thread>
 
 #include "sweep/generations.hpp"
@@ -42,11 +43,17 @@ unsigned threads_of(const SweepOptions& options) {
 int show_check(const sweep::Plan& plan, const SweepOptions& options) {
   constexpr double kProbe_s = 1.0;
   sweep::Runner runner(plan);
-  const double run_s = 0.5 * (runner.estimate_s(0, kProbe_s) + runner.estimate_s(plan.runs() - 1, kProbe_s));
+  double both_s = 0;
+  for (const std::size_t run : {std::size_t{0}, plan.runs() - 1}) {
+    if (interrupted() == 0) both_s += runner.estimate_s(run, kProbe_s, [] { return interrupted() == 0; });
+  }
+  if (interrupted() != 0) return kSignalled + interrupted();
+  const double run_s = 0.5 * both_s;
   const unsigned threads = threads_of(options);
   std::cout << fmt::format("runs                {} ({} points × {} repetitions)\n", plan.runs(), plan.points(), plan.repetitions())
             << fmt::format("estimate            {:.3g} s a run by the first and the last; {:.3g} h on {} thread{}\n", run_s,
                            run_s * static_cast<double>(plan.runs()) / 3600 / threads, threads, threads == 1 ? "" : "s");
+  if (!std::cout.flush()) throw std::runtime_error("can't write to standard output");
   return kDone;
 }
 
@@ -62,6 +69,7 @@ int show_run(const sweep::Plan& plan, const SweepOptions& options) {
     std::cout << fmt::format("{:<20}{}\n", plan.measures()[m].name, config::number_text(outcome->values[m]));
   if (!outcome->notice.empty()) std::cout << "notice              " << outcome->notice << '\n';
   if (!outcome->error.empty()) std::cout << "error               " << outcome->error << '\n';
+  if (!std::cout.flush()) throw std::runtime_error("can't write to standard output");
   return outcome->error.empty() ? kDone : kFailed;
 }
 

@@ -19,9 +19,11 @@ void catch_interrupts() {
   action.sa_handler = vsa_note_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  sigaction(SIGHUP, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction was {};
+    sigaction(signal, nullptr, &was);
+    if (was.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // as nohup and scripts' background jobs want it
+  }
 }
 
 void survive_broken_pipes() {

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <exception>
 #include <iostream>
 #include <memory>
 
@@ -87,16 +88,24 @@ int run_get(const GetOptions& options) {
   for (const std::string& what : wanted) config::check_unit_word(what, kReadable);
   UnitPort port(options.port);
   Rows rows{{"unit", "what", "value"}};
-  for (const std::uint8_t id : ids) {
-    Asked unit(port, id);
-    for (const std::string& what : wanted) unit.append(what, rows);
+  std::exception_ptr silent;  // what those before it said is told all the same
+  try {
+    for (const std::uint8_t id : ids) {
+      Asked unit(port, id);
+      for (const std::string& what : wanted) unit.append(what, rows);
+    }
+  } catch (const NoAnswer&) {
+    silent = std::current_exception();
+    if (rows.size() == 1) throw;
   }
   if (std::all_of(wanted.begin(), wanted.end(), [](const auto& w) { return w == "info"; })) {
     for (std::size_t i = 1; i < rows.size(); ++i) std::cout << rows[i][2];
   } else {
     std::cout << table_text(rows, 0);
   }
-  return std::cout.flush() ? kDone : kFailed;
+  if (!std::cout.flush()) return kFailed;
+  if (silent) std::rethrow_exception(silent);
+  return kDone;
 }
 
 void setup_get(CLI::App& app, int& exit_code) {

@@ -104,7 +104,7 @@ std::string Told::references(config::ValueReader& reader) {
     std::int32_t a = motor_ticks(reader, 0, 0);
     std::int32_t b = motor_ticks(reader, 1, 1);
     if (options_.what == "equilibrium") std::tie(a, b) = std::pair(a + b, a - b);
-    if (std::max(std::abs(a), std::abs(b)) > kHighest) reader.refuse(0, "with the preset out of the unit's range", "less");
+    if (std::min(a, b) < kLowest || std::max(a, b) > kHighest) reader.refuse(0, "with the preset out of the unit's range", "less");
     inputs = {Ticks{static_cast<std::int16_t>(a)}, Ticks{static_cast<std::int16_t>(b)}};
   }
   reader.throw_if_any();

@@ -69,12 +69,18 @@ struct JointStates {
     double equilibrium_rad = 0;  ///< as it was given
     double preset = 0;           ///< likewise, in the law's preset unit
   };
+  /// What these numbers are in.
+  struct Units {
+    std::string equilibrium = "rad",  ///< "m" of a shaft that slides
+        preset = "rad";               ///< the law's or the servo's; empty: it has no preset
+  };
   std::int64_t time_ns = 0;              ///< simulated
   std::string model;                     ///< scoped name
   std::vector<Joint> joints;             ///< of each actuator: shaft, motor 1, and motor 2 where it has one
   std::vector<std::string> names;        ///< of the actuators
   std::vector<std::size_t> first_joint;  ///< each actuator's shaft, in `joints`
   std::vector<Command> commands;         ///< one per actuator
+  std::vector<Units> units;              ///< likewise
 };
 
 /// One advertised topic. `wanted` must be cheap: it is asked for every topic at the state rate.

@@ -126,7 +126,7 @@ class Runner {
   /// What goes wrong in the run is its outcome's error. `wanted`: asked now and then; false ends it, and there is no outcome.
   [[nodiscard]] std::optional<Outcome> run(std::size_t number, const std::function<bool()>& wanted = {});
   /// How long that run takes, by running at most `probe_s` of it.
-  [[nodiscard]] double estimate_s(std::size_t number, double probe_s);
+  [[nodiscard]] double estimate_s(std::size_t number, double probe_s, const std::function<bool()>& wanted = {});
 
  private:
   friend class Plan;

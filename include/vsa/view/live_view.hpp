@@ -62,6 +62,7 @@ class LiveView {
 
   /// Ends a recording under way and tells the pages why the run is over. Returns the recordings' pages.
   std::vector<std::filesystem::path> finish(const std::string& why);
+  [[nodiscard]] const std::vector<std::string>& failed() const noexcept;  ///< recordings that came to nothing, each with its reason
 
  private:
   struct Impl;

@@ -18,7 +18,6 @@ from typing import Any, Callable, Dict, Optional, Type, Union
 
 import numpy as np
 
-from .. import World
 from .hit import Hit
 from .pole import Pole
 from .snake import Snake
@@ -58,12 +57,14 @@ def record(
     """Plays one episode and records it as `vsa run --record` does: CSV files, MCAP and a replay page in `directory`.
 
     policy: observations (1, n) to actions (1, m). Returns a dict of score, steps and page (pathlib.Path, or None without a page,
-    and then without_page says why). The world beside the environment's gets the same commands, and goes the same way bit for bit.
-    InputError, OutputError: what can't be written.
+    and then without_page says why). A copy of the task's world, with the parameters of the environment's copy, gets the same
+    commands, and goes the same way bit for bit. InputError, OutputError: what can't be written. RuntimeError: it went another way,
+    as where a task sets parameters of the environment's Batch in an episode.
     """
     env = make(task, 1, threads=1, autoreset_mode=AutoresetMode.DISABLED)
     observations, _ = env.reset(seed=seed)
-    world = World.load(env.task.world_name)
+    world = env.task.world.clone()  # not the file's: a task may have changed it, and what its links weigh is no part of a state
+    env.batch.give_parameters(0, world)
     world.restore_state(env.batch.state(0))
     recorder = world.record(pathlib.Path(directory), title=title or env.task.name)
     env.follower = world
@@ -71,7 +72,10 @@ def record(
         observations, _, terminations, truncations, infos = env.step(policy(observations))
         if terminations[0] or truncations[0]:
             break
-    assert world.state().tobytes() == env.batch.state(0).tobytes()
+    if world.state().tobytes() != env.batch.state(0).tobytes():
+        raise RuntimeError(
+            f"the recorded world didn't go the environment's way: does the task {env.task.name} change parameters in an episode?"
+        )
     score, steps = float(infos["score"][0]), int(infos["steps"][0])
     summary = {"task": env.task.name, "score": f"{score:.3f} {env.task.score_unit}", "seed": seed}
     page: Optional[pathlib.Path] = recorder.finish(summary)

@@ -19,7 +19,17 @@ def whole(text: str) -> int:
     return value
 
 
+def natural(text: str) -> int:
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"{value}: 0 or more")
+    return value
+
+
 def main() -> int:
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")  # an encoding that lacks a letter is no reason to end in the midst of a table
     parser = argparse.ArgumentParser(prog="python3 -m vsasim.learn", description="Tasks, their baselines, and a small learner.")
     parser.add_argument("--threads", type=int, default=0, help="how many step the worlds; 0, as left out: as many as there are")
     of = parser.add_subparsers(dest="command", required=True)
@@ -27,7 +37,7 @@ def main() -> int:
     grid.add_argument("task", choices=TASKS)
     table = of.add_parser("table", help="baseline against learned, on seeds that neither was made with; minutes")
     table.add_argument("tasks", nargs="*", metavar="TASK", help=f"of {', '.join(TASKS)}; none: all")
-    table.add_argument("--seed", type=int, default=1, help="of the learner; 1, where left out")
+    table.add_argument("--seed", type=natural, default=1, help="of the learner; 1, where left out")
     table.add_argument("--tests", type=whole, default=5, help="how many seeds, from 901 on; 5, where left out")
     table.add_argument("--constant", action="store_true", help="the learner has the baseline's constant presets")
     table.add_argument("--preset-rad", type=float, help="with this value instead of theirs; goes with --constant")
@@ -46,6 +56,7 @@ def main() -> int:
             names = given.tasks or list(TASKS)
             if given.preset_rad is not None and not given.constant:
                 parser.error("--preset-rad goes with --constant")
+            commands.make_writable(given.out)
             print("| task | unit | baseline | learned | better on |\n| --- | --- | --- | --- | --- |", flush=True)
             for row in commands.table(
                 names,
@@ -58,11 +69,12 @@ def main() -> int:
             ):
                 print(row, flush=True)
         else:
+            commands.make_writable(given.out)
             commands.demo(given.out, given.threads)
     except vsasim.InputError as error:
         print(error, file=sys.stderr)
         return 2
-    except vsasim.OutputError as error:
+    except OSError as error:  # OutputError among them
         print(error, file=sys.stderr)
         return 1
     return 0

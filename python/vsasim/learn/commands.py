@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import pathlib
 import sys
+import tempfile
 import time
 from typing import Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple
 
@@ -44,6 +45,16 @@ def say(text: str) -> None:
     """Progress, where somebody looks."""
     if sys.stderr.isatty():
         print(text, file=sys.stderr, flush=True)
+
+
+def make_writable(directory: pathlib.Path) -> None:
+    """Makes it, and a file in it that goes at once: before minutes of training, not after. InputError: that can't be done."""
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=directory):
+            pass
+    except OSError as error:
+        raise refused("out", str(directory), error.strerror or str(error), "a directory that can be written") from None
 
 
 def baseline_scores(task: type[Task], parameters: Mapping[str, np.ndarray], seeds: np.ndarray, threads: int) -> np.ndarray:

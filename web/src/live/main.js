@@ -33,7 +33,7 @@ const live = { run, history, frame: null, frames: 0, state: null, errors: [], fp
 let stage = null;
 let pulls = null;
 let waiting = null; // newest frame not yet drawn
-let signals = new Set(['Shaft angle', 'Stiffness', 'Torque on the shaft']);
+let signals = new Set(['Shaft angle', 'Shaft position', 'Stiffness', 'Torque on the shaft', 'Force on the shaft']);
 
 function note(text, kind = 'note') {
   const p = element('p', kind, text);
@@ -121,7 +121,7 @@ function setState(state) {
 // What is chosen
 const curves = new Strips(history, $('curves'));
 const table = new Table(run, $('rows'), (actuator, more) => modules.choose(actuator, more));
-const field = (what) => ({ slider: $(what), number: $(`${what}-number`), unit: $(`${what}-unit`) });
+const field = (what) => ({ slider: $(what), number: $(`${what}-number`), unit: $(`${what}-unit`), why: $(`${what}-why`) });
 const commands = new Commands(run, { equilibrium: field('equilibrium'), preset: field('preset') }, (command) => link.ask('command', command));
 const modules = new Modules(run, $('modules'), chosenChanged);
 const gaitPanel = new GaitPanel($('gait'), (what, more) => link.ask(what, more));
@@ -159,12 +159,13 @@ function redrawCurves() {
   const panels = actuatorPanels(modules.chosen.length ? modules.chosen : run.actuators);
   const energies = energyPanels(run.energy);
   $('signals').replaceChildren();
-  for (const panel of [...panels, ...energies]) {
-    const chip = element('button', '', panel.title);
+  // Panels of one title, in different units, share a chip.
+  for (const title of new Set([...panels, ...energies].map((p) => p.title))) {
+    const chip = element('button', '', title);
     chip.type = 'button';
-    chip.setAttribute('aria-pressed', String(signals.has(panel.title)));
+    chip.setAttribute('aria-pressed', String(signals.has(title)));
     chip.addEventListener('click', () => {
-      if (!signals.delete(panel.title)) signals.add(panel.title);
+      if (!signals.delete(title)) signals.add(title);
       redrawCurves();
     });
     $('signals').append(chip);

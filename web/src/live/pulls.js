@@ -96,6 +96,12 @@ class Pulls {
     if (e.key === 'Shift') this.keys.clear();
     else this.keys.delete(e.key);
     if (this.keys.size) return this.pullByKeys();
+    this.dropKeys();
+  }
+
+  /** Nor does a pull that wasn't sent yet go out after the release: nobody would let go of it. */
+  dropKeys() {
+    this.keys.clear();
     this.from = null;
     this.waiting = null;
     this.link.ask('release');
@@ -112,10 +118,6 @@ export function connectPulls(stage, link, on) {
   canvas.addEventListener('pointercancel', () => pulls.release());
   canvas.addEventListener('keydown', (e) => pulls.key(e));
   canvas.addEventListener('keyup', (e) => pulls.keyUp(e));
-  canvas.addEventListener('blur', () => {
-    if (!pulls.keys.size) return;
-    pulls.keys.clear();
-    link.ask('release');
-  });
+  canvas.addEventListener('blur', () => pulls.keys.size && pulls.dropKeys());
   return pulls;
 }

@@ -19,7 +19,7 @@ export class Strips {
     new ResizeObserver(() => this.resize()).observe(root);
   }
 
-  /** [{panels: of panels.js, sources: [{name, color, data}]}, …] */
+  /** [{panels: of panels.js, sources: [{name, color, data, actuator}]}, …] */
   show(sets) {
     for (const strip of this.strips) strip.plot.destroy();
     this.root.replaceChildren();

@@ -2,10 +2,19 @@
 //
 // All actuators at a glance: where each is told to be, where it is, how stiff, how loaded.
 import { element } from '../marks.js';
+import { presetUnit, shaftUnits } from '../units.js';
 
-const kDegree = 180 / Math.PI;
 const minus = (text) => text.replace('-', '−');
 const number = (x, digits) => minus(x.toFixed(digits));
+const shown = (x, { scale, digits }) => number(x * scale, digits);
+
+/** What an actuator's cells are shown in. */
+const columns = (actuator) => ({
+  ...shaftUnits(actuator),
+  preset: { title: 'Preset', ...presetUnit(actuator) },
+  current: { title: 'Currents', unit: 'A' },
+});
+const kColumns = ['place', 'preset', 'stiffness', 'load', 'current'];
 
 /** A scale with marks: {box, set(name, part)}; part 0…1 along it. */
 function gauge(kinds) {
@@ -20,16 +29,22 @@ export class Table {
   constructor(run, root, onChoose) {
     this.run = run;
     this.limits = null;
-    this.most = { stiffness: 1, torque: 0.5 };
+    this.most = { turning: { stiffness: 1, load: 0.5 }, sliding: { stiffness: 1, load: 0.5 } };
     const head = element('div', 'row head');
     head.setAttribute('role', 'row');
-    const units = [...new Set(run.actuators.map((a) => a.preset_unit))];
-    this.presetUnit = units.length === 1 ? (units[0] === 'rad' ? '°' : units[0]) : '';
-    for (const [text, unit] of [['Actuator', ''], ['Angle', '°'], ['Preset', this.presetUnit], ['Stiffness', 'N·m/rad'], ['Torque', 'N·m'], ['Currents', 'A']]) {
+    const heading = (text, unit) => {
       const cell = element('div', '', text + ' ');
       cell.append(element('small', '', unit));
       cell.setAttribute('role', 'columnheader');
       head.append(cell);
+    };
+    heading('Actuator', '');
+    this.unit = {};
+    for (const key of kColumns) {
+      const all = run.actuators.map((a) => columns(a)[key]);
+      const units = [...new Set(all.map((c) => c.unit))];
+      this.unit[key] = units.length === 1 ? units[0] : ''; // where they differ, each number has its own beside it
+      heading([...new Set(all.map((c) => c.title))].join(', '), this.unit[key]);
     }
     root.setAttribute('role', 'table');
     root.setAttribute('aria-label', 'Actuators');
@@ -44,35 +59,30 @@ export class Table {
     name.type = 'button';
     name.addEventListener('click', (e) => onChoose(actuator, e.shiftKey || e.ctrlKey || e.metaKey));
     const parts = {
-      angle: gauge(['told', 'equilibrium', 'shaft']),
+      place: gauge(['told', 'equilibrium', 'shaft']),
       preset: gauge(['fill', 'told']),
       stiffness: gauge(['fill']),
-      torque: gauge(['centre', 'shaft']),
+      load: gauge(['centre', 'shaft']),
     };
     const texts = {};
-    const cell = (key, label, unit, box) => {
+    const units = columns(actuator);
+    const cell = (key) => {
       const out = element('div', `cell ${key}`);
       out.setAttribute('role', 'cell');
-      texts[key] = element('span', 'value');
-      Object.assign(texts[key].dataset, { label, unit });
+      const { title, unit } = units[key];
+      texts[key] = element('span', unit === this.unit[key] ? 'value' : 'value own-unit');
+      Object.assign(texts[key].dataset, { label: title.toLowerCase(), unit });
       out.append(texts[key]);
-      if (box) out.append(box);
+      if (parts[key]) out.append(parts[key].box);
       return out;
     };
     const first = element('div', 'cell who');
     first.setAttribute('role', 'rowheader');
     const hand = element('small', 'hand');
     first.append(name, hand);
-    row.append(
-      first,
-      cell('angle', 'angle', '°', parts.angle.box),
-      cell('preset', 'preset', this.presetUnit, parts.preset.box),
-      cell('stiffness', 'stiffness', 'N·m/rad', parts.stiffness.box),
-      cell('torque', 'torque', 'N·m', parts.torque.box),
-      cell('current', 'currents', 'A'),
-    );
+    row.append(first, ...kColumns.map(cell));
     root.append(row);
-    return { actuator, row, name, hand, parts, texts };
+    return { actuator, units, row, name, hand, parts, texts };
   }
 
   setChosen(chosen) {
@@ -86,7 +96,8 @@ export class Table {
   setByHand(hands) {
     this.rows.forEach((r, i) => {
       const [equilibrium, preset] = hands[i] ?? [false, false];
-      r.hand.textContent = equilibrium && preset ? 'by hand' : equilibrium ? 'angle by hand' : preset ? 'preset by hand' : '';
+      const place = `${r.units.place.title.toLowerCase()} by hand`;
+      r.hand.textContent = equilibrium && preset ? 'by hand' : equilibrium ? place : preset ? 'preset by hand' : '';
     });
   }
 
@@ -95,27 +106,27 @@ export class Table {
     for (const r of this.rows) this.drawRow(r, this.limits[r.actuator.index]);
   }
 
-  drawRow({ actuator, parts, texts }, limits) {
+  drawRow({ actuator, units, parts, texts }, limits) {
     const now = (channel) => actuator.data[channel][0];
-    const angle = ([low, high], x) => (x - low) / (high - low || 1);
+    const part = ([low, high], x) => (x - low) / (high - low || 1);
     for (const [mark, channel] of [['told', 'equilibrium_command_rad'], ['equilibrium', 'equilibrium_rad'], ['shaft', 'shaft_rad']]) {
-      parts.angle.set(mark, angle(limits.equilibrium_rad, now(channel)));
+      parts.place.set(mark, part(limits.equilibrium_rad, now(channel)));
     }
-    texts.angle.textContent = number(now('shaft_rad') * kDegree, 1);
-    const isAngle = actuator.preset_unit === 'rad';
-    parts.preset.set('fill', angle(limits.preset, Math.abs(now('preset'))));
-    parts.preset.set('told', angle(limits.preset, Math.abs(now('preset_command'))));
-    texts.preset.textContent = isAngle ? number(now('preset') * kDegree, 1) : number(now('preset'), 3);
+    texts.place.textContent = shown(now('shaft_rad'), units.place);
+    parts.preset.set('fill', part(limits.preset, Math.abs(now('preset'))));
+    parts.preset.set('told', part(limits.preset, Math.abs(now('preset_command'))));
+    texts.preset.textContent = shown(now('preset'), units.preset);
     // The scales grow with what was seen, so that bars of different actuators compare.
     const stiffness = now('stiffness_Nm_per_rad');
-    const torque = now('torque_Nm');
-    this.most.stiffness = Math.max(this.most.stiffness, stiffness);
-    this.most.torque = Math.max(this.most.torque, Math.abs(torque));
-    parts.stiffness.set('fill', stiffness / this.most.stiffness);
-    texts.stiffness.textContent = number(stiffness, 2);
-    parts.torque.set('shaft', 0.5 + torque / this.most.torque / 2);
-    parts.torque.set('centre', 0.5);
-    texts.torque.textContent = number(torque, 3);
+    const load = now('torque_Nm');
+    const most = this.most[actuator.linear ? 'sliding' : 'turning'];
+    most.stiffness = Math.max(most.stiffness, stiffness);
+    most.load = Math.max(most.load, Math.abs(load));
+    parts.stiffness.set('fill', stiffness / most.stiffness);
+    texts.stiffness.textContent = shown(stiffness, units.stiffness);
+    parts.load.set('shaft', 0.5 + load / most.load / 2);
+    parts.load.set('centre', 0.5);
+    texts.load.textContent = shown(load, units.load);
     const second = actuator.motors > 1 ? ` / ${number(now('current_2_A'), 2)}` : '';
     texts.current.textContent = `${number(now('current_1_A'), 2)}${second}`;
   }

@@ -1,0 +1,73 @@
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+"""What scripts/soak.py makes of an hour, by made-up ones in which all else is in order."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+import soak  # noqa: E402
+
+BEGIN, HOUR = 1000.0, 3600.0
+NAMES = ("emulate", "run", "batch")
+
+
+class MadeUp:
+    """A program that lived and used as much all the time."""
+
+    def __init__(self, name):
+        self.name, self.samples = name, [(at, 50.0, 10, 4) for at in range(100)]
+
+    def said(self):
+        return "a" * 64 if self.name == "batch" else ""
+
+
+def verdicts(exchanges):
+    """Of an hour with these (seconds since its begin, µs or None): those that are broken."""
+    hour = soak.Soak(pathlib.Path("build"), pathlib.Path("out"), 1, BEGIN + HOUR)
+    hour.begin, hour.digests = BEGIN, {"equal"}
+    hour.trips = [(BEGIN + at, trip) for at, trip in exchanges]
+    idle = {name: (50.0, 10, 4) for name in NAMES}
+    found = soak.verdicts(hour, [MadeUp(name) for name in NAMES], [idle, idle], dict.fromkeys(NAMES, 0))
+    return {what: figure for what, held, figure in found if not held}
+
+
+def seconds(start=0, end=3600):
+    return range(start, end)
+
+
+class Answers(unittest.TestCase):
+    def assert_silence_is_noticed(self, exchanges, figure):
+        broken = verdicts(exchanges)
+        self.assertEqual(list(broken.values()), [figure])
+        self.assertIn("units answer", *broken)
+
+    def test_an_hour_in_which_all_is_answered_holds(self):
+        self.assertEqual(verdicts((at, 300.0) for at in seconds()), {})
+
+    def test_answers_that_lost_bytes_took_are_none_to_miss(self):
+        self.assertEqual(verdicts((at, None if at % 20 == 0 else 300.0) for at in seconds()), {})
+
+    def test_units_that_never_answer_are_noticed(self):
+        self.assert_silence_is_noticed(((at, None) for at in seconds()), ", ".join(["0.0 % of 900"] * 4))
+
+    def test_units_that_fall_silent_after_half_of_the_time_are_noticed(self):
+        # An exchange without an answer takes longer, so there are fewer: a quarter is one of the time.
+        exchanges = [(at, 300.0) for at in seconds(0, 1800)] + [(at, None) for at in seconds(1800) if at % 10 == 0]
+        self.assert_silence_is_noticed(exchanges, "100.0 % of 900, 100.0 % of 900, 0.0 % of 90, 0.0 % of 90")
+
+    def test_a_port_that_nobody_asks_any_more_is_noticed(self):
+        self.assert_silence_is_noticed(((at, 300.0) for at in seconds(0, 2700)), "100.0 % of 900, 100.0 % of 900, 100.0 % of 900, no exchange")
+
+    def test_an_hour_without_visits_is_noticed(self):
+        self.assert_silence_is_noticed([], ", ".join(["no exchange"] * 4))
+
+    def test_clients_that_are_through_after_the_end_are_of_the_last_quarter(self):
+        self.assertEqual(verdicts((at, 300.0) for at in seconds(0, 3660)), {})
+
+    def test_answers_that_take_longer_are_still_noticed(self):
+        broken = verdicts((at, 300.0 if at < 1800 else 900.0) for at in seconds())
+        self.assertEqual(list(broken.values()), ["300 → 900 µs"])
+
+
+if __name__ == "__main__":
+    unittest.main()
