@@ -60,7 +60,7 @@ TEST(World, ALinearActuatorsShaftIsInMetresAndNewtons) {
     <joint name="slide" type="prismatic"><parent>base</parent><child>plate</child><axis><xyz>0 0 1</xyz></axis></joint>
     <plugin name="vsa::Robot" filename="libvsa-robot.so">
       <actuator name="ram"><joint>slide</joint><type>linear_sea_example</type></actuator></plugin></model></world></sdf>)",
-                                                    with));
+                                                         with));
   std::map<std::string, std::string> units;
   for (const fmu::Variable& v : model.variables()) units[v.name] = v.unit;
   EXPECT_EQ(units["ram.equilibrium"], "m");
