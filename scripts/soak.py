@@ -11,6 +11,7 @@ equal bytes. Ctrl-C or SIGTERM ends it earlier, and what it has seen until then 
 verdicts; exit code 1 where one is broken, 2 for wrong use.
 """
 import hashlib
+import importlib.util
 import json
 import os
 import pathlib
@@ -287,9 +288,10 @@ def main(build, hours, out, seed):
     idle.append({s.name: usage(s.process.pid) for s in subjects})
     ends = {s.name: s.stop() for s in subjects}
     found = verdicts(soak, subjects, idle, ends)
-    soak_page.write_page(soak, subjects, found, time.monotonic() - begin, out)
+    # The numbers first: hours of them outlive a page that can't be drawn.
     (out / "soak.json").write_text(json.dumps({"hours": lasted, "seed": seed, "verdicts": found, "counts": soak.counts, "wrong": soak.wrong,
                                                "samples": {s.name: s.samples for s in subjects}}, indent=1), encoding="utf-8")
+    soak_page.write_page(soak, subjects, found, time.monotonic() - begin, out)
     for what, held, figure in found:
         print(f"{'holds ' if held else 'BROKEN'}  {what}: {figure}")
     print(f"{out}/soak.html")
@@ -302,6 +304,8 @@ if __name__ == "__main__":
         if len(given) not in (3, 4) or not os.path.exists(given[0] + "/bin/vsa"):
             raise ValueError("not BUILD HOURS OUT [SEED], BUILD with bin/vsa")
         tree, long, where, number = pathlib.Path(given[0]).resolve(), float(given[1]), pathlib.Path(given[2]).resolve(), int((given[3:] or ["1"])[0])
+        if importlib.util.find_spec("matplotlib") is None:  # now, not after hours
+            raise ValueError("Python's matplotlib is missing: sh scripts/setup.sh test soak installs it")
         if not 0 < long <= 1000:  # not of NaN either
             raise ValueError(f"HOURS = {long:g} (allowed: up to 1000)")
     except ValueError as problem:
