@@ -93,8 +93,10 @@ void encode(const host::JointStates& states, msgs::Model& out) {
     set_data(*to.mutable_header(), 0, states.names[actuator]);
     set_data(*to.mutable_header(), 1, config::number_text(states.commands[actuator].equilibrium_rad));
     set_data(*to.mutable_header(), 2, config::number_text(states.commands[actuator].preset));
-    set_data(*to.mutable_header(), 3, states.units[actuator].equilibrium);
-    set_data(*to.mutable_header(), 4, states.units[actuator].preset);
+    if (actuator < states.units.size()) {  // a caller of before them fills none
+      set_data(*to.mutable_header(), 3, states.units[actuator].equilibrium);
+      set_data(*to.mutable_header(), 4, states.units[actuator].preset);
+    }
     ++actuator;
   }
 }

@@ -93,13 +93,14 @@ TEST_F(Command, ALinearActuatorIsToldInItsOwnUnits) {
     <plugin name="vsa::Robot" filename="libvsa-robot.so">
       <actuator name="ram"><joint>slide</joint><type>linear_sea_example</type></actuator></plugin></model></world></sdf>)");
   Subprocess world({"run", (scratch / "press.sdf").string(), "--realtime", "--record", (scratch / "out").string()}, around);
-  const auto result = run_vsa({"command", "0.02", "0", "--timeout-s", "120"}, around);
+  const auto result = run_vsa({"command", "0.02", "2000", "--timeout-s", "120"}, around);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("ram follows 0.02 m"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("ram follows 0.02 m with preset 2000 N/m"), std::string::npos) << result.out;
   world.send(SIGINT);
   EXPECT_EQ(world.wait().exit_code, 0);
   const std::string table = vsa::test::read_file(scratch / "out/press_actuators.csv");
-  EXPECT_NE(table.find(",0.02,"), std::string::npos) << table.substr(table.size() - std::min<std::size_t>(table.size(), 300));
+  for (const char* told : {",0.02,", ",2000,"})
+    EXPECT_NE(table.find(told), std::string::npos) << table.substr(table.size() - std::min<std::size_t>(table.size(), 300));
 }
 
 TEST_F(Command, SaysThatAPausedWorldDoesNotFollow) {
