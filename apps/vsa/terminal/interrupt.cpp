@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <csignal>
-#include <initializer_list>
 
 namespace vsa::app {
 namespace {
@@ -20,11 +19,11 @@ void catch_interrupts() {
   action.sa_handler = vsa_note_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction was {};
-    sigaction(signal, nullptr, &was);
-    if (was.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // as nohup and scripts' background jobs want it
-  }
+  sigaction(SIGINT, &action, nullptr);  // a script that began this with & had it ignored, and may send it all the same
+  sigaction(SIGTERM, &action, nullptr);
+  struct sigaction was {};
+  sigaction(SIGHUP, nullptr, &was);
+  if (was.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // as nohup wants it
 }
 
 void survive_broken_pipes() {
