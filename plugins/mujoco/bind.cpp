@@ -7,6 +7,7 @@
 #include "vsa/config/text.hpp"
 #include "vsa/grouped.hpp"
 #include "vsa/host/robot_config.hpp"
+#include "vsa/physics/tree_roots.hpp"
 
 namespace vsa::mujoco {
 namespace {
@@ -90,11 +91,9 @@ void check_options(const mjModel& m, Problems& problems) {
 }
 
 std::vector<std::vector<std::size_t>> trees_of(const mjModel& m, const std::vector<int>& joints) {
+  const physics::TreeRoots of(m);
   std::vector<int> roots;
-  for (const int joint : joints) {
-    roots.push_back(m.jnt_dofadr[joint]);
-    while (m.dof_parentid[roots.back()] >= 0) roots.back() = m.dof_parentid[roots.back()];
-  }
+  for (const int joint : joints) roots.push_back(of.of(m.jnt_dofadr[joint]));
   return grouped(roots);
 }
 

@@ -24,9 +24,18 @@ struct World::Snapshot {
 struct RobotSlot {
   std::unique_ptr<seat::Seat> seat;
   std::vector<std::size_t> joints;              ///< of its actuators, into description::World::joints
-  std::vector<std::vector<std::size_t>> trees;  ///< of joints, by index into description::World::joints
+  std::vector<std::vector<std::size_t>> trees;  ///< of joints that no other robot moves, into description::World::joints
+  bool bonded = false;                          ///< steps with others
 
   [[nodiscard]] host::Robot& robot() const { return seat->robot(); }
+};
+
+/// Robots on one kinematic tree, which step together.
+struct RobotBond {
+  std::vector<std::size_t> robots;              ///< into World::Impl::robots
+  host::RobotGroup group;                       ///< in this order
+  std::vector<std::vector<std::size_t>> trees;  ///< of joints, as the group has them
+  std::vector<seat::Seat*> seats;               ///< likewise
 };
 
 /// Who is called what, made once and shared with clones.
@@ -52,6 +61,7 @@ struct World::Impl {
   std::vector<std::string> warnings;
   std::unique_ptr<physics::Physics> physics;
   std::vector<RobotSlot> robots;
+  std::vector<RobotBond> bonds;
   std::vector<ActuatorRef> actuators;
   std::vector<Pull> pulls;
   std::vector<std::pair<std::size_t, Wrench>> wrenches;  ///< by link
@@ -71,12 +81,14 @@ struct World::Impl {
   void keep();     ///< what a fault goes back to
   void go_back();  ///< to it
   void join_trees();
-  void ask_mobility(const RobotSlot& slot);
+  void find_seats();  ///< of the bonds, in a world that was copied
+  void ask_mobility(const std::vector<std::vector<std::size_t>>& trees, std::span<double> out);
   void tell_joints(const RobotSlot& slot) const;
   void drive();
   void observe();
-  void forget_mobility();          ///< something was moved
-  void placed(std::size_t joint);  ///< somebody put it there
+  void forget_mobility();                  ///< something was moved
+  void placed(std::size_t joint);          ///< somebody put it there
+  void set_followers(std::size_t leader);  ///< to where it is
   void apply_hands();
   void let_go();
   void index_names();

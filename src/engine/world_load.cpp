@@ -76,6 +76,11 @@ void World::Impl::add_robots(const std::string& file, Problems& problems) {
       for (const std::string& notice : slot.robot().config().notices) {
         if (std::find(warnings.begin(), warnings.end(), notice) == warnings.end()) warnings.push_back(notice);
       }
+      const auto same = [&](const RobotSlot& other) { return other.seat->model() == plugin.model; };
+      if (std::count_if(robots.begin(), robots.end(), same) == 1)
+        warnings.push_back(plugin.model +
+                           ": several vsa::Robot plug-ins share the model's topics, so that a command of all actuators " +
+                           "goes to each: one plug-in with all actuators is meant");
       robots.push_back(std::move(slot));
     } catch (const InputError& error) {
       problems.add_all(error);

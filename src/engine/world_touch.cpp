@@ -42,7 +42,22 @@ void World::place(const ActuatorRef& ref, const host::Placement& to) {
   }
   impl_->robots[ref.robot].robot().place(ref.index, to, impl_->substep_s());
   impl_->physics->set_joint(joint, {to.angle_rad, to.speed_rad_per_s});
+  impl_->set_followers(joint);
   impl_->forget_mobility();
+}
+
+void World::Impl::set_followers(std::size_t leader) {
+  std::vector<std::size_t> due{leader};
+  for (std::size_t turns = 0; !due.empty() && turns <= world->couplings.size(); ++turns) {
+    std::vector<std::size_t> next;
+    for (const description::Coupling& c : world->couplings) {
+      if (std::find(due.begin(), due.end(), c.leader) == due.end()) continue;
+      const physics::JointState of = physics->joint(c.leader);
+      physics->set_joint(c.follower, {c.multiplier * of.position + c.offset, c.multiplier * of.speed});
+      next.push_back(c.follower);
+    }
+    due = std::move(next);
+  }
 }
 
 std::size_t World::find_actuator(std::string_view name) const {
@@ -132,7 +147,9 @@ World World::clone() const {
   to->names = impl_->names;
   to->warnings = impl_->warnings;
   to->physics = impl_->physics->clone();
-  for (const RobotSlot& slot : impl_->robots) to->robots.push_back({slot.seat->clone(), slot.joints, slot.trees});
+  for (const RobotSlot& slot : impl_->robots) to->robots.push_back({slot.seat->clone(), slot.joints, slot.trees, slot.bonded});
+  for (const RobotBond& bond : impl_->bonds) to->bonds.push_back({bond.robots, bond.group.another(), bond.trees, {}});
+  to->find_seats();
   to->actuators = impl_->actuators;
   to->pulls = impl_->pulls;
   to->wrenches = impl_->wrenches;

@@ -12,50 +12,30 @@
 namespace vsa::host {
 namespace {
 
-/// Whether a tick falls into the step other than at its start: what its sensors see must be foreseen.
-bool has_ticks_inside(std::int64_t t_ns, std::int64_t dt_ns) noexcept {
-  return device::Unit::first_tick_ns(t_ns + 1) < t_ns + dt_ns;
-}
-
-/// Whether a host's matrix can be used at all: bodies without mass have none.
-bool usable(std::span<const double> matrix, std::size_t n) noexcept {
-  for (std::size_t i = 0; i < n; ++i)
-    if (!(matrix[i * n + i] > 0) || !std::isfinite(matrix[i * n + i])) return false;
-  return true;
-}
-
-/// Where the host has no matrix for a joint.
-double own(const device::Unit& unit, const JointIn& joint) noexcept {
-  return joint.inverse_inertia ? *joint.inverse_inertia : 1.0 / unit.config().actuator.shaft_inertia_kgm2;
-}
-
-void begin_step(const device::JointInStep& j, const JointIn& in, double inverse_inertia, std::int64_t t_ns,
-                std::int64_t dt_ns) noexcept {
-  j.unit->begin_step(*j.state, *j.plan, t_ns, dt_ns, {in.angle_rad, in.speed_rad_per_s, inverse_inertia, in.placed});
-}
-
 /// Groups of buses by the trees between them.
 std::vector<std::size_t> group_buses(const ClusterParts& parts) {
   std::vector<std::size_t> group(parts.buses.size());
   std::iota(group.begin(), group.end(), std::size_t{0});
-  for (const auto& tree : parts.trees) {
-    for (const std::size_t a : tree) {
-      const std::size_t from = group[parts.bus_of[a]], to = group[parts.bus_of[tree.front()]];
+  const auto together = [&](const std::vector<std::size_t>& actuators) {
+    for (const std::size_t a : actuators) {
+      const std::size_t from = group[parts.bus_of[a]], to = group[parts.bus_of[actuators.front()]];
       std::replace(group.begin(), group.end(), std::max(from, to), std::min(from, to));
     }
-  }
+  };
+  for (const auto& tree : parts.trees) together(tree);
+  together(parts.shared);
   return group;
 }
 
-/// Buses whose joints all move alone go together until their units fill the lanes.
-void fill_lanes(std::vector<std::vector<BusLine*>>& buses, std::vector<std::vector<Tree>>& trees) {
+/// Buses whose joints all move alone go together until their units fill the lanes; but for those of group `apart`.
+void fill_lanes(std::vector<std::vector<BusLine*>>& buses, std::vector<std::vector<Tree>>& trees, std::size_t apart) {
   constexpr std::size_t kLanes = 8, kMost = 64;
   const std::size_t none = buses.size();
   std::size_t into = none;
   for (std::size_t g = 0; g < buses.size(); ++g) {
     const bool alone = std::all_of(trees[g].begin(), trees[g].end(), [](const Tree& t) { return t.joints.size() == 1; });
     const bool client = std::any_of(buses[g].begin(), buses[g].end(), [](BusLine* bus) { return bus->port() != nullptr; });
-    if (!alone || client || trees[g].empty()) continue;
+    if (!alone || client || trees[g].empty() || g == apart) continue;
     if (into != none && trees[into].size() + trees[g].size() <= kMost) {
       buses[into].insert(buses[into].end(), buses[g].begin(), buses[g].end());
       std::move(trees[g].begin(), trees[g].end(), std::back_inserter(trees[into]));
@@ -79,12 +59,37 @@ Tree make_tree(const ClusterParts& parts, std::vector<std::size_t> actuators) {
 
 }  // namespace
 
+bool has_ticks_inside(std::int64_t t_ns, std::int64_t dt_ns) noexcept {
+  return device::Unit::first_tick_ns(t_ns + 1) < t_ns + dt_ns;
+}
+
+bool is_usable(std::span<const double> matrix, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i)
+    if (!(matrix[i * n + i] > 0) || !std::isfinite(matrix[i * n + i])) return false;
+  return true;
+}
+
+double own_mobility(const device::Unit& unit, const JointIn& joint) noexcept {
+  return joint.inverse_inertia ? *joint.inverse_inertia : 1.0 / unit.config().actuator.shaft_inertia_kgm2;
+}
+
+void begin_step(const device::JointInStep& j, const JointIn& in, double inverse_inertia, std::int64_t t_ns,
+                std::int64_t dt_ns) noexcept {
+  j.unit->begin_step(*j.state, *j.plan, t_ns, dt_ns, {in.angle_rad, in.speed_rad_per_s, inverse_inertia, in.placed});
+}
+
 std::vector<Cluster> make_clusters(const ClusterParts& parts) {
   const std::vector<std::size_t> group = group_buses(parts);
   std::vector<std::vector<BusLine*>> buses(parts.buses.size());
   std::vector<std::vector<Tree>> trees(parts.buses.size());
   for (std::size_t b = 0; b < parts.buses.size(); ++b) buses[group[b]].push_back(parts.buses[b]);
   std::vector<bool> taken(parts.joints.size());
+  std::vector<SharedJoint> shared;
+  for (const std::size_t a : parts.shared) {
+    taken[a] = true;
+    shared.push_back({parts.joints[a], a});
+  }
+  const std::size_t sharing = shared.empty() ? buses.size() : group[parts.bus_of[shared.front().actuator]];
   std::size_t at = 0;
   for (const auto& joined : parts.trees) {
     if (joined.empty()) continue;
@@ -100,20 +105,23 @@ std::vector<Cluster> make_clusters(const ClusterParts& parts) {
     for (const BusMember& m : bus->members())
       if (!taken[m.index]) trees[group[parts.bus_of[m.index]]].push_back(make_tree(parts, {m.index}));
   }
-  fill_lanes(buses, trees);
+  fill_lanes(buses, trees, sharing);
   std::vector<Cluster> out;
-  for (std::size_t g = 0; g < buses.size(); ++g)
-    if (!buses[g].empty()) out.emplace_back(std::move(buses[g]), std::move(trees[g]));
+  for (std::size_t g = 0; g < buses.size(); ++g) {
+    if (!buses[g].empty())
+      out.emplace_back(std::move(buses[g]), std::move(trees[g]), g == sharing ? std::move(shared) : std::vector<SharedJoint>{});
+  }
   return out;
 }
 
-Cluster::Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees)
+Cluster::Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees, std::vector<SharedJoint> shared)
     : buses_(std::move(buses)),
       trees_(std::move(trees)),
       lone_at_(static_cast<std::size_t>(
           std::stable_partition(trees_.begin(), trees_.end(), [](const Tree& t) { return t.joints.size() > 1; }) - trees_.begin())),
       lone_torques_(trees_.size() - lone_at_),
-      lone_trials_(lone_torques_.size(), 0) {
+      lone_trials_(lone_torques_.size(), 0),
+      shared_(std::move(shared)) {
   for (std::size_t k = lone_at_; k < trees_.size(); ++k) {
     const Tree& tree = trees_[k];
     lone_.push_back(tree.joints.front());
@@ -124,14 +132,14 @@ Cluster::Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees)
 void Cluster::use(std::span<device::StepPlan> plans) noexcept {
   std::size_t next = 0;
   for (BusLine* bus : buses_) next = bus->use(plans, next);
-  for (Tree& tree : trees_) {
-    for (device::JointInStep& joint : tree.joints) {
-      for (const BusLine* bus : buses_) {
-        for (const BusMember& m : bus->members())
-          if (&m.slot->unit == joint.state) joint.plan = m.plan;
-      }
+  const auto find_plan = [this](device::JointInStep& joint) {
+    for (const BusLine* bus : buses_) {
+      for (const BusMember& m : bus->members())
+        if (&m.slot->unit == joint.state) joint.plan = m.plan;
     }
-  }
+  };
+  for (Tree& tree : trees_) std::for_each(tree.joints.begin(), tree.joints.end(), find_plan);
+  for (SharedJoint& shared : shared_) find_plan(shared.joint);
   for (std::size_t k = 0; k < lone_.size(); ++k) lone_[k] = trees_[lone_at_ + k].joints.front();
   // A client looks at its bus's units when it likes.
   if (std::any_of(buses_.begin(), buses_.end(), [](BusLine* bus) { return bus->port() != nullptr; })) return;
@@ -168,15 +176,15 @@ void Cluster::tick(std::int64_t at_ns) noexcept {
   for (BusLine* bus : buses_) bus->tick(at_ns);
 }
 
-void Cluster::begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
-                    std::span<const double> mobility) noexcept {
+void Cluster::begin_tree(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
+                         std::span<const double> mobility) noexcept {
   const std::size_t n = tree.joints.size();
   std::span<const double> matrix = tree.scratch;
-  const bool given = tree.joined && !mobility.empty() && usable(mobility.subspan(tree.mobility_at, n * n), n);
+  const bool given = tree.joined && !mobility.empty() && is_usable(mobility.subspan(tree.mobility_at, n * n), n);
   if (given) {
     matrix = mobility.subspan(tree.mobility_at, n * n);
   } else {
-    for (std::size_t i = 0; i < n; ++i) tree.scratch[i * n + i] = own(*tree.joints[i].unit, in[tree.actuators[i]]);
+    for (std::size_t i = 0; i < n; ++i) tree.scratch[i * n + i] = own_mobility(*tree.joints[i].unit, in[tree.actuators[i]]);
   }
   tree.solver.set(matrix, dt_ns);
   for (std::size_t i = 0; i < n; ++i) begin_step(tree.joints[i], in[tree.actuators[i]], matrix[i * n + i], t_ns, dt_ns);
@@ -188,29 +196,35 @@ void Cluster::begin_lone(std::int64_t t_ns, std::int64_t dt_ns, std::span<const 
   for (std::size_t k = 0; k < lone_.size(); ++k) {
     const device::JointInStep& joint = lone_[k];
     const LoneFrom& from = lone_from_[k];
-    const bool given = from.mobility_at && !mobility.empty() && usable(mobility.subspan(*from.mobility_at, 1), 1);
-    begin_step(joint, in[from.actuator], given ? mobility[*from.mobility_at] : own(*joint.unit, in[from.actuator]), t_ns, dt_ns);
+    const bool given = from.mobility_at && !mobility.empty() && is_usable(mobility.subspan(*from.mobility_at, 1), 1);
+    begin_step(joint, in[from.actuator], given ? mobility[*from.mobility_at] : own_mobility(*joint.unit, in[from.actuator]), t_ns,
+               dt_ns);
   }
 }
 
-std::size_t Cluster::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
-                             std::span<const double> mobility) noexcept {
+void Cluster::begin(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<const double> mobility) noexcept {
   const bool foresees = has_ticks_inside(t_ns, dt_ns);
   if (foresees) leave();
-  for (Tree& tree : std::span(trees_).first(foresees ? trees_.size() : lone_at_)) begin(tree, t_ns, dt_ns, in, mobility);
+  for (Tree& tree : std::span(trees_).first(foresees ? trees_.size() : lone_at_)) begin_tree(tree, t_ns, dt_ns, in, mobility);
   if (foresees) {
     for (Tree& tree : trees_) tree.solver.predict(tree.joints);
   } else {
     begin_lone(t_ns, dt_ns, in, mobility);
   }
+}
+
+void Cluster::run(std::int64_t t_ns, std::int64_t dt_ns) noexcept {
   for (std::int64_t at = device::Unit::first_tick_ns(t_ns); at < t_ns + dt_ns; at += firmware::kTickNs) tick(at);
+}
+
+std::size_t Cluster::end(std::int64_t end_ns, std::span<double> torques_out) noexcept {
   std::size_t unsettled = lone_trials_.solve_each(lone_, lone_torques_);
   for (std::size_t k = 0; k < lone_.size(); ++k) torques_out[lone_from_[k].actuator] = lone_torques_[k];
   for (Tree& tree : std::span(trees_).first(lone_at_)) {
     if (!tree.solver.solve(tree.joints, tree.torques)) unsettled += tree.joints.size();
     for (std::size_t i = 0; i < tree.joints.size(); ++i) torques_out[tree.actuators[i]] = tree.torques[i];
   }
-  for (BusLine* bus : buses_) bus->end(t_ns + dt_ns);
+  for (BusLine* bus : buses_) bus->end(end_ns);
   return unsettled;
 }
 

@@ -30,16 +30,32 @@ struct Tree {
   std::vector<double> torques;
 };
 
+/// A joint on a tree that other robots drive, too: whoever knows them all solves it (RobotGroup).
+struct SharedJoint {
+  device::JointInStep joint;
+  std::size_t actuator = 0;
+};
+
 class Cluster {
  public:
-  Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees);
+  Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees, std::vector<SharedJoint> shared);
 
   /// Where its units may write during a step; as many as it has, and clusters may share them. It stays where it is from now on.
   void use(std::span<device::StepPlan> plans) noexcept;
 
   /// One host step of its units; how many of them the solver left unsettled.
   std::size_t advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
-                      std::span<const double> mobility) noexcept;
+                      std::span<const double> mobility) noexcept {
+    begin(t_ns, dt_ns, in, mobility);
+    run(t_ns, dt_ns);
+    return end(t_ns + dt_ns, torques_out);
+  }
+  /// The same in three; shared() are begun before run() and solved before end() by who knows them all.
+  void begin(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<const double> mobility) noexcept;
+  void run(std::int64_t t_ns, std::int64_t dt_ns) noexcept;
+  std::size_t end(std::int64_t end_ns, std::span<double> torques_out) noexcept;
+
+  [[nodiscard]] std::span<const SharedJoint> shared() const noexcept { return shared_; }
 
   // Its units' numbers, as device::JointTrials has it.
   void leave() noexcept;
@@ -51,8 +67,8 @@ class Cluster {
     std::size_t actuator = 0;
     std::optional<std::size_t> mobility_at;  ///< if the host joined it, with nothing
   };
-  static void begin(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
-                    std::span<const double> mobility) noexcept;
+  static void begin_tree(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
+                         std::span<const double> mobility) noexcept;
 
   /// All of its ticks at that time.
   void tick(std::int64_t at_ns) noexcept;
@@ -69,14 +85,27 @@ class Cluster {
   std::vector<LoneFrom> lone_from_;
   std::vector<double> lone_torques_;
   device::JointTrials lone_trials_;
+  std::vector<SharedJoint> shared_;
 };
 
-/// What they are made of. Every actuator gets a tree, if not by `trees` one of its own; every bus is in one cluster.
+/// Whether a tick falls into the step other than at its start: what its sensors see must be foreseen.
+[[nodiscard]] bool has_ticks_inside(std::int64_t t_ns, std::int64_t dt_ns) noexcept;
+/// Whether a host's matrix can be used at all: bodies without mass have none.
+[[nodiscard]] bool is_usable(std::span<const double> matrix, std::size_t n) noexcept;
+/// Where the host has no matrix for a joint.
+[[nodiscard]] double own_mobility(const device::Unit& unit, const JointIn& joint) noexcept;
+/// Of one joint, with the entry of B that is its own.
+void begin_step(const device::JointInStep& j, const JointIn& in, double inverse_inertia, std::int64_t t_ns,
+                std::int64_t dt_ns) noexcept;
+
+/// What they are made of. Every actuator that isn't shared gets a tree, if not by `trees` one of its own; every bus is in one cluster,
+/// those of all that are shared in the same one.
 struct ClusterParts {
   std::vector<BusLine*> buses;
   std::vector<std::size_t> bus_of;          ///< of an actuator
   std::vector<device::JointInStep> joints;  ///< by actuator; their plans come with Cluster::use
   std::vector<std::vector<std::size_t>> trees;
+  std::vector<std::size_t> shared;
 };
 [[nodiscard]] std::vector<Cluster> make_clusters(const ClusterParts& parts);
 

@@ -12,15 +12,6 @@
 #include "vsa/errors.hpp"
 
 namespace vsa::host {
-namespace {
-
-/// Whether a joint can be worked with.
-bool told(const JointIn& joint) noexcept {
-  const double a = joint.inverse_inertia.value_or(0.0);
-  return std::isfinite(joint.angle_rad) && std::isfinite(joint.speed_rad_per_s) && a >= 0 && std::isfinite(a);
-}
-
-}  // namespace
 
 Robot::Robot(RobotConfig config) : impl_("vsa::host::Robot") {
   Problems problems;
@@ -47,43 +38,49 @@ std::optional<std::size_t> Robot::find(std::string_view actuator_name) const {
   return std::nullopt;
 }
 
-void Robot::join(std::vector<std::vector<std::size_t>> trees) {
+void Robot::join(std::vector<std::vector<std::size_t>> trees, std::vector<std::size_t> shared) {
   Problems problems;
   std::vector<bool> seen(size());
-  for (const auto& tree : trees) {
-    for (const std::size_t a : tree) {
+  const auto take = [&](const std::vector<std::size_t>& actuators) {
+    for (const std::size_t a : actuators) {
       if (a >= size() || seen[a])
         problems.add({"", "tree", std::to_string(a), a < size() ? "is in a tree already" : "no such actuator",
                       "each index below " + std::to_string(size()) + " once"});
       if (a < size()) seen[a] = true;
     }
-  }
+  };
+  for (const auto& tree : trees) take(tree);
+  take(shared);
   problems.throw_if_any();
-  impl_->make_clusters(std::move(trees));
+  impl_->make_clusters(std::move(trees), std::move(shared));
 }
 
 std::size_t Robot::mobility_size() const { return impl_->mobility_size; }
 
+void Robot::require_step(const char* here, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
+                         std::span<double> torques_out, std::span<const double> mobility) const noexcept {
+  require(impl_.there(), here, "the robot was moved from");
+  const Impl& d = *impl_;
+  require(in.size() == d.units.size() && torques_out.size() == d.units.size(), here,
+          "in and torques_out need one entry an actuator");
+  require(mobility.empty() || mobility.size() == d.mobility_size, here, "mobility needs mobility_size() numbers, or none");
+  require(dt_ns >= 1 && dt_ns <= kLongestStep_ns, here, "a step has 1 ns … 16 ms");
+  require(t_ns >= 0 && t_ns <= kLatestNs, here, "t is outside 0 … 4e18 ns");
+}
+
 void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
                     std::span<const double> mobility) noexcept {
   constexpr const char* kHere = "vsa::host::Robot::advance";
-  require(impl_.there(), kHere, "the robot was moved from");
+  require_step(kHere, t_ns, dt_ns, in, torques_out, mobility);
   Impl& d = *impl_;
-  require(in.size() == d.units.size() && torques_out.size() == d.units.size(), kHere,
-          "in and torques_out need one entry an actuator");
-  require(mobility.empty() || mobility.size() == d.mobility_size, kHere, "mobility needs mobility_size() numbers, or none");
-  require(dt_ns >= 1 && dt_ns <= kLongestStep_ns, kHere, "a step has 1 ns … 16 ms");
-  require(t_ns >= 0 && t_ns <= kLatestNs, kHere, "t is outside 0 … 4e18 ns");
-  if (!std::all_of(in.begin(), in.end(), told)) {
+  require(d.shared.empty(), kHere, "a robot with shared joints steps in its RobotGroup");
+  if (!std::all_of(in.begin(), in.end(), is_told)) {
     std::fill(torques_out.begin(), torques_out.end(), std::numeric_limits<double>::quiet_NaN());
     return;
   }
-  d.expect(t_ns);
-  d.take_commands();
-  d.take_faults();
+  d.begin_step(t_ns);
   for (Cluster& cluster : d.clusters) d.state.unsettled += cluster.advance(t_ns, dt_ns, in, torques_out, mobility);
-  d.state.time_ns = t_ns + dt_ns;
-  if (++d.state.steps % kLookSteps == 0 && size() > 0) d.look();
+  d.end_step(t_ns + dt_ns);
 }
 
 void Robot::observe(std::span<const JointIn> joints) noexcept {
@@ -149,7 +146,7 @@ void Robot::command_direct(std::size_t actuator, const std::array<double, 2>& va
   device::Unit::command_direct(impl_->home().actuators[actuator].unit, values);
 }
 
-void Robot::set_faults(std::size_t actuator, const device::Faults& faults) {
+void Robot::check_faults(std::size_t actuator, const device::Faults& faults) const {
   const ActuatorConfig& a = impl_->config.actuators[known(actuator)];
   Problems problems;
   device::validate(faults, "", problems);
@@ -157,6 +154,10 @@ void Robot::set_faults(std::size_t actuator, const device::Faults& faults) {
     problems.add({"", a.name, std::string(control::name_of(a.unit.servo->kind)),
                   "has no line on which bytes could be lost, flipped or late", "faults of power, encoders, supply and motors"});
   problems.throw_if_any();
+}
+
+void Robot::set_faults(std::size_t actuator, const device::Faults& faults) {
+  check_faults(actuator, faults);
   impl_->faults.push({actuator, faults});
 }
 

@@ -25,6 +25,12 @@ inline constexpr std::int64_t kLookSteps = 128;
 inline constexpr double kCreated = 0.01;  ///< energy out of nothing, over what moved, that is told
 inline constexpr double kCreatedLeast_J = 1e-3;
 
+/// Whether a joint can be worked with.
+[[nodiscard]] inline bool is_told(const JointIn& joint) noexcept {
+  const double a = joint.inverse_inertia.value_or(0.0);
+  return std::isfinite(joint.angle_rad) && std::isfinite(joint.speed_rad_per_s) && a >= 0 && std::isfinite(a);
+}
+
 /// Adds what a unit's state can't cross.
 void check_kind(const std::string& name, const UnitConfig& from, const UnitConfig& to, Problems& problems);
 
@@ -47,7 +53,7 @@ struct Robot::Impl {
     notices.reserve(units.size());
     queue.reserve(4 * units.size());  // two commands of both channels each
     make_buses();
-    make_clusters({});
+    make_clusters({}, {});
     made_of = std::make_shared<const RobotConfig>(config);
     initial.made_of = made_of;
     initial.state = state;
@@ -81,7 +87,7 @@ struct Robot::Impl {
     }
   }
 
-  void make_clusters(std::vector<std::vector<std::size_t>> joined) {
+  void make_clusters(std::vector<std::vector<std::size_t>> joined, std::vector<std::size_t> with_others) {
     ClusterParts parts;
     mobility_size = 0;
     for (const auto& tree : joined) mobility_size += tree.size() * tree.size();
@@ -92,6 +98,7 @@ struct Robot::Impl {
     }
     home();
     parts.trees = trees = std::move(joined);
+    parts.shared = shared = std::move(with_others);
     clusters = host::make_clusters(parts);
     for (Cluster& cluster : clusters) cluster.use(plans);
     lodgings.resize(units.size());
@@ -205,6 +212,17 @@ struct Robot::Impl {
     state.time_ns = t_ns;
   }
 
+  /// What comes first in a step, and what last.
+  void begin_step(std::int64_t t_ns) noexcept {
+    expect(t_ns);
+    take_commands();
+    take_faults();
+  }
+  void end_step(std::int64_t end_ns) noexcept {
+    state.time_ns = end_ns;
+    if (++state.steps % kLookSteps == 0 && !units.empty()) look();
+  }
+
   void keep(Snapshot& into) const {
     const QuietBuses quiet(buses);
     into.made_of = made_of;
@@ -252,6 +270,7 @@ struct Robot::Impl {
   std::vector<Cluster> clusters;
   std::vector<Lodging> lodgings;
   std::vector<std::vector<std::size_t>> trees;  ///< as the host joined them
+  std::vector<std::size_t> shared;              ///< likewise
   std::size_t mobility_size = 0;
   Snapshot initial, kept, loaded;  ///< the last two have room for all that a state may grow to
   std::size_t numbers = 0;         ///< of a state

@@ -189,7 +189,7 @@ void Robot::Impl::set_parameters(std::size_t i, const UnitConfig& unit) {
     units[i] = next;
     next->adopt(state.actuators[i].unit, before);
   }
-  make_clusters(std::vector(trees));
+  make_clusters(std::vector(trees), std::vector(shared));
   initial.state.actuators[i].unit = first_state(i);
   initial.made_of = made_of;
   drop_unused();
@@ -213,7 +213,7 @@ void Robot::Impl::use(const std::shared_ptr<const RobotConfig>& to) {
   }
   next.clear();
   made_of = to;
-  make_clusters(std::vector(trees));
+  make_clusters(std::vector(trees), std::vector(shared));
   drop_unused();
 }
 

@@ -29,7 +29,7 @@ double balance(const elastic::Transmission& law, double q, double preset) noexce
 
 Robot Robot::clone() const {
   Robot copy(config());
-  copy.join(impl_->trees);
+  copy.join(impl_->trees, impl_->shared);
   copy.restore(*snapshot());
   return copy;
 }

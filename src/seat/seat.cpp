@@ -47,11 +47,12 @@ void start_with_joints(host::RobotConfig& config, const Model& model, Problems& 
     const Joint* joint = find(model, a.joint);
     const double start = joint == nullptr ? 0 : joint->start_rad.value_or(0);
     if (start == 0 || a.equilibrium_given) continue;
-    if (std::abs(start) > kPi)
+    if (!joint->slides && std::abs(start) > kPi)
       problems.add({model.where, "actuator[" + a.name + "]/initial@equilibrium_rad", "",
                     "is needed: its joint starts at " + config::number_text(start) + " rad",
                     "an equilibrium near the joint's start"});
     a.initial_equilibrium_rad = start;
+    config::check_start(a, "actuator[" + a.name + "], which starts where its joint does", model.where, problems);
   }
 }
 
@@ -127,14 +128,14 @@ void Seat::tell(const std::string& line) const {
   if (report_) report_(line);
 }
 
-void Seat::join(const std::vector<std::vector<std::size_t>>& trees) {
-  if (trees.empty() && robot_.size() > 0) {
+void Seat::join(const std::vector<std::vector<std::size_t>>& trees, const std::vector<std::size_t>& shared) {
+  if (trees.empty() && shared.empty() && robot_.size() > 0) {
     tell(model_ +
          ": no tree of hinges, sliders and fixed joints (a loop, a ball joint, another model's link): its joints are solved one "
          "by one with their types' shaft.inertia_kgm2");
     return;
   }
-  robot_.join(trees);
+  robot_.join(trees, shared);
   own_.mobility.resize(robot_.mobility_size());
   kept_ = loaded_ = own_;
   own_size_ = state::size_of(own_);
@@ -146,15 +147,40 @@ void Seat::stop(const std::string& why) {
   tell(model_ + ": " + why + ": its actuators give no torque until the world is reset");
 }
 
-void Seat::step(std::int64_t dt_ns) {
-  if (own_.now.stopped) return;
-  if (dt_ns <= 0 || dt_ns > host::kLongestStep_ns)
-    return stop("a step of " + std::to_string(dt_ns) + " ns is outside 1 ns … 16 ms");
+bool Seat::can_step(std::int64_t dt_ns) {
+  if (own_.now.stopped) return false;
+  if (dt_ns <= 0 || dt_ns > host::kLongestStep_ns) {
+    stop("a step of " + std::to_string(dt_ns) + " ns is outside 1 ns … 16 ms");
+    return false;
+  }
   for (std::size_t i = 0; i < own_.now.in.size(); ++i) {
     if (std::isfinite(own_.now.in[i].angle_rad) && std::isfinite(own_.now.in[i].speed_rad_per_s)) continue;
-    return stop("joint " + robot_.config().actuators[i].joint + " is no longer at a finite angle or speed");
+    stop("joint " + robot_.config().actuators[i].joint + " is no longer at a finite angle or speed");
+    return false;
   }
+  return true;
+}
+
+void Seat::step(std::int64_t dt_ns) {
+  if (!can_step(dt_ns)) return;
   robot_.advance(own_.now.time_ns, dt_ns, own_.now.in, torques_, own_.mobility);
+  stepped(dt_ns);
+}
+
+void Seat::step_together(std::span<Seat* const> seats, host::RobotGroup& group, std::int64_t dt_ns) {
+  bool all = true;
+  for (Seat* seat : seats) all = seat->can_step(dt_ns) && all;
+  for (std::size_t i = 0; i < seats.size(); ++i) {
+    Seat& seat = *seats[i];
+    if (!all && !seat.stopped()) seat.stop("another robot on its kinematic tree has stopped");
+    group.steps()[i] = {&seat.robot_, seat.own_.now.time_ns, seat.own_.now.in, seat.torques_, seat.own_.mobility};
+  }
+  if (!all) return;
+  group.advance(dt_ns);
+  for (Seat* seat : seats) seat->stepped(dt_ns);
+}
+
+void Seat::stepped(std::int64_t dt_ns) {
   for (host::JointIn& joint : own_.now.in) joint.placed = false;
   own_.now.time_ns += dt_ns;
   if (watches_pace_ && !ports_.all().empty() && pace_.fell_behind(Clock::now(), own_.now.time_ns))

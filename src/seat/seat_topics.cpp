@@ -101,9 +101,10 @@ std::vector<std::string> Seat::apply_faults(std::string_view text, std::string_v
     throw InputError({"", std::string(source), who, "no such actuator", config::join(names)});
   }
   device::Faults faults = config::read_faults(text.substr(end), source);
+  const std::size_t first = one.value_or(0), end_of_them = all ? robot_.size() : first + 1;
+  for (std::size_t i = first; i < end_of_them; ++i) robot_.check_faults(i, faults);
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < robot_.size(); ++i) {
-    if (!all && i != *one) continue;
+  for (std::size_t i = first; i < end_of_them; ++i) {
     robot_.set_faults(i, faults);
     ++faults.seed;
     names.push_back(robot_.config().actuators[i].name);

@@ -15,6 +15,7 @@
 #include "vsa/errors.hpp"
 #include "vsa/host/mobility_watch.hpp"
 #include "vsa/host/resolution.hpp"
+#include "vsa/host/robot_group.hpp"
 #include "vsa/host/topics.hpp"
 #include "vsa/host/tree_inertia.hpp"
 #include "vsa/state_io.hpp"
@@ -45,6 +46,39 @@ TEST(HostileRobot, AWrongStepEndsTheProgramInWords) {
   EXPECT_DEATH(bench.robot.advance(std::numeric_limits<std::int64_t>::max(), 1'000'000, in, out), "t is outside");
   const Robot taken = std::move(bench.robot);
   EXPECT_DEATH(bench.robot.advance(0, 1'000'000, in, out), "moved from");
+}
+
+TEST(HostileGroup, WrongTreesAndRobotsAreRefusedInWords) {
+  using vsa::host::RobotGroup;
+  EXPECT_THROW(RobotGroup(2, {{{0, 0}, {2, 0}}}), InputError);
+  EXPECT_THROW(RobotGroup(2, {{{0, 0}, {1, 0}}, {{1, 0}}}), InputError);
+  EXPECT_THROW(RobotGroup(1, {{{kNowhere, 0}}}), InputError);
+  RobotGroup group(2, {{{0, 0}, {1, 1}}, {}});
+  EXPECT_THROW((void)group.shared(2), InputError);
+  EXPECT_EQ(group.another().shared(1), group.shared(1));
+  Bench a(chain(2)), b(chain(2));
+  EXPECT_THROW(a.robot.join({{0, 1}}, {1}), InputError);
+  EXPECT_THROW(a.robot.join({}, {2}), InputError);
+  std::vector<double> out_a(2), out_b(2);
+  EXPECT_DEATH(group.advance(1'000'000), "a robot is missing");
+  group.steps()[0] = {&a.robot, 0, a.in, out_a, {}};
+  group.steps()[1] = {&b.robot, 0, b.in, out_b, {}};
+  EXPECT_DEATH(group.advance(1'000'000), "wasn't joined with its shared");
+  a.robot.join({}, group.shared(0));
+  b.robot.join({}, group.shared(1));
+  EXPECT_DEATH(a.robot.advance(0, 1'000'000, a.in, out_a), "steps in its RobotGroup");
+  EXPECT_DEATH(group.advance(0), "a step has 1 ns … 16 ms");
+  group.steps()[1].torques_out = std::span(out_b).first(1);
+  EXPECT_DEATH(group.advance(1'000'000), "one entry an actuator");
+  group.steps()[1].torques_out = out_b;
+  for (double& v : group.mobility()) v = kNan;
+  group.advance(1'000'000);
+  EXPECT_TRUE(std::isfinite(out_a[0]) && std::isfinite(out_b[1]));
+  b.in[0].speed_rad_per_s = kNan;
+  group.advance(1'000'000);
+  EXPECT_TRUE(std::isnan(out_a[0]) && std::isnan(out_b[0]));
+  RobotGroup none(0, {});
+  none.advance(1'000'000);
 }
 
 TEST(HostileRobot, TheLongestAndTheShortestStepWork) {
@@ -99,6 +133,7 @@ TEST(HostileRobot, AnActuatorThatIsNotThereIsAnError) {
     EXPECT_THROW((void)r.ledger(i), InputError);
     EXPECT_THROW((void)r.faults(i), InputError);
     EXPECT_THROW(r.set_faults(i, {}), InputError);
+    EXPECT_THROW(r.check_faults(i, {}), InputError);
     EXPECT_THROW(r.place(i, {}), InputError);
     EXPECT_THROW(r.set_parameters(i, vsa::test::maker_pro()), InputError);
     EXPECT_FALSE(r.command(i, 0.1, 0.1));

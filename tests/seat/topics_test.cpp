@@ -109,6 +109,19 @@ TEST(SeatTopics, OneActuatorOrAllAreBrokenOrNoneWhereSomethingIsWrong) {
   EXPECT_FALSE(seat.robot().faults(0).powered);
 }
 
+/// An elbow without a bus can't lose bytes, and then the shoulder doesn't either.
+TEST(SeatFaults, OfAllAreSetOfNoneWhereOneCannotHaveThem) {
+  std::string xml = element();
+  const std::size_t at = xml.rfind("qbmove_maker_pro_6_1");
+  xml.replace(at, std::string("qbmove_maker_pro_6_1").size(), "ugurlu_sea");
+  Seat seat(model(xml), {});
+  EXPECT_THROW((void)seat.apply_faults("all lost_byte=0.5", ""), InputError);
+  Pendulums world;
+  world.tell(seat);
+  seat.step(Pendulums::kStep_ns);
+  EXPECT_EQ(seat.robot().faults(0), device::Faults{});
+}
+
 TEST(SeatTopics, WhileTheHostStandsTheStateIsPublishedTenTimesAWallSecondAtMost) {
   Seat seat(model(), {});
   const auto transport = std::make_shared<test::FakeTransport>();

@@ -68,9 +68,9 @@ struct JointIn {
 /// own readings are `measured`.
 struct ActuatorReading {
   double equilibrium_command_rad = 0;  ///< as it was given; of a trajectory: its value now
-  double preset_command = 0;           ///< likewise, in the law's preset unit
+  double preset_command = 0;           ///< likewise, in UnitConfig::preset_unit()
   double equilibrium_rad = 0;          ///< attained, from the pulleys
-  double preset = 0;                   ///< attained, from the pulleys
+  double preset = 0;                   ///< attained: from the pulleys, or by a torque servo
   double shaft_rad = 0;                ///< q; where the host observed it after its step, else as the unit foresaw it
   double shaft_speed_rad_per_s = 0;    ///< q̇, likewise
   double deflection_rad = 0;           ///< shaft − equilibrium
@@ -87,7 +87,7 @@ struct ActuatorReading {
 /// Where an actuator is to stand, and what it has been told. See Robot::place.
 struct Placement {
   double angle_rad = 0;                                  ///< of the shaft, q
-  double preset = 0;                                     ///< in the law's preset unit
+  double preset = 0;                                     ///< in UnitConfig::preset_unit()
   double speed_rad_per_s = 0;                            ///< of the shaft, q̇; the pulleys go with it
   std::optional<double> equilibrium_rad = std::nullopt;  ///< none: where the springs give no torque (the angle, if they are equal)
 };
@@ -119,15 +119,16 @@ class Robot {
   [[nodiscard]] std::optional<std::size_t> find(std::string_view actuator_name) const;  ///< its index; none: no such name
 
   /// Which actuators' joints move each other: those of one kinematic tree. An actuator that is in none moves its own joint only.
+  /// `shared`: on trees that other robots drive, too, and in none of `trees`; such a robot steps in a RobotGroup (host/robot_group.hpp).
   /// Before the first step; throws InputError for an index twice or out of range.
-  void join(std::vector<std::vector<std::size_t>> trees);
+  void join(std::vector<std::vector<std::size_t>> trees, std::vector<std::size_t> shared = {});
   /// How many numbers `mobility` has: Σ n² over the trees.
   [[nodiscard]] std::size_t mobility_size() const;
 
   /// One host step [t, t + dt) in integer nanoseconds. in/out have one entry an actuator, in config order. dt in 1 ns … 16 ms.
   /// `mobility`: B of each tree, by rows, one after the other in the order of `join`, 1/(kg·m²); empty: each joint by itself.
   /// Allocates nothing, throws nothing, logs nothing. Spans of another size, a dt outside that range and a t outside 0 … 4e18 ns
-  /// are programming errors: one line on stderr, and abort. A joint that isn't finite: every torque is NaN, and the robot stays
+  /// are programming errors, as is a robot with shared joints: one line on stderr, and abort. A joint that isn't finite: every torque is NaN, and the robot stays
   /// where it was.
   void advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
                std::span<const double> mobility = {}) noexcept;
@@ -146,14 +147,14 @@ class Robot {
   struct Command {
     std::size_t actuator = 0;               ///< an index below size()
     std::optional<double> equilibrium_rad,  ///< none: keeps what it has
-        preset;                             ///< in the law's preset unit; none: keeps what it has
+        preset;                             ///< in UnitConfig::preset_unit(); none: keeps what it has
   };
   /// Several at once, from any thread: all take effect in the same step, or none where one is refused (false).
   bool command(std::span<const Command> commands);
   /// A point of a trajectory.
   struct Knot {
     double time_s = 0;  ///< after the trajectory's start, ≥ 0
-    double value = 0;   ///< rad, or in the law's preset unit
+    double value = 0;   ///< rad, or in UnitConfig::preset_unit()
     static auto fields(auto& s, auto&& visit) { return visit("time", "s", s.time_s, "value", "", s.value); }
   };
   /// What of an actuator a trajectory leads.
@@ -218,7 +219,8 @@ class Robot {
 
   /// From any thread; from the next step on, until a reset. Throws InputError for values out of bounds or no such actuator.
   void set_faults(std::size_t actuator, const device::Faults& faults);
-  [[nodiscard]] const device::Faults& faults(std::size_t actuator) const;  ///< in force
+  void check_faults(std::size_t actuator, const device::Faults& faults) const;  ///< throws what set_faults() would
+  [[nodiscard]] const device::Faults& faults(std::size_t actuator) const;       ///< in force
 
   /// The units' end of a bus's serial port; none if the bus has no serial port. Lives as long as the robot.
   [[nodiscard]] device::PortLine* serial_line(std::size_t bus);
@@ -256,8 +258,11 @@ class Robot {
   void go_back();  ///< to where keep() was called last
 
  private:
+  friend class RobotGroup;
   struct Impl;
   [[nodiscard]] std::size_t known(std::size_t actuator) const;
+  void require_step(const char* here, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
+                    std::span<double> torques_out, std::span<const double> mobility) const noexcept;
   Owner<Impl> impl_;
 };
 

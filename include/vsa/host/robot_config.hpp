@@ -29,7 +29,7 @@ struct ActuatorConfig {
   std::size_t bus = 0;                 ///< index into RobotConfig::buses
   int id = 1;                          ///< device id on that bus, 1–254
   double initial_equilibrium_rad = 0;  ///< of the firmware's first references
-  double initial_preset = 0;           ///< in the law's preset unit
+  double initial_preset = 0;           ///< in UnitConfig::preset_unit()
   /// False: the text names no initial equilibrium, and a host whose joint starts elsewhere may put it there.
   bool equilibrium_given = true;
   std::shared_ptr<const Settings> changed{};  ///< with which `unit` was made of `type`; none: nothing was

@@ -33,6 +33,7 @@
 #include "vsa/config/plugin_xml.hpp"
 #include "vsa/host/mobility_watch.hpp"
 #include "vsa/host/robot.hpp"
+#include "vsa/host/robot_group.hpp"
 #include "vsa/host/topics.hpp"
 #include "vsa/ports/pace_watch.hpp"
 #include "vsa/ports/robot_ports.hpp"
@@ -90,7 +91,8 @@ class Seat {
 
   /// Which actuators' joints move each other (host::Robot::join). None where the model is no tree: that is reported, and each joint
   /// is then solved by itself with its type's shaft inertia, or what the host gives as JointIn::inverse_inertia.
-  void join(const std::vector<std::vector<std::size_t>>& trees);
+  /// `shared`: those on a tree that other seats' actuators drive, too; such seats step together, see step_together().
+  void join(const std::vector<std::vector<std::size_t>>& trees, const std::vector<std::size_t>& shared = {});
 
   /// One entry an actuator, to be filled before step() and before observe(). A step allocates nothing, as long as nothing is
   /// reported.
@@ -102,6 +104,8 @@ class Seat {
   /// A step length that the units don't know, or a joint that is no longer finite, stops the actuators with one reported line:
   /// torques are 0 until reset().
   void step(std::int64_t dt_ns);
+  /// The same of seats on one tree, in the order of the group's robots, whose mobility() is filled. Where one has stopped all do.
+  static void step_together(std::span<Seat* const> seats, host::RobotGroup& group, std::int64_t dt_ns);
   /// Of the last step, N·m (N of a linear actuator), one an actuator.
   [[nodiscard]] std::span<const double> torques() const noexcept { return torques_; }
   [[nodiscard]] bool stopped() const noexcept { return own_.now.stopped; }  ///< whether it gave up, see step()
@@ -182,6 +186,8 @@ class Seat {
 
   Seat(const Seat& other, host::Robot robot);
   void stop(const std::string& why);
+  [[nodiscard]] bool can_step(std::int64_t dt_ns);
+  void stepped(std::int64_t dt_ns);
   void tell(const std::string& line) const;
   void tell_notices();
   void read_own(std::span<const double> in);  ///< of all numbers, into loaded_; throws InputError

@@ -8,6 +8,7 @@
 
 #include "physics/mujoco/versions.hpp"
 #include "vsa/grouped.hpp"
+#include "vsa/physics/tree_roots.hpp"
 
 namespace vsa::physics {
 namespace {
@@ -105,11 +106,9 @@ void MujocoPhysics::prepare() {
 }
 
 std::vector<std::vector<std::size_t>> MujocoPhysics::trees(std::span<const std::size_t> joints) const {
+  const TreeRoots of(*model_);
   std::vector<int> roots;
-  for (const std::size_t joint : joints) {
-    roots.push_back(joint_[joint].v);
-    while (model_->dof_parentid[roots.back()] >= 0) roots.back() = model_->dof_parentid[roots.back()];
-  }
+  for (const std::size_t joint : joints) roots.push_back(of.of(joint_[joint].v));
   return grouped(roots);
 }
 
