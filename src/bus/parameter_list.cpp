@@ -122,9 +122,14 @@ std::optional<ParameterSlot> read_slot(std::span<const std::uint8_t> list, std::
 std::optional<ParameterValues> decode_parameter_list(Wire wire, std::span<const std::uint8_t> bytes) noexcept {
   if (bytes.size() != list_bytes(wire.dialect) || bytes[0] != kStartByte || bytes[1] != kStartByte) return std::nullopt;
   const auto body = bytes.subspan(kHeaderBytes);
-  if (body[0] != static_cast<std::uint8_t>(Command::parameters) || body[1] != slots(wire.dialect) || !checksum_ok(wire, body))
+  const bool advanced = wire.dialect == Dialect::six && body[1] == kSlotsOfAdvanced;
+  if (body[0] != static_cast<std::uint8_t>(Command::parameters) || (body[1] != slots(wire.dialect) && !advanced) ||
+      !checksum_ok(wire, body))
     return std::nullopt;
   ParameterValues values;
+  values.advanced = advanced;
+  if (const auto rate = advanced ? read_slot(bytes, kSlotsOfAdvanced) : std::nullopt; rate && !rate->values.empty())
+    values.rate_limiter = rate->values.front();
   for (const ParameterInfo& info : parameter_table(wire.dialect)) {
     const auto slot = read_slot(bytes, static_cast<std::uint16_t>(info.id));
     if (!slot || slot->type != info.type || slot->count != info.count) return std::nullopt;

@@ -98,8 +98,10 @@ template <std::size_t N>
 bus::ParameterValue read_ticks(ValueReader& reader, const char* example, const std::array<std::uint8_t, N>& resolutions) {
   std::array<std::int32_t, N> values{};
   if (!reader.expect(N, example)) return values;
-  for (std::size_t i = 0; i < N; ++i)
-    values[i] = reader.ticks(i, resolutions[i], -(kMostRaw >> resolutions[i]), kMostRaw >> resolutions[i]);
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::int32_t most = kMostRaw >> std::min<int>(resolutions[i], 31);  // the unit takes any byte for one
+    values[i] = reader.ticks(i, resolutions[i], -most, most);
+  }
   return values;
 }
 

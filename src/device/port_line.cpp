@@ -65,6 +65,10 @@ void PortLine::exchange(std::span<const std::uint8_t> from_client, std::vector<s
     taken_ = 0;
     may_speak_ps_ = std::max(now * kPsPerNs, heard_ps_);
   }
+  if (taken_ > kMaxWaiting) {  // a client that never lets it run empty
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(taken_));
+    taken_ = 0;
+  }
   waiting_.insert(waiting_.end(), kept.begin(), kept.end());
   chain_.run_to(now + kAheadNs, *this);
   answer.insert(answer.end(), heard_.begin(), heard_.end());

@@ -42,7 +42,8 @@ void set_zeros(const CommandContext& c, const bus::SetZeros& request) noexcept {
   ProgramState& s = c.state;
   std::array<Ticks, 3> offsets = request.offsets ? *request.offsets : offsets_to_here(s);
   set_offsets(s.memory.stored, s.loop, offsets);
-  for (int i = 0; i < 2 && c.params.model == Model::advanced; ++i)
+  // Over the wire the advanced unit's motors have the other sign; what the unit takes by itself has its own.
+  for (int i = 0; i < 2 && c.params.model == Model::advanced && request.offsets; ++i)
     s.memory.stored.offset[i] = wrap_shl(-std::int32_t{offsets[i].value}, s.memory.stored.resolution[i]);
   if (seven(c)) s.memory.current.offset = s.memory.stored.offset;
   acknowledge(c, bus::Command::set_zeros);

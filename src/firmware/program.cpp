@@ -103,6 +103,8 @@ bool Program::skips(const ProgramState& s, std::int64_t now_ns) const noexcept {
 
 void Program::begin_tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, Output& out) const noexcept {
   poll(s, now_ns, out);
+  // Two seconds pass between the answer and the other program; until then bridges and PWM stay as they are.
+  if (s.in_bootloader && now_ns >= s.busy_until_ns) s.enable = 0, s.loop.duty = {};
   if (skips(s, now_ns) || s.in_bootloader) return;
   const LoopMemory m{s.memory.stored, s.memory.current};
   for (int i = 0; i < 3; ++i) controller_.read_encoder(m, s.loop, in, i);
@@ -133,7 +135,6 @@ void Program::tick(ProgramState& s, const TickInputs& in, std::int64_t now_ns, O
 
 Drive Program::drive(const ProgramState& s) const noexcept {
   Drive d;
-  if (s.in_bootloader) return d;
   d.duty_pct = s.loop.duty;
   for (int i = 0; i < 2; ++i) d.enabled[i] = ((s.enable >> i) & 1) != 0;
   return d;

@@ -57,10 +57,10 @@ constexpr std::size_t slot_at(std::size_t index) noexcept { return 2 + (index - 
 /// The advanced unit of dialect six has a fourteenth slot, and the menus move on by one slot.
 void add_rate_slot(std::span<std::uint8_t> body, std::uint8_t rate) noexcept {
   constexpr std::string_view text = "14 - Max PWM rate:";
-  constexpr std::size_t slot = slot_at(14), menus = bus::kMaxMenus * bus::kMenuBytes;
+  constexpr std::size_t slot = slot_at(bus::kSlotsOfAdvanced), menus = bus::kMaxMenus * bus::kMenuBytes;
   std::copy_backward(body.begin() + slot, body.begin() + slot + menus, body.begin() + slot + menus + bus::kSlotBytes);
   std::fill_n(body.begin() + slot, bus::kSlotBytes, std::uint8_t{0});
-  body[1] = 14;
+  body[1] = bus::kSlotsOfAdvanced;
   body[slot] = static_cast<std::uint8_t>(bus::ParameterType::uint8);
   body[slot + 1] = 1;
   body[slot + 2] = rate;

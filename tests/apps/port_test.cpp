@@ -25,7 +25,8 @@ using Arguments = std::vector<std::string>;
 /// vsa emulate qbmove_maker_pro_6_1 on a port of its own, which is there.
 class Emulated {
  public:
-  explicit Emulated(const Arguments& more = {}) : path((scratch / "port").string()), process_(arguments(path, more)) {
+  explicit Emulated(const Arguments& more = {}, const std::string& type = "qbmove_maker_pro_6_1")
+      : path((scratch / "port").string()), process_(arguments(path, more, type)) {
     ready = process_.read_until([](const Result& r) { return r.out.find("Ctrl-C") != std::string::npos; });
   }
   Result end(int signal = SIGTERM) {
@@ -41,8 +42,8 @@ class Emulated {
   }
 
  private:
-  static Arguments arguments(const std::string& path, const Arguments& more) {
-    Arguments all{"emulate", "qbmove_maker_pro_6_1", "--port", path};
+  static Arguments arguments(const std::string& path, const Arguments& more, const std::string& type) {
+    Arguments all{"emulate", type, "--port", path};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -198,6 +199,45 @@ TEST(GetAndSet, ParametersAreCheckedSentStoredAndReadBack) {
   expect(units.vsa({"set", "id", "9"}, {"--id", "2", "--store"}), 0, {"id = 9"});
   expect(units.vsa({"ping"}, {"--id", "9"}), 0, {"9 "});
   expect(units.vsa({"get", "info"}), 0, {"Firmware version: QBMMP v6.1.0", "Control Mode: Deflection"});
+}
+
+/// Its list has a slot more, and its references come back with the other sign.
+TEST(GetAndSet, AnAdvancedUnitAsAnyOther) {
+  Emulated unit({}, "qbmove_advanced");
+  ASSERT_TRUE(unit.ready);
+  expect(unit.vsa({"set", "active", "on"}), 0, {"motors on"});
+  expect(unit.vsa({"set", "inputs", "10", "-10"}), 0, {"motor 1 10.00° (910 ticks), motor 2 -10.00° (-910 ticks)"});
+  expect(unit.vsa({"get", "inputs", "measurements"}), 0, {"motor 1 10.00°", "shaft"});
+  expect(unit.vsa({"get", "parameters"}), 0, {"position_pid", "P -0.0999"});
+  expect(unit.vsa({"set", "control_mode", "deflection"}, {"--store"}), 0, {"deflection, stored"});
+}
+
+TEST(GetAndSet, ANewIdIsStoredAtOnceInBothDialects) {
+  for (const char* dialect : {"6", "7"}) {
+    Emulated unit({"--dialect", dialect});
+    ASSERT_TRUE(unit.ready);
+    expect(unit.vsa({"set", "id", "9"}), 2, {"--store"});
+    expect(unit.vsa({"set", "id", "9"}, {"--store"}), 0, {"id = 9, stored"});
+    expect(unit.vsa({"get", "id"}, {"--id", "9"}), 0, {"9"});
+  }
+}
+
+TEST(GetAndSet, AnEquilibriumIsInDegreesWhateverTheMotorsTicks) {
+  Emulated unit;
+  ASSERT_TRUE(unit.ready);
+  expect(unit.vsa({"set", "resolutions", "1", "3", "1"}, {"--store"}), 0, {"stored"});
+  expect(unit.vsa({"set", "active", "on"}), 0, {"motors on"});
+  expect(unit.vsa({"set", "equilibrium", "20", "15"}), 0, {"motor 1 34.99° (3185 ticks)", "motor 2 5.01° (114 ticks)"});
+}
+
+TEST(GetAndSet, WhatAUnitDoesNotTakeFailsAndTheOthersAreAskedAllTheSame) {
+  Emulated units({"--units", "3", "--fault", "2 off"});
+  ASSERT_TRUE(units.ready);
+  const Result on = run_vsa({"set", units.path, "active", "on", "--id", "1-3", "--timeout-ms", "300"});
+  expect(on, 1, {"unit 1: motors on", "unit 3: motors on", "unit 2, a ping: no answer within 300 ms"});
+  expect(units.vsa({"set", "inputs", "170", "0"}), 1, {"not what was asked for"});  // beyond its limits
+  const Result all = run_vsa({"ping", units.path, "--id", "1-3", "--dialect", "6", "--timeout-ms", "300"});
+  expect(all, 1, {"1     6", "3     6", "no answer from unit 2"});
 }
 
 TEST(GetAndSet, DialectSevenAcknowledgesWhatSixOnlyHears) {

@@ -127,4 +127,21 @@ TEST(Receiving, TheBootloaderAcknowledgesAndThenTheUnitIsSilentUntilPowerComesBa
   EXPECT_EQ(u.send(kPing), kPingReply);
 }
 
+/// CyDelay(1000) twice between its answer and the other program.
+TEST(Receiving, ForTwoSecondsTheBootloaderLeavesBridgesAndPwmAsTheyAre) {
+  UnitBench u;
+  u.state.enable = 3;
+  u.state.loop.duty = {100, -100};
+  EXPECT_EQ(u.ask(bus::Bootloader{}), bus::Acknowledgement{true});
+  const std::int64_t begun_ns = u.now_ns;
+  const auto at = [&](std::int64_t ns) {
+    u.program.tick(u.state, {}, ns, u.out);
+    return u.program.drive(u.state);
+  };
+  EXPECT_EQ(at(begun_ns + 1'990'000'000).duty_pct, (std::array<std::int32_t, 2>{100, -100}));
+  EXPECT_TRUE(at(begun_ns + 1'990'000'000).enabled[0]);
+  EXPECT_EQ(at(begun_ns + 2'010'000'000).duty_pct, (std::array<std::int32_t, 2>{}));
+  EXPECT_FALSE(at(begun_ns + 2'010'000'000).enabled[0]);
+}
+
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <exception>
 #include <iostream>
 #include <memory>
 
@@ -55,9 +54,10 @@ class Asked {
  private:
   std::string text(const std::string& what) {
     if (what == "active") return port_.take(client_.active(id_), id_, what) ? "on" : "off";
-    if (what == "info") return port_.take(client_.info(id_), id_, what);
+    if (what == "info") return port_.take(client_.info(id_), id_, what, UnitPort::Wait::slow);
     if (what == "inputs")
-      return config::angles_text(values_of(port_.take(client_.inputs(id_), id_, what).inputs), parameters().resolutions);
+      return config::angles_text(values_of(as_told(port_.take(client_.inputs(id_), id_, what).inputs, parameters())),
+                                 parameters().resolutions);
     if (what == "measurements")
       return config::angles_text(values_of(port_.take(client_.measurements(id_), id_, what).positions), parameters().resolutions);
     if (what == "currents") {
@@ -68,7 +68,7 @@ class Asked {
   }
 
   const bus::ParameterValues& parameters() {
-    if (!parameters_) parameters_ = port_.take(client_.parameters(id_), id_, "its parameters");
+    if (!parameters_) parameters_ = port_.take(client_.parameters(id_), id_, "its parameters", UnitPort::Wait::slow);
     return *parameters_;
   }
 
@@ -88,24 +88,17 @@ int run_get(const GetOptions& options) {
   for (const std::string& what : wanted) config::check_unit_word(what, kReadable);
   UnitPort port(options.port);
   Rows rows{{"unit", "what", "value"}};
-  std::exception_ptr silent;  // what those before it said is told all the same
-  try {
-    for (const std::uint8_t id : ids) {
-      Asked unit(port, id);
-      for (const std::string& what : wanted) unit.append(what, rows);
-    }
-  } catch (const NoAnswer&) {
-    silent = std::current_exception();
-    if (rows.size() == 1) throw;
-  }
+  const int code = for_each_unit(ids, [&](std::uint8_t id) {
+    Asked unit(port, id);
+    for (const std::string& what : wanted) unit.append(what, rows);
+  });
+  if (rows.size() == 1) return code;
   if (std::all_of(wanted.begin(), wanted.end(), [](const auto& w) { return w == "info"; })) {
     for (std::size_t i = 1; i < rows.size(); ++i) std::cout << rows[i][2];
   } else {
     std::cout << table_text(rows, 0);
   }
-  if (!std::cout.flush()) return kFailed;
-  if (silent) std::rethrow_exception(silent);
-  return kDone;
+  return std::cout.flush() ? code : kFailed;
 }
 
 void setup_get(CLI::App& app, int& exit_code) {

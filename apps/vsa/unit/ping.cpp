@@ -64,7 +64,8 @@ int run_ping(UnitPortOptions options) {
   std::vector<std::vector<std::string>> rows{{"unit", "dialect", "answered in", "serial number"}};
   std::vector<int> silent;
   for (const std::uint8_t id : ids) {
-    const auto dialect = options.dialect ? bus::Result<bus::Dialect>(port.dialect(id)) : port.client(bus::Dialect::six).dialect(id);
+    auto dialect = port.client(bus::Dialect::six).dialect(id);
+    if (dialect && options.dialect) dialect = *options.dialect == 7 ? bus::Dialect::seven : bus::Dialect::six;
     if (!dialect && dialect.error() != bus::ClientError::timeout) static_cast<void>(port.take(dialect, id, "a ping"));
     const auto before = Clock::now();
     const auto reply = dialect ? port.client(*dialect).ping(id) : bus::Result<bus::PingReply>(dialect.error());

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iostream>
 #include <string_view>
 
+#include "terminal/exit_codes.hpp"
 #include "terminal/numbers.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/serial/ports.hpp"
@@ -68,6 +70,26 @@ std::vector<std::uint8_t> parse_ids(const std::string& text, const std::string& 
   }
 }
 
+int for_each_unit(const std::vector<std::uint8_t>& ids, const std::function<void(std::uint8_t)>& each) {
+  std::vector<std::string> silent;
+  for (const std::uint8_t id : ids) {
+    try {
+      each(id);
+    } catch (const NoAnswer& error) {
+      silent.emplace_back(error.what());
+    }
+  }
+  for (const std::string& text : silent) std::cerr << "vsa: " << text << '\n';
+  return silent.empty() ? kDone : kFailed;
+}
+
+std::array<Ticks, 2> as_told(std::array<Ticks, 2> has, const bus::ParameterValues& of) {
+  constexpr std::uint8_t kPwm = 1, kCurrent = 2;  // control modes whose inputs are no positions
+  if (!of.advanced || of.control_mode == kPwm || of.control_mode == kCurrent) return has;
+  for (Ticks& t : has) t.value = static_cast<std::int16_t>(-t.value);
+  return has;
+}
+
 UnitPort::UnitPort(const UnitPortOptions& options)
     : options_(checked(options)), path_(serial::port_path(options.port)), channel_(path_, options.baud_Hz) {}
 
@@ -79,11 +101,13 @@ bus::Dialect UnitPort::dialect(std::uint8_t id) {
   return *options_.dialect == 7 ? bus::Dialect::seven : bus::Dialect::six;
 }
 
-void UnitPort::fail(bus::ClientError error, std::uint8_t id, const std::string& what) const {
+void UnitPort::fail(bus::ClientError error, std::uint8_t id, const std::string& what, Wait waited) const {
   if (error == bus::ClientError::closed) throw NoAnswer(path_ + ": the port is gone");
   std::string text = fmt::format("{}: unit {}, {}: {}", path_, id, what, bus::describe(error));
+  const double slow_ms =
+      std::chrono::duration<double, std::milli>(client_options(options_, bus::Dialect::six).slow_timeout).count();
   if (error == bus::ClientError::timeout)
-    text += fmt::format(" within {} ms (vsa ping {} lists the units)", options_.timeout_ms, path_);
+    text += fmt::format(" within {} ms (vsa ping {} lists the units)", waited == Wait::slow ? slow_ms : options_.timeout_ms, path_);
   throw NoAnswer(text);
 }
 

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -24,6 +26,8 @@ struct UnitPortOptions {
 };
 
 void add_port_options(CLI::App& sub, UnitPortOptions& options);
+/// What `each` does with every one of them; who doesn't answer is told at the end, and the exit code says so.
+int for_each_unit(const std::vector<std::uint8_t>& ids, const std::function<void(std::uint8_t)>& each);
 /// Throws InputError.
 [[nodiscard]] std::vector<std::uint8_t> parse_ids(const std::string& text, const std::string& flag = "--id");
 
@@ -32,6 +36,10 @@ class NoAnswer : public std::runtime_error {
  public:
   using runtime_error::runtime_error;
 };
+
+/// References as they were sent. The advanced unit's program inverts what comes and not what goes, but where a reference is one of
+/// deflection or is the third encoder's.
+[[nodiscard]] std::array<Ticks, 2> as_told(std::array<Ticks, 2> has, const bus::ParameterValues& of);
 
 class UnitPort {
  public:
@@ -42,15 +50,17 @@ class UnitPort {
   /// What the options say, or else what the unit's ping shows. Throws NoAnswer.
   [[nodiscard]] bus::Dialect dialect(std::uint8_t id);
   [[nodiscard]] bus::Client client(bus::Dialect dialect);
+  /// How long an answer may take: --timeout-ms, or what texts, lists and the unit's memory need.
+  enum class Wait { brief, slow };
   /// The content, or NoAnswer with unit, port and what was asked.
   template <class T>
-  [[nodiscard]] T take(const bus::Result<T>& result, std::uint8_t id, const std::string& what) const {
-    if (!result) fail(result.error(), id, what);
+  [[nodiscard]] T take(const bus::Result<T>& result, std::uint8_t id, const std::string& what, Wait waited = Wait::brief) const {
+    if (!result) fail(result.error(), id, what, waited);
     return *result;
   }
 
  private:
-  [[noreturn]] void fail(bus::ClientError error, std::uint8_t id, const std::string& what) const;
+  [[noreturn]] void fail(bus::ClientError error, std::uint8_t id, const std::string& what, Wait waited) const;
 
   UnitPortOptions options_;
   std::string path_;

@@ -42,9 +42,7 @@ constexpr std::int32_t kHighest = std::numeric_limits<std::int16_t>::max();
 class Told {
  public:
   Told(UnitPort& port, std::uint8_t id, const SetOptions& options)
-      : port_(port), id_(id), options_(options), dialect_(port.dialect(id)), client_(port.client(dialect_)) {
-    now_ = port_.take(client_.parameters(id_), id_, "its parameters");
-  }
+      : port_(port), id_(id), options_(options), dialect_(port.dialect(id)), client_(port.client(dialect_)) {}
 
   /// Reads the values, tells the unit, looks whether it did; says what it has now.
   std::string tell() {
@@ -67,21 +65,26 @@ class Told {
   std::string position_stiffness(config::ValueReader& reader);
   std::string parameter(config::ValueReader& reader);
   void store();
-  [[nodiscard]] std::int32_t motor_ticks(config::ValueReader& reader, std::size_t index, std::size_t motor) const {
-    return reader.ticks(index, now_.resolutions[motor], kLowest, kHighest);
+  /// The list is long, and who only switches motors on needs none of it.
+  const bus::ParameterValues& now() {
+    if (!now_) now_ = port_.take(client_.parameters(id_), id_, "its parameters", UnitPort::Wait::slow);
+    return *now_;
   }
-  [[nodiscard]] std::string shown(const bus::InputsReply& has) const;
+  [[nodiscard]] std::int32_t motor_ticks(config::ValueReader& reader, std::size_t index, std::size_t motor) {
+    return reader.ticks(index, now().resolutions[motor], kLowest, kHighest);
+  }
+  [[nodiscard]] std::string shown(const std::array<Ticks, 2>& has);
 
   UnitPort& port_;
   std::uint8_t id_;
   const SetOptions& options_;
   bus::Dialect dialect_;
   bus::Client client_;
-  bus::ParameterValues now_;
+  std::optional<bus::ParameterValues> now_;
 };
 
-std::string Told::shown(const bus::InputsReply& has) const {
-  return "references " + config::angles_text({has.inputs[0].value, has.inputs[1].value}, now_.resolutions);
+std::string Told::shown(const std::array<Ticks, 2>& has) {
+  return "references " + config::angles_text({has[0].value, has[1].value}, now().resolutions);
 }
 
 std::string Told::activate(config::ValueReader& reader) {
@@ -103,7 +106,8 @@ std::string Told::references(config::ValueReader& reader) {
   if (reader.expect(2, options_.what + " 10 -10")) {
     std::int32_t a = motor_ticks(reader, 0, 0);
     std::int32_t b = motor_ticks(reader, 1, 1);
-    if (options_.what == "equilibrium") std::tie(a, b) = std::pair(a + b, a - b);
+    // Each motor's sum in its own ticks: their resolutions may differ.
+    if (options_.what == "equilibrium") std::tie(a, b) = std::pair(a + motor_ticks(reader, 1, 0), motor_ticks(reader, 0, 1) - b);
     if (std::min(a, b) < kLowest || std::max(a, b) > kHighest) reader.refuse(0, "with the preset out of the unit's range", "less");
     inputs = {Ticks{static_cast<std::int16_t>(a)}, Ticks{static_cast<std::int16_t>(b)}};
   }
@@ -111,9 +115,11 @@ std::string Told::references(config::ValueReader& reader) {
   static_cast<void>(port_.take(client_.set_inputs(id_, inputs), id_, options_.what));
   const auto end = std::chrono::steady_clock::now() + kSettles;
   while (true) {
-    const bus::InputsReply has = port_.take(client_.inputs(id_), id_, "inputs");
-    if (has.inputs == inputs) return shown(has);
-    if (std::chrono::steady_clock::now() >= end) return shown(has) + ": not what was asked for; see its limits and control_mode";
+    const std::array<Ticks, 2> has = as_told(port_.take(client_.inputs(id_), id_, "inputs").inputs, now());
+    if (has == inputs) return shown(has);
+    if (std::chrono::steady_clock::now() < end) continue;
+    throw NoAnswer(
+        fmt::format("{}: unit {}: {}: not what was asked for; see its limits and control_mode", port_.path(), id_, shown(has)));
   }
 }
 
@@ -129,27 +135,30 @@ std::string Told::position_stiffness(config::ValueReader& reader) {
   const auto sent =
       client_.set_position_stiffness(id_, Ticks{static_cast<std::int16_t>(position)}, static_cast<std::int16_t>(part));
   static_cast<void>(port_.take(sent, id_, options_.what));
-  return fmt::format("position {} with {} % of its max stiffness sent", config::angle_text(position, now_.resolutions[0]), percent);
+  return fmt::format("position {} with {} % of its max stiffness sent", config::angle_text(position, now().resolutions[0]),
+                     percent);
 }
 
 std::string Told::parameter(config::ValueReader& reader) {
   const bus::ParameterId parameter = config::need_unit_parameter(dialect_, options_.what, kWritable);
-  const bus::ParameterValue value = config::read_unit_parameter(reader, parameter, now_.resolutions);
+  const bus::ParameterValue value = config::read_unit_parameter(reader, parameter, now().resolutions);
   reader.throw_if_any();
   static_cast<void>(port_.take(client_.set_parameter(id_, parameter, value), id_, options_.what));
   if (!options_.store) return options_.what + " sent; most parameters act, and are kept, once they are stored (vsa set PORT store)";
+  // A new id is in force at once in dialect seven, in six from the store on, which the old one answers.
+  const bool new_id = parameter == bus::ParameterId::id;
+  if (new_id && dialect_ == bus::Dialect::seven) id_ = std::get<std::uint8_t>(value);
   store();
-  // Dialect six doesn't answer a set, so only the list tells; it shows what is in force, after the store. A new id is in force,
-  // too.
-  if (parameter == bus::ParameterId::id) id_ = std::get<std::uint8_t>(value);
-  now_ = port_.take(client_.parameters(id_), id_, "its parameters");
-  const std::string text = fmt::format("{} = {}", options_.what, config::unit_parameter_text(now_, parameter));
-  if (!config::same_unit_value(bus::get(now_, parameter), value))
+  if (new_id) id_ = std::get<std::uint8_t>(value);
+  // Dialect six doesn't answer a set, so only the list tells; it shows what is in force, after the store.
+  now_.reset();
+  const std::string text = fmt::format("{} = {}", options_.what, config::unit_parameter_text(now(), parameter));
+  if (!config::same_unit_value(bus::get(now(), parameter), value))
     throw NoAnswer(fmt::format("{}: unit {} didn't take it: {}", port_.path(), id_, text));
   return text + ", stored";
 }
 
-void Told::store() { static_cast<void>(port_.take(client_.store(id_), id_, "store")); }
+void Told::store() { static_cast<void>(port_.take(client_.store(id_), id_, "store", UnitPort::Wait::slow)); }
 
 }  // namespace
 
@@ -158,12 +167,19 @@ int run_set(const SetOptions& options) {
   if (options.what == "id" && ids.size() > 1) {
     throw InputError({"", "--id", options.port.ids, "several units can't have the same id", "one unit"});
   }
+  if (options.what == "id" && !options.store) {
+    throw InputError({"", "--store", "",
+                      "is missing: a unit that has a new id and hasn't stored it hears the old one and answers "
+                      "with the new one, so that nobody hears it",
+                      "--store"});
+  }
   config::check_unit_word(options.what, kWritable);
   const bool is_parameter = std::find(kWritable.begin(), kWritable.end(), options.what) == kWritable.end();
   if (options.store && !is_parameter) throw InputError({"", "--store", options.what, "is no parameter", "with a parameter only"});
   UnitPort port(options.port);
-  for (const std::uint8_t id : ids) std::cout << fmt::format("unit {}: {}\n", id, Told(port, id, options).tell()) << std::flush;
-  return std::cout.flush() ? kDone : kFailed;
+  const int code = for_each_unit(
+      ids, [&](std::uint8_t id) { std::cout << fmt::format("unit {}: {}\n", id, Told(port, id, options).tell()) << std::flush; });
+  return std::cout.flush() ? code : kFailed;
 }
 
 void setup_set(CLI::App& app, int& exit_code) {

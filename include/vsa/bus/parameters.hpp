@@ -88,8 +88,9 @@ struct ParameterValues {
   std::array<std::int32_t, 4> limits{};       ///< inf 1, sup 1, inf 2, sup 2
   std::array<std::int32_t, 2> max_steps{};    ///< negative, positive
   std::int16_t current_limit = 0;             ///< mA
-  std::uint8_t rate_limiter = 0;              ///< dialect seven
+  std::uint8_t rate_limiter = 0;              ///< dialect seven, and the advanced unit
   std::uint32_t serial_number = 0;            ///< dialect seven
+  bool advanced = false;                      ///< the list has the advanced unit's fourteenth slot in dialect six; not a value
   bool operator==(const ParameterValues&) const = default;
 };
 
@@ -98,6 +99,7 @@ struct ParameterValues {
 inline constexpr std::size_t kListBytesSix = kHeaderBytes + 1201;    ///< in dialect six
 inline constexpr std::size_t kListBytesSeven = kHeaderBytes + 1216;  ///< in dialect seven
 inline constexpr std::size_t kMaxListBytes = kListBytesSeven;        ///< of either dialect
+inline constexpr std::uint8_t kSlotsOfAdvanced = 14;                 ///< of the advanced unit in dialect six
 inline constexpr std::size_t kSlotBytes = 50;                        ///< one parameter
 inline constexpr std::size_t kMenuBytes = 150;                       ///< one menu
 inline constexpr std::size_t kMaxMenus = 3;                          ///< that the list has
