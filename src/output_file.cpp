@@ -63,6 +63,30 @@ void OutputFile::close() {
   if (::close(std::exchange(fd_, -1)) != 0) fail("can't finish writing", errno);
 }
 
+void write_whole(const std::filesystem::path& file, const std::function<void(const std::filesystem::path& beside)>& write,
+                 std::string_view mark) {
+  std::filesystem::path beside = file;
+  beside += ".part";
+  beside += mark;
+  std::error_code error;
+  try {
+    write(beside);
+    std::filesystem::rename(beside, file, error);
+    if (error) throw OutputError(file.string() + ": can't be replaced: " + error.message());
+  } catch (...) {
+    std::filesystem::remove(beside, error);
+    throw;
+  }
+}
+
+void write_whole(const std::filesystem::path& file, std::string_view bytes) {
+  write_whole(file, [bytes](const std::filesystem::path& beside) {
+    OutputFile out(beside);
+    out.append(bytes);
+    out.close();
+  });
+}
+
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory, const char* taken, Use use) {
   fd_ = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   // File systems without locks, and directories that can't be read, are unguarded.

@@ -81,9 +81,11 @@ RankWork rank_work(unsigned threads, sweep::Log& log) {
 
 int run_sweep_job(const Job& job, const SweepOptions& options, const sweep::Plan& plan, Console& console) {
   std::optional<Dealer> dealer;
+  vsa::DirectoryLock lock;
   int code = first_does(job, [&] {
     refuse_search(plan, options);
     plan.check();
+    lock = claim_folder(folder_of(options), plan, {});
     dealer.emplace(what_is_left(plan, options));
     tell_plan(plan, console);
   });

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string_view>
 
@@ -36,6 +37,14 @@ class OutputFile {
   int fd_ = -1;
   off_t good_ = 0;  // bytes in whole pieces
 };
+
+/// `file` as a whole or as it was: `write` gets the name of a file beside it, FILE.part, which takes its place afterwards. Throws what
+/// `write` does, OutputError where the place can't be taken; nothing is left beside it then. `mark` behind FILE.part: where several
+/// processes may write the same file at once, a word of this one's own.
+void write_whole(const std::filesystem::path& file, const std::function<void(const std::filesystem::path& beside)>& write,
+                 std::string_view mark = {});
+/// The same with these bytes. Throws OutputError.
+void write_whole(const std::filesystem::path& file, std::string_view bytes);
 
 /// Holds a directory for one program at a time, or for several that share it, by a lock on the directory itself: it leaves nothing
 /// behind, whatever ends the program.

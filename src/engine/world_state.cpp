@@ -134,21 +134,7 @@ void World::save_file(const std::filesystem::path& file) const {
   for (const std::uint64_t word : {kVersion, state_layout().hash(), std::uint64_t{numbers.size()}, vsa::state_hash(numbers)})
     put_word(text, word);
   for (const double v : numbers) put_word(text, bits_as<std::uint64_t>(v));
-  std::filesystem::path part = file;
-  part += ".part";
-  std::error_code error;
-  try {
-    OutputFile out(part);
-    out.append(text);
-    out.close();
-  } catch (const OutputError&) {
-    std::filesystem::remove(part, error);
-    throw;
-  }
-  std::filesystem::rename(part, file, error);
-  if (!error) return;
-  std::filesystem::remove(part);
-  throw OutputError(file.string() + ": can't be replaced: " + error.message());
+  write_whole(file, text);
 }
 
 void World::restore_file(const std::filesystem::path& file) {

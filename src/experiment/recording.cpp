@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <numeric>
 
 #include "vsa/config/csv_table.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/output_file.hpp"
 
 namespace vsa::experiment {
 
@@ -134,18 +135,11 @@ void write_load_recording(const LoadRecording& recording, const std::filesystem:
     text += recording.time_s.empty() ? std::to_string(i) : config::number_text(recording.time_s[i]);
     text += ',' + config::number_text(recording.torque_Nm[i]) + ',' + config::number_text(recording.deflection_rad[i]) + '\n';
   }
-  const std::filesystem::path beside = csv.string() + ".part";
-  std::error_code error;
-  {
-    std::ofstream out(beside, std::ios::binary);
-    out << text;
-    if (!out.flush()) error = std::make_error_code(std::errc::io_error);
+  try {
+    write_whole(csv, text);
+  } catch (const OutputError& error) {
+    throw InputError({csv.string(), "", "", error.what(), "a place that can be written to"});
   }
-  if (!error) std::filesystem::rename(beside, csv, error);
-  if (!error) return;
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  throw InputError({csv.string(), "", "", "can't be written: " + error.message(), "a place that can be written to"});
 }
 
 }  // namespace vsa::experiment

@@ -8,7 +8,6 @@
 #include "vsa/output_file.hpp"
 
 namespace vsa::fmu {
-namespace fs = std::filesystem;
 namespace {
 
 struct FreeSource {
@@ -63,23 +62,8 @@ std::string zipped(const std::map<std::string, std::string>& files) {
 
 }  // namespace
 
-void write_zip(const std::map<std::string, std::string>& files, const fs::path& file) {
-  const std::string bytes = zipped(files);
-  const fs::path part = file.string() + ".part";
-  std::error_code error;
-  try {
-    OutputFile out(part);
-    out.append(bytes);
-    out.close();
-  } catch (...) {
-    fs::remove(part, error);
-    throw;
-  }
-  fs::rename(part, file, error);
-  if (!error) return;
-  const std::string why = error.message();
-  fs::remove(part, error);
-  throw OutputError(file.string() + ": can't be written: " + why);
+void write_zip(const std::map<std::string, std::string>& files, const std::filesystem::path& file) {
+  write_whole(file, zipped(files));
 }
 
 }  // namespace vsa::fmu

@@ -29,18 +29,7 @@ std::string filled(std::string_view page_template, std::string_view json) {
 }
 
 void write(const std::filesystem::path& file, std::string_view page_template, std::string_view json) {
-  std::filesystem::path beside = file;
-  beside += ".part";
-  try {
-    OutputFile out(beside);
-    out.append(filled(page_template, json));
-    out.close();
-    std::filesystem::rename(beside, file);
-  } catch (const std::exception& e) {
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    throw OutputError(file.string() + ": can't write the page: " + e.what());
-  }
+  write_whole(file, filled(page_template, json));
 }
 
 }  // namespace vsa::page

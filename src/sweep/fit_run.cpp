@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "sweep/plan_parts.hpp"
@@ -67,15 +68,21 @@ Prepared prepare(const FitTask& task, experiment::Watch* watch) {
     for (const fs::path& file : files) {
       try {
         into.observations.push_back(identify::read_observation(file, type));
-        if (task.by_scatter) into.observations.back().weight = identify::scatter_weight(into.observations.back().data);
       } catch (const InputError& error) {
         problems.add_all(error);
       }
     }
   };
+  std::set<std::string> names;
+  for (const auto* files : {&task.recordings, &task.left_out})
+    for (const fs::path& file : *files)
+      if (!names.insert(file.filename()).second)
+        problems.add(
+            {"", "study.recordings", file.string(), "has the file name of another", "recordings are told apart by theirs"});
   read(task.recordings, out.fitted);
   read(task.left_out, out.judged);
   problems.throw_if_any();
+  if (task.by_scatter) identify::weigh_by_scatter(out.fitted.observations);
   for (const identify::Parameter& p : out.fitted.parameters) out.from.push_back(p.start);
   out.fixed.assign(out.from.size(), false);
   for (const auto& [name, value] : task.from) {
@@ -96,6 +103,11 @@ Prepared prepare(const FitTask& task, experiment::Watch* watch) {
 
 std::map<std::string, double> solve(const Prepared& ready, int iterations) {
   const identify::Residuals residuals(ready.fitted, 1);
+  const auto free = static_cast<std::size_t>(std::count(ready.fixed.begin(), ready.fixed.end(), false));
+  if (residuals.points().size() <= free)
+    throw InputError({"", "study.parameters", std::to_string(free) + " of them",
+                      "the recordings have " + std::to_string(residuals.points().size()) + " points",
+                      "more points than parameters"});
   identify::FitOptions options;
   options.iterations = iterations;
   const identify::StartResult found = identify::solve(residuals, ready.from, ready.fixed, options);

@@ -6,6 +6,7 @@
 
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/not_a_number.hpp"
 #include "vsa/record/run_data.hpp"
 #include "vsa/scenario/scenario.hpp"
 #include "vsa/sweep/measure.hpp"
@@ -65,7 +66,8 @@ const Signals<LinkMotion> kLink{
 struct Whole {
   actuator::Ledger ledger;
   std::array<double, 3> center{};
-  double contact = 0, touches = 0, kinetic = 0, gravitational = 0, path = 0, net = 0;
+  double contact = 0, touches = 0, kinetic = 0, gravitational = 0;
+  double path = kNaN, net = kNaN;  // until a gait's first period is full
 };
 struct Needs {
   bool ledger = false, center = false, contacts = false, energy = false, travel = false;
@@ -149,7 +151,9 @@ void check_signal(const Measure& m) {
 
 struct Observer::Impl {
   Impl(const std::vector<Measure>& measures, const World& world, double window_s)
-      : model(scenario::travelling_model(world)), travel(window_s, 1 / kTravelRate_Hz), cadence(kTravelRate_Hz) {
+      : model(scenario::travelling_model(world)),
+        travel(window_s, std::max(1 / kTravelRate_Hz, world.step_s())),
+        cadence(kTravelRate_Hz) {
     Problems problems;
     for (std::size_t i = 0; i < measures.size(); ++i) {
       try {
@@ -204,8 +208,10 @@ struct Observer::Impl {
       cadence.taken(world.time_ns());
       travel.add(world.center_of_mass(model));
     }
-    whole.path = travel.path_m();
-    whole.net = travel.net_m();
+    if (travel.measured()) {
+      whole.path = travel.path_m();
+      whole.net = travel.net_m();
+    }
     if (needs.contacts) {
       world.contacts(contacts);
       whole.contact = 0;
@@ -221,7 +227,8 @@ struct Observer::Impl {
 
   void sample(const World& world) {
     look(world);
-    const double t = world.time_s();
+    // Divided, a time has the digits that a plan gives it: a product with 1e-9 may lie beside them.
+    const double t = static_cast<double>(world.time_ns()) / 1e9;
     for (Watch& w : watches) {
       if (!(t > w.from_s && t <= w.to_s)) continue;
       if (w.actuator != nullptr && w.which) {
@@ -232,8 +239,8 @@ struct Observer::Impl {
         w.statistic.add(t, w.joint({world.joint_angle(w.joint_at), world.joint_speed(w.joint_at)}));
       } else if (w.link != nullptr) {
         w.statistic.add(t, w.link({world.pose(w.link_at), world.velocity(w.link_at)}));
-      } else {
-        w.statistic.add(t, w.whole(whole));
+      } else if (const double value = w.whole(whole); travel.measured() || !std::isnan(value)) {
+        w.statistic.add(t, value);
       }
     }
   }

@@ -29,6 +29,7 @@ void refuse_twice(const std::vector<Item>& items, const char* key, const std::st
   for (const Item& item : items) {
     if (!item.name.empty() && !names.insert(item.name).second)
       problems.add({file, key, item.name, "two columns of one name", "names that differ"});
+    if (item.name == ".") problems.add({file, key, item.name, "is no column's name in HDF5", "another name"});
   }
 }
 
@@ -40,16 +41,20 @@ std::string shown(const toml::table& table) {
   return out.str();
 }
 
-/// A type's file and those that it is based on.
+/// A type's file, those that it is based on, and the grids that they name.
 std::string type_contents(const std::string& name) {
   const config::TypeLibrary library;
   std::string all;
   std::set<std::string> seen;
   for (std::string next = name; !next.empty() && seen.insert(next).second;) {
-    const std::string text = read_file(library.find(next)).value_or("");
+    const fs::path file = library.find(next);
+    const std::string text = read_file(file).value_or("");
     all += text;
     try {
-      next = toml::parse(text)["type"]["base"].value_or(std::string());
+      const toml::table type = toml::parse(text);
+      next = type["type"]["base"].value_or(std::string());
+      if (const auto grid = type["elastic"]["grid"]["value"].value<std::string>())
+        all += read_file(file.parent_path() / *grid).value_or("");
     } catch (const toml::parse_error&) {
       break;  // Plan::check tells
     }
@@ -71,6 +76,21 @@ std::string contents(const std::string& key, const std::string& name, const fs::
   }
 }
 
+/// Of a study: what it is compared with or fitted to, files or folders of them.
+std::uint64_t recordings_hashed(std::uint64_t h, const Plan::Impl& plan) {
+  const auto* named = plan.base.at_path("study.recordings").as_array();
+  for (std::size_t i = 0; named != nullptr && i < named->size(); ++i) {
+    const fs::path place = plan.base_file.parent_path() / (*named)[i].value<std::string>().value_or("");
+    std::vector<fs::path> files;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(place, none)) files.push_back(entry.path());
+    if (files.empty()) files.push_back(place);
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) h = hashed(hashed(h, file.filename().string()), read_file(file).value_or(""));
+  }
+  return h;
+}
+
 std::uint64_t fingerprint_of(const toml::table& root, const Plan::Impl& plan) {
   std::uint64_t h = hashed(fnv1a(""), "vsasim sweep 1");
   h = hashed(h, shown(root));
@@ -84,7 +104,7 @@ std::uint64_t fingerprint_of(const toml::table& root, const Plan::Impl& plan) {
       if (const auto* name = std::get_if<std::string>(&value))
         for (const std::string& key : axis.keys) h = hashed(h, contents(key, *name, beside));
   }
-  return h;
+  return recordings_hashed(h, plan);
 }
 
 /// The tables of the scenario that the plan has itself, or those of the file that it names.
@@ -180,7 +200,7 @@ Plan Plan::load(const fs::path& file) {
     if (impl->is_study() && axis.parameter)
       problems.add({file.string(), "vary.key", config::join(axis.keys), "is no key of a study", "study.…, set.…"});
   if (measure.empty()) top.add("measure", "", "is missing", "[[measure]] with name and signal");
-  std::set<std::string> names{"point", "repetition", "error"};
+  std::set<std::string> names{"point", "repetition", "notice", "error"};
   refuse_twice(impl->axes, "vary.name", file.string(), names, problems);
   refuse_twice(impl->measures, "measure.name", file.string(), names, problems);
   read_search(top, file.string(), *impl, problems);

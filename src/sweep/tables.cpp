@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <set>
 
 #include "sweep/columns.hpp"
 #include "vsa/config/text.hpp"
@@ -23,20 +24,6 @@ namespace fs = std::filesystem;
 bool numeric(const Axis& axis) {
   return axis.kind != Axis::Kind::listed ||
          std::all_of(axis.values.begin(), axis.values.end(), [](const Value& v) { return v.index() < 2; });
-}
-
-/// Renamed when it is whole, so that two who write at once leave the file of one of them.
-template <class Write>
-void put_whole(const fs::path& file, Write&& write) {
-  const fs::path beside = file.string() + fmt::format(".{}", getpid());
-  try {
-    write(beside);
-    fs::rename(beside, file);
-  } catch (...) {
-    std::error_code none;
-    fs::remove(beside, none);
-    throw;
-  }
 }
 
 }  // namespace
@@ -146,9 +133,11 @@ void write_hdf5(const std::vector<Column>& all, std::size_t rows, const fs::path
   H5Pset_obj_track_times(timeless, false);
   const Handle intermediate(H5Pcreate(H5P_LINK_CREATE), H5Pclose, file);
   H5Pset_char_encoding(intermediate, H5T_CSET_UTF8);
+  std::set<std::string> names;
   for (const Column& c : all) {
     std::string name = c.name;
     std::replace(name.begin(), name.end(), '/', '_');  // a group's sign
+    while (!names.insert(name).second) name += '_';
     std::size_t longest = 1;
     for (const std::string& t : c.texts) longest = std::max(longest, t.size());
     const Handle text(H5Tcopy(H5T_C_S1), H5Tclose, file);
@@ -172,15 +161,18 @@ bool has_hdf5() noexcept { return false; }
 #endif
 
 std::vector<fs::path> write_tables(const fs::path& folder, const Plan& plan, const Results& results) {
+  const std::string mark = '-' + std::to_string(getpid());  // two may merge at once
   std::vector<fs::path> out{folder / "results.csv"};
-  put_whole(out.back(), [&](const fs::path& file) {
+  const auto write_csv = [&](const fs::path& file) {
     OutputFile table(file);
     table.append(csv(plan, results));
     table.close();
-  });
+  };
+  write_whole(out.back(), write_csv, mark);
 #ifdef VSA_HDF5
   out.push_back(folder / "results.h5");
-  put_whole(out.back(), [&](const fs::path& file) { write_hdf5(columns(plan, results), plan.runs(), file); });
+  write_whole(
+      out.back(), [&](const fs::path& file) { write_hdf5(columns(plan, results), plan.runs(), file); }, mark);
 #endif
   return out;
 }

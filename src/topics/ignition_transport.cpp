@@ -16,7 +16,9 @@
 #include "stock.hpp"
 #include "vsa/topics/transport.hpp"
 
-extern "C" void __gcov_dump() __attribute__((weak));  // in builds that count what is run
+// In builds that count what is run; the compiler gave it its name.
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
+extern "C" void __gcov_dump() __attribute__((weak));
 
 namespace vsa::topics {
 namespace {

@@ -129,6 +129,41 @@ TEST(Sweep, WhatFailsIsListedWithTheCommandThatRepeatsIt) {
   EXPECT_EQ(runs_in(scratch / "out"), 8U);
   EXPECT_EQ(run_vsa({"sweep", scratch / "plan.toml", "--out", scratch / "out", "--resume", "--retry-failed"}).exit_code, 1);
   EXPECT_EQ(runs_in(scratch / "out"), 12U);
+  // A part of which nothing is left, too: a job's next step mustn't take it for whole.
+  const Result part = run_vsa({"sweep", scratch / "plan.toml", "--out", scratch / "out", "--part", "1/2", "--resume"});
+  EXPECT_EQ(part.exit_code, 1);
+  EXPECT_NE(part.err.find("2 runs of this part failed"), std::string::npos) << part.err;
+  EXPECT_EQ(runs_in(scratch / "out"), 12U);
+}
+
+TEST(Sweep, OfTwoInOneFolderOnlyPartsWorkSideBySide) {
+  const Scratch scratch;
+  std::string endless = plan_text();
+  endless.replace(endless.find("log = [0.2, 20.0]\ncount = 10"), 28, "list = [0.02, 1e7]");
+  write_file(scratch / "plan.toml", endless);
+  const std::vector<std::string> asked{"sweep", scratch / "plan.toml", "--out", scratch / "out", "--threads", "1"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), asked.begin(), asked.end());
+    return more;
+  };
+  Subprocess alone(asked);
+  ASSERT_TRUE(wait_for_runs(scratch / "out", 1));
+  for (const auto& other : {with({"--resume"}), with({"--part", "2/8", "--resume"})}) {
+    const Result refused = run_vsa(other);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("another one is at work there"), std::string::npos) << refused.err;
+  }
+  alone.send(SIGINT);
+  EXPECT_EQ(alone.wait().exit_code, 128 + SIGINT);
+  // Runs 2 and 3 never end, 4 and 5 do.
+  Subprocess third(with({"--part", "3/4", "--resume"}));
+  const auto logs = [&] { return std::distance(fs::directory_iterator(scratch / "out/log"), fs::directory_iterator()); };
+  for (int i = 0; i < 30'000 && logs() < 2; ++i) usleep(1000);
+  ASSERT_EQ(logs(), 2);
+  EXPECT_EQ(run_vsa(with({"--part", "5/8"})).exit_code, 0);
+  EXPECT_EQ(run_vsa(with({"--resume"})).exit_code, 2);
+  third.send(SIGINT);
+  EXPECT_EQ(third.wait().exit_code, 128 + SIGINT);
 }
 
 TEST(Sweep, ResultsThatAreThereAreNotWrittenOver) {

@@ -99,6 +99,24 @@ TEST(Fit, ItIsEndedWhereNobodyWantsIt) {
   EXPECT_NE(Runner(plan_of(scratch, "[limits]\nrun_s = 0.001\n" + kFit)).run(0)->error.find("run_s"), std::string::npos);
 }
 
+TEST(Fit, RecordingsOfOneFileNameAndTooFewPointsAreRefused) {
+  const Scratch scratch;
+  fs::create_directory(scratch / "a");
+  fs::create_directory(scratch / "b");
+  for (const char* name : {"a/x_points.csv", "b/x_points.csv"})
+    scratch.write(name, "load_torque_Nm,deflection_rad\n1,0.01\n-1,-0.01\n");
+  const auto fit = [](const std::string& recordings) {
+    return "[study]\nkind = \"fit\"\ntype = \"sea_hardening_example\"\nparameters = [\"elastic.stiffness_Nm_per_rad\", "
+           "\"elastic.hardening_Nm_per_rad3\"]\nrecordings = [" +
+           recordings + "]\n[[measure]]\nname = \"cost\"\nvalue = \"cost\"\n";
+  };
+  const std::string twice = refusal(scratch, fit("\"a/x_points.csv\", \"b/x_points.csv\""), true);
+  EXPECT_NE(twice.find("has the file name of another"), std::string::npos) << twice;
+  const Plan two_of_two = plan_of(scratch, fit("\"a/x_points.csv\""));
+  EXPECT_NE(Runner(two_of_two).run(0)->error.find("more points than parameters"), std::string::npos)
+      << Runner(two_of_two).run(0)->error;
+}
+
 TEST(Fit, BadOnesAreRefused) {
   const Scratch scratch;
   const auto expect = [&](const std::string& from, const std::string& to, const char* part) {

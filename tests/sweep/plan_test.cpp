@@ -120,6 +120,28 @@ TEST(Plan, ItsFingerprintIsThatOfWhatItSaysAndOfTheFilesThatItNames) {
   EXPECT_NE(before, print(own));
 }
 
+TEST(Plan, RecordingsAndATypesGridAreSuchFiles) {
+  const Scratch scratch;
+  const std::string fit =
+      "\n[study]\nkind = \"fit\"\ntype = \"sea_example\"\nparameters = [\"elastic.stiffness_Nm_per_rad\"]\n"
+      "recordings = [\"a_points.csv\"]\n[[measure]]\nname = \"k\"\nvalue = \"cost\"\n";
+  const auto print = [&](const std::string& of) { return plan_of(scratch, of).fingerprint(); };
+  const std::string points = "load_torque_Nm,deflection_rad\n0,0\n1,0.01\n2,0.02\n";
+  scratch.write("a_points.csv", points);
+  const auto before = print(fit);
+  EXPECT_EQ(before, print(fit));
+  scratch.write("a_points.csv", points + "3,0.03\n");
+  EXPECT_NE(before, print(fit));
+  const std::string of_grid = "\n[scenario]\nworld = \"bench_free\"\ntype = \"mine\"\nduration_s = 0.05\n" + kMeasure;
+  scratch.write("mine.toml", "[type]\nname = \"mine\"\n[elastic]\nlaw = \"table\"\ngrid = { value = \"g.csv\", source = \"s\" }\n");
+  scratch.write("g.csv", "1\n");
+  setenv("VSA_ACTUATOR_PATH", (scratch / "").c_str(), 1);
+  const auto first_grid = print(of_grid);
+  scratch.write("g.csv", "2\n");
+  EXPECT_NE(first_grid, print(of_grid));
+  unsetenv("VSA_ACTUATOR_PATH");
+}
+
 TEST(Plan, ATypeOfTheSearchPathAndItsBaseAreSuchFiles) {
   const Scratch scratch;
   const std::string type = "\n[scenario]\nworld = \"bench_free\"\ntype = \"mine\"\nduration_s = 0.05\n" + kMeasure;
@@ -189,6 +211,10 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"TwoColumnsOfAName", kScenario + kMeasure + kMeasure, "two columns of one name"},
         Bad{"ColumnPoint", measure("signal = \"supply_J\"") + "\n[[measure]]\nname = \"point\"\nsignal = \"supply_J\"",
             "two columns of one name"},
+        Bad{"ColumnNotice", measure("signal = \"supply_J\"") + "\n[[measure]]\nname = \"notice\"\nsignal = \"supply_J\"",
+            "two columns of one name"},
+        Bad{"ColumnThatHdf5HasNot", kScenario + kMeasure + "[[measure]]\nname = \".\"\nsignal = \"supply_J\"",
+            "no column's name in HDF5"},
         Bad{"UnknownStatistic", measure("signal = \"supply_J\"\nstatistic = \"average\""), "statistic = average"},
         Bad{"SettleWithoutBand", measure("signal = \"shaft_rad\"\nstatistic = \"settle_s\"\nactuator = \"shaft\""),
             "measure.band: is missing"},

@@ -107,6 +107,35 @@ TEST(Runner, ItsNumbersAreThoseOfAWorldThatIsStepped) {
   for (std::size_t m = 0; m < 4; ++m) EXPECT_NEAR(outcome.values[m], by_hand[m], 1e-12) << m;
 }
 
+/// 0.3 s are 300 steps of 1 ms, whatever 300 000 000 times 1e-9 is.
+TEST(Runner, AWindowEndsWithTheStepThatItNames) {
+  const Scratch scratch;
+  const auto hinge = [](const char* name, const char* more) {
+    return std::string("[[measure]]\nname = \"") + name + "\"\nsignal = \"position\"\njoint = \"qbmove_bench_pole::hinge\"\n" +
+           more;
+  };
+  const Plan plan = plan_of(scratch, "[scenario]\nworld = \"bench_pole\"\nduration_s = 0.3\n" + hinge("last", "") +
+                                         hinge("until", "to_s = 0.3\n") + hinge("before", "to_s = 0.299\n") +
+                                         hinge("from", "from_s = 0.299\nstatistic = \"first\"\n"));
+  const auto values = Runner(plan).run(0)->values;
+  EXPECT_EQ(values[1], values[0]);
+  EXPECT_NE(values[2], values[0]);
+  EXPECT_EQ(values[3], values[0]);
+}
+
+TEST(Runner, ADistanceThatIsNotMeasuredYetIsNoNumber) {
+  const Scratch scratch;
+  const auto far = [&](const char* duration_s) {
+    return Runner(plan_of(scratch, std::string("[scenario]\nworld = \"snake_flat\"\nduration_s = ") + duration_s +
+                                       "\n[motion]\nfile = \"sidewind\"\n[[measure]]\nname = \"far_m\"\nsignal = "
+                                       "\"travel_path_m\"\nstatistic = \"max\"\n"))
+        .run(0)
+        ->values[0];
+  };
+  EXPECT_TRUE(std::isnan(far("1.0"))) << "less than the gait's period";
+  EXPECT_GT(far("4.0"), 0.01);
+}
+
 TEST(Runner, RepetitionsOfAFreeRobotBeginElsewhere) {
   const Scratch scratch;
   const Plan plan = plan_of(scratch, R"(

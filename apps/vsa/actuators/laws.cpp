@@ -5,10 +5,10 @@
 
 #include "terminal/exit_codes.hpp"
 #include "terminal/markdown.hpp"
-#include "terminal/output_files.hpp"
 #include "terminal/table.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/elastic/law.hpp"
+#include "vsa/output_file.hpp"
 #include "vsa/report/report.hpp"
 
 namespace vsa::app {

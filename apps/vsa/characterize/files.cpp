@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "characterize/output.hpp"
-#include "terminal/output_files.hpp"
+#include "vsa/output_file.hpp"
 
 namespace vsa::app {
 

@@ -16,6 +16,7 @@
 #include "terminal/numbers.hpp"
 #include "terminal/output_files.hpp"
 #include "terminal/table.hpp"
+#include "vsa/output_file.hpp"
 
 namespace vsa::app {
 namespace {

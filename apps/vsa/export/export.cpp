@@ -12,6 +12,7 @@
 #include "terminal/output_files.hpp"
 #include "vsa/engine/mjcf.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/output_file.hpp"
 
 namespace vsa::app {
 namespace {

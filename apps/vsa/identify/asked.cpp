@@ -15,6 +15,7 @@
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/hash.hpp"
+#include "vsa/output_file.hpp"
 #include "vsa/study/characterization.hpp"
 
 namespace vsa::app {
@@ -49,13 +50,10 @@ identify::Task read_task(const IdentifyOptions& o, const config::ActuatorType& t
   };
   collect([&] { task.parameters = identify::parse_parameters(o.parameters, type); });
   for (const std::string& file : o.recordings) {
-    collect([&] {
-      task.observations.push_back(identify::read_observation(file, type));
-      identify::Observation& last = task.observations.back();
-      if (o.weights == "scatter") last.weight = identify::scatter_weight(last.data);
-    });
+    collect([&] { task.observations.push_back(identify::read_observation(file, type)); });
   }
   problems.throw_if_any();
+  if (o.weights == "scatter") identify::weigh_by_scatter(task.observations);
   check_enough(task);
   return task;
 }

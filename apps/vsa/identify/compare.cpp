@@ -17,6 +17,7 @@
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/hash.hpp"
+#include "vsa/output_file.hpp"
 #include "vsa/sweep/fits.hpp"
 #include "vsa/sweep/pool.hpp"
 

@@ -19,6 +19,7 @@
 #include "vsa/config/find_file.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/output_file.hpp"
 
 namespace vsa::app {
 namespace {

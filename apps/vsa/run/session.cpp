@@ -11,10 +11,10 @@
 #include "run/scenario.hpp"
 #include "run/set_up.hpp"
 #include "terminal/interrupt.hpp"
-#include "terminal/output_files.hpp"
 #include "unit/port_report.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/output_file.hpp"
 #include "vsa/seat/seat.hpp"
 
 namespace vsa::app {
@@ -34,7 +34,7 @@ RunSession::RunSession(const RunOptions& options, Console& console)
       robot_model_(scenario::travelling_model(world_)),
       travel_window_s_(scenario::travel_window_s(player_.gait())),
       control_(options.paused),
-      travel_(travel_window_s_, 1 / kTravelRate_Hz),
+      travel_(travel_window_s_, std::max(1 / kTravelRate_Hz, world_.step_s())),
       travel_cadence_(kTravelRate_Hz) {
   for (const auto& warning : world_.warnings()) console_.line("warning: " + warning);
   if (world_.robot_count() == 0)

@@ -18,9 +18,7 @@ namespace vsa::app {
 
 Generations::Generations(GenerationOptions options, const sweep::Series& series, Console& console)
     : options_(std::move(options)), console_(console) {
-  sweep::claim(options_.folder, series);
-  lock_ = DirectoryLock(options_.folder, "another one is at work there",
-                        options_.part.of > 1 ? DirectoryLock::Use::shared : DirectoryLock::Use::alone);
+  lock_ = claim_folder(options_.folder, series, options_.part);
   const sweep::Results there = sweep::read_logs(options_.folder, series);
   const bool any =
       std::any_of(there.outcomes.begin(), there.outcomes.end(), [&](const sweep::Outcome& o) { return options_.part.has(o.run); });

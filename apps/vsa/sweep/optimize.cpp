@@ -12,8 +12,8 @@
 
 #include "terminal/exit_codes.hpp"
 #include "terminal/interrupt.hpp"
-#include "terminal/output_files.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/output_file.hpp"
 #include "vsa/sweep/optimize.hpp"
 #include "vsa/sweep/summary.hpp"
 

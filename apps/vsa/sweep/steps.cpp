@@ -14,6 +14,7 @@
 #include "terminal/exit_codes.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/output_file.hpp"
 #include "vsa/sweep/summary.hpp"
 
 namespace vsa::app {
@@ -55,7 +56,6 @@ void Todo::add(std::size_t run) {
 Todo what_is_left(const sweep::Plan& plan, const SweepOptions& options) {
   const Part part = part_of(options.part);
   const fs::path folder = folder_of(options);
-  sweep::claim(folder, plan);
   const sweep::Results there = sweep::read_logs(folder, plan);
   std::vector<bool> done(plan.runs(), false);
   std::size_t known = 0;
@@ -71,6 +71,11 @@ Todo what_is_left(const sweep::Plan& plan, const SweepOptions& options) {
   for (std::size_t run = part.number - 1; run < plan.runs(); run += part.of)
     if (!done[run]) out.add(run);
   return out;
+}
+
+DirectoryLock claim_folder(const fs::path& folder, const sweep::Series& series, const Part& part) {
+  sweep::claim(folder, series);
+  return {folder, "another one is at work there", part.of > 1 ? DirectoryLock::Use::shared : DirectoryLock::Use::alone};
 }
 
 std::optional<std::size_t> Dealer::next() {
@@ -124,10 +129,9 @@ std::string account_text(const sweep::Account& a, std::size_t processes) {
 
 bool write_page(const report::Report& page, const fs::path& file, Console& console) {
   try {
-    // Two merges at once each write a file of their own first.
-    const fs::path own = file.string() + '.' + std::to_string(getpid());
-    report::write_report(page, own);
-    fs::rename(own, file);
+    const std::string mark = '-' + std::to_string(getpid());  // two may merge at once
+    write_whole(
+        file, [&page](const fs::path& own) { report::write_report(page, own); }, mark);
     return true;
   } catch (const InputError& error) {
     console.line("page left out: " + error.problems().front().text());

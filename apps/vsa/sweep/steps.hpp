@@ -26,7 +26,7 @@ struct Todo {
   std::size_t count = 0;
   void add(std::size_t run);
 };
-/// Claims the folder and reads what is there. Throws InputError: it has results and nobody said --resume.
+/// Reads what a claimed folder has. Throws InputError: results, and nobody said --resume.
 [[nodiscard]] Todo what_is_left(const sweep::Plan& plan, const SweepOptions& options);
 
 /// Every Nth run, from the Ith on.
@@ -36,6 +36,10 @@ struct Part {
 };
 /// "2/8"; empty: the whole. Throws InputError.
 [[nodiscard]] Part part_of(const std::string& text);
+
+/// The folder is this series', and this process's until the lock goes: alone, or with the other parts. Throws InputError: another plan's,
+/// or another process is at work there.
+[[nodiscard]] DirectoryLock claim_folder(const std::filesystem::path& folder, const sweep::Series& series, const Part& part);
 
 /// Numbers of a todo list, one after the other. From any thread.
 class Dealer {

@@ -74,8 +74,9 @@ int show_run(const sweep::Plan& plan, const SweepOptions& options) {
 }
 
 int run_here(const sweep::Plan& plan, const SweepOptions& options, Console& console) {
+  const Part part = part_of(options.part);
+  const DirectoryLock lock = claim_folder(folder_of(options), plan, part);
   const Todo todo = what_is_left(plan, options);
-  std::size_t failed = 0;
   if (todo.count > 0) {
     sweep::Log log(folder_of(options), plan);
     const sweep::Account account = make_here(plan, todo, threads_of(options), log, console);
@@ -85,9 +86,11 @@ int run_here(const sweep::Plan& plan, const SweepOptions& options, Console& cons
       console.line(fmt::format("interrupted: {} runs are left; --resume goes on", todo.count - account.runs));
       return kSignalled + interrupted();
     }
-    failed = account.failed;
   }
   if (options.part.empty()) return merge(plan, options, console);
+  const std::vector<sweep::Outcome> all = sweep::read_logs(folder_of(options), plan).outcomes;
+  const auto failed = std::count_if(all.begin(), all.end(), [&](const auto& o) { return part.has(o.run) && !o.error.empty(); });
+  if (failed > 0) console.line(fmt::format("{} runs of this part failed; --merge tells why", failed));
   return failed > 0 ? kFailed : kDone;
 }
 

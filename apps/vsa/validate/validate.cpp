@@ -13,6 +13,7 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/output_files.hpp"
 #include "validate/output.hpp"
+#include "vsa/output_file.hpp"
 
 namespace vsa::app {
 namespace {
