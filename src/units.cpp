@@ -51,4 +51,6 @@ std::string sliding(std::string_view words) {
   return out;
 }
 
+std::string_view unit_word(std::string_view unit) { return unit == "N·m/rad" ? "Nm_per_rad" : unit == "N/m" ? "N_per_m" : unit; }
+
 }  // namespace vsa

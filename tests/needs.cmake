@@ -25,6 +25,15 @@ set(VSA_NEEDS_SDF_engine
   Linear.*
   Placed.*
   Followers.*
+  OddFiles.AJointThatStartsBeyondItsFirmwaresReachIsRefused
+  OddFiles.AModelIncludedTwiceBelowAnotherHasActuatorsWithNamesOfTheirOwn
+  OddFiles.ARobotOfTheWorldIsRefusedNotForeign
+  OddFiles.AStateThatIsNoNumberIsRefused
+  OddFiles.ThePluginsMjcfNamesJointsAsTheMjcfDoesAndLeavesItsKeys
+  OddFiles.WhatStandsStillHoldsUpItsModelsOtherPartsInAnyOrder
+  SharedTree.ARobotInANestedModelToo
+  SharedTree.CopiesSnapshotsAndNumbersGoOnTheSameWay
+  SharedTree.TwoRobotsOnItRestAsOneDoes
   Hostile.RunWantsATime
   Hostile.SpansOfTheWrongSizeAreRefused
   Hostile.NumbersThatAreNoneAreRefusedAndTheWorldGoesOn

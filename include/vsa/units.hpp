@@ -39,6 +39,9 @@ inline constexpr double kRawPerTurn = 65536.0;         ///< a turn
 /// "N/m", "deflection_rad" → "deflection_m", "rad/s" → "m/s". What has nothing of that stays.
 [[nodiscard]] std::string sliding(std::string_view words);
 
+/// A unit as a column or an attribute ends in it: "N·m/rad" → "Nm_per_rad", "N/m" → "N_per_m", "rad" as it is.
+[[nodiscard]] std::string_view unit_word(std::string_view unit);
+
 constexpr double radians(Raw raw) { return raw.value * (2.0 * kPi / kRawPerTurn); }  ///< of that encoder
 
 }  // namespace vsa

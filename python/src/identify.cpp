@@ -47,10 +47,8 @@ id::Task read_task(const std::vector<std::string>& recordings, const config::Act
                    const std::string& weights) {
   id::Task task;
   task.parameters = id::parse_parameters(parameters, type);
-  for (const std::string& file : recordings) {
-    task.observations.push_back(id::read_observation(file, type));
-    if (weights == "scatter") task.observations.back().weight = id::scatter_weight(task.observations.back().data);
-  }
+  for (const std::string& file : recordings) task.observations.push_back(id::read_observation(file, type));
+  if (weights == "scatter") id::weigh_by_scatter(task.observations);
   return task;
 }
 

@@ -107,7 +107,9 @@ constexpr const char* kCharacterize =
     "times a\n"
     "second, in this thread; returns False to stop. threads: 0: all that the machine has.\n"
     "Returns what results.json holds, as a dict, with `samples` and `notices` in each entry of \"stiffness\", \"speed\" and\n"
-    "\"preset_step\": samples is a read-only structured ndarray, a view of the run's memory, which it keeps alive. None: stopped.\n"
+    "\"preset_step\": samples is a read-only structured ndarray, a view of the run's memory, which it keeps alive; of a linear "
+    "actuator its\n"
+    "fields hold m and N whatever their names say. None: stopped.\n"
     "Other threads of Python run meanwhile; Ctrl-C ends it. InputError, SimulationError.";
 
 }  // namespace

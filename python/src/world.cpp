@@ -37,10 +37,7 @@ class PyWorld::Stepping {
 };
 
 PyWorld::PyWorld(engine::World world) : world_(std::move(world)) {
-  std::map<std::string, int> count;
-  for (const engine::ActuatorRef& a : world_.actuators()) ++count[a.name];
-  for (const engine::ActuatorRef& a : world_.actuators())
-    actuator_names_.push_back(count[a.name] > 1 ? a.model + "/" + a.name : a.name);
+  for (const engine::ActuatorRef& a : world_.actuators()) actuator_names_.push_back(world_.name_of(a));
   for (const engine::JointInfo& j : world_.joints()) {
     if (j.type != engine::JointInfo::Type::revolute && j.type != engine::JointInfo::Type::prismatic) continue;
     joint_names_.push_back(j.name);

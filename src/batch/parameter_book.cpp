@@ -137,9 +137,7 @@ std::vector<std::size_t> ParameterBook::owners(const engine::World& world, const
 
 std::string ParameterBook::owner_name(const engine::World& world, std::string_view key, std::size_t owner) const {
   if (is_of_links(key)) return world.links()[owner].name;
-  const engine::ActuatorRef& a = world.actuators()[owner];
-  const auto same = [&](const engine::ActuatorRef& b) { return b.name == a.name; };
-  return std::count_if(world.actuators().begin(), world.actuators().end(), same) > 1 ? a.model + "/" + a.name : a.name;
+  return world.name_of(world.actuators()[owner]);
 }
 
 double ParameterBook::number(const engine::World& world, const CopyParameters& copy, std::size_t owner, const std::string& key) {

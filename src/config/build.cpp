@@ -2,6 +2,7 @@
 #include "config/build.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -170,6 +171,12 @@ void check_together(const device::UnitConfig& unit, Resolver& resolver) {
   for (const Problem& p : found.list())
     if (p.key != "elastic.law" && !resolver.failed(p.key))
       resolver.problem(resolver.line_of(p.key), p.key, p.value, p.message, p.allowed);
+  // A unit takes any gain, and the defaults are the maker pro's: motors that run away are nobody's wish.
+  constexpr const char* kGain = "firmware.kp_pct_per_tick";
+  if (!unit.servo && unit.program.model == firmware::Model::advanced && unit.memory.position.p > 0 && !resolver.failed(kGain))
+    resolver.problem(resolver.line_of(kGain), kGain, number_text(std::round(unit.memory.position.p / 6.5536) / 1e4),
+                     "drives the motors away: the advanced unit's program counts the other way round",
+                     "below 0, as firmware.kd_pct_per_tick (-0.1 and -0.8 as shipped), and firmware.supply_limit = false");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "config/build.hpp"
+#include "vsa/config/plugin_xml.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::config {
@@ -144,25 +145,11 @@ class Finisher {
       add(path + a.initial_preset_key, number_text(a.initial_preset), "is larger than the preset's limits.preset_max",
           range_text(-out.unit.preset_max, out.unit.preset_max) + " " + unit);
     }
-    check_references(a, out);
+    check_start(out, a.path + "/initial", where_, problems_);
     const bool slides = out.unit.actuator.linear(), in_m = a.equilibrium_key == "equilibrium_m";
     if (!a.equilibrium_key.empty() && slides != in_m && !a.replaced)
       add(path + a.equilibrium_key, number_text(a.initial_equilibrium),
           slides ? "this actuator's shaft slides" : "this actuator's shaft turns", slides ? "equilibrium_m" : "equilibrium_rad");
-  }
-
-  /// The firmware would clamp the references; where the unit starts must be what the file says.
-  void check_references(const ActuatorDraft& a, const host::ActuatorConfig& out) {
-    const auto& law = *out.unit.actuator.transmission;
-    const auto x = law.references({out.initial_equilibrium_rad, out.initial_preset});
-    for (std::size_t i = 0; i < static_cast<std::size_t>(law.motor_count()); ++i) {
-      const auto [low, high] = out.unit.reference_range_raw(static_cast<int>(i));
-      const double raw = x[i] * kRawPerTurn / (2 * kPi);
-      if (raw >= low - 0.5 && raw <= high + 0.5) continue;
-      add(a.path + "/initial", number_text(x[i]) + " rad",
-          "reference of motor " + std::to_string(i + 1) + " is beyond the firmware's limits",
-          range_text(low, high) + " raw, 65536 per turn");
-    }
   }
 
   void check_names() {
@@ -218,8 +205,10 @@ class Finisher {
     for (std::size_t b = 0; b < draft_.buses.size(); ++b) {
       const BusDraft& bus = draft_.buses[b];
       const auto on_it = [b](const host::ActuatorConfig& a) { return a.bus == b; };
-      const int units = static_cast<int>(std::count_if(config_.actuators.begin(), config_.actuators.end(), on_it));
-      if (units == 0) add(bus.path, "", "no actuator is on this bus", "at least one");
+      const auto talks = [b](const host::ActuatorConfig& a) { return a.bus == b && !a.unit.servo; };
+      const int units = static_cast<int>(std::count_if(config_.actuators.begin(), config_.actuators.end(), talks));
+      if (std::none_of(config_.actuators.begin(), config_.actuators.end(), on_it))
+        add(bus.path, "", "no actuator is on this bus", "at least one");
       const std::int64_t wire_ns = bus::wire_time_ns(units, bus.baud_Hz);
       if (!bus.cycle_s || std::llround(*bus.cycle_s * 1e9) >= wire_ns) continue;
       add(bus.path + "@cycle_s", number_text(*bus.cycle_s),
@@ -242,8 +231,7 @@ class Finisher {
 
 std::string preset_attribute(std::string_view unit) {
   if (unit.empty()) return "";
-  const std::string_view word = unit == "N·m/rad" ? "Nm_per_rad" : unit == "N/m" ? "N_per_m" : unit;
-  return std::string(kPresetPrefix) + "_" + std::string(word);
+  return std::string(kPresetPrefix) + "_" + std::string(unit_word(unit));
 }
 
 host::RobotConfig finish(const RobotDraft& draft, std::string_view where, const TypeLibrary& types, Problems& problems) {

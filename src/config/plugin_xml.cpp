@@ -291,6 +291,19 @@ void check_one_step(const host::RobotConfig& config, std::string_view where, Pro
                   "1, or no <substeps>"});
 }
 
+void check_start(const host::ActuatorConfig& actuator, const std::string& key, std::string_view where, Problems& problems) {
+  const auto& law = *actuator.unit.actuator.transmission;
+  const auto x = law.references({actuator.initial_equilibrium_rad, actuator.initial_preset});
+  for (std::size_t i = 0; i < static_cast<std::size_t>(law.motor_count()); ++i) {
+    const auto [low, high] = actuator.unit.reference_range_raw(static_cast<int>(i));
+    const double raw = x[i] * kRawPerTurn / (2 * kPi);
+    if (raw >= low - 0.5 && raw <= high + 0.5) continue;
+    problems.add({std::string(where), key, number_text(x[i]) + " rad",
+                  "reference of motor " + std::to_string(i + 1) + " is beyond the firmware's limits",
+                  range_text(low, high) + " raw, 65536 per turn"});
+  }
+}
+
 void check_joints(const host::RobotConfig& config, const std::vector<std::string>& joints, std::string_view where,
                   Problems& problems) {
   for (const host::ActuatorConfig& a : config.actuators) {

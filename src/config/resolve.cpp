@@ -38,6 +38,7 @@ std::optional<double> convert(const Spec& spec, const Scalar& value) {
       return std::nullopt;
     case Kind::word:
       if (const auto* v = std::get_if<std::string>(&value)) return word_index(spec.words, *v);
+      if (const auto* v = std::get_if<double>(&value)) return word_index(spec.words, number_text(*v));
       return whole ? word_index(spec.words, std::to_string(*whole)) : std::nullopt;
     case Kind::file:
       break;  // no number: see resolve_file()

@@ -44,7 +44,7 @@ UnitReading read(const Unit& unit, const UnitState& state, Torques torques) noex
   }
   const auto attained = law.attained(pulleys);
   r.equilibrium_rad = attained.equilibrium;
-  r.preset = attained.preset;
+  r.preset = unit.config().is(control::ServoKind::torque_servo) ? state.servo.command.preset : attained.preset;
   if (torques == Torques::left_out) {
     r.stiffness_Nm_per_rad = law.evaluate({r.shaft_rad, pulleys}).curvature.qq;
     return r;
@@ -63,7 +63,7 @@ double torque_slope(const Unit& unit, const UnitState& state) noexcept {
   const elastic::Positions at{state.reached.angle, {now.motor[0].angle, now.motor[1].angle}};
   const elastic::Response spring = law.evaluate(at);
   double slope = -spring.curvature.qq;
-  const drive::Friction rub(p.shaft_friction);
+  const drive::Friction rub(actuator::shaft_friction(p));
   if (std::abs(at.q - now.shaft_anchor) <= rub.presliding_rad) slope -= rub.stiffness;
   if (p.tendon.friction <= 0 || p.tendon.presliding_J <= 0) return slope;
   // −κ u_i |T_i| with u_i = clamp(w_i − z_i), ∂w_i/∂q = |T_i| and ∂T_i/∂q = −H_qi (vsa/actuator/actuator.hpp).

@@ -79,8 +79,8 @@ void hash(std::uint32_t& sum, std::string_view text) {
 }
 
 std::string text(const Link& l) {
-  return fmt::format("link {}: {} kg, centre {} {} {}{}", l.name, l.mass, l.com.X(), l.com.Y(), l.com.Z(),
-                     l.is_static ? ", static" : "");
+  return fmt::format("link {}: {} kg, centre {} {} {}, {} shapes{}", l.name, l.mass, l.com.X(), l.com.Y(), l.com.Z(),
+                     l.collisions.size(), l.is_static ? ", static" : "");
 }
 std::string text(const Joint& j) {
   return fmt::format("joint {}: kind {}, links {} and {}", j.name, static_cast<int>(j.kind), j.parent.value_or(0),
@@ -155,23 +155,35 @@ void World::Impl::index_names() {
     const ActuatorRef& ref = actuators[a];
     if (ref.index == 0) made->first_actuator[ref.robot] = a;
     made->joints[robots[ref.robot].joints[ref.index]].actuator = a;
-    made->full.emplace(ref.model + "/" + ref.name, a);
-    made->full.emplace(joined_by(robots[ref.robot].seat->model(), "/") + "/" + ref.name, a);
-    if (!made->actuator.emplace(ref.name, a).second) made->actuator[ref.name] = WorldNames::kSeveral;
+    const std::string outer = ref.model + "/" + ref.name, whole = joined_by(robots[ref.robot].seat->model(), "/") + "/" + ref.name;
+    for (auto* names_of : {&made->full, &made->actuator}) {
+      const std::string& name = names_of == &made->full ? outer : ref.name;
+      if (!names_of->emplace(name, a).second) (*names_of)[name] = WorldNames::kSeveral;
+    }
+    if (whole != outer) made->full[whole] = a;
   }
   names = std::move(made);
 }
 
 const ActuatorRef& World::actuator(std::string_view name) const {
   const WorldNames& known = *impl_->names;
-  if (const auto it = known.full.find(name); it != known.full.end()) return impl_->actuators[it->second];
-  const auto it = known.actuator.find(name);
-  if (it == known.actuator.end()) unknown("actuator", name, "no such actuator", known.full);
-  if (it->second != WorldNames::kSeveral) return impl_->actuators[it->second];
+  const auto in_full = known.full.find(name), in_short = known.actuator.find(name);
+  if (in_full == known.full.end() && in_short == known.actuator.end()) unknown("actuator", name, "no such actuator", known.full);
+  const std::size_t index = in_full != known.full.end() ? in_full->second : in_short->second;
+  if (index != WorldNames::kSeveral) return impl_->actuators[index];
   std::vector<std::string> full;
   for (const ActuatorRef& a : impl_->actuators)
-    if (a.name == name) full.push_back(a.model + "/" + a.name);
+    if (a.name == name || a.model + "/" + a.name == name) full.push_back(name_of(a));
   throw InputError(Problem{"", "actuator", std::string(name), "several models have it", list(std::move(full))});
+}
+
+std::string World::name_of(const ActuatorRef& ref) const {
+  const WorldNames& known = *impl_->names;
+  static_cast<void>(at(ref));
+  if (known.actuator.at(ref.name) != WorldNames::kSeveral) return ref.name;
+  std::string outer = ref.model + "/" + ref.name;
+  if (known.full.at(outer) != WorldNames::kSeveral) return outer;
+  return joined_by(impl_->robots[ref.robot].seat->model(), "/") + "/" + ref.name;
 }
 
 const std::vector<JointInfo>& World::joints() const { return impl_->names->joints; }

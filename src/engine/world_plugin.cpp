@@ -5,31 +5,19 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 
 #include "engine/world_check.hpp"
 #include "vsa/config/find_file.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/engine/mjcf.hpp"
 #include "vsa/files.hpp"
+#include "vsa/physics/mjcf.hpp"
 
 namespace vsa::engine {
 namespace {
 
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
+std::string in_quotes(const std::string& text) { return '"' + physics::escaped(text) + '"'; }
 
 class Writer {
  public:
@@ -45,12 +33,26 @@ class Writer {
     if (end == std::string::npos) throw InputError({file, "mujoco", "", "has no end", "</mujoco>"});
     const bool others = mjcf_.find("<actuator>") != std::string::npos;
     if (others) notes.push_back("the MJCF has actuators of its own, whose controls come before: no key \"start\"");
+    const bool taken = has_key_start();
+    if (taken)
+      notes.push_back("the MJCF has a key \"start\" of its own, which has no controls of these actuators: it stays as it is");
     return mjcf_.substr(0, end) + "<extension>\n<plugin plugin=\"vsasim.unit\">\n" + instances_ +
            "</plugin>\n</extension>\n<actuator>\n" + actuators_ + "</actuator>\n<sensor>\n" + sensors_ + "</sensor>\n" +
-           (others ? "" : start()) + mjcf_.substr(end);
+           (others || taken ? "" : start()) + mjcf_.substr(end);
   }
 
  private:
+  [[nodiscard]] bool has_key_start() const {
+    const std::regex start(R"(\bname\s*=\s*["']start["'])");
+    for (std::size_t at = mjcf_.find("<key "); at != std::string::npos; at = mjcf_.find("<key ", at + 1)) {
+      const std::size_t end = std::min(mjcf_.find('>', at), mjcf_.size());
+      if (std::regex_search(mjcf_.begin() + static_cast<std::ptrdiff_t>(at), mjcf_.begin() + static_cast<std::ptrdiff_t>(end),
+                            start))
+        return true;
+    }
+    return false;
+  }
+
   void note(std::size_t robot, std::vector<std::string>& notes) const {
     const host::RobotConfig& c = world_.robot(robot).config();
     const auto left_out = [&](const char* what) {

@@ -38,12 +38,7 @@ Variable output(const std::string& name, const std::string& unit, const std::str
   return variable(name, unit, description, Causality::output);
 }
 
-/// "joint_1", or "model/joint_1" where several models have it.
-std::string name_of(const engine::World& world, const engine::ActuatorRef& ref) {
-  const auto same = [&](const engine::ActuatorRef& a) { return a.name == ref.name; };
-  const auto& all = world.actuators();
-  return quoted(std::count_if(all.begin(), all.end(), same) > 1 ? ref.model + "/" + ref.name : ref.name);
-}
+std::string name_of(const engine::World& world, const engine::ActuatorRef& ref) { return quoted(world.name_of(ref)); }
 
 }  // namespace
 

@@ -40,14 +40,20 @@ std::string text_of(const Comparison& c, const Hypothesis& h) {
   return out;
 }
 
-/// A second of the bench, to a microradian.
-std::string physics_of(const Hypothesis& h, double preset, experiment::Watch* watch) {
+/// A second of the bench, to a microradian; of places at rest, which the law alone predicts, the law's.
+std::string physics_of(const Hypothesis& h, const Observation& o, experiment::Watch* watch) {
+  if (o.points) {
+    std::string out = "law";
+    for (const double load_Nm : o.data.torque_Nm)
+      out += fmt::format(" {:.6f}", experiment::law_deflection(*h.type.unit.actuator.transmission, o.preset, load_Nm));
+    return out + '\n';
+  }
   SweepOptions brief;
   brief.period_s = 1.0;
   brief.amplitude_rad = 1.0;
   brief.sample_s = 0.05;
   std::string out = "bench";
-  for (const double d : simulated_recording(h.specimen, preset, brief, watch).deflection_rad) out += fmt::format(" {:.6f}", d);
+  for (const double d : simulated_recording(h.specimen, o.preset, brief, watch).deflection_rad) out += fmt::format(" {:.6f}", d);
   return out + '\n';
 }
 
@@ -109,9 +115,8 @@ std::vector<std::string> request_hashes(const Comparison& c, const std::vector<F
                                         experiment::Watch* watch) {
   const std::size_t n = c.recordings.size();
   std::vector<std::string> physics(c.hypotheses.size() * n);
-  experiment::run_in_parallel(physics.size(), threads, [&](std::size_t i) {
-    physics[i] = physics_of(c.hypotheses[i / n], c.recordings[i % n].preset, watch);
-  });
+  experiment::run_in_parallel(physics.size(), threads,
+                              [&](std::size_t i) { physics[i] = physics_of(c.hypotheses[i / n], c.recordings[i % n], watch); });
   std::vector<std::string> out;
   for (const FitRequest& request : all) {
     std::string text = text_of(c, c.hypotheses[request.hypothesis]);

@@ -118,11 +118,11 @@ void read_recordings(Comparison& out, const Sources& sources, Problems& problems
   for (const fs::path& file : sources.files) {
     try {
       out.recordings.push_back(read_observation(file, out.hypotheses.front().type));
-      if (sources.by_scatter) out.recordings.back().weight = scatter_weight(out.recordings.back().data);
     } catch (const InputError& error) {
       problems.add_all(error);
     }
   }
+  if (sources.by_scatter) weigh_by_scatter(out.recordings);
   for (const Hypothesis& h : out.hypotheses) {
     for (const Observation& o : out.recordings) {
       try {

@@ -92,7 +92,9 @@ StartResult Worker::solve(const Job& job) {
   StartResult out = identify::solve(residuals, job.led ? led_by_surrogate(residuals, job.from) : job.from, fixed, options_);
   out.from = job.from;
   if (task.prepare) task.prepare(out.to);
-  out.cost = residuals.cost(residuals.at(out.to));
+  const std::vector<double> left = residuals.at(out.to);
+  out.cost = residuals.cost(left);
+  out.rms_rad = rms(left);
   out.evaluations = before + residuals.evaluations();
   return out;
 }

@@ -126,8 +126,10 @@ Observation read_observation(const std::filesystem::path& file, const config::Ac
           1.0};
 }
 
-double scatter_weight(const experiment::Branches& data) {
-  constexpr double kLeastScatter_rad = 2e-4;  // no recording of a 12-bit encoder is known better
+namespace {
+
+/// None: no point has a scatter.
+std::optional<double> scatter(const experiment::Branches& data) {
   double sum = 0, n = 0;
   for (const auto* scatter : {&data.sd_rising_rad, &data.sd_falling_rad}) {
     for (double s : *scatter) {
@@ -136,7 +138,26 @@ double scatter_weight(const experiment::Branches& data) {
       n += 1;
     }
   }
-  return 1.0 / std::max(kLeastScatter_rad, n > 0 ? std::sqrt(sum / n) : 0.0);
+  return n > 0 ? std::optional(std::sqrt(sum / n)) : std::nullopt;
+}
+
+}  // namespace
+
+double scatter_weight(const experiment::Branches& data) {
+  constexpr double kLeastScatter_rad = 2e-4;  // no recording of a 12-bit encoder is known better
+  return 1.0 / std::max(kLeastScatter_rad, scatter(data).value_or(0.0));
+}
+
+void weigh_by_scatter(std::span<Observation> observations) {
+  double squares = 0, known = 0;
+  for (Observation& o : observations) {
+    o.weight = scatter_weight(o.data);
+    if (!scatter(o.data)) continue;
+    squares += o.weight * o.weight;
+    known += 1;
+  }
+  for (Observation& o : observations)
+    if (known > 0 && !scatter(o.data)) o.weight = std::sqrt(squares / known);
 }
 
 double rounded(double value, int digits) { return config::parse_number(fmt::format("{:.{}e}", value, digits - 1)).value_or(value); }

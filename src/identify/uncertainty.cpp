@@ -48,6 +48,11 @@ Scaled scaled(const Residuals& residuals, const Fit& fit, Uncertainty& out) {
 
 /// (JᵀJ)⁻¹ without the directions that the data don't determine; those are noted in `out`.
 Eigen::MatrixXd inverse(const Scaled& s, Uncertainty& out) {
+  if (s.columns.rows() <= s.columns.cols()) {  // as many numbers as points fit them all and tell nothing of their scatter
+    out.condition = kInfinite;
+    out.unseparated.push_back(s.free);
+    return Eigen::MatrixXd::Zero(s.columns.cols(), s.columns.cols());
+  }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(s.columns, Eigen::ComputeThinV | Eigen::ComputeThinU);
   const Eigen::VectorXd& value = svd.singularValues();
   out.condition = value[value.size() - 1] > 0 ? value[0] / value[value.size() - 1] : kInfinite;

@@ -44,6 +44,7 @@ Model linearize(const device::UnitConfig& unit, const OperatingPoint& point, Fir
   if (servo) close(m, alone(servo_loop(unit, plant, point.preset, firmware), plant));
   m.c = output_matrix(plant, m.a.rows());
   m.d = Eigen::MatrixXd::Zero(m.c.rows(), m.b.cols());
+  if (firmware == Firmware::averaged) tell_of_averaging(m, m.notices);
   m.held_stiffness_Nm_per_rad = held_stiffness(plant);
   m.static_stiffness_Nm_per_rad = servo ? servo_stiffness(unit, plant, point.preset) : static_stiffness(plant, loops);
   return m;

@@ -46,6 +46,16 @@ Loops find_loops(const device::UnitConfig& unit, const Plant& plant, std::vector
   return out;
 }
 
+void tell_of_averaging(const System& system, std::vector<std::string>& notices) {
+  constexpr double kOfRate = 0.1;
+  for (const Pole& pole : poles(system)) {
+    if (!(pole.s.real() > 0 && pole.frequency_Hz > kOfRate / control::kTick_s)) continue;
+    notices.push_back("a pole of " + std::to_string(std::lround(pole.frequency_Hz)) +
+                      " Hz grows in the averaged firmware, which is good up to a tenth of the loops' rate: take it sampled");
+    return;
+  }
+}
+
 void average(System& m, const Loops& loops) {
   m.firmware = Firmware::averaged;
   for (const MotorLoop& l : loops.motors) {

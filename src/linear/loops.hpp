@@ -26,6 +26,9 @@ void average(System& system, const Loops& loops);
 /// From loop to loop; the last loop's angles are new states.
 void sample(System& system, const Loops& loops);
 
+/// Tells of a growing pole too fast for averaging: beyond a tenth of the loops' rate its damping is the average's error.
+void tell_of_averaging(const System& system, std::vector<std::string>& notices);
+
 /// "motor 1 speed"
 [[nodiscard]] std::string motor_signal(int motor, const char* what);
 

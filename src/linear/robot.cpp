@@ -212,6 +212,7 @@ RobotModel linearize(const Bodies& bodies, const std::vector<MountedUnit>& units
   m.c.rightCols(states - known).setZero();
   m.d = MatrixXd::Zero(m.c.rows(), m.b.cols());
   tell_stiffness(m, mounted, firmware);
+  if (firmware == Firmware::averaged) tell_of_averaging(m, m.notices);
   return m;
 }
 

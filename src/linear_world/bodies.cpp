@@ -115,11 +115,7 @@ bool one_axis(const JointInfo& joint) noexcept {
   return joint.type == JointInfo::Type::revolute || joint.type == JointInfo::Type::prismatic;
 }
 
-std::string actuator_name(const World& world, std::size_t actuator) {
-  const auto& all = world.actuators();
-  const auto same = std::count_if(all.begin(), all.end(), [&](const auto& a) { return a.name == all[actuator].name; });
-  return same == 1 ? all[actuator].name : all[actuator].model + "/" + all[actuator].name;
-}
+std::string actuator_name(const World& world, std::size_t actuator) { return world.name_of(world.actuators()[actuator]); }
 
 WorldBodies find_bodies(World& w) {
   Whole all(w);

@@ -17,9 +17,11 @@ using engine::JointInfo;
 using engine::World;
 
 std::optional<std::size_t> find_actuator(const World& w, const std::string& name) {
-  for (std::size_t a = 0; a < w.actuators().size(); ++a)
-    if (actuator_name(w, a) == name || w.actuators()[a].model + "/" + w.actuators()[a].name == name) return a;
-  return std::nullopt;
+  try {
+    return static_cast<std::size_t>(&w.actuator(name) - w.actuators().data());
+  } catch (const InputError&) {  // of none, or of several
+    return std::nullopt;
+  }
 }
 
 /// By its own name or its actuator's.
@@ -120,8 +122,9 @@ std::vector<linear::MountedUnit> mount(const World& w, const WorldBodies& b, con
     const engine::ActuatorRef& ref = w.actuators()[*joint.actuator];
     linear::MountedUnit unit{b.bodies.joints[j].name, w.robot(ref.robot).config().actuators[ref.index].unit, {}, j};
     const elastic::Transmission& law = *unit.unit.actuator.transmission;
-    const double given = point.preset.value_or(w.read(ref).preset), q = b.bodies.joints[j].angle;
-    unit.point.preset = presets[*joint.actuator].value_or(law.preset_unit().empty() && !point.preset ? 0.0 : given);
+    const double q = b.bodies.joints[j].angle;
+    const double there = unit.unit.preset_unit().empty() ? 0.0 : w.read(ref).preset;
+    unit.point.preset = presets[*joint.actuator].value_or(point.preset.value_or(there));
     unit.point.shaft_rad = q;
     const double torque = asked(joint, q, b.gravity[j]);
     const auto carried =

@@ -58,7 +58,7 @@ std::string sliding_columns(const std::string& header) {
 
 std::string actuators_header(const RobotInfo& robot) {
   const std::string* unit = common_unit(robot);
-  const std::string suffix = unit != nullptr && !unit->empty() ? "_" + *unit : "";
+  const std::string suffix = unit != nullptr && !unit->empty() ? "_" + std::string(unit_word(*unit)) : "";
   std::string h = "time_s,actuator,shaft_rad,shaft_speed_rad_per_s,equilibrium_command_rad,equilibrium_rad,";
   h += csv_text("preset_command" + suffix) + ',' + csv_text("preset" + suffix);
   h += ",deflection_rad,stiffness_Nm_per_rad,torque_Nm,motor_1_rad,motor_2_rad,current_1_A,current_2_A";

@@ -31,10 +31,10 @@ constexpr std::array<Number, 9> kNumbers{{
     {"equilibrium_command_rad", "commanded equilibrium", &ActuatorReading::equilibrium_command_rad},
     {"equilibrium_rad", "attained equilibrium, from the pulleys", &ActuatorReading::equilibrium_rad},
     {"preset_command", "commanded stiffness preset, in preset_unit", &ActuatorReading::preset_command},
-    {"preset", "attained stiffness preset, from the pulleys, in preset_unit", &ActuatorReading::preset},
+    {"preset", "attained stiffness preset, in preset_unit", &ActuatorReading::preset},
     {"deflection_rad", "shaft less equilibrium", &ActuatorReading::deflection_rad},
     {"stiffness_Nm_per_rad", "stiffness at the shaft", &ActuatorReading::stiffness_Nm_per_rad},
-    {"torque_Nm", "on the shaft by the actuator, mean over the last step", &ActuatorReading::torque_Nm},
+    {"torque_Nm", "on the shaft by the actuator, at this time", &ActuatorReading::torque_Nm},
 }};
 
 struct MotorNumber {
@@ -45,7 +45,7 @@ struct MotorNumber {
 constexpr std::array<MotorNumber, 4> kMotorNumbers{{
     {"motor_rad", "angle of each motor's pulley", &ActuatorReading::motor_rad},
     {"motor_speed_rad_per_s", "speed of each motor's pulley", &ActuatorReading::motor_speed_rad_per_s},
-    {"motor_torque_Nm", "spring load on each pulley, mean over the last step", &ActuatorReading::motor_torque_Nm},
+    {"motor_torque_Nm", "spring load on each pulley, at this time", &ActuatorReading::motor_torque_Nm},
     {"current_A", "current of each motor", &ActuatorReading::current_A},
 }};
 
@@ -104,7 +104,7 @@ std::string column_name(const EnergyColumn& c) { return std::string(c.name) + "_
 std::string actuators_schema() {
   Json fields{{"name", of_type("string", "the actuator's name")}};
   for (const Number& n : kNumbers) fields[std::string(n.name)] = of_type("number", n.description);
-  fields["preset_unit"] = of_type("string", "of the preset; it belongs to the actuator's law; empty: no unit");
+  fields["preset_unit"] = of_type("string", "of the preset, as the actuator's law or its servo has it; empty: none");
   for (const MotorNumber& n : kMotorNumbers) fields[std::string(n.name)] = array_of(of_type("number"), n.description);
   fields["measured_motor_ticks"] = array_of(of_type("integer"), "the unit's own reading of each motor, as its master last read it");
   fields["measured_shaft_ticks"] = of_type("integer", "the same of the shaft");

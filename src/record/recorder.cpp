@@ -9,12 +9,14 @@ namespace vsa::record {
 namespace {
 
 ActuatorInfo describe(const host::ActuatorConfig& config) {
-  ActuatorInfo info{config.name, config.joint, config.type, "", 2, {}, config.unit.actuator.linear()};
-  if (const auto& law = config.unit.actuator.transmission) {
-    info.preset_unit = law->preset_unit();
-    info.motors = law->motor_count();
-  }
-  return info;
+  const auto& law = config.unit.actuator.transmission;
+  return {config.name,
+          config.joint,
+          config.type,
+          std::string(config.unit.preset_unit()),
+          law ? law->motor_count() : 2,
+          {},
+          config.unit.actuator.linear()};
 }
 
 void add_faults(const ActuatorInfo& actuator, const device::Faults& faults, std::string& all) {

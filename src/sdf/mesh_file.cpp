@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "vsa/bits.hpp"
@@ -59,14 +60,18 @@ T take(const std::string& data, std::size_t at) {
 
 constexpr std::size_t kStlHeader = 84, kStlFacet = 50;
 
-bool is_binary_stl(const std::string& data) {
-  return data.size() >= kStlHeader && data.size() == kStlHeader + kStlFacet * std::size_t{take<std::uint32_t>(data, 80)};
+/// How many facets a binary STL has, whatever some programs append; none: it isn't one.
+std::optional<std::size_t> facets_of_binary_stl(const std::string& data) {
+  if (data.size() < kStlHeader) return std::nullopt;
+  const std::size_t facets = take<std::uint32_t>(data, 80), whole = kStlHeader + kStlFacet * facets;
+  const bool text = data.compare(0, 5, "solid") == 0 && data.find("facet") != std::string::npos;
+  return data.size() == whole || (data.size() > whole && facets > 0 && !text) ? std::optional(facets) : std::nullopt;
 }
 
-Mesh binary_stl(const std::string& data) {
+Mesh binary_stl(const std::string& data, std::size_t facets) {
   Mesh mesh;
   Welder weld(mesh);
-  for (std::size_t at = kStlHeader; at + kStlFacet <= data.size(); at += kStlFacet) {
+  for (std::size_t at = kStlHeader; at < kStlHeader + kStlFacet * facets; at += kStlFacet) {
     std::array<std::uint32_t, 3> t{};
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::size_t p = at + 12 * (corner + 1);
@@ -136,10 +141,11 @@ bool mesh_format_known(const fs::path& file) {
 Mesh read_mesh(const fs::path& file, const Vec3& scale) {
   if (!mesh_format_known(file)) no_mesh(file, "this mesh format isn't read", kMeshFormats);
   const std::string e = extension(file), data = read_all(file);
-  Mesh mesh = e == ".dae"           ? read_collada(file)
-              : e == ".obj"         ? obj(file, data)
-              : is_binary_stl(data) ? binary_stl(data)
-                                    : text_stl(file, data);
+  const std::optional<std::size_t> facets = facets_of_binary_stl(data);
+  Mesh mesh = e == ".dae"   ? read_collada(file)
+              : e == ".obj" ? obj(file, data)
+              : facets      ? binary_stl(data, *facets)
+                            : text_stl(file, data);
   if (mesh.triangles.empty()) no_mesh(file, "holds no triangles");
   for (Vec3& v : mesh.vertices) {
     v = v * scale;

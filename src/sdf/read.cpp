@@ -9,6 +9,7 @@
 #include "sdf/includes.hpp"
 #include "sdf/parse.hpp"
 #include "sdf/read_context.hpp"
+#include "vsa/config/plugin_xml.hpp"
 
 namespace vsa::reader {
 namespace {
@@ -35,7 +36,12 @@ void read_world_extras(ReadContext& c, const sdf::World& world) {
     if (child(e, name)) c.problem(child(e, name), std::string("world/") + name, "", "isn't supported");
   }
   for (sdf::ElementPtr p = child(e, "plugin"); p; p = p->GetNextElement("plugin")) {
-    c.notes.add("foreign plugins are left out", "world/plugin[" + p->GetAttribute("name")->GetAsString() + "]");
+    const std::string name = p->GetAttribute("name")->GetAsString(), key = "world/plugin[" + name + "]";
+    if (name == config::kPluginName) {
+      c.problem(p, key, "", "belongs to a model", "in the <model> whose joints it drives");
+    } else {
+      c.notes.add("foreign plugins are left out", key);
+    }
   }
 }
 

@@ -19,6 +19,7 @@
 namespace vsa::reader {
 namespace {
 
+constexpr double kFurthest = 1e9;        // rad or m, as of an <initial_position>
 constexpr double kPoseTolerance = 1e-3;  // m and rad: files hold six digits
 
 class ModelState {
@@ -33,7 +34,8 @@ class ModelState {
       problem(element_, "/model", "", "states of nested models aren't supported", "joints of the model itself");
     if (const sdf::ElementPtr scale = child(element_, "scale"); scale && !alike(scale->Get<SdfVec3>(), Vec3::One))
       problem(scale, "/scale", scale->Get<std::string>(), "isn't supported", "1 1 1");
-    if (const sdf::ElementPtr pose = child(element_, "pose")) move(Pose3(pose->Get<SdfPose3>()) * known->second.Inverse());
+    if (const sdf::ElementPtr pose = child(element_, "pose"))
+      if (const auto to = pose_in(pose, "")) move(*to * known->second.Inverse());
     for (sdf::ElementPtr e = child(element_, "joint"); e; e = e->GetNextElement("joint")) joint(e);
     for (sdf::ElementPtr e = child(element_, "link"); e; e = e->GetNextElement("link")) link(e);
     solve();
@@ -61,7 +63,13 @@ class ModelState {
                                  [&](const Joint& j) { return j.name == scoped_name(name_, name); });
     if (it == c_.out.joints.end() || !it->one_axis())
       return problem(e, "/joint[" + name + "]", "", "no such joint with one axis", "a joint of the model");
-    for (sdf::ElementPtr a = child(e, "angle"); a; a = a->GetNextElement("angle")) it->axes[0].start = a->Get<double>();
+    for (sdf::ElementPtr a = child(e, "angle"); a; a = a->GetNextElement("angle")) {
+      const auto angle = a->Get<double>();
+      if (!(std::abs(angle) <= kFurthest))
+        return problem(a, "/joint[" + name + "]/angle", fmt::format("{}", angle), "isn't a number in range",
+                       fmt::format("{} … {}", -kFurthest, kFurthest));
+      it->axes[0].start = angle;
+    }
   }
 
   void link(const sdf::ElementPtr& e) {
@@ -73,7 +81,14 @@ class ModelState {
       if (child(e, left)) c_.notes.add("speeds, accelerations and forces of a <state> are left out", key_);
     }
     if (const sdf::ElementPtr pose = child(e, "pose"))
-      poses_[static_cast<std::size_t>(it - c_.out.links.begin())] = Pose3(pose->Get<SdfPose3>());
+      if (const auto at = pose_in(pose, "/link[" + name + "]")) poses_[static_cast<std::size_t>(it - c_.out.links.begin())] = *at;
+  }
+
+  std::optional<Pose3> pose_in(const sdf::ElementPtr& e, const std::string& of) {
+    const auto pose = e->Get<SdfPose3>();
+    if (pose.IsFinite()) return Pose3(pose);
+    problem(e, of + "/pose", "", "isn't finite", "six finite numbers");
+    return std::nullopt;
   }
 
   [[nodiscard]] std::optional<Pose3> pose_of(std::optional<std::size_t> link) const {

@@ -117,7 +117,9 @@ Json actuator_json(const Characterization& c) {
   out["title"] = c.actuator.title;
   out["law"] = c.actuator.law;
   Json& overrides = out["overrides"] = Json::object();
-  for (const config::Override& o : c.specimen.overrides) overrides[o.key] = o.value;
+  std::vector<config::Override> given = c.specimen.overrides;
+  if (c.linear()) given.pop_back();  // the benches' pinion, which nobody asked for
+  for (const config::Override& o : given) overrides[o.key] = o.value;
   Json& values = out["parameters"] = Json::array();
   for (const config::Entry& e : c.actuator.entries) values.push_back({{"key", e.key}, {"value", e.value}, {"unit", e.unit}});
   return out;

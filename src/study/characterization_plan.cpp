@@ -48,6 +48,10 @@ class Planner {
     if (wants(Experiment::stiffness)) add_stiffness();
     if (wants(Experiment::speed)) add_speed();
     if (wants(Experiment::preset_step) && has_preset_) add_preset_step();
+    if (plan_.stiffness.empty() && plan_.speed.empty() && plan_.preset_step.empty())
+      add("--experiment", word(Experiment::preset_step), "the motors of " + plan_.specimen.type + " wind its springs to no preset",
+          "stiffness, speed");
+    problems_.throw_if_any();
     return std::move(plan_);
   }
 

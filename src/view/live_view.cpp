@@ -68,6 +68,7 @@ std::vector<LiveView::Impl::Actuator> LiveView::Impl::actuators_of(const host::S
 }
 
 std::optional<Download> LiveView::Impl::get(std::string_view path) {
+  path = path.substr(0, path.find_first_of("?#"));
   if (path == "/") return Download{"text/html", "", page};
   const bool recording = path.size() > kRecordings.size() + kHtml.size() && path.substr(0, kRecordings.size()) == kRecordings &&
                          path.substr(path.size() - kHtml.size()) == kHtml;

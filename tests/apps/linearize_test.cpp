@@ -39,6 +39,16 @@ TEST(Linearize, SaysWithWhichPeriodItSamples) {
                {"\"period_s\": 0.001", "motor 2 angle at the last loop", "\"friction\": \"stuck\"", "\"preset_rad\": 0.3"});
 }
 
+/// Of the ANYdrive on its own shaft the average makes a swing of 204 Hz grow that dies out in ticks.
+TEST(Linearize, TellsOfWhatGrowsOnlyInTheAverage) {
+  const Scratch scratch;
+  const auto with = [&](const char* firmware) {
+    return run_vsa({"linearize", "anydrive_ad119e20", "--preset-rad", "35", "--firmware", firmware, "--out", scratch / "out"});
+  };
+  expect_holds(with("averaged").err, {"grows in the averaged firmware", "take it sampled"});
+  EXPECT_EQ(with("sampled").err.find("take it sampled"), std::string::npos);
+}
+
 TEST(Linearize, FollowsLoadAndParameters) {
   const Scratch scratch;
   const auto result = run_vsa({"linearize", "sea_example", "--load-Nm", "0.5", "--equilibrium-rad", "0.2", "--damping-Nms-per-rad",

@@ -104,6 +104,7 @@ TEST(Override, OfTheBridgeOrTheLoopThatDoNotGoTogetherAreRefused) {
   };
   expect_pieces(told({{"drive.pwm_pin", "enable"}}), {"drive.inductance_H", "needs the winding's inductance"});
   expect_pieces(told({{"firmware.model", "advanced"}, {"firmware.generation", "4"}}), {"firmware.generation", "maker pro"});
+  expect_pieces(told({{"firmware.model", "advanced"}}), {"firmware.kp_pct_per_tick", "0.1", "drives the motors away", "below 0"});
 }
 
 TEST(Override, ThatIsBadIsRefusedByNameOfTheOverride) {

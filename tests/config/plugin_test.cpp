@@ -150,6 +150,9 @@ TEST(Plugin, WhatHostsAndXmlAddIsTolerated) {
 }
 
 TEST(Plugin, ACycleOfExactlyTheWireTimeIsAccepted) {
+  // Servos stand on the line's bus and don't talk on it.
+  const std::string servo = "<actuator name='s'><joint>s</joint><type>ugurlu_sea</type><bus id='9'>b</bus></actuator>";
+  EXPECT_EQ(parse(plugin("<bus name='b' cycle_s='0.00014'/>" + maker_pro("a") + servo)).actuators.size(), 2u);
   EXPECT_EQ(parse(plugin("<bus name='b' cycle_s='0.00014'/>" + maker_pro("a"))).buses[0].cycle_s, 0.00014);
 }
 

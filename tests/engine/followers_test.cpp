@@ -84,5 +84,21 @@ TEST(Followers, SwingTheirLeaderAsTheirInertiaWouldByItself) {
   EXPECT_LT(apart, 0.004) << "an equality of 4 ms gives way a little";
 }
 
+/// A leader that is put elsewhere takes its followers along, or their equality pulls it back.
+TEST(Followers, GoAlongWhereTheirLeaderIsPlaced) {
+  World w = load(row("m", {1e-3, 1e-3, 1e-4}, -2.0), 0.001);
+  w.place("j0", 0.4, 0.3, 0.1);
+  EXPECT_NEAR(w.joint_angle("m::j1"), -0.8, 1e-12);
+  EXPECT_NEAR(w.joint_angle("m::j2"), -0.8, 1e-12);
+  EXPECT_NEAR(w.joint_speed("m::j1"), -0.2, 1e-12);
+  w.place("j0", 0.4, 0.3);
+  double fastest = 0;
+  for (int n = 0; n < 200; ++n) {
+    w.step();
+    fastest = std::max(fastest, std::abs(w.read("j0").shaft_speed_rad_per_s));
+  }
+  EXPECT_LT(fastest, 0.1);
+}
+
 }  // namespace
 }  // namespace vsa::engine::testing

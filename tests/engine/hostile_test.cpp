@@ -152,6 +152,7 @@ TEST(Hostile, ObjectsOfAnotherWorldAreRefused) {
     EXPECT_THROW((void)w.command(ref, 0, 0), InputError);
     EXPECT_THROW(w.place(ref, {}), InputError);
     EXPECT_THROW((void)w.joint(ref), InputError);
+    EXPECT_THROW((void)w.name_of(ref), InputError);
   }
   for (const JointHandle& joint : {JointHandle{}, other.joint("arm::wrist")}) {
     EXPECT_THROW((void)w.joint_angle(joint), InputError);

@@ -54,6 +54,24 @@ TEST(Deficiency, TwoParametersOfWhichOnlyTheSumActsAreNamed) {
   EXPECT_GT(u.condition, 500);
 }
 
+/// As many numbers as points meet them all; how well they are known nothing says.
+TEST(Deficiency, AsManyParametersAsPointsAreAllUndetermined) {
+  for (std::size_t points : {std::size_t{2}, std::size_t{3}}) {
+    Task task = untied();
+    task.observations.resize(1);
+    experiment::Branches& data = task.observations[0].data;
+    std::size_t left = points;
+    for (double& v : data.rising_rad) v = left > 0 && std::isfinite(v) ? (--left, v) : std::nan("");
+    for (double& v : data.falling_rad) v = std::nan("");
+    const Residuals residuals(task, 1);
+    ASSERT_EQ(residuals.points().size(), points);
+    const Fit f = fit(residuals, {});
+    const Uncertainty u = uncertainty(residuals, f);
+    ASSERT_TRUE(u.deficient());
+    for (double e : u.standard_error) EXPECT_TRUE(std::isinf(e));
+  }
+}
+
 TEST(Deficiency, AtOnePresetTheShortfallAndTheSpringAreOne) {
   const std::vector<double> one{0.69};
   const Task task = task_of(parse_parameters(test::kFour, paper_type()), one, noisy(one));

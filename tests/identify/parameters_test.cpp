@@ -85,6 +85,17 @@ TEST(Rounding, KeepsSignificantDigits) {
   EXPECT_EQ(rounded(0.0, 4), 0.0);
 }
 
+TEST(ScatterWeight, OfWhatTellsNoScatterIsThatOfTheOthers) {
+  std::vector<Observation> all(3);
+  for (Observation& o : all) o.data = test::closed_form(test::kTruth, 0);
+  for (auto* sd : {&all[1].data.sd_rising_rad, &all[1].data.sd_falling_rad}) sd->assign(sd->size(), std::nan(""));
+  weigh_by_scatter(all);
+  EXPECT_NEAR(all[1].weight, 1 / 0.003, 1e-6);
+  EXPECT_NEAR(all[2].weight, 1 / 0.003, 1e-6);
+  weigh_by_scatter(std::span(all).subspan(1, 1));
+  EXPECT_EQ(all[1].weight, scatter_weight(all[1].data)) << "alone it has no others";
+}
+
 TEST(ScatterWeight, IsTheInverseOfTheScatter) { EXPECT_NEAR(scatter_weight(test::closed_form(test::kTruth, 0)), 1 / 0.003, 1e-6); }
 
 const config::Evidence kFitted{{"stiffness.0.6903", "stiffness.0.4602"}, "vsa identify \"a.csv\""};

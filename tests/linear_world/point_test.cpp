@@ -47,6 +47,22 @@ Eigen::Matrix2d gravity_stiffness(double q1, double q2) {
   return k;
 }
 
+/// A torque servo's preset is its own, not its law's, which has none.
+TEST(Point, ATorqueServosPresetIsTheOneInForce) {
+  engine::WorldOptions options;
+  options.actuator.type = "ugurlu_sea";
+  World w = World::load_string(driven_arm({}, "0 0 0"), options);
+  for (const auto& a : w.actuators()) ASSERT_TRUE(w.command(a, 0.0, 1000.0));
+  w.run(0.5);
+  EXPECT_EQ(w.read("lower").preset, 1000) << "read in the unit of the command";
+  const WorldModel now = linear_world::linearize(w, {}, Firmware::averaged),
+                   told = linear_world::linearize(w, {{}, 1000.0}, Firmware::averaged);
+  ASSERT_EQ(now.model.units.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(now.model.units[i].static_stiffness_Nm_per_rad, told.model.units[i].static_stiffness_Nm_per_rad, 1e-6);
+  EXPECT_GT(now.model.units[1].static_stiffness_Nm_per_rad, 900);
+}
+
 TEST(Point, HasTheArmsMassMatrixAndGravitysStiffness) {
   const World w = World::load_string(driven_arm());
   for (const auto& [q1, q2] : std::vector<std::pair<double, double>>{{1.57, 0}, {1.2, 0.4}, {1.9, -0.3}, {-1.4, 0.1}}) {

@@ -3,7 +3,9 @@
 // Heightmaps and meshes.
 #include <lodepng.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "engine/worlds.hpp"
 
@@ -145,6 +147,25 @@ TEST(Meshes, StlAsTextIsReadToo) {
   const World w = World::load_string(world(mesh_body(tetra)));
   EXPECT_EQ(w.links()[0].visuals.at(0).vertices.size(), 12u);
   EXPECT_EQ(w.links()[0].visuals.at(0).indices.size(), 12u);
+}
+
+/// Some programs write their own words behind the facets.
+TEST(Meshes, ABinaryStlMayHaveBytesBehindItsFacets) {
+  const TempDir dir("stl_tail");
+  std::string whole(80, ' ');
+  const auto put = [&](auto value) { whole.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  const std::array<std::array<float, 3>, 4> corner{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  put(std::uint32_t{4});
+  for (const auto& facet : {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{0, 3, 2}, std::array{1, 2, 3}}) {
+    for (int normal = 0; normal < 3; ++normal) put(0.0F);
+    for (const int c : facet)
+      for (const float x : corner[static_cast<std::size_t>(c)]) put(x);
+    put(std::uint16_t{0});
+  }
+  const auto vertices = [&](const std::string& bytes) {
+    return World::load_string(world(mesh_body(dir.write("b.stl", bytes)))).links()[0].visuals.at(0).vertices.size();
+  };
+  EXPECT_EQ(vertices(whole + "made by a program"), vertices(whole));
 }
 
 }  // namespace

@@ -130,5 +130,32 @@ TEST(Characterization, ItsResultsNameTheProgramTheCommandAndTheFiles) {
   EXPECT_EQ(csv.rfind("time_s,load_torque_Nm,deflection_rad,", 0), 0u) << csv.substr(0, 100);
 }
 
+/// Motors that wind their springs to no preset leave nothing to step.
+TEST(Characterization, WithNothingToDoItIsRefused) {
+  CharacterizationOptions o = of("fsj_example", {Experiment::preset_step});
+  o.specimen.overrides = {{"drive.friction_Nm", "9"}};
+  try {
+    static_cast<void>(plan_characterization(o));
+    FAIL() << "planned nothing";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("wind its springs to no preset"), std::string::npos) << error.what();
+  }
+}
+
+/// The benches' pinion is none that anybody asked for.
+TEST(Characterization, OfALinearActuatorTellsTheOverridesThatWereGiven) {
+  CharacterizationOptions o = of("linear_sea_example", {Experiment::speed});
+  o.specimen.overrides = {{"drive.friction_Nm", "0.02"}};
+  Characterization c = plan_characterization(o);
+  c.speed.resize(1);
+  c.speed[0].options.hold_s = 0.2;
+  c.speed[0].options.steps = 2;
+  const auto done = run(c);
+  ASSERT_TRUE(done);
+  const auto told = nlohmann::json::parse(to_json(*done, "vsa")).at("actuator").at("overrides");
+  EXPECT_EQ(told.size(), 1U) << told;
+  EXPECT_TRUE(told.contains("drive.friction_Nm")) << told;
+}
+
 }  // namespace
 }  // namespace vsa::study

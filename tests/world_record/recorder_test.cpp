@@ -51,6 +51,20 @@ std::string shortest(double value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+/// A torque servo's preset is a stiffness, and the record says so.
+TEST_F(RecorderTest, TellsTheUnitOfAServosPreset) {
+  engine::WorldOptions options;
+  options.types = config::TypeLibrary({fs::path(VSA_SOURCE_DIR) / "actuators"});
+  options.model_path = {fs::path(VSA_SOURCE_DIR) / "models"};
+  options.actuator.type = "ugurlu_sea";
+  engine::World world = engine::World::load(fs::path(VSA_SOURCE_DIR) / "models" / "worlds" / "bench_free.sdf", options);
+  const RunInfo info = describe(world);
+  EXPECT_EQ(info.robots.at(0).actuators.at(0).preset_unit, "N·m/rad");
+  record(world, dir_.path() / "out");
+  const std::string csv = slurp(dir_.path() / "out" / (info.robots.at(0).model + "_actuators.csv"));
+  EXPECT_NE(csv.find(",preset_command_Nm_per_rad,preset_Nm_per_rad,"), std::string::npos) << csv.substr(0, 300);
+}
+
 TEST_F(RecorderTest, BeginsBeforeTheFirstStepAndEndsWithWhatTheWorldSays) {
   engine::World world = bench();
   record(world, dir_.path() / "out");

@@ -104,6 +104,7 @@ TEST(LiveView, GreetsWithWhatThereIsToAskFor) {
   EXPECT_NEAR(gait["frequency_rad_per_s"], 4.71, 1e-12);
   EXPECT_EQ(gait["groups"].size(), 2U);
   EXPECT_NE(get(run.port(), "/").find("\"format\":1"), std::string::npos);
+  EXPECT_NE(get(run.port(), "/?reload=1").find("\"format\":1"), std::string::npos);
 }
 
 TEST(LiveView, FramesHoldWhatTheWorldHolds) {

@@ -31,6 +31,10 @@ struct Replacement {
 /// For hosts whose engine steps by itself: adds a problem where the robot asks for more than one substep.
 void check_one_step(const host::RobotConfig& config, std::string_view where, Problems& problems);
 
+/// Adds a problem for an actuator whose first equilibrium and preset ask a motor for what its firmware would clamp: where a unit starts
+/// must be what the file says.
+void check_start(const host::ActuatorConfig& actuator, const std::string& key, std::string_view where, Problems& problems);
+
 /// Adds a problem for every configured joint that isn't among `joints` (scoped names).
 void check_joints(const host::RobotConfig& config, const std::vector<std::string>& joints, std::string_view where,
                   Problems& problems);

@@ -12,15 +12,15 @@ namespace vsa::device {
 
 /// At the end of the unit's last step: physical truth.
 struct UnitReading {
-  double equilibrium_rad = 0,               ///< attained, from the pulleys
-      preset = 0;                           ///< attained, from the pulleys, in the law's unit
-  double shaft_rad = 0,                     ///< q
-      shaft_speed_rad_per_s = 0;            ///< q̇
-  double torque_Nm = 0;                     ///< on the shaft by springs and frictions
-  double mean_torque_Nm = 0;                ///< the same as the host got it, over the last step
-  double stiffness_Nm_per_rad = 0;          ///< σ at the present deflection
-  std::array<double, 2> motor_rad{},        ///< of the pulleys
-      motor_speed_rad_per_s{};              ///< of the pulleys
+  double equilibrium_rad = 0,         ///< attained, from the pulleys
+      preset = 0;                     ///< likewise, in the law's unit; a torque servo's: the stiffness that it makes, N·m/rad
+  double shaft_rad = 0,               ///< q
+      shaft_speed_rad_per_s = 0;      ///< q̇
+  double torque_Nm = 0;               ///< on the shaft by springs and frictions
+  double mean_torque_Nm = 0;          ///< the same as the host got it, over the last step
+  double stiffness_Nm_per_rad = 0;    ///< σ at the present deflection
+  std::array<double, 2> motor_rad{},  ///< of the pulleys
+      motor_speed_rad_per_s{};        ///< of the pulleys
   std::array<double, 2> motor_torque_Nm{};  ///< on each pulley by its spring and tendon
   std::array<double, 2> current_A{};        ///< of each winding
 };

@@ -77,6 +77,9 @@ struct Task {
 
 /// 1 / root mean square of the recording's own scatter about its branches, so that a curve counts as much as it is known.
 [[nodiscard]] double scatter_weight(const experiment::Branches& data);
+/// Weighs recordings that are fitted together by that. One that tells no scatter (points read by hand, say) counts as the others do: the
+/// root mean square of their weights.
+void weigh_by_scatter(std::span<Observation> observations);
 
 /// Rounded to `digits` significant decimal digits.
 [[nodiscard]] double rounded(double value, int digits);

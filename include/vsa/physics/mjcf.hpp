@@ -47,6 +47,9 @@ struct MjcfRead {
 /// Whether that is MJCF: by the root element of a text, by .xml or .mjcf of a file.
 [[nodiscard]] bool is_mjcf(const std::filesystem::path& path, std::string_view text);
 
+/// `text` as it stands in an attribute there.
+[[nodiscard]] std::string escaped(const std::string& text);
+
 /// A file that write_mjcf_files() makes.
 struct WrittenFile {
   std::string name,  ///< without a directory

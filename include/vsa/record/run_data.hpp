@@ -23,7 +23,7 @@ struct ActuatorInfo {
   std::string name;                 ///< unique in its robot
   std::string joint;                ///< scoped joint name, as configured
   std::string type;                 ///< the actuator type's name
-  std::string preset_unit = "rad";  ///< the law's; "" where it has no preset
+  std::string preset_unit = "rad";  ///< of commands and readings; "" where it has no preset
   int motors = 2;                   ///< 1 or 2: columns of a missing motor stay empty
   std::vector<std::size_t> links;   ///< into RunInfo::links: the bodies to highlight for it
   bool linear = false;              ///< its shaft slides: readings in m and N

@@ -30,6 +30,9 @@ bool same_body(const scene::LinkParameters& a, const scene::LinkParameters& b) {
   return a.mass_kg == b.mass_kg && a.inertia_kgm2 == b.inertia_kgm2;
 }
 
+/// Others are only seen.
+bool collides(const mjModel& m, std::size_t geom) { return m.geom_contype[geom] != 0 || m.geom_conaffinity[geom] != 0; }
+
 }  // namespace
 
 std::shared_ptr<const MujocoBodies::Masses> MujocoBodies::masses_of(const mjModel& model) {
@@ -46,6 +49,7 @@ MujocoBodies::MujocoBodies(const mjModel& m, const LinkObjects& objects)
   auto surfaces = std::make_shared<Surfaces>(*surfaces_);
   for (int g = 0; g < m.ngeom; ++g) {
     surfaces->mu.push_back(m.geom_friction[3 * g]);
+    if (!collides(m, static_cast<std::size_t>(g))) continue;
     std::optional<double>& most = links_[objects.geoms[static_cast<std::size_t>(g)]].friction;
     most = std::max(most.value_or(0.0), m.geom_friction[3 * g]);
   }
@@ -76,22 +80,31 @@ MujocoBodies::MujocoBodies(const MujocoBodies& base, std::span<const scene::Link
   masses_ = masses_of(model);
 }
 
+/// Kinds of contact as a world of ours has them.
+MujocoBodies::Surfaces MujocoBodies::with_kinds(Surfaces s, const mjModel& model) {
+  std::vector<std::array<double, 2>> all;
+  for (std::size_t g = 0; g < s.mu.size(); ++g) all.push_back({s.mu[g], model.geom_friction[3 * g + 1]});
+  const ContactKinds kinds(all);
+  for (std::size_t g = 0; g < s.mu.size(); ++g) {
+    const ContactKind kind = kinds.of(all[g][0], all[g][1]);
+    s.condim[g] = kind.condim;
+    s.priority[g] = kind.priority;
+  }
+  return s;
+}
+
 /// What a world would have whose file says so.
 std::shared_ptr<const MujocoBodies::Surfaces> MujocoBodies::surfaces_with(const MujocoBodies& base, const LinkObjects& objects,
                                                                           const mjModel& model) const {
   auto out = std::make_shared<Surfaces>(*base.surfaces_);
-  std::vector<std::array<double, 2>> all;
   for (std::size_t g = 0; g < out->mu.size(); ++g) {
     const std::size_t link = objects.geoms[g];
-    if (links_[link].friction != base.links_[link].friction) out->mu[g] = links_[link].friction.value_or(0.0);
-    all.push_back({out->mu[g], model.geom_friction[3 * g + 1]});
+    if (collides(model, g) && links_[link].friction != base.links_[link].friction) out->mu[g] = links_[link].friction.value_or(0.0);
   }
-  const ContactKinds kinds(all);
-  for (std::size_t g = 0; g < out->mu.size(); ++g) {
-    const ContactKind kind = kinds.of(all[g][0], all[g][1]);
-    out->condim[g] = kind.condim;
-    out->priority[g] = kind.priority;
-  }
+  // A file that says otherwise what kinds of contact it has keeps them.
+  const Surfaces by_friction = with_kinds(*base.surfaces_, model);
+  const bool ours = by_friction.condim == base.surfaces_->condim && by_friction.priority == base.surfaces_->priority;
+  if (ours) *out = with_kinds(*out, model);
   return out;
 }
 

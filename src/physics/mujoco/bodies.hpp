@@ -47,6 +47,7 @@ class MujocoBodies final : public Bodies {
     std::vector<int> condim, priority;
   };
   [[nodiscard]] static std::shared_ptr<const Masses> masses_of(const mjModel& model);
+  [[nodiscard]] static Surfaces with_kinds(Surfaces s, const mjModel& model);
   [[nodiscard]] std::shared_ptr<const Surfaces> surfaces_with(const MujocoBodies& base, const LinkObjects& objects,
                                                               const mjModel& model) const;
 

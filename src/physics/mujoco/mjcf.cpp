@@ -214,7 +214,9 @@ class Writer {
     for (std::size_t a = 0; a < links.size(); ++a) {
       if (links[a].is_static || links[a].self_collide || links[a].collisions.empty()) continue;
       for (std::size_t b = a + 1; b < links.size(); ++b) {
-        if (links[b].model == links[a].model && !links[b].self_collide && !links[b].collisions.empty()) pairs.insert({a, b});
+        // What stands still holds up what moves, whichever of them the file has first.
+        if (!links[b].is_static && links[b].model == links[a].model && !links[b].self_collide && !links[b].collisions.empty())
+          pairs.insert({a, b});
       }
     }
     std::set<std::string> lines;

@@ -20,6 +20,7 @@
 
 #include "physics/mujoco/model.hpp"
 #include "physics/tree.hpp"
+#include "vsa/physics/mjcf.hpp"
 
 namespace vsa::physics {
 
@@ -69,8 +70,5 @@ struct MjcfNames {
   [[nodiscard]] std::string geom(std::size_t link, std::size_t collision) const;
   [[nodiscard]] std::string part(std::size_t link, std::size_t collision) const;  ///< a body of a static link's shape
 };
-
-/// `text` as it stands in an attribute.
-[[nodiscard]] std::string escaped(const std::string& text);
 
 }  // namespace vsa::physics

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "physics/mujoco/mjcf_file.hpp"
+#include "physics/mujoco/versions.hpp"
 #include "vsa/scoped_name.hpp"
 
 namespace vsa::physics {
@@ -232,7 +233,7 @@ class Describer {
       return std::nullopt;
     };
     for (int e = 0; e < m_.neq; ++e) {
-      if (m_.eq_type[e] != mjEQ_JOINT || m_.eq_obj2id[e] < 0) continue;
+      if (m_.eq_type[e] != mjEQ_JOINT || m_.eq_obj2id[e] < 0 || !starts_active(m_, e)) continue;
       const auto follower = joint(m_.eq_obj1id[e]), leader = joint(m_.eq_obj2id[e]);
       const mjtNum* p = m_.eq_data + static_cast<std::ptrdiff_t>(mjNEQDATA) * e;
       if (follower && leader) out_.couplings.push_back({*follower, *leader, p[1], p[0]});

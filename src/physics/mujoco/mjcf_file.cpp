@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <regex>
 
 #include "physics/mujoco/mjcf.hpp"
 #include "physics/tree.hpp"
@@ -71,7 +72,7 @@ MjcfRead read_mjcf(const fs::path& path, std::string_view given, std::vector<std
     }
     text = *bytes;
   }
-  out.names_others = text.find("file=") != std::string::npos;
+  out.names_others = std::regex_search(text, std::regex(R"(\bfile\s*=)"));
   auto native = std::make_shared<MjcfFile>();
   std::string reason;
   native->model = path.empty() ? compile(text, {}, reason) : load_file(path.string(), reason);

@@ -52,6 +52,15 @@ inline void full_mass(const mjModel& m, const mjData& d, mjtNum* out) {
 #endif
 }
 
+/// Whether an equality holds from the start.
+inline bool starts_active(const mjModel& m, int equality) {
+#if mjVERSION_HEADER >= 300
+  return m.eq_active0[equality] != 0;
+#else
+  return m.eq_active[equality] != 0;
+#endif
+}
+
 /// matᵀ vec
 inline void turned_back(mjtNum* out, const mjtNum* vec, const mjtNum* mat) {
 #if mjVERSION_HEADER >= 300
