@@ -202,6 +202,13 @@ void Cluster::begin_lone(std::int64_t t_ns, std::int64_t dt_ns, std::span<const 
   }
 }
 
+std::size_t Cluster::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
+                             std::span<const double> mobility) noexcept {
+  begin(t_ns, dt_ns, in, mobility);
+  run(t_ns, dt_ns);
+  return end(t_ns + dt_ns, torques_out);
+}
+
 void Cluster::begin(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<const double> mobility) noexcept {
   const bool foresees = has_ticks_inside(t_ns, dt_ns);
   if (foresees) leave();

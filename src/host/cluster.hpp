@@ -45,11 +45,7 @@ class Cluster {
 
   /// One host step of its units; how many of them the solver left unsettled.
   std::size_t advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
-                      std::span<const double> mobility) noexcept {
-    begin(t_ns, dt_ns, in, mobility);
-    run(t_ns, dt_ns);
-    return end(t_ns + dt_ns, torques_out);
-  }
+                      std::span<const double> mobility) noexcept;
   /// The same in three; shared() are begun before run() and solved before end() by who knows them all.
   void begin(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<const double> mobility) noexcept;
   void run(std::int64_t t_ns, std::int64_t dt_ns) noexcept;
