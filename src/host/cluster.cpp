@@ -131,7 +131,10 @@ Cluster::Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees, std::vect
 
 void Cluster::use(std::span<device::StepPlan> plans) noexcept {
   std::size_t next = 0;
-  for (BusLine* bus : buses_) next = bus->use(plans, next);
+  for (BusLine* bus : buses_) {
+    next = bus->use(plans, next);
+    for (BusMember& m : bus->members()) m.trials = nullptr;  // those of the clusters before
+  }
   const auto find_plan = [this](device::JointInStep& joint) {
     for (const BusLine* bus : buses_) {
       for (const BusMember& m : bus->members())
