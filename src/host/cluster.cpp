@@ -27,15 +27,16 @@ std::vector<std::size_t> group_buses(const ClusterParts& parts) {
   return group;
 }
 
-/// Buses whose joints all move alone go together until their units fill the lanes; but for those of group `apart`.
-void fill_lanes(std::vector<std::vector<BusLine*>>& buses, std::vector<std::vector<Tree>>& trees, std::size_t apart) {
+/// Buses whose joints all move alone go together until their units fill the lanes.
+void fill_lanes(std::vector<std::vector<BusLine*>>& buses, std::vector<std::vector<Tree>>& trees,
+                const std::vector<std::vector<SharedJoint>>& shared) {
   constexpr std::size_t kLanes = 8, kMost = 64;
   const std::size_t none = buses.size();
   std::size_t into = none;
   for (std::size_t g = 0; g < buses.size(); ++g) {
     const bool alone = std::all_of(trees[g].begin(), trees[g].end(), [](const Tree& t) { return t.joints.size() == 1; });
     const bool client = std::any_of(buses[g].begin(), buses[g].end(), [](BusLine* bus) { return bus->port() != nullptr; });
-    if (!alone || client || trees[g].empty() || g == apart) continue;
+    if (!alone || client || trees[g].empty() || !shared[g].empty()) continue;
     if (into != none && trees[into].size() + trees[g].size() <= kMost) {
       buses[into].insert(buses[into].end(), buses[g].begin(), buses[g].end());
       std::move(trees[g].begin(), trees[g].end(), std::back_inserter(trees[into]));
@@ -84,12 +85,11 @@ std::vector<Cluster> make_clusters(const ClusterParts& parts) {
   std::vector<std::vector<Tree>> trees(parts.buses.size());
   for (std::size_t b = 0; b < parts.buses.size(); ++b) buses[group[b]].push_back(parts.buses[b]);
   std::vector<bool> taken(parts.joints.size());
-  std::vector<SharedJoint> shared;
+  std::vector<std::vector<SharedJoint>> shared(parts.buses.size());
   for (const std::size_t a : parts.shared) {
     taken[a] = true;
-    shared.push_back({parts.joints[a], a});
+    shared[group[parts.bus_of[a]]].push_back({parts.joints[a], a});
   }
-  const std::size_t sharing = shared.empty() ? buses.size() : group[parts.bus_of[shared.front().actuator]];
   std::size_t at = 0;
   for (const auto& joined : parts.trees) {
     if (joined.empty()) continue;
@@ -105,12 +105,10 @@ std::vector<Cluster> make_clusters(const ClusterParts& parts) {
     for (const BusMember& m : bus->members())
       if (!taken[m.index]) trees[group[parts.bus_of[m.index]]].push_back(make_tree(parts, {m.index}));
   }
-  fill_lanes(buses, trees, sharing);
+  fill_lanes(buses, trees, shared);
   std::vector<Cluster> out;
-  for (std::size_t g = 0; g < buses.size(); ++g) {
-    if (!buses[g].empty())
-      out.emplace_back(std::move(buses[g]), std::move(trees[g]), g == sharing ? std::move(shared) : std::vector<SharedJoint>{});
-  }
+  for (std::size_t g = 0; g < buses.size(); ++g)
+    if (!buses[g].empty()) out.emplace_back(std::move(buses[g]), std::move(trees[g]), std::move(shared[g]));
   return out;
 }
 
