@@ -38,6 +38,22 @@ TEST(Reading, OfAUnitAtRestTellsWhatItWasPutTo) {
   EXPECT_NEAR(ticks[2].value * 2 * vsa::kPi / 32768, 0.5, 2e-3) << "a count of the 12-bit encoder is 1.5e-3 rad";
 }
 
+/// With and without a presliding of its own: one of 0 is the smallest that a step can use.
+TEST(Reading, TheTorquesSlopeIsItsCentralDifference) {
+  for (const double presliding_rad : {0.03, 1e-3, 0.0}) {
+    vsa::device::UnitConfig config = maker_pro();
+    config.actuator.shaft_friction = {0.01, presliding_rad};
+    const vsa::device::Unit unit(config);
+    auto state = unit.initial(0.4, 0.3, 0.5);
+    const double slope = torque_slope(unit, state), step = 1e-7;
+    state.reached.angle += step;
+    const double above = read(unit, state).torque_Nm;
+    state.reached.angle -= 2 * step;
+    const double difference = (above - read(unit, state).torque_Nm) / (2 * step);
+    EXPECT_NEAR(slope, difference, 1e-4 * std::abs(difference)) << presliding_rad;
+  }
+}
+
 TEST(Reading, MeanTorqueIsWhatTheLastStepGaveTheHost) {
   OneJoint joint(maker_pro(), 0.0, 0.3, 1e-3, 1'000'000);
   joint.unit.set_inputs(joint.state, joint.unit.inputs_for(0.6, 0.3));
