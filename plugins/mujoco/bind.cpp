@@ -91,9 +91,9 @@ void check_options(const mjModel& m, Problems& problems) {
 }
 
 std::vector<std::vector<std::size_t>> trees_of(const mjModel& m, const std::vector<int>& joints) {
-  const physics::TreeRoots of(m);
+  const physics::TreeRoots of_model(m);
   std::vector<int> roots;
-  for (const int joint : joints) roots.push_back(of.of(m.jnt_dofadr[joint]));
+  for (const int joint : joints) roots.push_back(of_model.root(m.jnt_dofadr[joint]));
   return grouped(roots);
 }
 

@@ -43,7 +43,7 @@ struct WorldNames {
   static constexpr std::size_t kSeveral = static_cast<std::size_t>(-1);
   std::vector<JointInfo> joints;
   std::map<std::string, std::size_t, std::less<>> joint, link;     ///< by scoped name; joint: those with one axis
-  std::map<std::string, std::size_t, std::less<>> full, actuator;  ///< into actuators; full: model/name; actuator: name or kSeveral
+  std::map<std::string, std::size_t, std::less<>> full, actuator;  ///< into actuators, or kSeveral; by model/name, by name
   std::vector<std::size_t> first_actuator;                         ///< of each robot, into actuators
   std::uint32_t tag = 0;                                           ///< of links and joints; never 0
 };

@@ -156,10 +156,11 @@ void World::Impl::index_names() {
     if (ref.index == 0) made->first_actuator[ref.robot] = a;
     made->joints[robots[ref.robot].joints[ref.index]].actuator = a;
     const std::string outer = ref.model + "/" + ref.name, whole = joined_by(robots[ref.robot].seat->model(), "/") + "/" + ref.name;
-    for (auto* names_of : {&made->full, &made->actuator}) {
-      const std::string& name = names_of == &made->full ? outer : ref.name;
-      if (!names_of->emplace(name, a).second) (*names_of)[name] = WorldNames::kSeveral;
-    }
+    const auto note = [a](auto& names_of, const std::string& name) {
+      if (!names_of.emplace(name, a).second) names_of[name] = WorldNames::kSeveral;
+    };
+    note(made->full, outer);
+    note(made->actuator, ref.name);
     if (whole != outer) made->full[whole] = a;
   }
   names = std::move(made);

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -108,6 +110,41 @@ TEST(RobotGroup, MovesAsOneRobotWithAllOfTheJoints) {
     EXPECT_EQ(whole.ledger(1).coupling, two.arm.ledger(1).coupling);
     EXPECT_NE(whole.ledger(1).coupling, 0) << "nothing moved";
   }
+}
+
+/// One robot has joints on both trees, each tree two robots: all three step together.
+TEST(RobotGroup, OfThreeRobotsOnTwoTreesMovesAsOneRobot) {
+  Robot whole(robot({{0}, {1, 3}, {2}}));  // actuators 0, 1, 3, 2
+  whole.join({{0, 1}, {2, 3}});
+  RobotGroup group(3, {{{0, 0}, {1, 0}}, {{1, 1}, {2, 0}}});
+  std::vector<Robot> three;
+  for (const auto& buses : {std::vector<std::vector<int>>{{0}}, {{1, 3}}, {{2}}}) three.emplace_back(robot(buses));
+  for (std::size_t r = 0; r < 3; ++r) three[r].join({}, group.shared(r));
+  const std::array<double, 8> b{3e3, -2e3, -2e3, 9e3, 5e3, -1e3, -1e3, 2e3};
+  std::array<JointIn, 4> joints{};
+  for (std::int64_t n = 0; n < 800; ++n) {
+    if (n == 40) {
+      ASSERT_TRUE(whole.command(1, 0.4, 0.5));
+      ASSERT_TRUE(three[1].command(0, 0.4, 0.5));
+    }
+    std::array<double, 4> torques{};
+    std::array<std::array<double, 2>, 3> theirs{};
+    whole.advance(n * 1'300'000, 1'300'000, joints, torques, b);
+    const std::span<const JointIn> all(joints);
+    const std::array<std::size_t, 3> first{0, 1, 3}, count{1, 2, 1};
+    for (std::size_t r = 0; r < 3; ++r)
+      group.steps()[r] = {&three[r], n * 1'300'000, all.subspan(first[r], count[r]), std::span(theirs[r]).first(count[r]), {}};
+    std::copy(b.begin(), b.end(), group.mobility().begin());
+    group.advance(1'300'000);
+    ASSERT_EQ(torques, (std::array<double, 4>{theirs[0][0], theirs[1][0], theirs[1][1], theirs[2][0]})) << "step " << n;
+    for (std::size_t tree = 0; tree < 4; tree += 2) {
+      for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t k = 0; k < 2; ++k)
+          joints[tree + i].speed_rad_per_s += 1.3e-3 * b[2 * tree + 2 * i + k] * torques[tree + k];
+    }
+    for (JointIn& j : joints) j.angle_rad += 1.3e-3 * j.speed_rad_per_s;
+  }
+  EXPECT_GT(std::abs(joints[1].angle_rad), 0.1) << "nothing moved";
 }
 
 TEST(RobotGroup, GoesOnFromSnapshotsAndWithCopiesOfItsRobots) {

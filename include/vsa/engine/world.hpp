@@ -107,7 +107,8 @@ class World : public motion::Stage, public host::Simulation {
   void run(double duration_s);
 
   [[nodiscard]] const std::vector<ActuatorRef>& actuators() const;  ///< of all robots, robot by robot
-  /// By "joint_1", "model/joint_1" or "outer/model/joint_1", as far as it takes to tell it from all others; throws InputError with the names there are.
+  /// By "joint_1", "model/joint_1" or "outer/model/joint_1", as far as it takes to tell it from all others; throws InputError with
+  /// the names there are.
   [[nodiscard]] const ActuatorRef& actuator(std::string_view name) const;
   /// The shortest that actuator() understands: "joint_1", "model/joint_1", or by a nested model's whole name "outer/model/joint_1".
   [[nodiscard]] std::string name_of(const ActuatorRef& ref) const;

@@ -128,8 +128,8 @@ class Robot {
   /// One host step [t, t + dt) in integer nanoseconds. in/out have one entry an actuator, in config order. dt in 1 ns … 16 ms.
   /// `mobility`: B of each tree, by rows, one after the other in the order of `join`, 1/(kg·m²); empty: each joint by itself.
   /// Allocates nothing, throws nothing, logs nothing. Spans of another size, a dt outside that range and a t outside 0 … 4e18 ns
-  /// are programming errors, as is a robot with shared joints: one line on stderr, and abort. A joint that isn't finite: every torque is NaN, and the robot stays
-  /// where it was.
+  /// are programming errors, as is a robot with shared joints: one line on stderr, and abort. A joint that isn't finite: every
+  /// torque is NaN, and the robot stays where it was.
   void advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
                std::span<const double> mobility = {}) noexcept;
 

@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <numeric>
-#include <span>
 #include <vector>
 
 namespace vsa::physics {
@@ -24,14 +23,14 @@ class TreeRoots {
     for (int e = 0; e < m.neq; ++e) tie(e);
   }
   /// Of a degree of freedom below nv.
-  [[nodiscard]] int of(int dof) const noexcept {
+  [[nodiscard]] int root(int dof) const noexcept {
     while (root_[static_cast<std::size_t>(dof)] != dof) dof = root_[static_cast<std::size_t>(dof)];
     return dof;
   }
 
  private:
   void unite(int a, int b) noexcept {
-    if (a >= 0 && b >= 0) root_[static_cast<std::size_t>(of(a))] = of(b);
+    if (a >= 0 && b >= 0) root_[static_cast<std::size_t>(root(a))] = root(b);
   }
   /// A degree of freedom that moves the body; −1: none does.
   [[nodiscard]] int of_body(int body) const noexcept {

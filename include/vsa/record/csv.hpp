@@ -6,9 +6,9 @@
 //   MODEL_actuators.csv  one per robot, long form, one line an actuator and sample:
 //     time_s,actuator,shaft_rad,shaft_speed_rad_per_s,equilibrium_command_rad,equilibrium_rad,preset_command_rad,preset_rad,
 //     deflection_rad,stiffness_Nm_per_rad,torque_Nm,motor_1_rad,motor_2_rad,current_1_A,current_2_A
-//     The preset's columns end in its unit (_Nm_per_rad of torque servos); where a robot mixes units, a last column preset_unit tells. One-motor
-//     actuators leave the second motor's cells empty. Where all are linear actuators, the shaft's columns are in m and N
-//     (shaft_m, …, force_N); where some are, a column shaft_unit tells.
+//     The preset's columns end in its unit (_Nm_per_rad of torque servos); where a robot mixes units, a last column preset_unit
+//     tells. One-motor actuators leave the second motor's cells empty. Where all are linear actuators, the shaft's columns are in
+//     m and N (shaft_m, …, force_N); where some are, a column shaft_unit tells.
 //   links.csv            time_s,link,x_m,y_m,z_m,qw,qx,qy,qz   pose in the world of every link that isn't static
 //   energy.csv           time_s, the energy ledger summed over all actuators (actuator/ledger.hpp), kinetic_J and gravitational_J
 //                        of all bodies (empty where the simulator doesn't tell them)

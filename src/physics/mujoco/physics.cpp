@@ -106,9 +106,9 @@ void MujocoPhysics::prepare() {
 }
 
 std::vector<std::vector<std::size_t>> MujocoPhysics::trees(std::span<const std::size_t> joints) const {
-  const TreeRoots of(*model_);
+  const TreeRoots of_model(*model_);
   std::vector<int> roots;
-  for (const std::size_t joint : joints) roots.push_back(of.of(joint_[joint].v));
+  for (const std::size_t joint : joints) roots.push_back(of_model.root(joint_[joint].v));
   return grouped(roots);
 }
 
