@@ -32,12 +32,13 @@ std::optional<TreeBody::Joint> kind(const JointPtr& joint) {
 
 }  // namespace
 
-ModelTree::ModelTree(const ModelPtr& model, const std::vector<JointPtr>& driven) {
+ModelTree::ModelTree(const ModelPtr& model, const ModelRobot::Joints& driven) {
   std::vector<TreeBody> bodies;
   if (!build(all_links(model), bodies)) return;
   std::vector<std::size_t> body_of;
-  for (const JointPtr& joint : driven) {
-    const auto at = std::find_if(items_.begin(), items_.end(), [&](const Item& item) { return item.joint == joint; });
+  for (const std::uint64_t id : driven) {
+    const auto at =
+        std::find_if(items_.begin(), items_.end(), [&](const Item& item) { return item.joint && item.joint->GetId() == id; });
     if (at == items_.end()) return;
     body_of.push_back(static_cast<std::size_t>(at - items_.begin()));
   }
@@ -90,7 +91,7 @@ void ModelTree::read_inertia(Item& item, TreeBody& body) {
   item.inertia = inertial->MOI({item.center, ignition::math::Quaterniond::Identity});
 }
 
-void ModelTree::mobility(std::span<double> out) {
+void ModelTree::look() {
   std::vector<TreeBody>& bodies = tree_.bodies();
   for (std::size_t i = 0; i < items_.size() && !read_; ++i) {
     read_joint(items_[i], bodies[i]);
@@ -116,7 +117,7 @@ void ModelTree::mobility(std::span<double> out) {
     body.axis = array(turned * item.axis);
     body.anchor = array(pose.Pos() + turned * item.anchor);
   }
-  tree_.mobility(out);
+  tree_.update();
 }
 
 }  // namespace vsa::plugins

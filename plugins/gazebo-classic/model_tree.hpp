@@ -6,22 +6,19 @@
 #include <gazebo/physics/PhysicsTypes.hh>
 #include <ignition/math/Matrix3.hh>
 #include <ignition/math/Vector3.hh>
-#include <span>
 #include <vector>
 
-#include "vsa/seat/driven_tree.hpp"
+#include "model_robots.hpp"
 
 namespace vsa::plugins {
 
-class ModelTree {
+class ModelTree final : public LinkTrees {
  public:
-  /// Of the model and those nested in it. `driven`: the actuators' joints. No tree where the model isn't one of hinges, sliders and
-  /// fixed joints (loops, ball joints, links of other models).
-  ModelTree(const gazebo::physics::ModelPtr& model, const std::vector<gazebo::physics::JointPtr>& driven);
+  /// Of the model and those nested in it. `driven`: the actuators' joints, by Base::GetId(). No tree where the model isn't one of
+  /// hinges, sliders and fixed joints (loops, ball joints, links of other models).
+  ModelTree(const gazebo::physics::ModelPtr& model, const ModelRobot::Joints& driven);
 
-  [[nodiscard]] const std::vector<std::vector<std::size_t>>& trees() const noexcept { return tree_.trees(); }
-  /// B of those trees with the links where they are now.
-  void mobility(std::span<double> out);
+  void look() override;
 
  private:
   struct Item {
@@ -40,7 +37,6 @@ class ModelTree {
   std::vector<Item> items_;
   std::size_t next_ = 0;  ///< whose inertia is read again
   bool read_ = false;
-  seat::DrivenTree tree_;
 };
 
 }  // namespace vsa::plugins

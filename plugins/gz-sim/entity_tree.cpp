@@ -36,12 +36,12 @@ sim::Entity named_link(sim::Entity joint, const std::string& name, const sim::En
 
 }  // namespace
 
-EntityTree::EntityTree(sim::Entity model, const std::vector<sim::Entity>& driven, const sim::EntityComponentManager& ecm) {
+EntityTree::EntityTree(sim::Entity model, const ModelRobot::Joints& driven, const sim::EntityComponentManager& ecm) : ecm_(ecm) {
   std::vector<sim::Entity> links, joints;
   for (const NamedEntity& e : entities_below<components::Link>(model, ecm)) links.push_back(e.entity);
   for (const NamedEntity& e : entities_below<components::Joint>(model, ecm)) joints.push_back(e.entity);
   std::vector<TreeBody> bodies;
-  if (!build(links, joints, ecm, bodies)) return;
+  if (!build(links, joints, bodies)) return;
   std::vector<std::size_t> body_of;
   for (const sim::Entity joint : driven) {
     const auto at = std::find_if(items_.begin(), items_.end(), [&](const Item& item) { return item.joint == joint; });
@@ -53,7 +53,7 @@ EntityTree::EntityTree(sim::Entity model, const std::vector<sim::Entity>& driven
 
 /// Parents first. False: no tree.
 bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<sim::Entity>& joints,
-                       const sim::EntityComponentManager& ecm, std::vector<TreeBody>& bodies) {
+                       std::vector<TreeBody>& bodies) {
   struct Waiting {
     Item item;
     TreeBody body;
@@ -62,18 +62,18 @@ bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<
   std::vector<Waiting> waiting(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) waiting[i].item.link = links[i];
   for (const sim::Entity joint : joints) {
-    const auto child = ecm.ComponentData<components::ChildLinkName>(joint);
-    const auto parent = ecm.ComponentData<components::ParentLinkName>(joint);
-    const auto type = ecm.ComponentData<components::JointType>(joint);
+    const auto child = ecm_.ComponentData<components::ChildLinkName>(joint);
+    const auto parent = ecm_.ComponentData<components::ParentLinkName>(joint);
+    const auto type = ecm_.ComponentData<components::JointType>(joint);
     if (!child || !parent || !type || !kind(*type)) return false;
-    const sim::Entity link = named_link(joint, *child, ecm);
+    const sim::Entity link = named_link(joint, *child, ecm_);
     const auto at = std::find_if(waiting.begin(), waiting.end(), [&](const Waiting& w) { return w.item.link == link; });
     if (at == waiting.end() || at->item.joint != sim::kNullEntity) return false;  // another model's link, or a loop
     at->item.joint = joint;
-    at->item.joint_pose = ecm.ComponentData<components::Pose>(joint).value_or(math::Pose3d::Zero);
-    at->item.axis = ecm.ComponentData<components::JointAxis>(joint).value_or(sdf::JointAxis()).Xyz();
+    at->item.joint_pose = ecm_.ComponentData<components::Pose>(joint).value_or(math::Pose3d::Zero);
+    at->item.axis = ecm_.ComponentData<components::JointAxis>(joint).value_or(sdf::JointAxis()).Xyz();
     at->body.joint = *kind(*type);
-    at->parent = *parent == "world" ? sim::kNullEntity : named_link(joint, *parent, ecm);
+    at->parent = *parent == "world" ? sim::kNullEntity : named_link(joint, *parent, ecm_);
     if (*parent != "world" && at->parent == sim::kNullEntity) return false;
   }
   while (!waiting.empty()) {
@@ -91,11 +91,11 @@ bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<
   return true;
 }
 
-void EntityTree::mobility(const sim::EntityComponentManager& ecm, std::span<double> out) {
+void EntityTree::look() {
   for (std::size_t i = 0; i < items_.size(); ++i) {
-    const auto* inertial = ecm.Component<components::Inertial>(items_[i].link);
+    const auto* inertial = ecm_.Component<components::Inertial>(items_[i].link);
     if (inertial == nullptr) continue;
-    const math::Pose3d link = sim::worldPose(items_[i].link, ecm);
+    const math::Pose3d link = sim::worldPose(items_[i].link, ecm_);
     const math::Pose3d center = link * inertial->Data().Pose();
     const math::Matrix3d turn(center.Rot());
     const math::Matrix3d inertia = turn * inertial->Data().MassMatrix().Moi() * turn.Transposed();
@@ -109,7 +109,7 @@ void EntityTree::mobility(const sim::EntityComponentManager& ecm, std::span<doub
     body.axis = array(joint.Rot().RotateVector(items_[i].axis));
     body.anchor = array(joint.Pos());
   }
-  tree_.mobility(out);
+  tree_.update();
 }
 
 }  // namespace vsa::plugins

@@ -2,6 +2,7 @@
 #include "robot_system.hpp"
 
 #include <chrono>
+#include <utility>
 
 #include "entities.hpp"
 #include "joint_components.hpp"
@@ -16,6 +17,7 @@ namespace components = sim::components;
 void SimRobot::Configure(const sim::Entity& entity, const std::shared_ptr<const sdf::Element>& element,
                          sim::EntityComponentManager& ecm, sim::EventManager&) {
   model_ = entity;
+  ecm_ = &ecm;
   name_ = sim::scopedName(entity, ecm, "::", false);
   // A model that is being spawned has no world above it yet.
   const auto world = name_.find("::");
@@ -48,18 +50,22 @@ void SimRobot::attach(const sdf::Element& element, sim::EntityComponentManager& 
     first_number<components::JointPosition>(joint, ecm);
     first_number<components::JointVelocity>(joint, ecm);
   }
-  tree_ = std::make_unique<EntityTree>(model_, joints_, ecm);
-  seat_->join(tree_->trees());
   watch_ = ModelWatch::make(
       name_, world_name(ecm), world_step_s(ecm), *seat_, [&] { return model_links(model_, name_, ecm); }, options.report);
+  robots_ = ModelRobots::of({&ecm, sim::topLevelModel(model_, ecm)});
+  robots_->add(*this);
+}
+
+void SimRobot::leave() {
+  if (seat_) robots_->remove(*this);
+  watch_.reset();
+  seat_.reset();
 }
 
 void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) {
   if (!seat_) return;
   if (!ecm.HasEntity(model_)) {  // removed: Fortress keeps the system
-    watch_.reset();
-    seat_.reset();
-    tree_.reset();
+    leave();
     return;
   }
 #ifdef VSA_HAS_PARAMETERS
@@ -74,26 +80,32 @@ void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManage
   const auto dt_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(info.dt).count();
   if (dt_ns > 0) last_dt_ns_ = dt_ns;
   if (last_dt_ns_ == 0) return;
-  step(time_ns, ecm);
+  robots_->step(*this, time_ns, last_dt_ns_);
   seat_->publish_step(time_ns);
 }
 
-void SimRobot::step(std::int64_t time_ns, sim::EntityComponentManager& ecm) {
-  if (steps_ <= kPhysicsSteps && steps_++ == kPhysicsSteps && !any_filled<components::JointPosition>(joints_, ecm))
+std::unique_ptr<LinkTrees> SimRobot::link_trees(Links links, const Joints& driven) {
+  return std::make_unique<EntityTree>(links == Links::of_own_model ? model_ : sim::topLevelModel(model_, *ecm_), driven, *ecm_);
+}
+
+void SimRobot::tell(std::int64_t time_ns) {
+  if (!ecm_->HasEntity(model_)) return;  // it will learn of it when it is called itself
+  if (steps_ <= kPhysicsSteps && steps_++ == kPhysicsSteps && !any_filled<components::JointPosition>(joints_, *ecm_))
     VSA_ERROR << "vsa::Robot: " << name_ + kNoPhysics << std::endl;  // in one piece: colours go around each
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    seat_->in()[i].angle_rad = first_number<components::JointPosition>(joints_[i], ecm);
-    seat_->in()[i].speed_rad_per_s = first_number<components::JointVelocity>(joints_[i], ecm);
+    seat_->in()[i].angle_rad = first_number<components::JointPosition>(joints_[i], *ecm_);
+    seat_->in()[i].speed_rad_per_s = first_number<components::JointVelocity>(joints_[i], *ecm_);
   }
   if (watch_) watch_->before_step(time_ns - last_dt_ns_);
-  if (seat_->wants_mobility()) tree_->mobility(ecm, seat_->mobility());
-  const bool stopped = seat_->stopped();
-  seat_->step(last_dt_ns_);
-  if (seat_->stopped() && !stopped) {  // the reason is a warning, which gz-sim doesn't show unasked
+}
+
+void SimRobot::apply() {
+  if (!ecm_->HasEntity(model_)) return;
+  if (!std::exchange(told_stopped_, seat_->stopped()) && told_stopped_) {  // the reason is a warning, which isn't shown unasked
     const std::string text = name_ + ": its actuators have stopped and give no torque; -v 2 shows why";
     VSA_ERROR << "vsa::Robot: " << text << std::endl;
   }
-  for (std::size_t i = 0; i < joints_.size(); ++i) set_force(joints_[i], seat_->torques()[i], ecm);
+  for (std::size_t i = 0; i < joints_.size(); ++i) set_force(joints_[i], seat_->torques()[i], *ecm_);
 }
 
 #ifdef VSA_HAS_PARAMETERS

@@ -18,9 +18,8 @@
 #include <vector>
 
 #include "compat.hpp"
+#include "model_robots.hpp"
 #include "model_watch.hpp"
-#include "vsa/seat/driven_tree.hpp"
-#include "vsa/seat/seat.hpp"
 #ifdef VSA_HAS_PARAMETERS
 #include "fault_parameter.hpp"
 #endif
@@ -29,12 +28,11 @@ namespace vsa::plugins {
 
 /// A model's links as a tree of bodies, for the mobility of its joints, which the components don't have. No tree where the model
 /// isn't one of hinges, sliders and fixed joints.
-class EntityTree {
+class EntityTree final : public LinkTrees {
  public:
-  EntityTree(sim::Entity model, const std::vector<sim::Entity>& driven, const sim::EntityComponentManager& ecm);
-  [[nodiscard]] const std::vector<std::vector<std::size_t>>& trees() const noexcept { return tree_.trees(); }
-  /// B of those trees with the links where they are now.
-  void mobility(const sim::EntityComponentManager& ecm, std::span<double> out);
+  /// `driven`: the actuators' joints, by their entities.
+  EntityTree(sim::Entity model, const ModelRobot::Joints& driven, const sim::EntityComponentManager& ecm);
+  void look() override;
 
  private:
   struct Item {
@@ -43,11 +41,10 @@ class EntityTree {
     math::Vector3d axis;      ///< in the joint
   };
 
-  bool build(const std::vector<sim::Entity>& links, const std::vector<sim::Entity>& joints, const sim::EntityComponentManager& ecm,
-             std::vector<host::TreeBody>& bodies);
+  bool build(const std::vector<sim::Entity>& links, const std::vector<sim::Entity>& joints, std::vector<host::TreeBody>& bodies);
 
+  const sim::EntityComponentManager& ecm_;
   std::vector<Item> items_;
-  seat::DrivenTree tree_;
 };
 
 class SimRobot : public sim::System,
@@ -58,8 +55,10 @@ class SimRobot : public sim::System,
 #ifdef VSA_HAS_RESET
                  public sim::ISystemReset,
 #endif
-                 public sim::ISystemPreUpdate {
+                 public sim::ISystemPreUpdate,
+                 private ModelRobot {
  public:
+  ~SimRobot() override { leave(); }
   void Configure(const sim::Entity& entity, const std::shared_ptr<const sdf::Element>& element, sim::EntityComponentManager& ecm,
                  sim::EventManager& events) override;
   void PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) override;
@@ -71,24 +70,30 @@ class SimRobot : public sim::System,
 #endif
 
   /// Null where loading failed. For tests.
-  [[nodiscard]] seat::Seat* seat() noexcept { return seat_.get(); }
+  [[nodiscard]] seat::Seat* seat() noexcept override { return seat_.get(); }
 
  private:
   void attach(const sdf::Element& element, sim::EntityComponentManager& ecm);
-  void step(std::int64_t time_ns, sim::EntityComponentManager& ecm);
+  void leave();
+  [[nodiscard]] const Joints& driven() const noexcept override { return joints_; }
+  [[nodiscard]] std::unique_ptr<LinkTrees> link_trees(Links links, const Joints& driven) override;
+  void tell(std::int64_t time_ns) override;
+  void apply() override;
 
   sim::Entity model_ = sim::kNullEntity;
-  std::string name_;                 ///< scoped, without the world's
-  std::vector<sim::Entity> joints_;  ///< of the actuators
+  sim::EntityComponentManager* ecm_ = nullptr;
+  std::string name_;  ///< scoped, without the world's
+  Joints joints_;     ///< of the actuators
   std::unique_ptr<seat::Seat> seat_;
-  std::unique_ptr<EntityTree> tree_;
   std::unique_ptr<ModelWatch> watch_;
+  std::shared_ptr<ModelRobots> robots_;  ///< of its outermost model
 #ifdef VSA_HAS_PARAMETERS
   FaultParameter faults_;
 #endif
   static constexpr int kPhysicsSteps = 10;  ///< by then any physics has filled the joints' components
   int steps_ = 0;                           ///< since the start or a reset, as far as anyone asks: see any_filled
   std::int64_t last_dt_ns_ = 0;
+  bool told_stopped_ = false;
 };
 
 }  // namespace vsa::plugins

@@ -10,6 +10,7 @@
 #include "vsa/physics/physics.hpp"
 #include "vsa/sdf/read.hpp"
 #include "vsa/seat/seat.hpp"
+#include "vsa/seat/seat_group.hpp"
 
 namespace vsa::engine {
 
@@ -23,19 +24,9 @@ struct World::Snapshot {
 /// One <plugin>: a robot and its joints in the engine.
 struct RobotSlot {
   std::unique_ptr<seat::Seat> seat;
-  std::vector<std::size_t> joints;              ///< of its actuators, into description::World::joints
-  std::vector<std::vector<std::size_t>> trees;  ///< of joints that no other robot moves, into description::World::joints
-  bool bonded = false;                          ///< steps with others
+  std::vector<std::size_t> joints;  ///< of its actuators, into description::World::joints
 
   [[nodiscard]] host::Robot& robot() const { return seat->robot(); }
-};
-
-/// Robots on one kinematic tree, which step together.
-struct RobotBond {
-  std::vector<std::size_t> robots;              ///< into World::Impl::robots
-  host::RobotGroup group;                       ///< in this order
-  std::vector<std::vector<std::size_t>> trees;  ///< of joints, as the group has them
-  std::vector<seat::Seat*> seats;               ///< likewise
 };
 
 /// Who is called what, made once and shared with clones.
@@ -61,7 +52,8 @@ struct World::Impl {
   std::vector<std::string> warnings;
   std::unique_ptr<physics::Physics> physics;
   std::vector<RobotSlot> robots;
-  std::vector<RobotBond> bonds;
+  seat::SeatGroup group;                        ///< of the robots
+  std::vector<std::vector<std::size_t>> trees;  ///< of driven joints that move each other, as the group knows them
   std::vector<ActuatorRef> actuators;
   std::vector<Pull> pulls;
   std::vector<std::pair<std::size_t, Wrench>> wrenches;  ///< by link
@@ -81,8 +73,7 @@ struct World::Impl {
   void keep();     ///< what a fault goes back to
   void go_back();  ///< to it
   void join_trees();
-  void find_seats();  ///< of the bonds, in a world that was copied
-  void ask_mobility(const std::vector<std::vector<std::size_t>>& trees, std::span<double> out);
+  [[nodiscard]] std::vector<seat::Seat*> seats() const;
   void tell_joints(const RobotSlot& slot) const;
   void drive();
   void observe();

@@ -147,9 +147,9 @@ World World::clone() const {
   to->names = impl_->names;
   to->warnings = impl_->warnings;
   to->physics = impl_->physics->clone();
-  for (const RobotSlot& slot : impl_->robots) to->robots.push_back({slot.seat->clone(), slot.joints, slot.trees, slot.bonded});
-  for (const RobotBond& bond : impl_->bonds) to->bonds.push_back({bond.robots, bond.group.another(), bond.trees, {}});
-  to->find_seats();
+  for (const RobotSlot& slot : impl_->robots) to->robots.push_back({slot.seat->clone(), slot.joints});
+  to->group = impl_->group.another(to->seats());
+  to->trees = impl_->trees;
   to->actuators = impl_->actuators;
   to->pulls = impl_->pulls;
   to->wrenches = impl_->wrenches;

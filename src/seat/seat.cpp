@@ -129,14 +129,13 @@ void Seat::tell(const std::string& line) const {
 }
 
 void Seat::join(const std::vector<std::vector<std::size_t>>& trees, const std::vector<std::size_t>& shared) {
-  if (trees.empty() && shared.empty() && robot_.size() > 0) {
+  if (trees.empty() && shared.empty() && robot_.size() > 0)
     tell(model_ +
          ": no tree of hinges, sliders and fixed joints (a loop, a ball joint, another model's link): its joints are solved one "
          "by one with their types' shaft.inertia_kgm2");
-    return;
-  }
   robot_.join(trees, shared);
   own_.mobility.resize(robot_.mobility_size());
+  own_.watch.again();
   kept_ = loaded_ = own_;
   own_size_ = state::size_of(own_);
 }

@@ -5,6 +5,7 @@
 
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "vsa/config/actuator_type.hpp"
 #include "vsa/config/plugin_draft.hpp"
@@ -21,9 +22,10 @@ struct SerialWorld {
   double mass_kg = 0.45, inertia_kgm2 = 3.3e-4, length_m = 0.08;
   double last_mass_kg = 0, last_inertia_kgm2 = 0;  ///< of the last link, where they differ
   std::string overrides;                           ///< <override …/> elements for every actuator
+  std::vector<int> robots;                         ///< how many joints each drives; empty: one drives all
 };
 
-/// <model name='m'> with links l0, l1 … and joints j1, j2 …, and its robot. Joints slide where the type does; one that has no preset
+/// <model name='m'> with links l0, l1 … and joints j1, j2 …, and its robots. Joints slide where the type does; one that has no preset
 /// gets none.
 inline std::string serial_model(const SerialWorld& w) {
   const device::UnitConfig unit = config::TypeLibrary().load(w.type).unit;
@@ -41,15 +43,20 @@ inline std::string serial_model(const SerialWorld& w) {
       << (unit.actuator.linear() ? "prismatic" : "revolute") << "'><parent>l" << i - 1 << "</parent><child>l" << i
       << "</child><axis><xyz>" << (w.alternating && i % 2 == 0 ? "1 0 0" : "0 1 0") << "</xyz></axis></joint>";
   }
-  s << "<plugin name='vsa::Robot' filename='libvsa-robot.so'>";
-  for (int i = 1; i <= w.joints; ++i) {
-    s << "<actuator><joint>j" << i << "</joint><type>" << w.type << "</type><bus id='" << i << "'>b</bus><initial "
-      << (unit.actuator.linear() ? "equilibrium_m" : "equilibrium_rad") << "='0'";
-    const std::string preset = config::preset_attribute(unit.preset_unit());
-    if (!preset.empty()) s << " " << preset << "='" << w.preset << "'";
-    s << "/>" << w.overrides << "</actuator>";
+  int i = 0;
+  for (const int count : w.robots.empty() ? std::vector{w.joints} : w.robots) {
+    s << "<plugin name='vsa::Robot' filename='libvsa-robot.so'>";
+    for (const int end = i + count; i < end;) {
+      ++i;
+      s << "<actuator><joint>j" << i << "</joint><type>" << w.type << "</type><bus id='" << i << "'>b</bus><initial "
+        << (unit.actuator.linear() ? "equilibrium_m" : "equilibrium_rad") << "='0'";
+      const std::string preset = config::preset_attribute(unit.preset_unit());
+      if (!preset.empty()) s << " " << preset << "='" << w.preset << "'";
+      s << "/>" << w.overrides << "</actuator>";
+    }
+    s << "<bus name='b'/></plugin>";
   }
-  s << "<bus name='b'/></plugin></model>";
+  s << "</model>";
   return s.str();
 }
 

@@ -25,20 +25,17 @@ class DrivenTree {
     }
   }
 
-  /// To be filled with where they are, before mobility().
+  /// To be filled with where they are, then update().
   [[nodiscard]] std::vector<host::TreeBody>& bodies() noexcept { return bodies_; }
   /// Actuators by trees, for host::Robot::join; none where the model is no tree.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& trees() const noexcept { return trees_; }
-  /// B of each tree, one after the other, with the bodies where they are now. Kept to seven digits: plenty for a prediction, and
-  /// the links' poses, from which it comes, differ by rounding after a reset.
-  void mobility(std::span<double> out) noexcept {
-    inertia_.update(bodies_);
-    for (const auto& tree : of_tree_) {
-      const std::size_t size = tree.size() * tree.size();
-      inertia_.mobility(bodies_, tree, out.first(size));
-      for (double& b : out.first(size)) b = static_cast<float>(b);
-      out = out.subspan(size);
-    }
+  /// Takes over where the bodies are now.
+  void update() noexcept { inertia_.update(bodies_); }
+  /// B of that tree, by rows, as of the last update(). Kept to seven digits: plenty for a prediction, and the links' poses, from which
+  /// it comes, differ by rounding after a reset.
+  void mobility(std::size_t tree, std::span<double> out) noexcept {
+    inertia_.mobility(bodies_, of_tree_[tree], out);
+    for (double& b : out) b = static_cast<float>(b);
   }
 
  private:

@@ -91,7 +91,7 @@ class Seat {
 
   /// Which actuators' joints move each other (host::Robot::join). None where the model is no tree: that is reported, and each joint
   /// is then solved by itself with its type's shaft inertia, or what the host gives as JointIn::inverse_inertia.
-  /// `shared`: those on a tree that other seats' actuators drive, too; such seats step together, see step_together().
+  /// `shared`: those on a tree that other seats' actuators drive, too; such seats step in a SeatGroup (seat/seat_group.hpp).
   void join(const std::vector<std::vector<std::size_t>>& trees, const std::vector<std::size_t>& shared = {});
 
   /// One entry an actuator, to be filled before step() and before observe(). A step allocates nothing, as long as nothing is
@@ -104,8 +104,6 @@ class Seat {
   /// A step length that the units don't know, or a joint that is no longer finite, stops the actuators with one reported line:
   /// torques are 0 until reset().
   void step(std::int64_t dt_ns);
-  /// The same of seats on one tree, in the order of the group's robots, whose mobility() is filled. Where one has stopped all do.
-  static void step_together(std::span<Seat* const> seats, host::RobotGroup& group, std::int64_t dt_ns);
   /// Of the last step, N·m (N of a linear actuator), one an actuator.
   [[nodiscard]] std::span<const double> torques() const noexcept { return torques_; }
   [[nodiscard]] bool stopped() const noexcept { return own_.now.stopped; }  ///< whether it gave up, see step()
@@ -157,6 +155,7 @@ class Seat {
   void go_back();  ///< to where keep() was called last
 
  private:
+  friend class SeatGroup;
   using Clock = std::chrono::steady_clock;
   struct Desk;
   /// What a step changes beside the robot and B.
@@ -185,6 +184,8 @@ class Seat {
   };
 
   Seat(const Seat& other, host::Robot robot);
+  /// step() of seats on one tree, in the order of the group's robots, whose mobility() is filled. Where one has stopped all do.
+  static void step_together(std::span<Seat* const> seats, host::RobotGroup& group, std::int64_t dt_ns);
   void stop(const std::string& why);
   [[nodiscard]] bool can_step(std::int64_t dt_ns);
   void stepped(std::int64_t dt_ns);

@@ -1,0 +1,87 @@
+// Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#include "model_robots.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace vsa::plugins {
+namespace {
+
+struct Registry {
+  std::mutex mutex;
+  std::map<seat::JointKey, std::weak_ptr<ModelRobots>> models;
+};
+
+// Never destroyed: a host may destroy its models after this library's statics.
+Registry& registry = *new Registry;
+
+}  // namespace
+
+std::shared_ptr<ModelRobots> ModelRobots::of(const seat::JointKey& model) {
+  const std::lock_guard lock(registry.mutex);
+  std::erase_if(registry.models, [](const auto& known) { return known.second.expired(); });
+  std::weak_ptr<ModelRobots>& known = registry.models[model];
+  std::shared_ptr<ModelRobots> out = known.lock();
+  if (!out) known = out = std::make_shared<ModelRobots>();
+  return out;
+}
+
+void ModelRobots::add(ModelRobot& robot) {
+  members_.push_back({&robot, false});
+  joined_ = false;
+}
+
+void ModelRobots::remove(ModelRobot& robot) {
+  std::erase_if(members_, [&](const Member& m) { return m.robot == &robot; });
+  joined_ = false;
+}
+
+/// Numbers the trees' actuators as the group does, from `first` on.
+void ModelRobots::take(std::unique_ptr<LinkTrees> links, std::size_t first, seat::SeatGroup::Trees& trees) {
+  for (std::size_t t = 0; t < links->trees().size(); ++t) {
+    trees_.push_back({links.get(), t});
+    trees.push_back(links->trees()[t]);
+    for (std::size_t& k : trees.back()) k += first;
+  }
+  links_.push_back(std::move(links));
+}
+
+/// Where the whole model is no tree, a robot's own may be one.
+void ModelRobots::join() {
+  using Links = ModelRobot::Links;
+  std::vector<seat::Seat*> seats;
+  ModelRobot::Joints driven;
+  for (const Member& m : members_) {
+    seats.push_back(m.robot->seat());
+    driven.insert(driven.end(), m.robot->driven().begin(), m.robot->driven().end());
+  }
+  links_.clear();
+  trees_.clear();
+  seat::SeatGroup::Trees trees;
+  take(members_.front().robot->link_trees(Links::of_outermost_model, driven), 0, trees);
+  std::size_t first = 0;
+  for (const Member& m : members_) {
+    if (links_.front()->trees().empty()) take(m.robot->link_trees(Links::of_own_model, m.robot->driven()), first, trees);
+    first += m.robot->driven().size();
+  }
+  group_ = seat::SeatGroup(std::move(seats), trees);
+  joined_ = true;
+}
+
+void ModelRobots::step(const ModelRobot& asking, std::int64_t time_ns, std::int64_t dt_ns) {
+  for (Member& m : members_)
+    if (m.robot == &asking && std::exchange(m.stepped, false)) return;
+  for (Member& m : members_) m.stepped = m.robot != &asking;
+  if (!joined_) join();
+  for (const Member& m : members_) m.robot->tell(time_ns);
+  LinkTrees* looked = nullptr;
+  group_.step(dt_ns, [&](std::size_t tree, std::span<double> out) {
+    const Tree& t = trees_[tree];
+    if (std::exchange(looked, t.links) != t.links) t.links->look();
+    t.links->mobility(t.tree, out);
+  });
+  for (const Member& m : members_) m.robot->apply();
+}
+
+}  // namespace vsa::plugins
