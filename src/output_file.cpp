@@ -14,8 +14,8 @@
 
 namespace vsa {
 
-OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
-  fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+OutputFile::OutputFile(std::filesystem::path path, Begin begin) : path_(std::move(path)) {
+  fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (begin == Begin::emptied ? O_TRUNC : 0), 0666);
   if (fd_ < 0) fail("can't open for writing", errno);
 }
 

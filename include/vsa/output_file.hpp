@@ -19,8 +19,11 @@ class OutputError : public std::runtime_error {
 /// A file that is appended to in whole pieces: a piece that fails half-way is cut off again, so that what stays is readable.
 class OutputFile {
  public:
+  /// What becomes of a file that is there.
+  enum class Begin { emptied, as_it_is };
   OutputFile() = default;
-  explicit OutputFile(std::filesystem::path path);  ///< creates or empties; throws OutputError
+  explicit OutputFile(std::filesystem::path path,
+                      Begin begin = Begin::emptied);  ///< creates it if there is none; throws OutputError
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&& other) noexcept;

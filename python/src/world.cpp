@@ -68,9 +68,13 @@ void PyWorld::run(double duration_s) {
   });
 }
 
+void PyWorld::sample() {
+  for (const Recorder& recorder : recorders_) recorder->sample(world_);
+}
+
 void PyWorld::reset() {
   get().reset();
-  for (const Recorder& recorder : recorders_) recorder->sample(world_);
+  sample();
 }
 
 void PyWorld::detach(const Recorder& recorder) {
@@ -181,8 +185,12 @@ void bind_state(py::module_& m, WorldClass& c) {
        },
        "The whole state as a value, good for this world and others of the same file: Snapshot.")
       .def(
-          "restore", [](PyWorld& w, const PySnapshot& s) { w.get().restore(*s.held); }, py::arg("snapshot"),
-          "Back to a snapshot, bit by bit. InputError for one of another world; then nothing has changed.")
+          "restore",
+          [](PyWorld& w, const PySnapshot& s) {
+            w.get().restore(*s.held);
+            w.sample();
+          },
+          py::arg("snapshot"), "Back to a snapshot, bit by bit. InputError for one of another world; then nothing has changed.")
       .def(
           "clone", [](PyWorld& w) { return std::make_shared<PyWorld>(w.get().clone()); },
           "Another World that goes on just as this one would; each may have a thread. Recorders don't go along.")

@@ -25,6 +25,7 @@ class PyWorld {
   void step(std::size_t n);
   void run(double duration_s);
   void reset();
+  void sample();  ///< into the recordings under way: the world was put somewhere
 
   using Recorder = std::shared_ptr<record::Recorder>;
   void attach(const Recorder& recorder) { recorders_.push_back(recorder); }  ///< samples after each step from now on
@@ -40,7 +41,6 @@ class PyWorld {
 
  private:
   class Stepping;
-  void sample();
 
   engine::World world_;
   bool stepping_ = false;  // read and written with the GIL

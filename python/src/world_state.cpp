@@ -24,6 +24,7 @@ void restore_state(PyWorld& w, const py::object& given) {
   engine::World& world = w.get();
   const auto numbers = state_numbers(given, world.state_size());
   world.restore(std::span(numbers.data(), static_cast<std::size_t>(numbers.size())));
+  w.sample();
 }
 
 py::list state_layout(PyWorld& w) {
@@ -68,8 +69,12 @@ void bind_world_state(WorldClass& c) {
       .def(
           "save_file", [](PyWorld& w, const std::filesystem::path& file) { w.get().save_file(file); }, py::arg("file"), kSaveFile)
       .def(
-          "restore_file", [](PyWorld& w, const std::filesystem::path& file) { w.get().restore_file(file); }, py::arg("file"),
-          kRestoreFile);
+          "restore_file",
+          [](PyWorld& w, const std::filesystem::path& file) {
+            w.get().restore_file(file);
+            w.sample();
+          },
+          py::arg("file"), kRestoreFile);
 }
 
 }  // namespace vsa::python

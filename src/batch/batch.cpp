@@ -23,6 +23,12 @@ std::size_t thread_count(std::size_t asked, std::size_t copies) {
   return std::min(there, std::max<std::size_t>(copies, 1));
 }
 
+/// Never empty: an empty failure is none.
+std::string reason(const std::exception& error) {
+  const std::string text = error.what();
+  return text.empty() ? "an exception without a text was thrown" : text;
+}
+
 }  // namespace
 
 Batch::Impl::Impl(const engine::World& world, std::size_t copies, std::size_t threads)
@@ -129,11 +135,11 @@ void Batch::Impl::step(std::size_t worker, std::size_t copy, int steps, bool com
     try {
       for (int k = 0; k < steps; ++k) world.step();
     } catch (const engine::SimulationError& error) {
-      failure[copy] = error.what();
+      failure[copy] = reason(error);
     }
     put(worker, copy);
   } catch (const std::exception& error) {
-    failure[copy] = error.what();
+    failure[copy] = reason(error);
   } catch (...) {  // of a law or an engine of the user's
     failure[copy] = "something was thrown that is no std::exception";
   }

@@ -25,6 +25,11 @@ device::Dice dice_of(std::uint64_t seed, std::uint64_t copy, std::uint64_t key, 
   return {dice.next()};
 }
 
+/// Of spans that no double holds, too.
+double between(double a, double b, double part) noexcept {
+  return std::isfinite(b - a) ? a + part * (b - a) : (1 - part) * a + part * b;
+}
+
 double standard_normal(device::Dice& dice) noexcept {
   for (;;) {
     const double radius = std::sqrt(-2 * std::log(1 - dice.uniform()));
@@ -39,8 +44,10 @@ double drawn(const Distribution& from, std::uint64_t seed, std::size_t copy, std
   device::Dice dice = dice_of(seed, copy, fnv(key), from.shared ? 0 : fnv(who));
   switch (from.kind) {
     case Distribution::Kind::uniform:
-      return std::clamp(from.a + dice.uniform() * (from.b - from.a), from.a, from.b);
+      return std::clamp(between(from.a, from.b, dice.uniform()), from.a, from.b);
     case Distribution::Kind::log_uniform:
+      if (!std::isfinite(from.b / from.a))
+        return std::clamp(std::exp(between(std::log(from.a), std::log(from.b), dice.uniform())), from.a, from.b);
       return std::clamp(from.a * std::exp(dice.uniform() * std::log(from.b / from.a)), from.a, from.b);
     case Distribution::Kind::normal:
       break;

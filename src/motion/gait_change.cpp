@@ -77,7 +77,8 @@ WaveParams Gait::wave(const GaitGroup& group, double t_s) const {
           std::lerp(from.preset_rad, to.preset_rad, part)};
 }
 
-void Gait::change(const GaitChange& to, double t_s) {
+void Gait::change(const GaitChange& to, double simulated_s) {
+  const double t_s = own_time(simulated_s);
   Checker check;
   check.number("frequency_rad_per_s", to.frequency_rad_per_s, kGaitBounds.frequency_rad_per_s);
   if (to.groups.size() != params_.groups.size()) {
@@ -100,36 +101,39 @@ void Gait::change(const GaitChange& to, double t_s) {
   state_.blend = std::move(blend);
 }
 
-void Gait::hold(double t_s) {
-  if (!held()) state_.held_phase_rad = phase(t_s);
-}
+void Gait::hold(double t_s) { state_.held_s = own_time(t_s); }
 
 void Gait::resume(double t_s) {
   if (!held()) return;
-  state_.blend = GaitBlend{t_s, *state_.held_phase_rad, values()};
-  state_.held_phase_rad.reset();
+  state_.stood_s = t_s - *state_.held_s;
+  state_.held_s.reset();
   state_.steering.trail.clear();
   for (auto& [name, back] : state_.returning) back.t_s.reset();  // from where they stood
 }
 
-bool Gait::leave(std::string_view actuator, ByHand by_hand) {
-  for (const GaitGroup& group : params_.groups) {
-    if (std::find(group.actuators.begin(), group.actuators.end(), actuator) == group.actuators.end()) continue;
-    const ByHand before = this->by_hand(actuator);
-    GaitReturn& back = state_.returning[std::string(actuator)];
-    const ByHand joins{before.equilibrium && !by_hand.equilibrium, before.preset && !by_hand.preset};
-    if (joins.any()) back.t_s.reset();
-    back.of.equilibrium = !by_hand.equilibrium && (back.of.equilibrium || joins.equilibrium);
-    back.of.preset = !by_hand.preset && (back.of.preset || joins.preset);
-    if (!back.of.any()) state_.returning.erase(state_.returning.find(actuator));
-    by_hand_.insert_or_assign(std::string(actuator), by_hand);
-    return true;
-  }
-  return false;
+bool Gait::has(std::string_view actuator) const {
+  const auto named = [&](const std::string& name) { return name == actuator; };
+  for (const GaitGroup& group : params_.groups)
+    if (std::any_of(group.actuators.begin(), group.actuators.end(), named)) return true;
+  return params_.motion && std::any_of(params_.motion->tracks.begin(), params_.motion->tracks.end(),
+                                       [&](const MotionTrack& track) { return named(track.actuator); });
 }
 
-void Gait::blend_back(const Stage& stage, std::size_t actuator, std::string_view name, double t_s, double& equilibrium,
-                      double& preset) {
+bool Gait::leave(std::string_view actuator, ByHand by_hand) {
+  if (!has(actuator)) return false;
+  const ByHand before = this->by_hand(actuator);
+  GaitReturn& back = state_.returning[std::string(actuator)];
+  const ByHand joins{before.equilibrium && !by_hand.equilibrium, before.preset && !by_hand.preset};
+  if (joins.any()) back.t_s.reset();
+  back.of.equilibrium = !by_hand.equilibrium && (back.of.equilibrium || joins.equilibrium);
+  back.of.preset = !by_hand.preset && (back.of.preset || joins.preset);
+  if (!back.of.any()) state_.returning.erase(state_.returning.find(actuator));
+  by_hand_.insert_or_assign(std::string(actuator), by_hand);
+  return true;
+}
+
+void Gait::blend_back(const Stage& stage, std::size_t actuator, std::string_view name, double t_s,
+                      std::optional<double>& equilibrium, std::optional<double>& preset) {
   const auto found = state_.returning.find(name);
   if (found == state_.returning.end()) return;
   GaitReturn& back = found->second;
@@ -142,8 +146,8 @@ void Gait::blend_back(const Stage& stage, std::size_t actuator, std::string_view
     state_.returning.erase(found);
     return;
   }
-  if (back.of.equilibrium) equilibrium = std::lerp(back.equilibrium_rad, equilibrium, part);
-  if (back.of.preset) preset = std::lerp(back.preset, preset, part);
+  if (back.of.equilibrium && equilibrium) equilibrium = std::lerp(back.equilibrium_rad, *equilibrium, part);
+  if (back.of.preset && preset) preset = std::lerp(back.preset, *preset, part);
 }
 
 ByHand Gait::by_hand(std::string_view actuator) const {

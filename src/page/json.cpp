@@ -67,12 +67,17 @@ std::string well_formed(std::string_view value) {
   return Json::parse(Json(value).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
 
-std::string base64(const std::vector<float>& values) {
+namespace {
+
+/// Bits: an unsigned number as wide as a value.
+template <class Bits, class Value>
+std::string base64_of(const std::vector<Value>& values) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const std::size_t bytes = values.size() * 4;
+  constexpr std::size_t kWidth = sizeof(Value);
+  const std::size_t bytes = values.size() * kWidth;
   const auto byte = [&](std::size_t i) -> std::uint32_t {
     if (i >= bytes) return 0;
-    return (bits_as<std::uint32_t>(values[i / 4]) >> (8 * (i % 4))) & 0xFFU;
+    return static_cast<std::uint32_t>(bits_as<Bits>(values[i / kWidth]) >> (8 * (i % kWidth))) & 0xFFU;
   };
   std::string out;
   out.reserve((bytes + 2) / 3 * 4);
@@ -85,5 +90,10 @@ std::string base64(const std::vector<float>& values) {
   }
   return out;
 }
+
+}  // namespace
+
+std::string base64(const std::vector<float>& values) { return base64_of<std::uint32_t>(values); }
+std::string base64_wide(const std::vector<double>& values) { return base64_of<std::uint64_t>(values); }
 
 }  // namespace vsa::page

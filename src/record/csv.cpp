@@ -165,7 +165,8 @@ struct CsvFiles::Impl {
   }
 };
 
-CsvFiles::CsvFiles(const RunInfo& info, const fs::path& directory) : impl_(std::make_unique<Impl>()) {
+CsvFiles::CsvFiles(const RunInfo& info, const fs::path& directory, const std::vector<std::string>& others)
+    : impl_(std::make_unique<Impl>()) {
   std::error_code error;
   fs::create_directories(directory, error);
   // "File exists" and friends differ between systems; say what matters.
@@ -193,6 +194,16 @@ CsvFiles::CsvFiles(const RunInfo& info, const fs::path& directory) : impl_(std::
   }
 
   Problems problems;
+  const auto can_be_opened = [&](const std::string& name) {
+    try {
+      static_cast<void>(OutputFile(directory / name, OutputFile::Begin::as_it_is));
+    } catch (const RecordError& e) {
+      problems.add({"", "", "", e.what(), ""});
+    }
+  };
+  for (const std::string& name : names) can_be_opened(name);
+  for (const std::string& name : others) can_be_opened(name);
+  problems.throw_if_any();
   for (std::size_t i = 0; i < names.size(); ++i) {
     try {
       impl_->files.emplace_back(directory / names[i]);
@@ -228,6 +239,8 @@ void CsvFiles::restart() {
 void CsvFiles::close() {
   for (OutputFile& f : impl_->files) f.close();
 }
+
+void CsvFiles::release() noexcept { impl_->lock = {}; }
 
 std::vector<fs::path> CsvFiles::files() const {
   std::vector<fs::path> out;

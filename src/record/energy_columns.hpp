@@ -21,8 +21,8 @@ inline double body(const Sample& sample, double scene::Energy::*entry) {
   return sample.bodies ? (*sample.bodies).*entry : std::numeric_limits<double>::quiet_NaN();
 }
 
-// "motor_kinetic" is the ledger's own kinetic energy (motors); "kinetic" is that of the bodies.
-inline constexpr std::array<EnergyColumn, 23> kEnergyColumns{{
+// "motor_kinetic" is the ledger's own kinetic energy (motors); "kinetic" is that of the bodies; "springs" are the description's own, of joints.
+inline constexpr std::array<EnergyColumn, 24> kEnergyColumns{{
     {"supply", [](const Sample& s) { return s.ledger.supply; }},
     {"copper", [](const Sample& s) { return s.ledger.copper; }},
     {"bridge", [](const Sample& s) { return s.ledger.bridge; }},
@@ -46,6 +46,7 @@ inline constexpr std::array<EnergyColumn, 23> kEnergyColumns{{
     {"delivered_moved", [](const Sample& s) { return s.ledger.delivered_moved; }},
     {"kinetic", [](const Sample& s) { return body(s, &scene::Energy::kinetic); }},
     {"gravitational", [](const Sample& s) { return body(s, &scene::Energy::gravitational); }},
+    {"springs", [](const Sample& s) { return body(s, &scene::Energy::springs); }},
 }};
 
 }  // namespace vsa::record

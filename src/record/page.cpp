@@ -51,7 +51,8 @@ Json names(const Columns& columns) {
   return out;
 }
 
-void drop_odd(std::vector<float>& frames, std::size_t width) {
+template <class Number>
+void drop_odd(std::vector<Number>& frames, std::size_t width) {
   std::size_t kept = 0;
   for (std::size_t f = 0; width > 0 && f < frames.size() / width; f += 2, ++kept) {
     std::copy_n(frames.begin() + static_cast<std::ptrdiff_t>(f * width), width,
@@ -103,7 +104,7 @@ void PageData::halve() {
 void PageData::add(const Sample& sample) {
   if (time_.empty()) first_ = sample.poses;
   if (frames() >= frames_max_) halve();
-  time_.push_back(static_cast<float>(static_cast<double>(sample.time_ns) / 1e9));
+  time_.push_back(static_cast<double>(sample.time_ns) / 1e9);
   data_.append(sample, moving_);
   cadence_.taken(sample.time_ns);
 }
@@ -117,7 +118,7 @@ void PageData::restart() {
 std::string PageData::json(const RunInfo& info, const PageText& text) const {
   Json out = page_header(info, text, first_);
   out["frames"] = frames();
-  out["time"] = base64(time_);
+  out["time"] = page::base64_wide(time_);
   out["poses"] = base64(data_.poses);
   out["actuator_channels"] = names(kChannels);
   out["actuators"] = base64(by_channel(data_.readings, actuators_ * kChannels.size()));

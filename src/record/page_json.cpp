@@ -100,7 +100,7 @@ Json page_header(const RunInfo& info, const PageText& text, const std::vector<sc
   }
   const auto robot = [](const RobotInfo& r) { return Json{{"model", r.model}, {"actuators", each(r.actuators, actuator_json)}}; };
   const auto statistic = [](const Statistic& s) { return Json::array({s.label, s.value}); };
-  return {{"format", 1},
+  return {{"format", 2},
           {"title", text.title},
           {"world", info.world},
           {"step_s", page::number(info.step_s)},

@@ -6,6 +6,7 @@
 
 namespace vsa::record {
 
-Cadence::Cadence(double rate_Hz) : period_ns_(std::max<std::int64_t>(1, std::llround(1e9 / rate_Hz))) {}
+// Of the lowest rates a period is as long as one can be of which two are still a time.
+Cadence::Cadence(double rate_Hz) : period_ns_(std::llround(std::clamp(1e9 / rate_Hz, 1.0, 4e18))) {}
 
 }  // namespace vsa::record

@@ -92,7 +92,7 @@ struct RunLog::Impl {
 
 RunLog::RunLog(const RunInfo& info, const std::filesystem::path& directory, double rate_Hz) {
   try {
-    impl_ = std::make_unique<Impl>(info, directory / "run.mcap", rate_Hz);
+    impl_ = std::make_unique<Impl>(info, directory / kFile, rate_Hz);
   } catch (const RecordError& e) {
     throw InputError(Problem{"", "", "", e.what(), ""});
   }

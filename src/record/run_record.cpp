@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <utility>
 
 #include "vsa/checks.hpp"
@@ -58,7 +59,8 @@ struct RunRecord::Impl {
   RunLog log;  // behind the files: they hold the directory
   Cadence cadence;
   PageData page;
-  std::int64_t last_ns = -1;
+  std::int64_t seen_ns = -1;
+  std::optional<std::int64_t> went_back_from_ns;  // since the last sample
   std::vector<std::string> notes;
   bool files_failed = false;
 
@@ -67,13 +69,18 @@ struct RunRecord::Impl {
         directory(std::move(d)),
         options(checked(std::move(o))),
         page_template(template_for(options, without_page)),
-        files(info, directory),
+        files(info, directory, {RunLog::kFile}),
         log(info, directory, options.rate_Hz),
         cadence(options.rate_Hz),
         page(info, options.page_rate_Hz, options.page_frames_max) {}
 
-  void start_over(std::int64_t time_ns) {
-    notes.push_back("The world went back from " + seconds(last_ns) + " to " + seconds(time_ns) + ": the recording starts there.");
+  void look(std::int64_t time_ns) noexcept {
+    if (time_ns < seen_ns) went_back_from_ns = seen_ns;
+    seen_ns = time_ns;
+  }
+
+  void start_over(std::int64_t from_ns, std::int64_t time_ns) {
+    notes.push_back("The world went back from " + seconds(from_ns) + " to " + seconds(time_ns) + ": the recording starts there.");
     cadence.restart();
     page.restart();
     if (files_failed) return;
@@ -100,14 +107,15 @@ RunRecord::~RunRecord() = default;
 RunRecord::RunRecord(RunRecord&&) noexcept = default;
 RunRecord& RunRecord::operator=(RunRecord&&) noexcept = default;
 
-bool RunRecord::due(std::int64_t time_ns) const noexcept {
-  return impl_->cadence.due(time_ns) || impl_->page.due(time_ns) || time_ns < impl_->last_ns;
+bool RunRecord::due(std::int64_t time_ns) noexcept {
+  impl_->look(time_ns);
+  return impl_->cadence.due(time_ns) || impl_->page.due(time_ns) || impl_->went_back_from_ns;
 }
 
 void RunRecord::add(const Sample& sample) {
   Impl& r = *impl_;
-  if (sample.time_ns < r.last_ns) r.start_over(sample.time_ns);
-  r.last_ns = sample.time_ns;
+  r.look(sample.time_ns);
+  if (const auto from_ns = std::exchange(r.went_back_from_ns, std::nullopt)) r.start_over(*from_ns, sample.time_ns);
   if (r.page.due(sample.time_ns)) r.page.add(sample);
   if (!r.files_failed && r.cadence.due(sample.time_ns)) r.write_files(sample);
 }
@@ -116,19 +124,24 @@ fs::path RunRecord::finish(const std::vector<Statistic>& summary, std::string_vi
   Impl& r = *impl_;
   PageText text{r.options.title.empty() ? r.info.world : r.options.title, summary, r.notes};
   if (!note.empty()) text.notes.emplace_back(note);
-  // First what is small and makes the data whole; the page is written all the same.
+  // First what is small and makes the data whole; whatever fails, the rest is done all the same.
   std::exception_ptr failed;
-  try {
-    r.log.close();
-    r.files.close();
-  } catch (const RecordError&) {
-    failed = std::current_exception();
-  }
+  const auto do_it = [&failed](auto&& what) {
+    try {
+      what();
+    } catch (const RecordError&) {
+      if (!failed) failed = std::current_exception();
+    }
+  };
+  do_it([&] { r.log.close(); });
+  do_it([&] { r.files.close(); });
   fs::path file;
-  if (r.without_page.empty()) {
+  do_it([&] {
+    if (!r.without_page.empty()) return;
+    page::write(r.directory / "replay.html", r.page_template, r.page.json(r.info, text));
     file = r.directory / "replay.html";
-    page::write(file, r.page_template, r.page.json(r.info, text));
-  }
+  });
+  r.files.release();
   if (failed) std::rethrow_exception(failed);
   return file;
 }

@@ -80,8 +80,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void refuse(http::status status, const char* why) {
     ++hub_.refused;
     Response response = blank(status, "text/plain");
-    response.body() = why;
-    response.prepare_payload();
+    response.content_length(std::string_view(why).size());
+    if (parser_.get().method() != http::verb::head) response.body() = why;
     send(std::move(response));
   }
 

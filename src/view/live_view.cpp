@@ -2,6 +2,7 @@
 #include "vsa/view/live_view.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "live_impl.hpp"
 #include "vsa/config/actuator_type.hpp"
@@ -44,13 +45,16 @@ LiveView::Impl::Impl(host::Simulation& the_world, motion::Gait* the_gait, seat::
       recordings(std::move(options.records), or_built_in(options.replay_template, "replay.html")),
       frames(record::describe(the_world)),
       speed(options.speed) {
-  for (const auto& group : gait != nullptr ? gait->params().groups : std::vector<motion::GaitGroup>{}) {
-    for (const std::string& name : group.actuators) {
-      const auto named = [&](const Actuator& a) { return a.name == name || a.model + '/' + a.name == name; };
-      const auto at = std::find_if(actuators.begin(), actuators.end(), named);
-      if (at != actuators.end()) gait_names[static_cast<std::size_t>(at - actuators.begin())] = name;
-    }
-  }
+  const auto is_the_gaits = [&](const std::string& name) {
+    const auto named = [&](const Actuator& a) { return a.name == name || a.model + '/' + a.name == name; };
+    const auto at = std::find_if(actuators.begin(), actuators.end(), named);
+    if (at != actuators.end()) gait_names[static_cast<std::size_t>(at - actuators.begin())] = name;
+  };
+  const motion::GaitParams none, &params = gait != nullptr ? gait->params() : none;
+  for (const motion::GaitGroup& group : params.groups)
+    for (const std::string& name : group.actuators) is_the_gaits(name);
+  for (const motion::MotionTrack& track : params.motion ? params.motion->tracks : std::vector<motion::MotionTrack>{})
+    is_the_gaits(track.actuator);
   changed();
   server = std::make_unique<Server>(*this, options.server);
 }
@@ -123,9 +127,18 @@ void LiveView::Impl::serve() {
     pending = false;
   }
   if (world.hands().empty()) pulls.clear();  // a reset let go
-  for (const auto& [viewer, request] : now) {
+  bool resets = false;
+  while (!now.empty() && !resets) {
+    const auto [viewer, request] = std::move(now.front());
+    now.pop_front();
     asking = viewer;
+    resets = std::holds_alternative<Reset>(request);
     guarded([&, &what = request] { std::visit(*this, what); });
+  }
+  if (!now.empty()) {  // what came after a reset is for the world that was reset
+    const std::lock_guard lock(mutex);
+    requests.insert(requests.begin(), std::make_move_iterator(now.begin()), std::make_move_iterator(now.end()));
+    pending = true;
   }
   changed();
 }
@@ -155,7 +168,7 @@ void LiveView::Impl::sample() {
 }
 
 void LiveView::Impl::publish(bool now) {
-  if (!server->wanted() && !now) return;
+  if (!server->wanted() && !(now && server->counts().viewers_now > 0)) return;
   const FrameInfo info{world.time_s(), factor.update(world.time_s()), control != nullptr ? control->paused() : stands,
                        recordings.running(), gait != nullptr && !gait->held()};
   server->show(frames.make(world, info));

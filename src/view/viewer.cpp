@@ -61,7 +61,7 @@ void Viewer::heard(std::size_t size) {
 }
 
 void Viewer::send(const Frame& frame) {
-  if (!open_) return;
+  if (!open_ || closing_) return;
   if (frame_ || credit_ == 0) {
     ++missed_;  // this one, or the one that waits, whose place it takes
     hub_.dropped.fetch_add(1, std::memory_order_relaxed);
@@ -74,14 +74,14 @@ void Viewer::send(const Frame& frame) {
 }
 
 void Viewer::send(std::string text) {
-  if (!open_) return;
+  if (!open_ || closing_) return;
   if (answers_.size() >= hub_.options.answers_max) return drop();
   answers_.push_back(std::move(text));
   write_next();
 }
 
 void Viewer::write_next() {
-  if (writing_ || !open_ || closing_) return;
+  if (writing_ || !open_) return;
   const auto done = [self = shared_from_this()](Error error, std::size_t) { self->written(error); };
   if (!answers_.empty()) {
     text_under_way_ = std::move(answers_.front());
@@ -89,6 +89,9 @@ void Viewer::write_next() {
     writing_ = true;
     socket_.text(true);
     socket_.async_write(asio::buffer(text_under_way_), done);
+  } else if (closing_) {
+    open_ = false;
+    socket_.async_close(websocket::close_code::going_away, [self = shared_from_this()](Error) {});
   } else if (frame_) {
     frame_under_way_ = std::move(frame_);
     frame_.reset();
@@ -103,15 +106,12 @@ void Viewer::write_next() {
 void Viewer::written(Error error) {
   writing_ = false;
   if (error) return drop();
-  if (closing_) return close();
   write_next();
 }
 
 void Viewer::close() {
   closing_ = true;
-  if (writing_ || !open_) return;
-  open_ = false;
-  socket_.async_close(websocket::close_code::going_away, [self = shared_from_this()](Error) {});
+  write_next();
 }
 
 void Viewer::drop() {

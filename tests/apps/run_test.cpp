@@ -46,6 +46,32 @@ void expect_readable_record(const fs::path& directory, std::size_t lines) {
   }
 }
 
+TEST(Run, TellsItsSummaryAndEndsWithOneWhereThePageCantBeWritten) {
+  const Scratch scratch;
+  fs::create_directories(scratch / "out" / "replay.html");
+  const auto result = run_vsa({"run", "bench_free", "--no-topics", "--duration-s", "0.1", "--record", (scratch / "out").string()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.out.find("energy from supply"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("error: "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("replay.html"), std::string::npos) << result.err;
+  EXPECT_TRUE(fs::exists(scratch / "out" / "scenario.toml"));
+}
+
+TEST(Run, ARefusedOneLeavesAnEarlierRecordAsItWas) {
+  const Scratch scratch;
+  const auto run = [&] {
+    return run_vsa({"run", "bench_free", "--no-topics", "--duration-s", "0.1", "--record", (scratch / "out").string()});
+  };
+  ASSERT_EQ(run().exit_code, 0);
+  const std::string before = read_file(scratch / "out" / "energy.csv");
+  fs::remove(scratch / "out" / "run.mcap");
+  fs::create_directory(scratch / "out" / "run.mcap");
+  const auto refused = run();
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("run.mcap"), std::string::npos) << refused.err;
+  EXPECT_EQ(read_file(scratch / "out" / "energy.csv"), before);
+}
+
 TEST(Run, BreaksAUnitFromTheStartAndRefusesWhatItCantBreak) {
   const Scratch scratch;
   const auto record = [&](const char* name, std::vector<std::string> more) {

@@ -35,9 +35,10 @@ LateSpeed left_alone(const std::string& model, const std::vector<std::string>& n
 class SharedTree : public testing::TestWithParam<std::string> {};
 
 TEST_P(SharedTree, WithAPlugInAPartRestsAsWithOneForAll) {
-  expect_rest_whatever_drives([](const std::string& model, const std::vector<std::string>& joints, double step_s) {
+  const auto run = [](const std::string& model, const std::vector<std::string>& joints, double step_s) {
     return left_alone(model, joints, step_s, GetParam());
-  });
+  };
+  expect_rest_whatever_drives(run, GetParam() != "dart");  // "Nested models are not currently supported in DART", it says
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, SharedTree, testing::Values("ode", "dart"), [](const auto& c) { return c.param; });

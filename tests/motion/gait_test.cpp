@@ -186,6 +186,14 @@ TEST_F(Steering, IgnoresAWobbleWithTheGaitsOwnPeriod) {
   EXPECT_NEAR(state_.phase_rad, 0.0, 1e-9);
 }
 
+TEST_F(Steering, MeasuresOverTheShorterPeriodAsSoonAsThereIsOne) {
+  for (int i = 0; i < 500; ++i) steer(params_, state_, {0.003 * i, 0.1 * std::sin(2 * kPi * i / 209)}, 209, 0.01, true);
+  for (int i = 500; i < 500 + 2 * 133; ++i)
+    steer(params_, state_, {0.003 * i, 0.1 * std::sin(2 * kPi * (i - 500) / 133)}, 133, 0.01, true);
+  EXPECT_NEAR(*state_.heading_rad, 0, 1e-9);
+  EXPECT_EQ(state_.trail.size(), 133U);
+}
+
 double largest_jump(const Gait& gait, double from_s, double to_s) {
   double largest = 0;
   for (const GaitGroup& g : gait.params().groups) {

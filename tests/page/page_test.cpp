@@ -45,11 +45,12 @@ TEST(Number, ReadsBackAndIsNullWhereJsonHasNone) {
   EXPECT_EQ(text(number(std::numeric_limits<float>::quiet_NaN())), "null");
 }
 
-TEST(Base64, IsTheStandardOneOverLittleEndianFloats) {
+TEST(Base64, IsTheStandardOneOverLittleEndianNumbers) {
   EXPECT_EQ(base64({}), "");
   EXPECT_EQ(base64({1.0f}), "AACAPw==");
   EXPECT_EQ(base64({1.0f, -2.0f}), "AACAPwAAAMA=");
   EXPECT_EQ(base64({1.0f, -2.0f, 0.5f}), "AACAPwAAAMAAAAA/");
+  EXPECT_EQ(base64_wide({1.0, -2.0}), "AAAAAAAA8D8AAAAAAAAAwA==");
 }
 
 TEST(Page, IsTheTemplateWithTheDataInPlaceOfTheMarker) {

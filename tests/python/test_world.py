@@ -429,6 +429,23 @@ class Bodies(unittest.TestCase):
 
 
 class Recording(unittest.TestCase):
+    def test_a_record_begins_where_the_world_was_put_and_its_folder_is_free_afterwards(self):
+        world = vsasim.World.load("bench_free")
+        world.step(5)
+        back = {
+            "restore": (world.snapshot(), world.restore),
+            "restore_state": (world.state(), world.restore_state),
+        }
+        with tempfile.TemporaryDirectory() as folder:
+            for name, (state, restore) in back.items():
+                with world.record(folder, rate_Hz=1000):
+                    world.step(20)
+                    restore(state)
+                    world.step(2)
+                lines = pathlib.Path(folder, "energy.csv").read_text().splitlines()
+                self.assertEqual([line.split(",")[0] for line in lines[1:]], ["0.005", "0.006", "0.007"], name)
+                restore(state)
+
     def test_a_block_that_fails_leaves_a_finished_record(self):
         with tempfile.TemporaryDirectory() as folder:
             world = loaded()

@@ -34,9 +34,9 @@ TEST(CsvFiles, WriteTheBytesThatTheirHeadersPromise) {
       "time_s,supply_J,copper_J,bridge_J,conversion_J,viscous_J,motor_friction_J,shaft_friction_J,tendon_friction_J,delivered_J,"
       "pending_J,integrator_J,coupling_J,motor_kinetic_J,magnetic_J,elastic_J,bristle_J,shaft_bristle_J,tendon_bristle_J,"
       "stored_at_start_J,supply_moved_J,delivered_moved_J,kinetic_J,"
-      "gravitational_J\n"
-      "0,2,1.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0.25,-9.81\n"
-      "0.01,2,1.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0.25,-9.81\n");
+      "gravitational_J,springs_J\n"
+      "0,2,1.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0.25,-9.81,0.5\n"
+      "0.01,2,1.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0.25,-9.81,0.5\n");
 }
 
 TEST(CsvFiles, NameThePresetsUnitAndLeaveAMissingMotorEmpty) {
@@ -111,6 +111,23 @@ TEST(CsvFiles, NameEveryFileThatCantBeOpenedAndWhy) {
   const std::string message = message_of<InputError>([&] { CsvFiles(fake::tiny(), dir.path()); });
   EXPECT_NE(message.find("energy.csv: can't open for writing: Is a directory"), std::string::npos) << message;
   EXPECT_NE(message.find("links.csv: can't open for writing: No such file or directory"), std::string::npos) << message;
+}
+
+TEST(CsvFiles, StayAsTheyAreWhereOneOfAllCantBeOpened) {
+  const Scratch dir;
+  CsvFiles earlier(fake::tiny(), dir.path());
+  earlier.write(fake::tiny_at(0));
+  earlier.close();
+  earlier.release();
+  const std::string before = slurp(dir.path() / "links.csv");
+  fs::create_directory(dir.path() / "run.mcap");
+  const std::string message = message_of<InputError>([&] { CsvFiles(fake::tiny(), dir.path(), {"run.mcap"}); });
+  EXPECT_NE(message.find("run.mcap: can't open for writing: Is a directory"), std::string::npos) << message;
+  EXPECT_EQ(slurp(dir.path() / "links.csv"), before);
+  fs::remove(dir.path() / "energy.csv");
+  fs::create_directory(dir.path() / "energy.csv");
+  message_of<InputError>([&] { CsvFiles(fake::tiny(), dir.path()); });
+  EXPECT_EQ(slurp(dir.path() / "links.csv"), before);
 }
 
 TEST(CsvFiles, GiveADirectoryToOneRecordingAtATime) {

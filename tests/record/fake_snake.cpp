@@ -155,7 +155,7 @@ Sample tiny_at(std::int64_t time_ns) {
   s.poses = {{{5, 5, 5}, {1, 0, 0, 0}}, {{0.5, 0, -1}, {1, 0, 0, 0}}};
   s.ledger.supply = 2;
   s.ledger.copper = 1.5;
-  s.bodies = scene::Energy{0.25, -9.81, 0};
+  s.bodies = scene::Energy{0.25, -9.81, 0.5};
   return s;
 }
 

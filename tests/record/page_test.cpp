@@ -68,7 +68,7 @@ TEST(PageData, DropsEveryOtherFrameInsteadOfGrowingWithoutBound) {
   EXPECT_GE(page.frames(), 4u);
   const std::string json = page.json(fake::tiny(), {});
   // 1 s at 100 Hz in at most 8 frames: 160 ms apart.
-  EXPECT_NE(json.find(page::base64({0, 0.16f, 0.32f, 0.48f, 0.64f, 0.80f, 0.96f})), std::string::npos) << json;
+  EXPECT_NE(json.find(page::base64_wide({0, 0.16, 0.32, 0.48, 0.64, 0.80, 0.96})), std::string::npos) << json;
 }
 
 }  // namespace

@@ -97,8 +97,44 @@ TEST_F(RunRecordTest, StartsOverWhenTheWorldIsResetAndSaysSo) {
   const std::string text = slurp(record.finish({}, {}));
   EXPECT_EQ(links(), kLinksAt0And10And20);
   EXPECT_EQ(log().on("/world/bench/links").size(), 3u);
-  EXPECT_NE(text.find("The world went back from 0.490 s to 0.000 s"), std::string::npos) << text;
+  EXPECT_NE(text.find("The world went back from 0.499 s to 0.000 s"), std::string::npos) << text;
   EXPECT_NE(text.find("\"frames\":2"), std::string::npos);
+}
+
+TEST_F(RunRecordTest, StartsOverWhenTheWorldWentBackBetweenTwoSamples) {
+  RunRecord record = start();
+  feed(record, 0, 29);
+  feed(record, 21, 25);  // later than the last sample
+  record.finish({}, {});
+  EXPECT_EQ(links(), "time_s,link,x_m,y_m,z_m,qw,qx,qy,qz\n0.021,arm::lever,0.5,0,-1,1,0,0,0\n");
+  EXPECT_NE(slurp(out() / "replay.html").find("went back from 0.028 s to 0.021 s"), std::string::npos);
+}
+
+TEST_F(RunRecordTest, FreesItsDirectoryOnceItIsFinished) {
+  RunRecord first = start();
+  feed(first, 0, 30);
+  EXPECT_THROW(start(), InputError) << "is recording";
+  first.finish({}, {});
+  RunRecord second = start();
+  feed(second, 0, 20);
+  second.finish({}, {});
+  EXPECT_EQ(links(), std::string(kLinksAt0And10And20).substr(0, links().size()));
+}
+
+TEST_F(RunRecordTest, FreesItsDirectoryWhereThePageCantBeWrittenToo) {
+  RunRecord first = start();
+  feed(first, 0, 30);
+  fs::create_directory(out() / "replay.html");
+  EXPECT_THROW(first.finish({}, {}), RecordError);
+  EXPECT_TRUE(log().whole);
+  EXPECT_NO_THROW(start());
+}
+
+TEST(CadenceTest, TakesTheLowestRatesForWhatTheyAre) {
+  Cadence seldom(1e-12);
+  EXPECT_TRUE(seldom.due(0));
+  seldom.taken(0);
+  EXPECT_FALSE(seldom.due(1'000'000'000'000'000'000));
 }
 
 TEST_F(RunRecordTest, StillMakesThePageAfterTheDiskRefusedTheFiles) {

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cstring>
 #include <random>
+#include <thread>
+#include <vector>
 
 #include "client.hpp"
 #include "vsa/errors.hpp"
@@ -56,6 +58,11 @@ TEST(Server, ServesItsPagesToLoopbackNamesOnly) {
   }
   EXPECT_TRUE(begins(get(port, "/other"), "HTTP/1.1 404 "));
   EXPECT_TRUE(begins(get(port, "/", own_host(port), "POST"), "HTTP/1.1 405 "));
+  for (const std::string path : {"/", "/other"}) {
+    const std::string answer = get(port, path, own_host(port), "HEAD");
+    EXPECT_EQ(answer.substr(answer.find("\r\n\r\n")), "\r\n\r\n") << path << ": no body";
+    EXPECT_EQ(answer.find("Content-Length: 0"), std::string::npos) << path;
+  }
   EXPECT_NE(get(port, "/file").find("attachment; filename=\"run.html\""), std::string::npos);
 }
 
@@ -263,6 +270,28 @@ TEST(Server, SaysWhyItCantHaveAPort) {
     FAIL() << "two servers on one port";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("--view-port = " + std::to_string(first.port())), std::string::npos) << error.what();
+  }
+}
+
+TEST(Server, SaysAllThatItWasToldBeforeItSaysGoodbye) {
+  for (int round = 0; round < 50; ++round) {
+    Echo host;
+    auto server = std::make_unique<Server>(host, ServerOptions{});
+    Client page(server->port());
+    page.hear();
+    const std::string long_text(200'000, 'x');  // under way when the rest is said
+    std::vector<std::string> heard;
+    std::thread reading([&] {
+      while (const auto text = page.hear()) heard.push_back(*text);
+    });
+    server->tell(long_text);
+    server->tell("then");
+    server->tell("last");
+    server.reset();
+    reading.join();
+    ASSERT_EQ(heard.size(), 3U) << "round " << round;
+    EXPECT_EQ(heard[0].size(), long_text.size());
+    EXPECT_EQ(heard[2], "last");
   }
 }
 

@@ -76,7 +76,7 @@ TEST_F(RecorderTest, BeginsBeforeTheFirstStepAndEndsWithWhatTheWorldSays) {
   EXPECT_EQ(last_line(csv).find("0.1," + info.robots[0].actuators.at(0).name + "," + shortest(reading.shaft_rad) + ","), 0u) << csv;
   const std::string energy = slurp(dir_.path() / "out" / "energy.csv");
   EXPECT_EQ(last_line(energy).find("0.1," + shortest(world.ledger().supply) + ","), 0u) << energy;
-  const std::string gravity = "," + shortest(world.energy().gravitational) + "\n";
+  const std::string gravity = "," + shortest(world.energy().gravitational) + ",0\n";
   EXPECT_NE(last_line(energy).find(gravity), std::string::npos) << energy;
 }
 

@@ -7,9 +7,11 @@
 #include <sys/stat.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "record/scratch.hpp"
 #include "view/client.hpp"
@@ -103,8 +105,8 @@ TEST(LiveView, GreetsWithWhatThereIsToAskFor) {
   EXPECT_EQ(gait["playing"], true);
   EXPECT_NEAR(gait["frequency_rad_per_s"], 4.71, 1e-12);
   EXPECT_EQ(gait["groups"].size(), 2U);
-  EXPECT_NE(get(run.port(), "/").find("\"format\":1"), std::string::npos);
-  EXPECT_NE(get(run.port(), "/?reload=1").find("\"format\":1"), std::string::npos);
+  EXPECT_NE(get(run.port(), "/").find("\"format\":2"), std::string::npos);
+  EXPECT_NE(get(run.port(), "/?reload=1").find("\"format\":2"), std::string::npos);
 }
 
 TEST(LiveView, FramesHoldWhatTheWorldHolds) {
@@ -187,6 +189,28 @@ TEST(LiveView, AResetOfAPausedWorldIsNeverShownAsRunning) {
   do frame = page.hear(true).value();
   while (at<double>(frame, 4) > 0);
   EXPECT_EQ(at<std::uint32_t>(frame, 16) & 1U, 1U) << "a page would ask a running world to pause, and stand";
+}
+
+TEST(LiveView, WhatIsAskedForAfterAResetIsForTheWorldThatWasReset) {
+  Session run("bench_free.sdf");
+  for (int i = 0; i < 100; ++i) run.turn();
+  Client page(run.port());
+  text_of(page, "hello");
+  page.say(R"({"do":"reset"})");
+  page.say(R"({"do":"command","actuators":[0],"equilibrium_rad":0.4})");
+  page.say(R"({"do":"speed","factor":0.5})");
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // until all three wait
+  ASSERT_TRUE(run.until([&] { return run.view->speed_changes() == 1; }));
+  for (int i = 0; i < 50; ++i) run.turn();
+  EXPECT_LT(run.world.time_s(), 0.1) << "it was reset";
+  EXPECT_EQ(run.world.read(run.world.actuators()[0]).equilibrium_command_rad, 0.4);
+}
+
+TEST(LiveView, MakesNoFramesOfAStandingWorldWhereNobodyLooks) {
+  Session run("bench_free.sdf");
+  run.control.request({false, true, 0, std::nullopt});
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(run.turn(), Next::wait);
+  EXPECT_EQ(run.view->counts().frames, 0U);
 }
 
 TEST(LiveView, PullsALinkUntilItsViewerLeaves) {

@@ -57,7 +57,7 @@ void check(const RunOptions& options) {
 }
 
 void print(const std::vector<record::Statistic>& summary) {
-  for (const auto& line : summary) std::cout << fmt::format("{:<20}{}\n", line.label, line.value);
+  for (const auto& line : summary) std::cout << fmt::format("{:<19} {}\n", line.label, line.value);
   std::cout.flush();
   if (!std::cout) throw std::runtime_error("can't write the summary to standard output");
 }
@@ -81,13 +81,15 @@ int run_run(const RunOptions& options) {
     console.wipe();
     try {
       print(session.finish(error.what()));
+      for (const std::string& failure : session.failures()) console.line(failure);
     } catch (const std::exception& second) {
       console.line(second.what());
     }
     throw;
   }
   print(session.finish(signal != 0 && options.duration_s ? "The run was interrupted." : ""));
-  return exit_code_of(signal, options);
+  for (const std::string& failure : session.failures()) console.line("error: " + failure);
+  return session.failures().empty() ? exit_code_of(signal, options) : kFailed;
 }
 
 namespace {

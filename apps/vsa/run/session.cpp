@@ -242,16 +242,25 @@ std::vector<record::Statistic> RunSession::finish(const std::string& note) {
   }
   if (view_) {
     for (const auto& page : view_->finish(note)) out.push_back({"recorded in the view", page.string()});
-    for (const std::string& problem : view_->failed()) out.push_back({"recording in the view failed", problem});
+    for (const std::string& problem : view_->failed()) failures_.push_back("a recording in the view failed: " + problem);
   }
   if (recorder_) {
-    const auto page = recorder_->finish(out, note);
-    out.push_back({"replay page", page.empty() ? recorder_->without_page() : page.string()});
+    const auto attempt = [this](auto&& what) {
+      try {
+        what();
+      } catch (const OutputError& error) {
+        failures_.emplace_back(error.what());
+      }
+    };
+    attempt([&] {
+      const auto page = recorder_->finish(out, note);
+      out.push_back({"replay page", page.empty() ? recorder_->without_page() : page.string()});
+    });
     std::string files;
     for (const auto& file : recorder_->files()) files += file.string() + ", ";
     std::vector<std::string> remarks = outside();
     if (!note.empty()) remarks.insert(remarks.begin(), note);
-    write_scenario(std::move(remarks));
+    attempt([&] { write_scenario(std::move(remarks)); });
     files += (std::filesystem::path(options_.record) / kScenario).string();
     out.push_back({"recorded data", files});
   }

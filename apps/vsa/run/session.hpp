@@ -32,8 +32,10 @@ class RunSession {
   /// where it was, and finish() still works.
   int run();
 
-  /// Closes the record, with a note on why the run ended early, and returns what is worth telling. Throws RecordError.
+  /// Closes the record, with a note on why the run ended early, and returns what is worth telling.
   std::vector<record::Statistic> finish(const std::string& note);
+  /// Why a recording isn't whole, a sentence each; none: all are.
+  [[nodiscard]] const std::vector<std::string>& failures() const noexcept { return failures_; }
 
  private:
   [[nodiscard]] bool done() const { return end_ns_ && world_.time_ns() >= *end_ns_; }
@@ -69,6 +71,7 @@ class RunSession {
   std::optional<std::int64_t> end_ns_;
   std::uint64_t steps_ = 0;
   int resets_ = 0;
+  std::vector<std::string> failures_;
   bool has_ports_ = false, told_late_ = false;
 };
 

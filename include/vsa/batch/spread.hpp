@@ -40,7 +40,7 @@ struct Spread {
   Distribution draw;  ///< from which each copy's value comes
 };
 
-/// Follows from its arguments and nothing else: by splitmix64 of seed, copy and the FNV-1a hashes of key and who (empty where shared).
+/// Follows from its arguments and nothing else: by splitmix64 of seed, copy and the FNV-1a hashes of key and who (0 where shared).
 [[nodiscard]] double drawn(const Distribution& from, std::uint64_t seed, std::size_t copy, std::string_view who,
                            std::string_view key) noexcept;
 

@@ -14,8 +14,9 @@
 // A model that moved less than min_travel_m in the period has no direction: the last one holds.
 //
 // While it plays it can be changed (change()): amplitude, offset, π/λ, δ, preset and ω go to their new values linearly in kBlend_s
-// and the phase is ∫ω dt, so that commands never jump. Nor do those of an actuator that somebody gives back (leave()). Time that
-// goes backwards starts over with the new values.
+// and the phase is ∫ω dt, so that commands never jump. Nor do those of an actuator that somebody gives back (leave()), nor those of a
+// gait that was held: t is its own time, which stands from hold() to resume(). Simulated time that goes backwards starts over with
+// the new values.
 //
 // A gait file (TOML; angles in degrees as in the paper's Table II):
 //
@@ -142,7 +143,7 @@ void steer(const SteeringParams& params, SteeringState& state, std::array<double
 
 /// Where the values were when they were last changed.
 struct GaitBlend {
-  double t_s = 0,     ///< simulated, when it was changed
+  double t_s = 0,     ///< the gait's own time, when it was changed
       phase_rad = 0;  ///< ∫ω dt then
   GaitChange from;    ///< the values then
 };
@@ -157,7 +158,7 @@ struct ByHand {
 /// An actuator that was given back: its commands blend from where the hand left them to the gait's.
 struct GaitReturn {
   ByHand of;                   ///< which of the two come back
-  std::optional<double> t_s;   ///< since when; none: from the next commands on
+  std::optional<double> t_s;   ///< since when, in the gait's own time; none: from the next commands on
   double equilibrium_rad = 0,  ///< commanded then
       preset = 0;              ///< commanded then
 };
@@ -165,9 +166,11 @@ struct GaitReturn {
 /// All that changes while a gait plays, but for leave(). A copy goes on as it was.
 struct GaitState {
   std::int64_t last_slot = -1;                               ///< time_ns / period_ns of the last commands
+  std::int64_t last_ns = 0;                                  ///< when it was asked last
   SteeringState steering;                                    ///< where it stands
   std::optional<GaitBlend> blend;                            ///< what is left of a change; none: all as params() has it
-  std::optional<double> held_phase_rad;                      ///< while it is held
+  double stood_s = 0;                                        ///< for how long it was held: its own time is simulated time less that
+  std::optional<double> held_s;                              ///< while it is held: its own time
   std::map<std::string, GaitReturn, std::less<>> returning;  ///< by the actuator's name
 };
 
@@ -178,13 +181,13 @@ class Gait {
   /// actuators.
   [[nodiscard]] static Gait load(const std::filesystem::path& file);
   /// Throws InputError where it can't be played: a period below 1 ns, not one n an actuator, numbers that aren't finite, a λ of 0,
-  /// steering without a frequency.
+  /// steering without a frequency or of a group that there isn't, keyframes whose times don't grow.
   explicit Gait(GaitParams params);
 
   [[nodiscard]] const GaitParams& params() const noexcept { return params_; }  ///< as they are now, after change()
   [[nodiscard]] const GaitState& state() const noexcept { return state_; }     ///< to look at; a copy of the Gait is how it is kept
 
-  /// Throws InputError naming every actuator that the stage hasn't. apply() does it by itself on its first call.
+  /// Throws InputError naming every actuator that the stage hasn't and each that is listed twice. apply() does it by itself on its first call.
   void bind(const Stage& stage);
   /// Call before every step: sends commands when a new control period has begun. Time that went backwards (a reset) starts over.
   void apply(Stage& stage);
@@ -196,24 +199,29 @@ class Gait {
   [[nodiscard]] GaitChange values() const;
   /// From simulated time t_s on. Throws InputError with every number out of kGaitBounds.
   void change(const GaitChange& to, double t_s);
-  /// No commands from now on: the last ones stay. resume() goes on with the phase where it stood.
+  /// From simulated time t_s on no commands: the last ones stay.
   void hold(double t_s);
-  void resume(double t_s);  ///< with the phase where hold() stopped it
-  [[nodiscard]] bool held() const noexcept { return state_.held_phase_rad.has_value(); }  ///< between hold() and resume()
-  static constexpr double kGiveBack_s = 0.5;                                              ///< that giving an actuator back takes
+  void resume(double t_s);  ///< goes on from where hold() stopped it: wave, ramp, what is left of a change, keyframes
+  [[nodiscard]] bool held() const noexcept { return state_.held_s.has_value(); }  ///< between hold() and resume()
+  static constexpr double kGiveBack_s = 0.5;                                      ///< that giving an actuator back takes
   /// From its next commands on. What was by hand and no longer is goes from where the hand left it to the gait's own values,
   /// linearly in kGiveBack_s. An actuator that isn't the gait's: false. A reset doesn't undo it.
   bool leave(std::string_view actuator, ByHand by_hand);
   [[nodiscard]] ByHand by_hand(std::string_view actuator) const;  ///< both false where leave() wasn't called
+  [[nodiscard]] bool has(std::string_view actuator) const;        ///< whether it is of a group or of a keyframe, by this name
 
-  /// eq. (10) for the k-th actuator of a group at simulated time t. Throws InputError where the group has no such actuator.
+  /// eq. (10) for the k-th actuator of a group at simulated time t_s. Throws InputError where the group has no such actuator.
   [[nodiscard]] double equilibrium(const GaitGroup& group, std::size_t k, double t_s) const;
 
  private:
-  void bind_motion(const Stage& stage, Problems& problems) const;
-  void play_motion(Stage& stage, double t_s) const;
+  /// Sends what of an actuator's commands isn't somebody else's. `t_s`: from here on the gait's own time.
+  void send(Stage& stage, std::string_view name, double t_s, std::optional<double> equilibrium, std::optional<double> preset);
+  void play_motion(Stage& stage, double t_s);
   void steer_model(const Stage& stage, double t_s);
-  void blend_back(const Stage& stage, std::size_t actuator, std::string_view name, double t_s, double& equilibrium, double& preset);
+  [[nodiscard]] double own_time(double simulated_s) const noexcept { return state_.held_s.value_or(simulated_s - state_.stood_s); }
+  [[nodiscard]] double wave_at(const GaitGroup& group, std::size_t k, double t_s) const;
+  void blend_back(const Stage& stage, std::size_t actuator, std::string_view name, double t_s, std::optional<double>& equilibrium,
+                  std::optional<double>& preset);
   [[nodiscard]] WaveParams wave(const GaitGroup& group, double t_s) const;
   [[nodiscard]] double frequency(double t_s) const;
   [[nodiscard]] double phase(double t_s) const;

@@ -36,7 +36,8 @@ using Json = nlohmann::ordered_json;
 /// UTF-8, with U+FFFD for what was none.
 [[nodiscard]] std::string well_formed(std::string_view value);
 
-/// Standard base64 of the floats' little-endian bytes.
+/// Standard base64 of the numbers' little-endian bytes.
 [[nodiscard]] std::string base64(const std::vector<float>& values);
+[[nodiscard]] std::string base64_wide(const std::vector<double>& values);  ///< the same, eight bytes each
 
 }  // namespace vsa::page

@@ -18,6 +18,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "vsa/record/run_data.hpp"
@@ -28,8 +29,8 @@ namespace vsa::record {
 class CsvFiles {
  public:
   /// Makes the directory where it is missing, replaces the files, writes the headers. Throws InputError with every file that can't
-  /// be written and why.
-  CsvFiles(const RunInfo& info, const std::filesystem::path& directory);
+  /// be opened, also of `others`, which come into the directory with these; then all stay as they are.
+  CsvFiles(const RunInfo& info, const std::filesystem::path& directory, const std::vector<std::string>& others = {});
   ~CsvFiles();
   CsvFiles(const CsvFiles&) = delete;
   CsvFiles& operator=(const CsvFiles&) = delete;
@@ -40,6 +41,7 @@ class CsvFiles {
   void restart();
   /// Reports what the system could tell only now (RecordError). Nothing may be written afterwards.
   void close();
+  void release() noexcept;  ///< the directory is free for another recording
 
   [[nodiscard]] std::vector<std::filesystem::path> files() const;  ///< with their paths; they are there from the start
 

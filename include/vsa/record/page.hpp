@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The data of the replay page (page/page.hpp), as JSON with base64 arrays of little-endian 32-bit floats.
+// The data of the replay page (page/page.hpp), as JSON with base64 arrays of little-endian 32-bit floats; times are 64-bit.
 #pragma once
 
 #include <string>
@@ -54,7 +54,7 @@ class PageData {
   double rate_Hz_;
   std::size_t frames_max_;
   Cadence cadence_;
-  std::vector<float> time_;
+  std::vector<double> time_;
   Frame data_;  // frame after frame
 };
 

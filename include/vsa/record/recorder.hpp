@@ -43,11 +43,13 @@ class RunRecord {
   RunRecord(RunRecord&&) noexcept;
   RunRecord& operator=(RunRecord&&) noexcept;
 
-  /// Whether a sample at that time is wanted by the files or the page.
-  [[nodiscard]] bool due(std::int64_t time_ns) const noexcept;
+  /// Whether a sample at that time is wanted by the files or the page. Asked after each step: time that is earlier than it was when
+  /// this was asked last is a world that went back.
+  [[nodiscard]] bool due(std::int64_t time_ns) noexcept;
   /// Throws RecordError; then nothing more is written to the files, but the page can still be made.
   void add(const Sample& sample);
-  /// Closes the files and writes DIR/replay.html; returns its path, empty without a page. Once. Throws RecordError.
+  /// Closes the files and writes DIR/replay.html; returns its path, empty without a page. Once: the directory is free then for
+  /// another recording. Throws RecordError.
   std::filesystem::path finish(const std::vector<Statistic>& summary, std::string_view note);
   /// Why there will be no page, in a sentence; empty: there will be one.
   [[nodiscard]] const std::string& without_page() const;

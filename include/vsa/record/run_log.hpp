@@ -23,6 +23,7 @@ namespace vsa::record {
 /// Writes run.mcap, sample by sample.
 class RunLog {
  public:
+  static constexpr const char* kFile = "run.mcap";  ///< its name
   /// Replaces directory/run.mcap; the directory exists (CsvFiles makes and guards it). Throws InputError.
   RunLog(const RunInfo& info, const std::filesystem::path& directory, double rate_Hz);
   ~RunLog();
