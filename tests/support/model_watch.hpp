@@ -91,7 +91,7 @@ inline void expect_recording(const std::filesystem::path& out, const std::string
   EXPECT_TRUE(moved);
   const auto energy = csv_of(out / "energy.csv");
   ASSERT_EQ(energy.size(), readings.size());
-  EXPECT_EQ(energy[0].back(), "gravitational_J");
+  EXPECT_EQ(energy[0].back(), "springs_J");
   EXPECT_EQ(energy[1].back(), "") << "this simulator doesn't tell it";
   EXPECT_NE(energy.back()[1], "0") << "what the supply gave";
   EXPECT_GT(std::filesystem::file_size(out / "run.mcap"), 10'000u);
