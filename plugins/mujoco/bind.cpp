@@ -82,10 +82,23 @@ int joint_of(const mjModel& m, const Unit& unit, std::size_t controls, Problems&
   return Check(m, unit, problems).joint(controls);
 }
 
+bool has_one_torque_a_step(const mjModel& m) noexcept {
+  switch (m.opt.integrator) {
+    case mjINT_EULER:
+    case mjINT_IMPLICIT:
+#if mjVERSION_HEADER >= 300
+    case mjINT_IMPLICITFAST:
+#endif
+      return true;
+    default:
+      return false;
+  }
+}
+
 void check_options(const mjModel& m, Problems& problems) {
-  if (m.opt.integrator == mjINT_RK4)
-    problems.add({"vsasim.unit", "integrator", "RK4", "asks for torques between the steps, which no unit has",
-                  "Euler, implicit, implicitfast"});
+  if (!has_one_torque_a_step(m))
+    problems.add({"vsasim.unit", "integrator", m.opt.integrator == mjINT_RK4 ? "RK4" : std::to_string(m.opt.integrator),
+                  "asks for other torques than one a step, which no unit has", "Euler, implicit, implicitfast"});
   if (!(m.opt.timestep >= 1e-6 && m.opt.timestep <= host::kLongestStep_s))
     problems.add({"vsasim.unit", "timestep", config::number_text(m.opt.timestep), "is out of range", "1e-06 … 0.016 s"});
 }

@@ -18,6 +18,8 @@ namespace vsa::mujoco {
 
 /// Adds what of the model's options units can't be stepped with.
 void check_options(const mjModel& m, Problems& problems);
+/// Whether its integrator asks for torques once a step, as units give them. Programs change it after a model is loaded.
+[[nodiscard]] bool has_one_torque_a_step(const mjModel& m) noexcept;
 
 /// Joints that move each other, by trees: indices into `joints` (ids; one-axis joints).
 [[nodiscard]] std::vector<std::vector<std::size_t>> trees_of(const mjModel& m, const std::vector<int>& joints);

@@ -211,6 +211,11 @@ void Units::step(const mjModel& m, mjData& d) {
 void Units::compute(const mjModel& m, mjData& d, std::span<const double> state) {
   observe(d, state);
   there_ = false;  // should anything throw
+  if (!has_one_torque_a_step(m)) {
+    Problems problems;
+    check_options(m, problems);
+    problems.throw_if_any();
+  }
   if (here_.own()[kBegun] == 0) begin();
   command(m, d);
   step(m, d);

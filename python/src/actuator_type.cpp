@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "arrays.hpp"
 #include "linearization.hpp"
@@ -138,12 +142,29 @@ void bind_texts(Class& c) {
       });
 }
 
+void check_finite(const char* name, double value) {
+  if (!std::isfinite(value)) throw InputError({"", name, config::number_text(value), "not finite", "a finite number"});
+}
+
+RealArray finite_array(const py::object& given, const char* name) {
+  RealArray out = real_array(given, name);
+  for (py::ssize_t i = 0; i < out.size(); ++i) check_finite(name, out.data()[i]);
+  return out;
+}
+
 void bind_law(Class& c) {
   const auto vectorized = [](double (*of)(const elastic::Response&)) {
     return [of](const PyActuatorType& t, const py::object& shaft, const py::object& equilibrium, const py::object& preset) {
       const auto f = [&t, of](double q, double e, double p) { return of(at_rest(t, q, e, p)); };
-      return py::vectorize(f)(real_array(shaft, "shaft_rad"), real_array(equilibrium, "equilibrium_rad"),
-                              real_array(preset, "preset"));
+      const RealArray q = finite_array(shaft, "shaft_rad"), e = finite_array(equilibrium, "equilibrium_rad"),
+                      p = finite_array(preset, "preset");
+      const auto shape_of = [](const RealArray& a) { return std::string(py::str(a.attr("shape"))); };
+      try {
+        return py::vectorize(f)(q, e, p);
+      } catch (const std::runtime_error&) {
+        throw InputError({"", "shaft_rad, equilibrium_rad, preset", shape_of(q) + ", " + shape_of(e) + ", " + shape_of(p),
+                          "don't broadcast", "NumPy's rules"});
+      }
     };
   };
   const auto add = [&](const char* name, const char* doc, double (*of)(const elastic::Response&)) {
@@ -161,6 +182,8 @@ void bind_law(Class& c) {
   c.def(
        "references",
        [](const PyActuatorType& t, double equilibrium, double preset) {
+         for (const auto& [name, value] : {std::pair{"equilibrium_rad", equilibrium}, std::pair{"preset", preset}})
+           check_finite(name, value);
          return py::array(py::cast(t.law().references({equilibrium, preset})));
        },
        py::arg("equilibrium_rad"), py::arg("preset"), "Motor references of a command, rad: ndarray (2,).")
@@ -179,6 +202,9 @@ void bind_law(Class& c) {
       .def(
           "equilibrium_for",
           [](const PyActuatorType& t, double q, double torque, double preset) {
+            for (const auto& [name, value] :
+                 {std::pair{"shaft_rad", q}, std::pair{"torque_Nm", torque}, std::pair{"preset", preset}})
+              check_finite(name, value);
             return elastic::equilibrium_for(t.law(), q, torque, preset);
           },
           py::arg("shaft_rad"), py::arg("torque_Nm"), py::arg("preset") = 0.0,

@@ -2,6 +2,7 @@
 //
 // Parameters of a Batch's copies: set, drawn, told.
 #include <cmath>
+#include <set>
 
 #include "arrays.hpp"
 #include "batch.hpp"
@@ -59,6 +60,8 @@ std::vector<double> spread_out(const py::object& value, std::size_t copies, std:
 
 void set(PyBatch& b, const py::object& which, const py::object& who, const std::string& key, const py::object& value) {
   const std::vector<std::size_t> copies = copies_of(b, which);
+  if (std::set<std::size_t>(copies.begin(), copies.end()).size() != copies.size())
+    throw InputError({"", "which", "", "names a copy twice", "each copy once"});
   const std::string name = who_of(b, who);
   std::vector<batch::Setting> settings;
   if (py::isinstance<py::str>(value) || py::isinstance<py::bool_>(value)) {

@@ -132,6 +132,7 @@ py::dict fit(const std::vector<std::string>& recordings, const std::string& type
   check_range("starts", o.fit.starts, 1, 100);
   check_range("iterations", o.fit.iterations, 1, 1000);
   check_range("period_s", o.sweep.period_s, 1, 3600);
+  if (o.sweep.amplitude_rad) check_range("amplitude_rad", *o.sweep.amplitude_rad, 0.01, 3);
   if (recordings.empty()) throw InputError({"", "recordings", "", "there is none", "one or more files"});
   experiment::Specimen specimen;
   specimen.type = type;

@@ -53,7 +53,8 @@ class PyRecorder {
 
 constexpr const char* kRecord =
     "Records every step of this world from now on into CSV files, an MCAP file and a replay page in `directory`, as `vsa run\n"
-    "--record` does; the present moment is its first sample. rate_Hz: of the files; page_rate_Hz: of the page; title: the page's.\n"
+    "--record` does; the present moment is its first sample. Where the world goes back (reset, restore) the files start over.\n"
+    "rate_Hz: of the files; page_rate_Hz: of the page; title: the page's.\n"
     "Returns a Recorder: use it in a `with`, or call its finish(). InputError: what can't be written, or out of range.";
 
 }  // namespace

@@ -80,6 +80,11 @@ py::array_t<double> follow(PyUnit& u, double dt_s, const py::object& shaft, cons
   problems.throw_if_any();
   const std::vector<double> q = numbers(shaft, "shaft_rad");
   const std::vector<double> v = numbers(speed, q.size(), "shaft_speed_rad_per_s", true);
+  for (std::size_t i = 0; i < q.size() && problems.empty(); ++i) {
+    check(problems, "shaft_rad", q[i], -kFar, kFar, " rad");
+    check(problems, "shaft_speed_rad_per_s", v[i], -kFar, kFar, " rad/s");
+  }
+  problems.throw_if_any();
   std::vector<double> torque(q.size());
   Signals signals;
   for (std::size_t i = 0; i < q.size(); ++i) {

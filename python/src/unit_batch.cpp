@@ -78,6 +78,11 @@ void reset(PyUnitBatch& b, const py::object& which, const py::object& equilibriu
            const py::object& shaft, const py::object& speed) {
   LeverBatch& levers = b.get();
   const std::vector<std::size_t> those = chosen(which, levers.size(), "unit");
+  std::vector<bool> seen(levers.size());
+  for (const std::size_t i : those) {
+    if (seen[i]) throw InputError({"", "which", std::to_string(i), "is named twice", "each unit once"});
+    seen[i] = true;
+  }
   const auto q = numbers(equilibrium, those.size(), "equilibrium_rad", true), p = numbers(preset, those.size(), "preset", true);
   const auto at = shaft.is_none() ? q : numbers(shaft, those.size(), "shaft_rad", true);
   const auto v = numbers(speed, those.size(), "shaft_speed_rad_per_s", true);
@@ -134,7 +139,8 @@ void bind_unit_batch(py::module_& m) {
       .def("step", &step, py::arg("n") = 1, py::arg("dt_s") = 1e-3,
            "n steps of dt_s (at most 16 ms); `equilibrium`, `preset` and `push` are taken as it begins. Other threads of Python "
            "run\n"
-           "meanwhile; Ctrl-C ends it between two steps of all. InputError: out of range, commands that aren't finite.")
+           "meanwhile; Ctrl-C ends it between two steps of all. InputError: out of range, commands beyond ±1e6; and where a lever\n"
+           "would fly beyond 1e6 rad or rad/s: it stays where it was, the others have made that step, and none follows.")
       .def("reset", &reset, py::arg("which") = py::none(), py::arg("equilibrium_rad") = 0.0, py::arg("preset") = 0.0,
            py::arg("shaft_rad") = py::none(), py::arg("shaft_speed_rad_per_s") = 0.0, kReset)
       .def(

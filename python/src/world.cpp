@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "arrays.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/engine/run.hpp"
 #include "vsa/errors.hpp"
@@ -84,11 +85,8 @@ void PyWorld::detach(const Recorder& recorder) {
 const engine::ActuatorRef& PyWorld::actuator(const py::object& which) {
   if (py::isinstance<py::str>(which)) return world_.actuator(py::cast<std::string>(which));
   if (!py::hasattr(which, "__index__")) throw py::type_error("actuator: neither a name nor an index");
-  const auto index = py::cast<py::ssize_t>(which.attr("__index__")());
   const auto& all = world_.actuators();
-  if (index < 0 || index >= static_cast<py::ssize_t>(all.size()))
-    throw py::index_error("actuator " + std::to_string(index) + ": there are " + std::to_string(all.size()));
-  return all[static_cast<std::size_t>(index)];
+  return all[index_of(which, all.size(), "actuator")];
 }
 
 namespace {
@@ -193,7 +191,8 @@ void bind_state(py::module_& m, WorldClass& c) {
           py::arg("snapshot"), "Back to a snapshot, bit by bit. InputError for one of another world; then nothing has changed.")
       .def(
           "clone", [](PyWorld& w) { return std::make_shared<PyWorld>(w.get().clone()); },
-          "Another World that goes on just as this one would; each may have a thread. Recorders don't go along.")
+          "Another World that goes on just as this one would; each may have a thread. Recorders don't go along, nor do commands\n"
+          "that no step has taken yet: give them after it.")
       .def_property_readonly(
           "name", [](PyWorld& w) { return w.any_thread().name(); }, "The world's name: str.")
       .def_property_readonly(

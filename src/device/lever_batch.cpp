@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,8 @@ namespace vsa::device {
 namespace {
 
 constexpr double kKeep = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFar = 1e6;             // rad, rad/s, N·m: beyond any lever, and far from where an encoder's turns overflow
+constexpr double kLeastInertia = 1e-12;  // kg·m²
 constexpr int kMostSteps = 1'000'000'000, kSlice = 1'000'000;
 
 void check(const Lever& lever) {
@@ -21,17 +24,17 @@ void check(const Lever& lever) {
   const auto bad = [&](const char* key, double value, const char* allowed) {
     problems.add({"", key, Checks::text(value), "out of range", allowed});
   };
-  if (!(lever.inertia_kgm2 > 0) || !std::isfinite(1.0 / lever.inertia_kgm2)) bad("inertia_kgm2", lever.inertia_kgm2, "above 0");
+  if (!(lever.inertia_kgm2 >= kLeastInertia) || !std::isfinite(lever.inertia_kgm2))
+    bad("inertia_kgm2", lever.inertia_kgm2, "1e-12 or more");
   if (!(lever.damping_Nms_per_rad >= 0) || !std::isfinite(lever.damping_Nms_per_rad))
     bad("damping_Nms_per_rad", lever.damping_Nms_per_rad, "0 or more");
-  if (!std::isfinite(lever.gravity_Nm)) bad("gravity_Nm", lever.gravity_Nm, "any finite number");
+  if (!(std::abs(lever.gravity_Nm) <= kFar)) bad("gravity_Nm", lever.gravity_Nm, "−1e6 … 1e6");
   problems.throw_if_any();
 }
 
-void check_finite(const char* key, std::size_t unit, double value) {
-  if (!std::isfinite(value))
-    throw InputError(
-        {"", std::string(key) + "[" + std::to_string(unit) + "]", Checks::text(value), "not finite", "a finite number"});
+void check_near(const char* key, std::size_t unit, double value) {
+  if (!(std::abs(value) <= kFar))
+    throw InputError({"", std::string(key) + "[" + std::to_string(unit) + "]", Checks::text(value), "out of range", "−1e6 … 1e6"});
 }
 
 }  // namespace
@@ -67,9 +70,9 @@ const Lever& LeverBatch::lever(std::size_t i) const {
 
 void LeverBatch::command() {
   for (std::size_t i = 0; i < size(); ++i) {
-    if (!std::isnan(equilibrium_[i])) check_finite("equilibrium", i, equilibrium_[i]);
-    if (!std::isnan(preset_[i])) check_finite("preset", i, preset_[i]);
-    check_finite("push", i, push_[i]);
+    if (!std::isnan(equilibrium_[i])) check_near("equilibrium", i, equilibrium_[i]);
+    if (!std::isnan(preset_[i])) check_near("preset", i, preset_[i]);
+    check_near("push", i, push_[i]);
   }
   for (std::size_t i = 0; i < size(); ++i) {
     const double q = std::isnan(equilibrium_[i]) ? held_equilibrium_[i] : equilibrium_[i];
@@ -81,13 +84,22 @@ void LeverBatch::command() {
   }
 }
 
-void LeverBatch::move(double dt) noexcept {
+/// One that would fly off stays where it is.
+std::optional<std::size_t> LeverBatch::move(double dt) noexcept {
+  std::optional<std::size_t> flown;
   for (std::size_t i = 0; i < size(); ++i) {
     const Lever& l = levers_[i];
     const double pull = l.gravity_Nm == 0 ? 0.0 : l.gravity_Nm * std::sin(angle_[i]), scale = dt * inverse_inertia_[i];
-    speed_[i] = (speed_[i] + scale * (torque_[i] - pull + push_[i])) / (1.0 + scale * l.damping_Nms_per_rad);
-    angle_[i] += dt * speed_[i];
+    const double speed = (speed_[i] + scale * (torque_[i] - pull + push_[i])) / (1.0 + scale * l.damping_Nms_per_rad);
+    const double angle = angle_[i] + dt * speed;
+    if (std::abs(speed) <= kFar && std::abs(angle) <= kFar) {
+      speed_[i] = speed;
+      angle_[i] = angle;
+    } else {
+      flown = flown.value_or(i);
+    }
   }
+  return flown;
 }
 
 void LeverBatch::step(int steps, std::int64_t dt_ns, const std::function<void()>& between) {
@@ -99,7 +111,9 @@ void LeverBatch::step(int steps, std::int64_t dt_ns, const std::function<void()>
   for (int n = 0; n < steps; ++n) {
     if (between && n > 0 && n % slice == 0) between();
     units_.step(dt_ns, angle_, speed_, inverse_inertia_, torque_);
-    move(1e-9 * static_cast<double>(dt_ns));
+    if (const auto flown = move(1e-9 * static_cast<double>(dt_ns)))
+      throw InputError({"", "lever[" + std::to_string(*flown) + "]", "", "would fly off in this step and stays where it is",
+                        "−1e6 … 1e6 rad and rad/s: another step, inertia or push, or a reset"});
   }
 }
 
@@ -107,7 +121,7 @@ void LeverBatch::reset(std::size_t i, double equilibrium_rad, double preset, dou
   (void)lever(i);
   for (const auto& [key, value] : {std::pair{"equilibrium_rad", equilibrium_rad}, std::pair{"preset", preset},
                                    std::pair{"shaft_rad", shaft_rad}, std::pair{"speed_rad_per_s", speed_rad_per_s}})
-    check_finite(key, i, value);
+    check_near(key, i, value);
   UnitState state = unit_.initial(equilibrium_rad, preset, shaft_rad);
   firmware::Program::shift_time(state.program, units_.time_ns());
   units_.set(i, state);

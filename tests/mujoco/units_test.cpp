@@ -156,6 +156,16 @@ TEST(Unit, ACommandBeyondItsRangeIsToldOnce) {
   EXPECT_NE(data.told.front().find("elbow"), std::string::npos) << data.told.front();
 }
 
+TEST(Unit, AnIntegratorThatAsksForTorquesInBetweenIsRefusedWhereItIsChosenLaterToo) {
+  const Rig rig(mjcf_of());
+  Data data(rig);
+  run(data, 5);
+  rig.model().opt.integrator = mjINT_RK4;
+  EXPECT_THROW(data.step(), InputError);
+  rig.model().opt.integrator = mjINT_IMPLICIT;
+  EXPECT_NO_THROW(data.step());
+}
+
 TEST(Unit, AJointPutElsewhereIsntThrown) {
   // mj_resetDataKeyframe and programs set qpos after a reset: the units' first step begins there.
   One one;

@@ -163,6 +163,8 @@ class Alone(unittest.TestCase):
             (lambda: unit.command(math.nan), "equilibrium_rad"),
             (lambda: unit.set_inputs((40000, 0)), "ticks"),
             (lambda: unit.follow(1e-3, [0.0, math.nan]), r"shaft_rad\[1\]"),
+            (lambda: unit.follow(1e-3, [0.0, 1e9]), "shaft_rad"),
+            (lambda: unit.follow(1e-3, [0.0, 0.0], 1e300), "shaft_speed_rad_per_s"),
             (lambda: unit.follow(1e-3, [0.0, 0.1], [0.0]), "shaft_speed_rad_per_s"),
             (lambda: vsasim.Unit(self.KIND, math.nan), "equilibrium_rad"),
         ):
@@ -238,6 +240,19 @@ class Identification(unittest.TestCase):
         kind = vsasim.ActuatorType.load("qbmove_maker_pro_paper", done["set"])
         self.assertEqual(kind["elastic.k1_Nm"], kind["elastic.k2_Nm"])
 
+    def test_the_law_takes_finite_numbers_that_broadcast(self):
+        kind = vsasim.ActuatorType.load("qbmove_maker_pro")
+        for call, text in (
+            (lambda: kind.torque_Nm([1, 2], [1, 2, 3]), "don't broadcast"),
+            (lambda: kind.stiffness_Nm_per_rad(math.inf), "shaft_rad"),
+            (lambda: kind.energy_J([0.1, math.nan]), "shaft_rad"),
+            (lambda: kind.references(math.nan, 0), "equilibrium_rad"),
+            (lambda: kind.equilibrium_for(0, math.nan), "torque_Nm"),
+        ):
+            with self.assertRaisesRegex(vsasim.InputError, text):
+                call()
+        self.assertEqual(kind.torque_Nm([[0.1], [0.2]], [0.0, 0.1, 0.2]).shape, (2, 3))
+
     def test_wrong_parameters_files_and_words_are_refused(self):
         for change, text in (
             ({"parameters": "elastic.nothing"}, "elastic.nothing"),
@@ -245,6 +260,9 @@ class Identification(unittest.TestCase):
             ({"recordings": ["/nowhere/preset_0.1rad.csv"]}, "/nowhere"),
             ({"model": "guess"}, "model.*bench"),
             ({"weights": "none"}, "weights"),
+            ({"amplitude_rad": math.nan}, "amplitude_rad"),
+            ({"amplitude_rad": -1.0, "model": "quasi-static"}, "amplitude_rad"),
+            ({"amplitude_rad": 1e9, "model": "quasi-static"}, "amplitude_rad"),
         ):
             arguments = {"recordings": self.FILES, "type": "qbmove_maker_pro_paper", "parameters": "shaft.friction_Nm"}
             with self.assertRaisesRegex(vsasim.InputError, text):

@@ -463,6 +463,25 @@ class Records(unittest.TestCase):
         self.assertEqual(done["score"], total)
         self.assertIn("qbmove_bench_throw_actuators.csv", files)
 
+    def test_what_a_policy_raises_ends_the_recording_whole(self):
+        def policy(seen):
+            raise ZeroDivisionError("half-way")
+
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(ZeroDivisionError):
+                vsasim.envs.record("throw", policy, folder, seed=1)
+            page = pathlib.Path(folder, "replay.html")
+            self.assertIn("ZeroDivisionError: half-way", page.read_text())
+
+    def test_a_slice_is_whole_steps(self):
+        class Odd(Throw):
+            """Between two steps."""
+
+            slice_s = 0.0154
+
+        with self.assertRaisesRegex(vsasim.InputError, "Odd.slice_s = 0.0154.*multiples of"):
+            make(Odd, 1)
+
     @staticmethod
     def recorded(task):
         with tempfile.TemporaryDirectory() as folder:

@@ -11,6 +11,7 @@ import unittest
 from unittest import mock
 
 import numpy as np
+import vsasim
 from vsasim.envs import TASKS, make
 from vsasim.learn import Evolution, Policy, commands, play, train
 from vsasim.learn.__main__ import main
@@ -71,6 +72,17 @@ class Learning(unittest.TestCase):
         self.assertGreater(np.mean(means[-3:]), np.mean(means[:3]) + 0.1)
         scores = play(env, lambda seen: policy.act(evolution.mean, seen), range(24))
         self.assertGreater(scores.mean(), 0.1)
+
+
+class Refusals(unittest.TestCase):
+    def test_an_environment_that_resets_itself_or_does_not_divide_is_told(self):
+        with self.assertRaisesRegex(vsasim.InputError, "env.*DISABLED"):
+            play(make("throw", 2), lambda seen: np.zeros((2, 1)), [1, 2])
+        policy = Policy(TASKS["throw"])
+        with self.assertRaisesRegex(vsasim.InputError, "4 copies.*multiples of 3"):
+            next(train(make("throw", 4, autoreset_mode="Disabled"), policy, Evolution(np.zeros(policy.size), 0.5, 3, 1), 1, 0))
+        with self.assertRaisesRegex(vsasim.InputError, "population"):
+            Evolution(np.zeros(policy.size), 0.5, 1, seed=1)
 
 
 class Command(unittest.TestCase):

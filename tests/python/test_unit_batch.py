@@ -65,6 +65,37 @@ class UnitBatch(unittest.TestCase):
         with self.assertRaises(ValueError):
             shaft[0] = 1
 
+    def test_a_lever_that_would_fly_off_stays_and_the_others_go_on(self):
+        units = vsasim.UnitBatch(maker_pro(), 3, inertia_kgm2=[1e-3, 1e-12, 1e-3])
+        units.equilibrium = 0.5
+        units.push[1] = 1e6
+        with self.assertRaisesRegex(vsasim.InputError, r"lever\[1\].*fly off"):
+            units.step(5)
+        self.assertAlmostEqual(units.time_s, 0.001)
+        self.assertTrue(np.isfinite(units.shaft_rad).all() and np.isfinite(units.shaft_speed_rad_per_s).all())
+        units.push[:] = 0
+        units.set_levers(1e-3)
+        units.reset([1])
+        units.step(500)
+        self.assertTrue((np.abs(units.shaft_rad - 0.5) < 0.1).all())
+
+    def test_what_no_lever_can_have_is_refused(self):
+        units = vsasim.UnitBatch(maker_pro(), 2)
+        for refused in (
+            lambda: vsasim.UnitBatch(maker_pro(), 2, inertia_kgm2=1e-300),
+            lambda: units.set_levers(1e-300),
+            lambda: units.reset(shaft_rad=1e300),
+            lambda: units.reset(equilibrium_rad=1e300),
+            lambda: units.reset(shaft_speed_rad_per_s=-1e300),
+            lambda: units.reset([1, 1], [0.1, 0.2]),
+        ):
+            with self.assertRaises(vsasim.InputError):
+                refused()
+        units.push[1] = 1e300
+        with self.assertRaises(vsasim.InputError):
+            units.step()
+        self.assertEqual(units.time_s, 0)
+
     def test_bad_input_is_told_and_nothing_moves(self):
         units = vsasim.UnitBatch(maker_pro(), 3)
         for call in (

@@ -138,6 +138,8 @@ class WrongUse(unittest.TestCase):
         with self.assertRaisesRegex(vsasim.InputError, "shaft"):
             world.command("elbow", 0.1)
         with self.assertRaisesRegex(IndexError, "there are 1"):
+            world.read(2**70)
+        with self.assertRaisesRegex(IndexError, "there are 1"):
             world.read(1)
         with self.assertRaises(IndexError):
             world.read(-1)

@@ -45,12 +45,13 @@ class LeverBatch {
   [[nodiscard]] std::span<double> push() noexcept { return push_; }                ///< N·m about +q; at first 0
 
   /// So many steps of dt (at most 16 ms), the commands taken as it begins. `between` is called between slices of about a million
-  /// unit steps; what it throws ends the stepping there. InputError: out of range, pushes or commands that are infinite, NaN pushes;
-  /// nothing was stepped then. InputError "angle[i]" too where a lever has flown beyond all numbers: all stand before that step.
+  /// unit steps; what it throws ends the stepping there. InputError: out of range, pushes or commands beyond ±1e6, NaN pushes;
+  /// nothing was stepped then. InputError "lever[i]" too where a lever would fly beyond 1e6 rad or rad/s: it stays where it was, the
+  /// others have made that step, and none follows.
   void step(int steps, std::int64_t dt_ns = 1'000'000, const std::function<void()>& between = {});
   /// At rest on its references for (equilibrium, preset), on for long, the shaft where it is said to be. What stands in equilibrium()
   /// and preset() is commanded with the next step as ever. InputError: no such unit,
-  /// numbers that aren't finite.
+  /// numbers beyond ±1e6.
   void reset(std::size_t unit, double equilibrium_rad, double preset, double shaft_rad, double speed_rad_per_s = 0);
 
   [[nodiscard]] std::span<const double> shaft_rad() const noexcept { return angle_; }              ///< q now, one number a unit
@@ -59,7 +60,7 @@ class LeverBatch {
 
  private:
   void command();
-  void move(double dt_s) noexcept;
+  std::optional<std::size_t> move(double dt_s) noexcept;
 
   UnitBatch units_;
   Unit unit_;  // makes states

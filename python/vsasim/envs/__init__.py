@@ -11,6 +11,7 @@ too; Gymnasium isn't needed. docs/howto/learn.md tells more.
 """
 from __future__ import annotations
 
+import contextlib
 import functools
 import os
 import pathlib
@@ -58,16 +59,23 @@ def record(
 
     policy: observations (1, n) to actions (1, m). Returns a dict of score, steps and page (pathlib.Path, or None without a page,
     and then without_page says why). A copy of the task's world, with the parameters of the environment's copy, gets the same
-    commands, and goes the same way bit for bit. InputError, OutputError: what can't be written. RuntimeError: it went another way,
-    as where a task sets parameters of the environment's Batch in an episode.
+    commands, and goes the same way bit for bit. What the policy raises ends the recording whole, with a note on its page.
+    InputError, OutputError: what can't be written. RuntimeError: it went another way, as where a task sets parameters of the
+    environment's Batch in an episode.
     """
     env = make(task, 1, threads=1, autoreset_mode=AutoresetMode.DISABLED)
     observations, _ = env.reset(seed=seed)
     world = env.task.world.clone()  # not the file's: a task may have changed it, and what its links weigh is no part of a state
     env.batch.give_parameters(0, world)
     world.restore_state(env.batch.state(0))
-    recorder = world.record(pathlib.Path(directory), title=title or env.task.name)
     env.follower = world
+    with contextlib.closing(env), world.record(pathlib.Path(directory), title=title or env.task.name) as recorder:
+        return _played(env, observations, policy, recorder, seed)
+
+
+def _played(env: VectorEnv, observations: np.ndarray, policy: Any, recorder: Any, seed: int) -> Dict[str, Any]:
+    """To the end of the episode. What the policy raises ends the recording, with a note on its page."""
+    world = env.follower
     while True:
         observations, _, terminations, truncations, infos = env.step(policy(observations))
         if terminations[0] or truncations[0]:
@@ -79,7 +87,6 @@ def record(
     score, steps = float(infos["score"][0]), int(infos["steps"][0])
     summary = {"task": env.task.name, "score": f"{score:.3f} {env.task.score_unit}", "seed": seed}
     page: Optional[pathlib.Path] = recorder.finish(summary)
-    env.close()
     return {"score": score, "steps": steps, "page": page, "without_page": recorder.without_page}
 
 

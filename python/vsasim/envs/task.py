@@ -6,7 +6,7 @@ from typing import Any, ClassVar, Dict, List, NamedTuple, Tuple
 
 import numpy as np
 
-from .. import Batch, World
+from .. import Batch, InputError, World
 
 __all__ = ["Quantity", "Task"]
 
@@ -49,6 +49,11 @@ class Task:
         self.copies = copies
         self.world = World.load(self.world_name)
         self.steps = round(self.slice_s / self.world.step_s)
+        if self.steps < 1 or abs(self.steps * self.world.step_s - self.slice_s) > 1e-9:
+            raise InputError(
+                f"{type(self).__name__}.slice_s = {self.slice_s}: not a whole number of the world's steps"
+                f" (allowed: multiples of {self.world.step_s} s)"
+            )
 
     @property
     def step_s(self) -> float:

@@ -6,7 +6,7 @@ from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
-from .. import Batch, InputError, World
+from .. import Batch, InputError, SimulationError, World
 from .spaces import AutoresetMode, Box, Seed, VectorEnvBase, batched
 from .task import Task
 
@@ -181,8 +181,13 @@ class VectorEnv(VectorEnvBase):
             for actuator, (equilibrium, preset) in enumerate(zip(*told)):
                 if equilibrium is not None or preset is not None:
                     self.follower.command(actuator, equilibrium, preset)
-            self.follower.step(self.task.steps)
         self.batch.step(self.task.steps, which)
+        if self.follower is not None:
+            try:
+                self.follower.step(self.task.steps)
+            except SimulationError:
+                if not self.batch.status[0]:
+                    raise
 
     def _take(self, which: np.ndarray, rewards: np.ndarray, infos: Dict[str, Any]) -> None:
         """What came of a step that those copies made."""

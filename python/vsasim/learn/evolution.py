@@ -10,7 +10,8 @@ from typing import Callable, Iterator, Sequence
 
 import numpy as np
 
-from ..envs import VectorEnv
+from ..envs import AutoresetMode, VectorEnv
+from ..envs.vector_env import refused
 from .policy import Policy
 
 __all__ = ["Evolution", "play", "train"]
@@ -20,6 +21,8 @@ class Evolution:
     """Looks for parameters (size,) with a high score: ask() for some to try, tell() how they did. The same seed, the same way."""
 
     def __init__(self, start: np.ndarray, sigma: float, population: int, seed: int) -> None:
+        if population < 2:
+            raise refused("population", str(population), "out of range", "2 or more")
         n = len(start)
         self.random = np.random.default_rng(seed)
         self.mean, self.sigma, self.population = np.array(start, float), sigma, population
@@ -67,8 +70,10 @@ class Evolution:
 
 
 def play(env: VectorEnv, act: Callable[[np.ndarray], np.ndarray], seeds: Sequence[int]) -> np.ndarray:
-    """One episode of each copy, from those seeds, with actions act(observations): scores (n,). The environment doesn't reset by
-    itself (AutoresetMode.DISABLED)."""
+    """One episode of each copy, from those seeds, with actions act(observations): scores (n,). InputError for an environment that
+    resets itself: its copies would begin others (autoreset_mode: AutoresetMode.DISABLED)."""
+    if env.metadata["autoreset_mode"] is not AutoresetMode.DISABLED:
+        raise refused("env", str(env.metadata["autoreset_mode"]), "resets its copies by itself", "AutoresetMode.DISABLED")
     observations, _ = env.reset(seed=list(seeds))
     scores, playing = np.zeros(env.num_envs), np.ones(env.num_envs, bool)
     while playing.any():
@@ -87,6 +92,8 @@ def train(
     each generation: first_seed and on.
     """
     each = env.num_envs // evolution.population
+    if each * evolution.population != env.num_envs or each == 0:
+        raise refused("env", f"{env.num_envs} copies", "not as many for each one tried", f"multiples of {evolution.population}")
     for generation in range(generations):
         parameters = np.repeat(evolution.ask(), each, axis=0)
         seeds = first_seed + generation * each + np.arange(each)
