@@ -113,7 +113,7 @@ TEST_F(RunRecordTest, StartsOverWhenTheWorldWentBackBetweenTwoSamples) {
 TEST_F(RunRecordTest, FreesItsDirectoryOnceItIsFinished) {
   RunRecord first = start();
   feed(first, 0, 30);
-  EXPECT_THROW(start(), InputError) << "is recording";
+  EXPECT_THROW(static_cast<void>(start()), InputError) << "is recording";
   first.finish({}, {});
   RunRecord second = start();
   feed(second, 0, 20);
@@ -127,7 +127,7 @@ TEST_F(RunRecordTest, FreesItsDirectoryWhereThePageCantBeWrittenToo) {
   fs::create_directory(out() / "replay.html");
   EXPECT_THROW(first.finish({}, {}), RecordError);
   EXPECT_TRUE(log().whole);
-  EXPECT_NO_THROW(start());
+  EXPECT_NO_THROW(static_cast<void>(start()));
 }
 
 TEST(CadenceTest, TakesTheLowestRatesForWhatTheyAre) {

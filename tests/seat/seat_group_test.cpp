@@ -37,7 +37,7 @@ std::vector<std::array<double, 3>> as_one(int steps, std::size_t tied = 3) {
 
 /// The same joints with two seats: 0 and 1, and 2.
 struct Two {
-  explicit Two(SeatGroup::Trees trees = {{0, 1, 2}}) : group({&upper, &hand}, trees) {}
+  explicit Two(const SeatGroup::Trees& trees = {{0, 1, 2}}) : group({&upper, &hand}, trees) {}
   std::array<double, 3> step(SeatGroup& with, Seat& a, Seat& b) {
     arm.tell(a, 0);
     arm.tell(b, 2);
