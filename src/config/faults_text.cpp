@@ -43,6 +43,9 @@ class FaultsReader {
                                         "stuck", "noise_rad", "supply_V",  "unplugged",    "seed"};
     if (std::find(keys.begin() + 2, keys.end(), key) == keys.end()) return add(word, "unknown fault", join(keys));
     if (equals == std::string::npos) return add(word, "has no value", key + "=…");
+    const bool may_repeat = key == "stuck" || key == "unplugged";  // each time another one
+    if (!may_repeat && std::find(seen_.begin(), seen_.end(), key) != seen_.end()) return add(word, "is given twice", "once");
+    seen_.push_back(key);
     value(key, word, word.substr(equals + 1));
   }
 
@@ -87,6 +90,7 @@ class FaultsReader {
 
   std::string_view source_;
   device::Faults faults_;
+  std::vector<std::string> seen_;
   Problems problems_;
 };
 

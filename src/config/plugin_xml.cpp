@@ -4,6 +4,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "config/older_plugins.hpp"
 #include "config/xml_reader.hpp"
@@ -298,9 +299,12 @@ void check_start(const host::ActuatorConfig& actuator, const std::string& key, s
     const auto [low, high] = actuator.unit.reference_range_raw(static_cast<int>(i));
     const double raw = x[i] * kRawPerTurn / (2 * kPi);
     if (raw >= low - 0.5 && raw <= high + 0.5) continue;
-    problems.add({std::string(where), key, number_text(x[i]) + " rad",
-                  "reference of motor " + std::to_string(i + 1) + " is beyond the firmware's limits",
-                  range_text(low, high) + " raw, 65536 per turn"});
+    const auto rad = [](double value) { return std::round(value * 1e6) / 1e6; };
+    constexpr double kRadPerRaw = 2 * kPi / kRawPerTurn;
+    problems.add({std::string(where), key, number_text(rad(x[i])) + " rad",
+                  "reference of motor " + std::to_string(i + 1) + " is beyond " +
+                      (actuator.unit.servo ? "control.reference_max_rad" : "the firmware's limits"),
+                  range_text(rad(low * kRadPerRaw), rad(high * kRadPerRaw)) + " rad"});
   }
 }
 

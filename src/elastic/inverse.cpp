@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "vsa/checks.hpp"
 
@@ -80,12 +81,69 @@ std::optional<Sample> extreme(const Transmission& law, const Wanted& w, double f
   return std::nullopt;
 }
 
+/// Samples in the order of their presets, with the borders of what reaches the torque.
+class Curve {
+ public:
+  Curve(const Transmission& law, const Wanted& w) noexcept : law_(law), wanted_(w) {}
+
+  /// The next one, wherever the torque is reached there. `visit` gets it with the one before it, if the curve joins them, and says
+  /// whether to go on.
+  template <class Visit>
+  bool add(double preset, const Visit& visit) noexcept {
+    const std::optional<Sample> now = sample(law_, wanted_, preset);
+    if (preset > 0 && now.has_value() != there_) {
+      const Sample edge = border(now ? *now : all_[count_ - 1], now ? at_ : preset);
+      if (!put(edge, visit)) return false;
+    }
+    there_ = now.has_value();
+    at_ = preset;
+    return !now || put(*now, visit);
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return count_; }
+  [[nodiscard]] const Sample& operator[](std::size_t i) const noexcept { return all_[i]; }
+  [[nodiscard]] double before(std::size_t i) const noexcept { return i > 0 && joined_[i] ? all_[i - 1].preset : all_[i].preset; }
+  [[nodiscard]] double after(std::size_t i) const noexcept {
+    return i + 1 < count_ && joined_[i + 1] ? all_[i + 1].preset : all_[i].preset;
+  }
+
+  static constexpr std::size_t kSteps = 16;
+
+ private:
+  template <class Visit>
+  bool put(const Sample& s, const Visit& visit) noexcept {
+    joined_[count_] = there_ && count_ > 0;
+    all_[count_] = s;
+    ++count_;
+    there_ = true;
+    return visit(s, joined_[count_ - 1] ? &all_[count_ - 2] : nullptr);
+  }
+  /// The farthest from `inside` that reaches the torque.
+  [[nodiscard]] Sample border(Sample inside, double outside) const noexcept {
+    for (int i = 0; i < 40; ++i) {
+      const auto middle = sample(law_, wanted_, 0.5 * (inside.preset + outside));
+      if (middle) {
+        inside = *middle;
+      } else {
+        outside = 0.5 * (inside.preset + outside);
+      }
+    }
+    return inside;
+  }
+
+  const Transmission& law_;
+  const Wanted& wanted_;
+  std::array<Sample, 2 * (kSteps + 1)> all_;
+  std::array<bool, 2 * (kSteps + 1)> joined_{};
+  std::size_t count_ = 0;
+  bool there_ = false;
+  double at_ = 0;  ///< preset that was looked at last
+};
+
 Search search(const Transmission& law, const Wanted& w, double preset_max) noexcept {
-  constexpr int kSteps = 16;
-  const int steps = preset_max > 0 ? kSteps : 0;
-  const double goal = w.stiffness_Nm_per_rad, width = steps > 0 ? preset_max / steps : 0.0;
+  const std::size_t steps = preset_max > 0 ? Curve::kSteps : 0;
+  const double goal = w.stiffness_Nm_per_rad, width = steps > 0 ? preset_max / static_cast<double>(steps) : 0.0;
   Search out;
-  std::array<std::optional<Sample>, kSteps + 1> samples;
+  Curve curve(law, w);
   const auto close_in = [&](const Sample& a, const Sample& b) {
     const auto missing = [&](double p) {
       const auto there = sample(law, w, p);
@@ -94,24 +152,41 @@ Search search(const Transmission& law, const Wanted& w, double preset_max) noexc
     if (const auto there = sample(law, w, root(missing, a.preset, a.stiffness - goal, b.preset, b.stiffness - goal)))
       out.see(*there, goal);
   };
-  int least = -1, most = -1;
-  for (int i = 0; i <= steps; ++i) {
-    auto& now = samples[static_cast<std::size_t>(i)] = sample(law, w, width * i);
-    if (!now) continue;
-    out.see(*now, goal);
-    if (least < 0 || now->stiffness < samples[static_cast<std::size_t>(least)]->stiffness) least = i;
-    if (most < 0 || now->stiffness > samples[static_cast<std::size_t>(most)]->stiffness) most = i;
-    const auto& last = samples[static_cast<std::size_t>(std::max(i - 1, 0))];
-    if (!last || (last->stiffness - goal) * (now->stiffness - goal) > 0) continue;
-    close_in(*last, *now);
-    return out;
-  }
-  const int at = !out.nearest ? -1 : goal < out.least ? least : most;
-  if (at < 0 || steps == 0) return out;
-  const double from = width * std::max(at - 1, 0);
-  const auto beyond = extreme(law, w, from, width * std::min(at + 1, steps), goal < out.least, out);
+  const auto look = [&](const Sample& now, const Sample* last) {
+    out.see(now, goal);
+    if (last == nullptr || (last->stiffness - goal) * (now.stiffness - goal) > 0) return true;
+    close_in(*last, now);
+    return false;
+  };
+  for (std::size_t i = 0; i <= steps; ++i)
+    if (!curve.add(width * static_cast<double>(i), look)) return out;
+  if (curve.size() == 0 || steps == 0) return out;
+  const bool least = goal < out.least;
+  std::size_t at = 0;
+  for (std::size_t i = 1; i < curve.size(); ++i)
+    if (least ? curve[i].stiffness < curve[at].stiffness : curve[i].stiffness > curve[at].stiffness) at = i;
+  const double from = curve.before(at);
+  const auto beyond = extreme(law, w, from, curve.after(at), least, out);
   if (const auto first = sample(law, w, from); beyond && first) close_in(*first, *beyond);
   return out;
+}
+
+/// Where f, which is below 0 at `from` and grows from there, is largest up to `to`; the first point seen where it isn't below 0.
+template <class F>
+double peak(const F& f, double from, double to) noexcept {
+  constexpr double kGolden = 0.6180339887498949;
+  double best = from, f_best = f(from);
+  for (int i = 0; i < kMaxIterations && std::abs(to - from) > 1e-9; ++i) {
+    const double a = to - kGolden * (to - from), b = from + kGolden * (to - from), fa = f(a), fb = f(b);
+    for (const auto& [x, fx] : {std::pair{a, fa}, std::pair{b, fb}}) {
+      if (!(fx > f_best)) continue;
+      best = x;
+      f_best = fx;
+    }
+    if (f_best >= 0) break;
+    (fa < fb ? from : to) = fa < fb ? a : b;
+  }
+  return best;
 }
 
 }  // namespace
@@ -124,7 +199,8 @@ std::optional<double> equilibrium_for(const Transmission& law, double q, double 
   const double here = missing(q);
   if (here == 0) return q;
   constexpr double kFirst_rad = 0.01;
-  double near = q, f_near = here;
+  constexpr double kSlope_rad = 1e-4, kFlat = 1e-12;
+  double near = q, f_near = here, before = q, f_before = here;
   for (double step = std::min(kFirst_rad, reach_rad);; step = std::min(2 * step, reach_rad)) {
     const double far = here < 0 ? q + step : q - step;  // the torque grows with the equilibrium
     const double f_far = missing(far);
@@ -139,7 +215,15 @@ std::optional<double> equilibrium_for(const Transmission& law, double q, double 
       }
       return root(missing, low, missing(low), high, missing(high));
     }
+    // A lever's torque has a peak, which a step may pass unseen: behind it the torque falls.
+    const double side = here < 0 ? 1 : -1, slope = side * (f_far - missing(far - side * kSlope_rad));
+    if (slope < -kFlat * (1 + std::abs(f_far))) {
+      const double top = peak([&](double e) { return side * missing(e); }, before, far), f_top = missing(top);
+      if ((f_top < 0) != (here < 0)) return root(missing, before, f_before, top, f_top);
+    }
     if (step >= reach_rad) return std::nullopt;
+    before = near;
+    f_before = f_near;
     near = far;
     f_near = f_far;
   }

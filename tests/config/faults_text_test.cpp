@@ -42,6 +42,8 @@ TEST(FaultsText, WhatIsWrongIsNamedAllAtOnce) {
        {"of", "late_s=soon", "stuck=elbow", "motor_1, motor_2, shaft", "unplugged=3", "seed=-1", "supply_V", "1.5"})
     EXPECT_NE(all.find(part), std::string::npos) << part << "\n" << all;
   EXPECT_NE(refusal(""), "taken");
+  EXPECT_NE(refusal("supply_V=5 supply_V=7").find("is given twice"), std::string::npos);
+  EXPECT_EQ(refusal("stuck=motor_1 stuck=shaft"), "taken");
   EXPECT_NE(refusal("noise_rad=nan"), "taken");
   EXPECT_NE(refusal(std::string_view("supply_V=7\0", 11)), "taken");
 }

@@ -5,8 +5,11 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
+#include <vector>
 
+#include "vsa/elastic/law.hpp"
 #include "vsa/elastic/series_spring.hpp"
 #include "vsa/elastic/two_sinh.hpp"
 
@@ -122,6 +125,61 @@ TEST(Inverse, ALawWithoutPresetsHasItsOneStiffness) {
   EXPECT_NEAR(c.command.equilibrium, 0.5, 1e-12);
   EXPECT_EQ(command_for(spring, {0.4, 8, 81}, 0).outcome, Outcome::too_stiff);
   EXPECT_EQ(command_for(spring, {0.4, 8, 79}, 0).outcome, Outcome::too_soft);
+}
+
+/// Parameters of the shipped lever types, whose torque has a peak over the deflection, and their largest presets.
+struct Lever {
+  const char* law;
+  std::vector<double> parameters;
+  double preset_max;
+};
+const Lever kLevers[] = {{"lever_spring", {8000, 0.015, 0.01}, 1.5},
+                         {"lever_pivot", {10, 0.05, 0.015, 0.008, 0.01, 0.025}, 1.2},
+                         {"lever_cardan", {8000, 0.03, 0.8, 0.5, 2.2}, 1.8}};
+
+std::shared_ptr<const Transmission> made(const Lever& of) {
+  for (const vsa::elastic::Law* law : vsa::elastic::laws())
+    if (law->name == of.law) return law->make(of.parameters);
+  return nullptr;
+}
+
+TEST(Inverse, OfALeverGivesEveryCommandBackUpToItsPeak) {
+  std::mt19937 chance(11);
+  std::uniform_real_distribution<double> angle(-1, 1), deflection(-0.75, 0.75), part(0, 1);
+  for (const Lever& lever : kLevers) {
+    const auto law = made(lever);
+    ASSERT_TRUE(law) << lever.law;
+    for (int n = 0; n < 300; ++n) {
+      const double e = angle(chance), q = e + deflection(chance), p = part(chance) * lever.preset_max;
+      const Response there = at(*law, q, e, p);
+      if (!(there.curvature.qq > 1e-6)) continue;
+      const auto equilibrium = equilibrium_for(*law, q, there.torque, p);
+      ASSERT_TRUE(equilibrium) << lever.law << " " << q - e;
+      ASSERT_NEAR(*equilibrium, e, 1e-6);
+      const Command c = command_for(*law, {q, there.torque, there.curvature.qq}, lever.preset_max);
+      ASSERT_TRUE(c.found()) << lever.law << ": " << c.text();
+      const Response again = at(*law, q, c.command.equilibrium, c.command.preset);
+      ASSERT_NEAR(again.torque, there.torque, 1e-6 * (1 + std::abs(there.torque)));
+      ASSERT_NEAR(again.curvature.qq, there.curvature.qq, 1e-6 * (1 + there.curvature.qq));
+    }
+  }
+}
+
+TEST(Inverse, ARefusalNamesNoRangeThatHoldsWhatWasWanted) {
+  std::mt19937 chance(12);
+  std::uniform_real_distribution<double> torque(-6, 6), stiffness(0, 60);
+  int refused = 0;
+  for (const Lever& lever : kLevers) {
+    const auto law = made(lever);
+    for (int n = 0; n < 200; ++n) {
+      const double wanted = stiffness(chance);
+      const Command c = command_for(*law, {0.1, torque(chance), wanted}, lever.preset_max);
+      if (c.outcome != Outcome::too_soft && c.outcome != Outcome::too_stiff) continue;
+      ++refused;
+      ASSERT_FALSE(wanted > c.stiffness_min * (1 + 1e-6) && wanted < c.stiffness_max * (1 - 1e-6)) << lever.law << ": " << c.text();
+    }
+  }
+  EXPECT_GT(refused, 10);
 }
 
 TEST(Inverse, NumbersThatAreNoneAreNoCommand) {
