@@ -238,6 +238,7 @@ int run(const Job& job, const SweepOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fill_closed_standard_files();
   survive_broken_pipes();
   std::optional<Job> job;
   try {

@@ -103,6 +103,7 @@ void understand_help(std::vector<std::string>& arguments) {
 }
 
 int run_application(int argc, char** argv) {
+  vsa::app::fill_closed_standard_files();
   vsa::app::survive_broken_pipes();
   CLI::App app{"vsa: simulates robots built of variable stiffness actuators", "vsa"};
   int exit_code = vsa::app::kDone;
@@ -119,7 +120,9 @@ int run_application(int argc, char** argv) {
     app.exit(error);
     return vsa::app::kBadInput;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? vsa::app::kDone : vsa::app::kBadInput;
+    if (app.exit(error) != 0) return vsa::app::kBadInput;
+    if (!std::cout.flush()) throw std::runtime_error("can't write to standard output");
+    return vsa::app::kDone;
   }
   return exit_code;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/robot_impl.hpp"
+#include "vsa/checks.hpp"
 #include "vsa/device/reading.hpp"
 #include "vsa/firmware/arithmetic.hpp"
 #include "vsa/host/resolution.hpp"
@@ -61,14 +62,14 @@ std::vector<Notice> Robot::take_notices() {
   for (const RawNotice& n : impl_->notices.take()) {
     const ActuatorConfig& a = impl_->config.actuators[n.actuator];
     const auto unit = std::string(a.unit.preset_unit());
-    const std::string limit = std::to_string(a.unit.preset_max);
+    const std::string limit = Checks::text(a.unit.preset_max);
     std::string text = a.name;
     switch (n.kind) {
       case NoticeKind::preset:
-        text += ": preset " + std::to_string(n.value) + " " + unit + " is beyond ±" + limit + ": clamped";
+        text += ": preset " + Checks::text(n.value) + " " + unit + " is beyond ±" + limit + ": clamped";
         break;
       case NoticeKind::limits:
-        text += ": equilibrium " + std::to_string(n.value) +
+        text += ": equilibrium " + Checks::text(n.value) +
                 " rad with this preset drives a motor beyond its limits: clamped as the unit does";
         break;
       case NoticeKind::unresolved: {

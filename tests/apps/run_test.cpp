@@ -57,6 +57,34 @@ TEST(Run, TellsItsSummaryAndEndsWithOneWhereThePageCantBeWritten) {
   EXPECT_TRUE(fs::exists(scratch / "out" / "scenario.toml"));
 }
 
+TEST(Run, WithItsStandardFilesClosedWritesItsMessagesIntoNoOther) {
+  const Scratch scratch;
+  const auto record = [&](const std::string& closed) {
+    vsa::test::Surroundings shell;
+    shell.program = "/bin/sh";
+    const std::string command = std::string("exec \"") + VSA_BINARY_DIR +
+                                "/bin/vsa\" run bench_free --no-topics --duration-s 0.1 " +
+                                "--speed 100 --fault 'all off' --record \"" + (scratch / "out").string() + "\" " + closed;
+    return run_vsa({"-c", command}, shell);
+  };
+  ASSERT_EQ(record("").exit_code, 0);
+  const std::string before = read_file(scratch / "out" / "energy.csv");
+  EXPECT_EQ(record("<&- >&- 2>&-").exit_code, 1) << "its summary went nowhere";
+  for (const auto& file : csv_files(scratch / "out")) {
+    const std::string text = read_file(file);
+    EXPECT_EQ(text.find("vsa:"), std::string::npos) << file;
+    EXPECT_EQ(text.find("simulated time"), std::string::npos) << file;
+  }
+  EXPECT_EQ(read_file(scratch / "out" / "energy.csv"), before);
+}
+
+TEST(Run, HelpThatCantBeWrittenIsAFailure) {
+  vsa::test::Surroundings full;
+  full.full_stdout = true;
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"--version"}, {"run", "--help"}, {"help"}})
+    EXPECT_EQ(run_vsa(arguments, full).exit_code, 1) << arguments.front();
+}
+
 TEST(Run, ARefusedOneLeavesAnEarlierRecordAsItWas) {
   const Scratch scratch;
   const auto run = [&] {

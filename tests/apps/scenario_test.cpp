@@ -142,6 +142,25 @@ TEST(Scenario, AFaultsWordsMayStandApartByAnyBlanks) {
   EXPECT_EQ(energies(" all off"), off);
 }
 
+TEST(Scenario, WhatAFlagNeedsTheFileMayHave) {
+  const Scratch scratch;
+  const auto run = [&](const char* file, std::vector<std::string> flags) {
+    write_file(scratch / "s.toml", std::string("[scenario]\nworld = \"bench_free\"\nduration_s = 0.05\ntopics = false\n") + file);
+    flags.insert(flags.begin(), {"run", (scratch / "s.toml").string()});
+    return run_vsa(flags);
+  };
+  EXPECT_EQ(run("view = true\nspeed = \"max\"\n", {"--view-port", "0"}).exit_code, 0);
+  EXPECT_EQ(run("view = true\nspeed = \"max\"\n", {"--view-records", (scratch / "records").string()}).exit_code, 0);
+  EXPECT_EQ(run("speed = 10\n", {"--low-latency"}).exit_code, 0);
+  for (const auto& [file, says] : {std::pair{"view_port = 0\n", "--view-port (view_port)"},
+                                   {"view_records = \"here\"\n", "--view-records (view_records)"},
+                                   {"low_latency = true\n", "--low-latency (low_latency)"}}) {
+    const auto alone = run(file, {});
+    EXPECT_EQ(alone.exit_code, 2) << file;
+    EXPECT_NE(alone.err.find(says), std::string::npos) << alone.err;
+  }
+}
+
 TEST(Scenario, MistakesAreToldAllAtOnceWithFileAndKey) {
   const Scratch scratch;
   const fs::path file = place(scratch, R"([scenario]

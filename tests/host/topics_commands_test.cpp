@@ -64,6 +64,11 @@ TEST_F(HostTopics, ATrajectoryOfOnePointIsACommandForNowWhateverItsTime) {
   step();
   EXPECT_EQ(commanded(0), (Pair{-0.4, 0.2})) << "a preset that isn't named stays";
   EXPECT_EQ(commanded(1), (Pair{0.1, 0.5})) << "an equilibrium that isn't named stays";
+  for (const double time_s : {-2.0, 2e12}) {
+    send({{"shoulder"}, {{{-0.1 * time_s / std::abs(time_s)}, time_s}}});
+    step();
+    EXPECT_NEAR(commanded(0)[0], time_s < 0 ? 0.1 : -0.1, 1e-12) << time_s;
+  }
 }
 
 TEST_F(HostTopics, ATrajectoryIsLinearInSimulatedTimeAndHoldsItsLastPoint) {

@@ -40,6 +40,13 @@ Examples:
 )";
 
 void check(const RunOptions& options) {
+  const auto alone = [](bool given, const char* flag, const char* key, const char* needs) {
+    if (given) throw InputError({"", fmt::format("{} ({})", flag, key), "", "is of no use alone", needs});
+  };
+  alone(options.view_port && !options.view, "--view-port", "view_port", "with --view");
+  alone(!options.view_records.empty() && !options.view, "--view-records", "view_records", "with --view");
+  const bool paced = options.speed.empty() ? options.realtime || options.view : options.speed != "max";
+  alone(options.low_latency && !paced, "--low-latency", "low_latency", "with --realtime, --view or a --speed");
   if (options.paused && !options.view && !(options.no_topics || topics::topics_feature().is_in()))
     throw InputError({"", "--paused", "", topics::topics_feature().missing(), "--view, by which it can be let run"});
   if (options.paused && options.no_topics && !options.view) {
@@ -136,12 +143,9 @@ class Flags {
 };
 
 void add_view(Flags& flags) {
-  CLI::Option* view = flags.flag("--view", &RunOptions::view, "Serve a page on this machine's loopback to watch and touch the run");
-  flags.value("--view-port", &RunOptions::view_port, "Its port; default: any free one, printed")
-      ->check(CLI::Range(0, 65535))
-      ->needs(view);
-  flags.value("--view-records", &RunOptions::view_records, "Where the page's record button writes; default: this directory")
-      ->needs(view);
+  flags.flag("--view", &RunOptions::view, "Serve a page on this machine's loopback to watch and touch the run");
+  flags.value("--view-port", &RunOptions::view_port, "Its port; default: any free one, printed")->check(CLI::Range(0, 65535));
+  flags.value("--view-records", &RunOptions::view_records, "Where the page's record button writes; default: this directory");
 }
 
 void add_world(Flags& flags) {
@@ -167,7 +171,7 @@ void setup_run(CLI::App& app, int& exit_code) {
   flags->value("--step-s", &RunOptions::step_s, "Simulated seconds per step; default: what the world says")->check(number_given());
   CLI::Option* realtime =
       flags->flag("--realtime", &RunOptions::realtime, "Not faster than the wall clock; default: as fast as possible");
-  flags->flag("--low-latency", &RunOptions::low_latency, kLowLatencyHelp)->needs(realtime);
+  flags->flag("--low-latency", &RunOptions::low_latency, kLowLatencyHelp);
   flags->value("--speed", &RunOptions::speed, "Simulated by wall time, 0.01 to 100, or max; default: max, with --view 1")
       ->excludes(realtime);
   add_view(*flags);

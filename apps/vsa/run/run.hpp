@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <optional>
 #include <string>
 
 #include "vsa/scenario/scenario.hpp"
@@ -14,9 +15,9 @@ inline constexpr double kSlowestRecord_Hz = 1e-3, kFastestRecord_Hz = 1e6;
 struct RunOptions : scenario::Scenario {
   bool realtime = false;
   bool view = false;
-  int view_port = 0;               ///< 0: any free one
-  std::string view_records = ".";  ///< where the page's record button writes
-  std::string speed;               ///< "2", "max"; empty: 1 with realtime or view, else max
+  std::optional<int> view_port;  ///< none, 0: any free one
+  std::string view_records;      ///< where the page's record button writes; empty: here
+  std::string speed;             ///< "2", "max"; empty: 1 with realtime or view, else max
   bool low_latency = false;
   bool paused = false;
   bool no_topics = false;

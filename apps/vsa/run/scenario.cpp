@@ -31,7 +31,7 @@ void read_run(TomlSection& s, const fs::path& file, RunOptions& out) {
   out.speed = speed_at(s);
   out.low_latency = s.flag("low_latency").value_or(false);
   out.view = s.flag("view").value_or(false);
-  out.view_port = static_cast<int>(s.whole("view_port", 0, 65535).value_or(0));
+  if (const auto port = s.whole("view_port", 0, 65535)) out.view_port = static_cast<int>(*port);
   out.view_records = path_at(s, "view_records", file, out.view_records);
   out.paused = s.flag("paused").value_or(false);
   out.no_topics = !s.flag("topics").value_or(true);

@@ -57,10 +57,10 @@ RunSession::RunSession(const RunOptions& options, Console& console)
 
 void RunSession::open_view(const RunOptions& options) {
   view::LiveOptions with;
-  with.server.port = static_cast<std::uint16_t>(options.view_port);
+  with.server.port = static_cast<std::uint16_t>(options.view_port.value_or(0));
   with.page_template = config::find_data("web/live.html").value_or("");
   with.replay_template = config::find_data("web/replay.html").value_or("");
-  with.records = options.view_records;
+  with.records = options.view_records.empty() ? "." : options.view_records;
   with.speed = speed_;
   view_.emplace(world_, player_.gait(), &control_, std::move(with));
   console_.line("live view: " + view_->url());

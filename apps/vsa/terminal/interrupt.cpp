@@ -1,6 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "terminal/interrupt.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
 
@@ -24,6 +27,12 @@ void catch_interrupts() {
   struct sigaction was {};
   sigaction(SIGHUP, nullptr, &was);
   if (was.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // as nohup wants it
+}
+
+void fill_closed_standard_files() {
+  // open() takes the lowest number that is free, and those below are taken.
+  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd)
+    if (::fcntl(fd, F_GETFD) < 0) static_cast<void>(::open("/dev/null", O_RDONLY));
 }
 
 void survive_broken_pipes() {

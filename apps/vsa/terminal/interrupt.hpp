@@ -8,6 +8,9 @@ void catch_interrupts();
 
 /// Makes SIGPIPE and SIGXFSZ errors of the write that met them. Call once, first.
 void survive_broken_pipes();
+/// Standard input, output and error that the caller has closed are /dev/null, for reading only: else the first files that are opened get
+/// their numbers, and messages are written into them. What can't be written is an error still.
+void fill_closed_standard_files();
 
 /// The signal that was noted, 0 for none.
 [[nodiscard]] int interrupted() noexcept;

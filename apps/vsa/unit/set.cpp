@@ -106,6 +106,7 @@ std::string Told::references(config::ValueReader& reader) {
   if (reader.expect(2, options_.what + " 10 -10")) {
     std::int32_t a = motor_ticks(reader, 0, 0);
     std::int32_t b = motor_ticks(reader, 1, 1);
+    reader.throw_if_any();
     // Each motor's sum in its own ticks: their resolutions may differ.
     if (options_.what == "equilibrium") std::tie(a, b) = std::pair(a + motor_ticks(reader, 1, 0), motor_ticks(reader, 0, 1) - b);
     if (std::min(a, b) < kLowest || std::max(a, b) > kHighest) reader.refuse(0, "with the preset out of the unit's range", "less");
