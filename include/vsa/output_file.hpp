@@ -22,8 +22,8 @@ class OutputFile {
   /// What becomes of a file that is there.
   enum class Begin { emptied, as_it_is };
   OutputFile() = default;
-  explicit OutputFile(std::filesystem::path path,
-                      Begin begin = Begin::emptied);  ///< creates it if there is none; throws OutputError
+  /// Creates it if there is none; throws OutputError.
+  explicit OutputFile(std::filesystem::path path, Begin begin = Begin::emptied);
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&& other) noexcept;

@@ -77,8 +77,11 @@ void validate(const GaitParams& p, std::string_view where, Problems& problems) {
     const double end_s = p.motion->end_s, from_s = p.motion->loop_from_s.value_or(0);
     finite("end_s", end_s);
     ask(std::isfinite(from_s) && (!p.motion->loop_from_s || from_s < end_s), "loop_from_s", from_s, "finite, before the end");
-    for (const MotionTrack& track : p.motion->tracks)
+    for (const MotionTrack& track : p.motion->tracks) {
+      if (track.equilibrium.empty() && track.preset.empty())
+        problems.add({p.file, std::string(where) + track.actuator, "", "has no keyframe", "one or more"});
       for (const auto* channel : {&track.equilibrium, &track.preset}) check_keys(*channel, track.actuator, ask);
+    }
   }
 }
 

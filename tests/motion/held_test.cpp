@@ -156,6 +156,7 @@ TEST(Gait, RefusesWhatNoFileMaySay) {
   refused([](GaitParams& p) { p.motion->tracks[0].preset[1].time_s = NAN; });
   refused([](GaitParams& p) { p.motion->tracks[0].equilibrium[2].time_s = 1; });
   refused([](GaitParams& p) { p.motion->loop_from_s = 3; });
+  refused([](GaitParams& p) { p.motion->tracks.push_back({"right", {}, {}}); });
   GaitParams p = walk();
   p.steering = SteeringParams{"arms", 1.0, 0.8, 10.0, 0.03, 0.0};
   EXPECT_THROW(Gait{p}, InputError) << "no such group";

@@ -109,14 +109,21 @@ TEST(SeatGroup, MadeAnewWhileItRunsGoesOnTheSameWay) {
   }
 }
 
-TEST(SeatGroup, MadeAnewWithOtherTreesAsksForThemAtOnce) {
-  Two two;
-  for (int n = 0; n < 5; ++n) two.step();
-  two.group = SeatGroup({&two.upper, &two.hand}, {{0, 1}, {2}});
-  two.arm.tied = 2;
-  two.asked = {};
-  two.step();
-  EXPECT_EQ(two.asked, (std::array{1, 1}));
+TEST(SeatGroup, MadeAnewAsksForItsTreesAtOnce) {
+  const SeatGroup::Trees apart{{0, 1}, {2}}, together{{0, 1, 2}};
+  for (const SeatGroup::Trees& before : {apart, together}) {
+    Two two(before);
+    two.arm.tied = before.size() == 2 ? 2 : 3;
+    two.arm.angle = {};  // at rest: nothing but time makes it due
+    for (int n = 0; n < 5; ++n) two.step();
+    two.group = SeatGroup({&two.upper, &two.hand}, apart);
+    two.arm.tied = 2;
+    two.asked = {};
+    two.step();
+    EXPECT_EQ(two.asked, (std::array{1, 1})) << "after " << before.size() << " trees";
+    two.step();
+    EXPECT_EQ(two.asked, (std::array{1, 1})) << "and then when it is due";
+  }
 }
 
 TEST(SeatGroup, RefusesTreesThatCannotBe) {

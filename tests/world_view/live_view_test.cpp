@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -199,7 +198,8 @@ TEST(LiveView, WhatIsAskedForAfterAResetIsForTheWorldThatWasReset) {
   page.say(R"({"do":"reset"})");
   page.say(R"({"do":"command","actuators":[0],"equilibrium_rad":0.4})");
   page.say(R"({"do":"speed","factor":0.5})");
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // until all three wait
+  page.say("nothing");
+  ASSERT_EQ(text_of(page, "error")["type"], "error") << "answered at once, and in turn: the three before it wait for the loop";
   ASSERT_TRUE(run.until([&] { return run.view->speed_changes() == 1; }));
   for (int i = 0; i < 50; ++i) run.turn();
   EXPECT_LT(run.world.time_s(), 0.1) << "it was reset";

@@ -50,8 +50,7 @@ class LeverBatch {
   /// others have made that step, and none follows.
   void step(int steps, std::int64_t dt_ns = 1'000'000, const std::function<void()>& between = {});
   /// At rest on its references for (equilibrium, preset), on for long, the shaft where it is said to be. What stands in equilibrium()
-  /// and preset() is commanded with the next step as ever. InputError: no such unit,
-  /// numbers beyond ±1e6.
+  /// and preset() is commanded with the next step as ever. InputError: no such unit, numbers beyond ±1e6.
   void reset(std::size_t unit, double equilibrium_rad, double preset, double shaft_rad, double speed_rad_per_s = 0);
 
   [[nodiscard]] std::span<const double> shaft_rad() const noexcept { return angle_; }              ///< q now, one number a unit
