@@ -473,6 +473,25 @@ class Records(unittest.TestCase):
             page = pathlib.Path(folder, "replay.html")
             self.assertIn("ZeroDivisionError: half-way", page.read_text())
 
+    def test_a_copy_that_blows_up_is_recorded_up_to_there(self):
+        class Wild(Throw):
+            """Faster than anything goes."""
+
+            def start(self, copy, random):
+                world = self.world.clone()
+                world.restore_state(super().start(copy, random))
+                world.set_joint(world.joints[0], 0.0, 1e11)
+                return world.state()
+
+        env = make(Wild, 1, autoreset_mode="Disabled")
+        idle = np.zeros((1, env.single_action_space.shape[0]))
+        env.reset(seed=1)
+        self.assertIn("failure", env.step(idle)[4])
+        with tempfile.TemporaryDirectory() as folder:
+            done = vsasim.envs.record(Wild, lambda seen: idle, folder, seed=1)
+            self.assertEqual(done["steps"], 1)
+            self.assertTrue(done["page"].exists())
+
     def test_a_slice_is_whole_steps(self):
         class Odd(Throw):
             """Between two steps."""
