@@ -16,9 +16,11 @@
 // meant for AVX-512 where a machine without it calls it.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #if defined(__SSE2__)
@@ -191,5 +193,95 @@ template <class T>
 /// A small whole number beside T: int for one, a whole double in each lane for several.
 template <class T>
 using Count = std::conditional_t<kScalar<T>, int, T>;
+
+// A unit's two sides: its motors, its springs. Of one unit they go side by side in a vector of two, where they are of one kind; of
+// several, whose vectors are full, one after the other. `Side` tells which: it picks a side's number, or both as one.
+
+/// Names the vector of both sides.
+struct Sides {};
+using Both = Pack<2, Sides>;  ///< a number of each side of one unit
+
+/// Of what goes with T, and is the same for all lanes: a parameter.
+template <class T>
+using Constant = std::conditional_t<std::is_same_v<T, Both>, Both, double>;
+
+/// One side, of one unit or several.
+template <class T>
+struct OneSide {
+  using Number = T;                     ///< of a state
+  static constexpr bool kBoth = false;  ///< one alone
+  std::size_t i;                        ///< which
+
+  template <class A>
+  [[nodiscard]] const A& operator()(const std::array<A, 2>& of) const noexcept {  ///< its element
+    return of[i];
+  }
+  template <class A>
+  [[nodiscard]] const A& operator()(const A& first, const A& second) const noexcept {  ///< likewise
+    return i == 0 ? first : second;
+  }
+  template <class A, class F>
+  [[nodiscard]] auto operator()(const std::array<A, 2>& of, F&& member) const noexcept {  ///< member(its element)
+    return member(of[i]);
+  }
+  void put(std::array<T, 2>& into, T value) const noexcept { into[i] = value; }  ///< its element
+  template <class A, class F>
+  void put(std::array<A, 2>& into, T value, F&& member) const noexcept {  ///< member(its element)
+    member(into[i]) = value;
+  }
+  void add(T& to, T value) const noexcept { to += value; }  ///< what it gives to a sum over sides
+};
+
+/// Both sides of one unit at once.
+struct BothSides {
+  using Number = Both;                 ///< of a state
+  static constexpr bool kBoth = true;  ///< of one unit
+
+  [[nodiscard]] Both operator()(double first, double second) const noexcept { return Both(Vectors<2>::Number{first, second}); }
+  // Whole, both ways: what was stored as one number of 16 bytes is there at once for who loads it as one.
+  [[nodiscard]] Both operator()(const std::array<double, 2>& of) const noexcept {  ///< its elements
+    return (*this)(of[0], of[1]);
+  }
+  template <class A, class F>
+  [[nodiscard]] Both operator()(const std::array<A, 2>& of, F&& member) const noexcept {  ///< member(element) of both
+    return (*this)(member(of[0]), member(of[1]));
+  }
+  void put(std::array<double, 2>& into, Both value) const noexcept {  ///< its elements
+    std::memcpy(into.data(), &value.v, sizeof value.v);
+  }
+  template <class A, class F>
+  void put(std::array<A, 2>& into, Both value, F&& member) const noexcept {  ///< member(element) of both
+    member(into[0]) = value.lane(0);
+    member(into[1]) = value.lane(1);
+  }
+  void add(double& to, Both value) const noexcept {  ///< to a sum over sides: the first, then the second
+    to += value.lane(0);
+    to += value.lane(1);
+  }
+};
+
+/// Calls for both sides, of one unit at once.
+template <class T, class F>
+void each_side(F&& f) noexcept {
+  if constexpr (kScalar<T>) {
+    f(BothSides{});
+  } else {
+    f(OneSide<T>{0});
+    f(OneSide<T>{1});
+  }
+}
+/// Calls for each of so many sides; `together`: of one unit for both at once.
+template <class T, class F>
+void each_side(bool together, int count, F&& f) noexcept {
+  if constexpr (kScalar<T>) {
+    if (together) {
+      f(BothSides{});
+    } else {
+      for (int i = 0; i < count; ++i) f(OneSide<T>{static_cast<std::size_t>(i)});
+    }
+  } else {
+    each_side<T>(f);
+  }
+}
 
 }  // namespace vsa::lanes

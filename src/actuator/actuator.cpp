@@ -31,6 +31,7 @@ Actuator::Actuator(ActuatorParams params)
       tendon_(drive::FrictionParams{params_.tendon.friction, params_.tendon.presliding_J}),
       motors_(params_.transmission->motor_count()),
       springs_(params_.transmission->spring_count()),
+      alike_(motors_ == 2 && plain(sides_[0]) && plain(sides_[1])),
       steppers_of_{0, sides_[0].motor == sides_[1].motor ? std::size_t{0} : std::size_t{1}} {}
 
 const drive::MotorStepper& Actuator::stepper(std::size_t i, double h_s, drive::Terminal terminal) noexcept {
@@ -46,10 +47,12 @@ const drive::MotorStepper& Actuator::stepper(std::size_t i, double h_s, drive::T
   return terminal == drive::Terminal::driven ? first.driven : first.open;
 }
 
+bool Actuator::plain(const Side& s) noexcept { return s.friction.stiffness > 0 && !s.chopped && !s.motor.inductance_H; }
+
 bool Actuator::has_lanes() const noexcept {
   const auto side = [](const Side& s) {
-    const bool gears = s.friction.stiffness > 0 || (s.friction.coulomb_Nm <= 0 && s.load_loss == 0 && s.back_loss == 0);
-    return gears && !s.chopped && !s.motor.inductance_H;
+    const bool smooth = s.friction.coulomb_Nm <= 0 && s.load_loss == 0 && s.back_loss == 0;
+    return plain(s) || (smooth && !s.chopped && !s.motor.inductance_H);
   };
   return two_sinh_ != nullptr && side(sides_[0]) && side(sides_[1]);
 }
@@ -71,10 +74,12 @@ template void Actuator::settle(ActuatorState&, double, double, double, double) c
 template elastic::Tangent Actuator::tangent(const ActuatorState&) const noexcept;
 
 double Actuator::swing_squared(const ActuatorState& s, double dt_s) const noexcept {
-  const elastic::Hessian half = mean_from<double>(s.origin, s.origin.at, 0.0).slope;  // slopes are for a segment's end
+  elastic::SegmentMean mean;
+  mean_from<double>(s.origin, s.origin.at, 0.0, mean);
+  const elastic::Hessian& half = mean.slope;  // slopes are for a segment's end
   double most = 0;
   for (int i = 0; i < motors<double>(); ++i)
-    most = std::max(most, 2.0 * step::load_curvature(half, i) * dt_s * dt_s / sides_[i].motor.inertia_kgm2);
+    most = std::max(most, 2.0 * (i == 0 ? half.x0x0 : half.x1x1) * dt_s * dt_s / sides_[i].motor.inertia_kgm2);
   return most;
 }
 

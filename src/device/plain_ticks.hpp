@@ -22,6 +22,9 @@ class PlainTicks {
 
   /// Whether the ticks of a unit of this type from then on are plain: nothing but time and references will change what they do.
   [[nodiscard]] bool plain(const UnitState& state, std::int64_t now_ns) const noexcept;
+  /// What the bridges make of these duties, V, looked up; false: not at this supply and limit.
+  [[nodiscard]] bool volts(const std::array<std::int32_t, 2>& duty_pct, std::int32_t limit_pct, double supply_V,
+                           std::array<double, 2>& volts) const noexcept;
   /// But for the places of a block's numbers.
   [[nodiscard]] const TickStep& common() const noexcept { return common_; }
 

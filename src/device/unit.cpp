@@ -18,7 +18,7 @@ std::array<double, 2> gone(const actuator::ActuatorState& from, const actuator::
 }  // namespace
 
 // A step is many small functions, and calls between them cost a tenth of it: each of these is one piece.
-[[gnu::flatten]] void Unit::set_out(UnitState& s, StepPlan& plan) const noexcept {
+[[gnu::flatten]] actuator::Lead Unit::set_out(UnitState& s, StepPlan& plan) const noexcept {
   const ShaftIn& in = plan.in;
   const double dt = seconds(plan.dt_ns);
   if (s.started && !in.placed) {
@@ -29,8 +29,9 @@ std::array<double, 2> gone(const actuator::ActuatorState& from, const actuator::
     plan.last_torque = 0;
     s.started ? actuator_.relocate(s.actuator, plan.y) : actuator_.place(s.actuator, plan.y);
   }
-  steps<double>().look_ahead(s, plan, dt);
-  plan.lead.motors = plan.whole ? 0.0 : plan.lead.spring * actuator::motor_weight(actuator_.swing_squared(s.actuator, dt));
+  actuator::Lead lead = steps<double>().look_ahead(s, plan, dt);
+  if (!plan.whole) lead.motors = plan.lead.motors = lead.spring * actuator::motor_weight(actuator_.swing_squared(s.actuator, dt));
+  return lead;
 }
 
 void Unit::begin_step(UnitState& s, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept {
@@ -54,7 +55,8 @@ std::int64_t Unit::segment_ns(std::int64_t t_ns, std::int64_t dt_ns, std::int64_
 /// Where the shaft is at the tick, as foreseen.
 double Unit::walk(UnitState& s, StepPlan& plan, std::int64_t at_ns) noexcept {
   const std::int64_t until = at_ns - plan.t_ns;
-  if (until > 0 && plan.walked_ns == 0) plan.start = s.actuator;
+  if (until <= 0) return plan.in.angle;
+  if (plan.walked_ns == 0) plan.start = s.actuator;
   const double whole = static_cast<double>(plan.dt_ns);
   while (plan.walked_ns < until) {
     const std::int64_t h_ns = std::min(substep_ns_, until - plan.walked_ns);
@@ -151,9 +153,9 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
   }
   plan.tried = false;
   if (!plan.whole) return;
-  set_out(s, plan);
-  actuator_.begin(s.actuator, plan.last, seconds(plan.dt_ns),
-                  actuator::SegmentInput{0.0, plan.held[0].voltage, plan.held[0].terminal, plan.lead, plan.held[0].supply_V});
+  const Held& held = plan.held[0];
+  const actuator::SegmentInput in{0.0, held.voltage, held.terminal, set_out(s, plan), held.supply_V};
+  actuator_.begin(s.actuator, plan.last, seconds(plan.dt_ns), in);
 }
 
 [[gnu::flatten]] ShaftTorque Unit::foresee(const UnitState& s, StepPlan& plan, double dy) const noexcept {

@@ -26,17 +26,21 @@ struct UnitPhysics {
     plan.last_torque = s.applied_torque;
   }
 
+  /// Returned, too: what was stored just now can't be copied as fast as what is still known.
   template <class State, class Plan>
-  void look_ahead(State& s, Plan& plan, double dt_s) const noexcept {
+  actuator::LeadOf<T> look_ahead(State& s, Plan& plan, double dt_s) const noexcept {
+    actuator::LeadOf<T> lead;
     const T scale = dt_s * dt_s * plan.in.inverse_inertia;
     const elastic::TangentOf<T> tangent = actuator.tangent(s.actuator);
-    plan.lead.drift = 0.5 * dt_s * plan.in.speed;
+    lead.drift = 0.5 * dt_s * plan.in.speed;
     const T x_squared = scale * tangent.stiffness;
     s.unresolved = lanes::select((x_squared > 1.0) & (s.unresolved == 0.0), x_squared, s.unresolved);
-    plan.lead.spring = actuator::lead_weight(x_squared);
+    lead.spring = actuator::lead_weight(x_squared);
     for (std::size_t i = 0; i < 2; ++i)
-      plan.lead.tendon[i] = actuator::lead_weight(scale * tendon.stiffness * tangent.tension[i] * tangent.tension[i]);
+      lead.tendon[i] = actuator::lead_weight(scale * tendon.stiffness * tangent.tension[i] * tangent.tension[i]);
     plan.shaft_weight = actuator::lead_weight(scale * shaft_friction.stiffness);
+    plan.lead = lead;
+    return lead;
   }
 
   template <class State, class Plan>

@@ -166,6 +166,12 @@ void Unit::drive_bridges(UnitState& s) const noexcept {
   const std::int32_t limit = direct ? kFull : s.limit_pct;
   s.limit_pct = s.program.loop.limit_pct;
   s.held.supply_V = supply;
+  const bool whole =
+      s.faults.powered && drive.enabled[0] && drive.enabled[1] && !s.faults.motor_unplugged[0] && !s.faults.motor_unplugged[1];
+  if (whole && plain_ticks_->volts(drive.duty_pct, limit, supply, s.held.voltage)) {
+    s.held.terminal = {drive::Terminal::driven, drive::Terminal::driven};
+    return;
+  }
   for (int i = 0; i < 2; ++i) {
     const actuator::SideParams& side = config_.actuator.side[i];
     const bool on = s.faults.powered && drive.enabled[i];

@@ -96,7 +96,14 @@ std::array<double, 2> TwoSinh::signed_energies(const Positions& at) const noexce
 
 SegmentMean TwoSinh::mean_over(const Positions& from, const Positions& to) const noexcept {
   SegmentMean mean;
-  for (std::size_t i = 0; i < 2; ++i) add(i, this->mean(i, from.q - from.x[i], to.q - to.x[i]), mean);
+  std::array<double, 2> slope{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Mean m = this->mean(i, from.q - from.x[i], to.q - to.x[i]);
+    mean.load[i] = m.torque;
+    mean.slope.qx[i] = -m.slope;
+    slope[i] = m.slope;
+  }
+  sum(slope, mean);
   return mean;
 }
 
@@ -112,15 +119,24 @@ Origin TwoSinh::origin(const Positions& at) const noexcept {
   return here;
 }
 
-Origin TwoSinh::moved(const Origin& from, const Positions& to) const noexcept { return moved_lanes(from, to); }
+Origin TwoSinh::moved(const Origin& from, const Positions& to) const noexcept {
+  Origin here = from;
+  move_lanes(here, to);
+  return here;
+}
 
 SegmentMean TwoSinh::mean_from(const Origin& from, const Positions& to, double ahead) const noexcept {
-  return mean_lanes(from, to, ahead);
+  SegmentMean mean;
+  mean_lanes(from, to, ahead, mean);
+  return mean;
 }
 
 Tangent TwoSinh::tangent_of(const Origin& here) const noexcept { return tangent_lanes(here); }
 
-double TwoSinh::energy_of(const Origin& here) const noexcept { return energy_of(0, here) + energy_of(1, here); }
+double TwoSinh::energy_of(const Origin& here) const noexcept {
+  const lanes::Both energy = energy_near(lanes::BothSides{}, here);
+  return energy.lane(0) + energy.lane(1);
+}
 
 std::array<double, 2> TwoSinh::signed_energies_of(const Origin& here) const noexcept { return signed_energies_lanes(here); }
 

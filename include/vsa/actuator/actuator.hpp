@@ -139,6 +139,8 @@ class Actuator {
     double winding_Ohm, winding_H;
     bool chopped;  // the bridge's enable pin is modulated
   };
+  /// A bristle in its gearbox, and a current that follows voltage and speed at once.
+  [[nodiscard]] static bool plain(const Side& side) noexcept;
   const drive::MotorStepper& stepper(std::size_t i, double h_s, drive::Terminal terminal) noexcept;
   const drive::PwmCycle& cycle(int i, const drive::PwmHold& hold) noexcept;
   [[nodiscard]] drive::PwmCycle new_cycle(int i, const drive::PwmHold& hold) const noexcept;
@@ -161,6 +163,21 @@ class Actuator {
     return lanes::kScalar<T> ? springs_ : 2;
   }
 
+  /// The friction in the gears without load; and as a segment has it.
+  template <class Of>
+  [[nodiscard]] drive::FrictionOf<typename Of::Number> gear(const Of& side) const noexcept;
+  template <class T, class Of>
+  [[nodiscard]] drive::FrictionOf<typename Of::Number> gear(const SegmentOf<T>& segment, const Of& side) const noexcept;
+  template <class T, class F>
+  void each_spring(F&& f) const noexcept {
+    lanes::each_side<T>(springs_ == 2, springs_, f);
+  }
+  /// Of one unit both motors at once where a segment takes them alike.
+  template <class T, class F>
+  void each_motor(const SegmentOf<T>& segment, F&& f) const noexcept {
+    lanes::each_side<T>(alike_ && !segment.sees_middle(), motors_, f);
+  }
+
   // Of a step, for one unit or several: vsa/actuator/actuator_lanes.hpp.
   template <class T>
   using TrialOf = typename SegmentOf<T>::Trial;
@@ -173,8 +190,8 @@ class Actuator {
   lanes::Truth<T> correction(SegmentOf<T>& segment, TrialOf<T>& trial, std::array<T, 2>& step) const noexcept;
   template <class T>
   static void see_middle(TrialOf<T>& trial, const std::array<T, 2>& further) noexcept;
-  template <class T>
-  [[nodiscard]] static T spring_slope(const TrialOf<T>& trial, int i) noexcept;
+  template <class T, class Of>
+  [[nodiscard]] static typename Of::Number spring_slope(const TrialOf<T>& trial, const Of& side) noexcept;
   template <class T>
   [[nodiscard]] T straight(const TrialOf<T>& trial, const std::array<T, 2>& step) const noexcept;
   template <class T>
@@ -192,8 +209,8 @@ class Actuator {
   template <class T>
   [[nodiscard]] T energy_at(ActuatorStateOf<T>& state, T shaft) const noexcept;
   template <class T>
-  [[nodiscard]] elastic::SegmentMeanOf<T> mean_from(const elastic::OriginOf<T>& from, const elastic::PositionsOf<T>& to,
-                                                    T ahead_rad) const noexcept;
+  void mean_from(const elastic::OriginOf<T>& from, const elastic::PositionsOf<T>& to, T ahead_rad,
+                 elastic::SegmentMeanOf<T>& mean) const noexcept;
   template <class T>
   [[nodiscard]] static elastic::PositionsOf<T> positions(const ActuatorStateOf<T>& state, T shaft) noexcept {
     return {shaft, {state.motor[0].angle, state.motor[1].angle}};
@@ -205,6 +222,7 @@ class Actuator {
   drive::Friction shaft_friction_;
   drive::Friction tendon_;  // in the energy's coordinate: "torque" μ, "angle" J
   int motors_, springs_;
+  bool alike_;  // two motors of one kind, both with a bristle: what is done for one is done for the other
   std::array<std::size_t, 2> steppers_of_;                  // where in prepared_ a motor's are; motors that are alike share them
   std::array<std::array<Prepared, 2>, 2> prepared_{};       // the two step lengths used last
   std::array<std::array<drive::PwmCycle, 2>, 2> cycles_{};  // of each motor, the two used last

@@ -20,19 +20,23 @@ namespace step {
 // c₀c₁(x0x1)²/((1 + c₀κ₀)(1 + c₁κ₁)) a round, c a motor's give over the segment: a twentieth with rotors a hundred times lighter than the
 // qbmove's, so that it costs no round (tests/actuator/laws_test.cpp).
 /// ∂²H/∂x_i².
-template <class T>
-[[nodiscard]] T load_curvature(const elastic::HessianOf<T>& h, int i) noexcept {
-  return i == 0 ? h.x0x0 : h.x1x1;
+template <class T, class Side>
+[[nodiscard]] typename Side::Number load_curvature(const elastic::HessianOf<T>& h, const Side& side) noexcept {
+  return side(h.x0x0, h.x1x1);
 }
 
-/// The mean, carried from the displacements it was evaluated at to nearby ones.
+// What a side picks.
+inline constexpr auto kAngle = [](auto& motor) -> auto& { return motor.angle; };
+inline constexpr auto kSpeed = [](auto& motor) -> auto& { return motor.speed; };
+
+/// `to` := the mean's torque and loads, carried from the displacements it was evaluated at to nearby ones.
 template <class T>
-[[nodiscard]] elastic::SegmentMeanOf<T> carried(elastic::SegmentMeanOf<T> mean, T dq, const std::array<T, 2>& dx) noexcept {
+void carry(const elastic::SegmentMeanOf<T>& mean, T dq, const std::array<T, 2>& dx, elastic::SegmentMeanOf<T>& to) noexcept {
   const elastic::HessianOf<T>& h = mean.slope;
-  mean.torque -= h.qq * dq + h.qx[0] * dx[0] + h.qx[1] * dx[1];
-  mean.load[0] -= h.qx[0] * dq + h.x0x0 * dx[0] + h.x0x1 * dx[1];
-  mean.load[1] -= h.qx[1] * dq + h.x0x1 * dx[0] + h.x1x1 * dx[1];
-  return mean;
+  to.torque = mean.torque - (h.qq * dq + h.qx[0] * dx[0] + h.qx[1] * dx[1]);
+  lanes::each_side<T>([&](auto side) {
+    side.put(to.load, side(mean.load) - (side(h.qx) * dq + side(h.x0x0, h.x0x1) * dx[0] + side(h.x0x1, h.x1x1) * dx[1]));
+  });
 }
 
 /// `to` becomes `from` where `which`.
@@ -57,13 +61,27 @@ void take_over(Mask which, Trial& to, const Trial& from) noexcept {
 
 }  // namespace step
 
+template <class Of>
+drive::FrictionOf<typename Of::Number> Actuator::gear(const Of& side) const noexcept {
+  return {side(sides_, [](const Side& of) { return of.friction.coulomb_Nm; }),
+          side(sides_, [](const Side& of) { return of.friction.presliding_rad; }),
+          side(sides_, [](const Side& of) { return of.friction.stiffness; })};
+}
+template <class T, class Of>
+drive::FrictionOf<typename Of::Number> Actuator::gear(const SegmentOf<T>& seg, const Of& side) const noexcept {
+  return {side(seg.gear_Nm), side(seg.gear_rad), side(sides_, [](const Side& of) { return of.friction.stiffness; })};
+}
+
 template <class T>
-elastic::SegmentMeanOf<T> Actuator::mean_from(const elastic::OriginOf<T>& from, const elastic::PositionsOf<T>& to,
-                                              T ahead) const noexcept {
+void Actuator::mean_from(const elastic::OriginOf<T>& from, const elastic::PositionsOf<T>& to, T ahead,
+                         elastic::SegmentMeanOf<T>& mean) const noexcept {
   if constexpr (lanes::kScalar<T>) {
-    if (two_sinh_ == nullptr) return params_.transmission->mean_from(from, to, ahead);
+    if (two_sinh_ == nullptr) {
+      mean = params_.transmission->mean_from(from, to, ahead);
+      return;
+    }
   }
-  return two_sinh_->mean_lanes(from, to, ahead);
+  two_sinh_->mean_lanes(from, to, ahead, mean);
 }
 
 template <class T>
@@ -85,7 +103,7 @@ T Actuator::energy_at(ActuatorStateOf<T>& s, T shaft) const noexcept {
       return std::abs(s.spring_w[0]) + std::abs(s.spring_w[1]);
     }
   }
-  s.origin = two_sinh_->moved_lanes(s.origin, positions(s, shaft));
+  two_sinh_->move_lanes(s.origin, positions(s, shaft));
   w = two_sinh_->signed_energies_lanes(s.origin);
   if (tendon_.coulomb_Nm > 0) s.spring_w = w;
   return lanes::abs(w[0]) + lanes::abs(w[1]);
@@ -95,18 +113,28 @@ template <class T>
 void Actuator::book_motors(ActuatorStateOf<T>& s) const noexcept {
   LedgerOf<T>& l = s.ledger;
   l.kinetic = l.magnetic = l.bristle = 0.0;
-  for (int i = 0; i < motors<T>(); ++i) {
-    const Side& side = sides_[i];
-    l.kinetic += 0.5 * side.motor.inertia_kgm2 * s.motor[i].speed * s.motor[i].speed;
-    if (side.motor.inductance_H) l.magnetic += 0.5 * *side.motor.inductance_H * s.motor[i].current * s.motor[i].current;
-    l.bristle += drive::bristle_energy(side.friction, s.motor[i].angle - s.motor_anchor[i]);
-  }
+  lanes::each_side<T>(alike_, motors_, [&](auto side) {
+    using N = typename decltype(side)::Number;
+    const N speed = side(s.motor, step::kSpeed);
+    side.add(l.kinetic, 0.5 * side(sides_, [](const Side& of) { return of.motor.inertia_kgm2; }) * speed * speed);
+    if constexpr (lanes::kScalar<N>) {
+      if (const auto& henry = sides_[side.i].motor.inductance_H) {
+        const N current = s.motor[side.i].current;
+        l.magnetic += 0.5 * *henry * current * current;
+      }
+    }
+    side.add(l.bristle, drive::bristle_energy(gear(side), side(s.motor, step::kAngle) - side(s.motor_anchor)));
+  });
 }
 
 template <class T>
 void Actuator::begin(ActuatorStateOf<T>& s, SegmentOf<T>& seg, double h_s, const SegmentInputOf<T>& in) noexcept {
-  seg.in = in;
+  seg.in.dq = in.dq;
+  seg.in.lead = in.lead;
+  seg.in.supply_V = in.supply_V;
   for (int i = 0; i < 2; ++i) {
+    seg.in.voltage[i] = in.voltage[i];
+    seg.in.terminal[i] = in.terminal[i];
     if (sides_[i].chopped && !(in.supply_V > 0)) seg.in.terminal[i] = drive::Terminal::open;
     seg.stepper[i] = &stepper(i, h_s, seg.in.terminal[i]);
     if constexpr (lanes::kScalar<T>) seg.pwm[i].cycle = nullptr;
@@ -129,35 +157,56 @@ void Actuator::begin(ActuatorStateOf<T>& s, SegmentOf<T>& seg, double h_s, const
   seg.whole = own + 2.0 * in.lead.before;
   seg.per_share = 1.0 / in.lead.share;
   seg.per_own = own * seg.per_share;
-  for (int i = 0; i < motors<T>(); ++i) {
-    const Side& side = sides_[i];
-    bool pwm = false;
-    if constexpr (lanes::kScalar<T>) {
-      pwm = side.chopped && seg.in.terminal[i] == drive::Terminal::driven;
-      if (pwm) begin_pwm(seg, i, s.motor[i].speed, h_s);
-    }
-    if (!pwm) {
-      seg.free[i] = seg.stepper[i]->free_displacement(s.motor[i], in.voltage[i]);
-      seg.give[i] = seg.stepper[i]->compliance();
+  each_motor<T>(seg, [&](auto side) {
+    using N = typename decltype(side)::Number;
+    N free = 0.0;
+    lanes::Constant<N> give = 0.0;
+    if constexpr (decltype(side)::kBoth) {
+      free = side(seg.stepper[0]->free_displacement(s.motor[0], in.voltage[0]),
+                  seg.stepper[1]->free_displacement(s.motor[1], in.voltage[1]));
+      give = side(seg.stepper[0]->compliance(), seg.stepper[1]->compliance());
+      side.put(seg.free, free);
+      side.put(seg.give, give);
+    } else {
+      const std::size_t i = side.i;
+      bool pwm = false;
+      if constexpr (lanes::kScalar<T>) {
+        pwm = sides_[i].chopped && seg.in.terminal[i] == drive::Terminal::driven;
+        if (pwm) begin_pwm(seg, static_cast<int>(i), s.motor[i].speed, h_s);
+      }
+      if (!pwm) {
+        seg.free[i] = seg.stepper[i]->free_displacement(s.motor[i], in.voltage[i]);
+        seg.give[i] = seg.stepper[i]->compliance();
+      }
+      free = seg.free[i];
+      give = seg.give[i];
     }
     // The limit of the gears' friction follows the load of the last segment, by where that and the motor would go; its bristle's
     // stiffness doesn't, so that a limit that grows adds no energy and one that shrinks burns what it lets go.
-    drive::FrictionOf<T>& gear = seg.gear[i];
-    const auto back = (seg.free[i] + seg.give[i] * s.load[i]) * s.load[i] > 0.0;
-    gear = drive::at_load<T>(side.friction, lanes::select(back, T(side.back_loss), T(side.load_loss)), s.load[i]);
-    T& u = seg.gear_u[i];
-    u = s.motor[i].angle - s.motor_anchor[i];
-    if (!(gear.stiffness > 0)) continue;
-    if (const auto over = lanes::abs(u) > gear.presliding_rad; lanes::any(over)) {
-      const T kept = lanes::copysign(gear.presliding_rad, u);
-      s.ledger.motor_friction += lanes::where<T>(over, drive::bristle_energy(gear, u) - drive::bristle_energy(gear, kept));
-      s.motor_anchor[i] = lanes::select(over, s.motor[i].angle - kept, s.motor_anchor[i]);
-      u = lanes::select(over, kept, u);
+    const N load = side(s.load);
+    const auto back = (free + give * load) * load > 0.0;
+    const N loss = lanes::select(back, N(side(sides_, [](const Side& of) { return of.back_loss; })),
+                                 N(side(sides_, [](const Side& of) { return of.load_loss; })));
+    const drive::FrictionOf<N> gear = drive::at_load<N>(this->gear(side), loss, load);
+    N u = side(s.motor, step::kAngle) - side(s.motor_anchor);
+    if (drive::bristled(gear)) {
+      if (const auto over = lanes::abs(u) > gear.presliding_rad; lanes::any(over)) {
+        const N kept = lanes::copysign(gear.presliding_rad, u);
+        side.add(s.ledger.motor_friction,
+                 lanes::where<N>(over, drive::bristle_energy(gear, u) - drive::bristle_energy(gear, kept)));
+        side.put(s.motor_anchor, lanes::select(over, side(s.motor, step::kAngle) - kept, N(side(s.motor_anchor))));
+        u = lanes::select(over, kept, u);
+      }
     }
-  }
+    side.put(seg.gear_Nm, gear.coulomb_Nm);
+    side.put(seg.gear_rad, gear.presliding_rad);
+    side.put(seg.gear_u, u);
+  });
   if (tendon_.coulomb_Nm > 0) {
-    seg.w = s.spring_w;
-    for (int i = 0; i < 2; ++i) seg.w_u[i] = seg.w[i] - s.tendon_anchor[i];
+    lanes::each_side<T>([&](auto side) {
+      side.put(seg.w, side(s.spring_w));
+      side.put(seg.w_u, side(s.spring_w) - side(s.tendon_anchor));
+    });
   }
 }
 
@@ -169,12 +218,14 @@ template <class T>
 void Actuator::slopes(const SegmentOf<T>& seg, TrialOf<T>& t, const elastic::SegmentMeanOf<T>& mean,
                       const RubOf<T>& rub) const noexcept {
   t.slope = (mean.slope.qq - rub.dx[0] - rub.dx[1]) * seg.whole + rub.dy[0] + rub.dy[1];
-  for (int i = 0; i < motors<T>(); ++i) {
-    const T give = t.gain[i], qx = mean.slope.qx[i], spring = qx + rub.dx[i];
-    t.gain[i] = -give * (spring * seg.per_own - rub.dx[i]);
-    const T by_motor = seg.sees_middle() ? qx + seg.spread * spring : qx;
-    t.slope -= give * by_motor * (spring * seg.whole - rub.dy[i]);
-  }
+  each_motor<T>(seg, [&](auto side) {
+    using N = typename decltype(side)::Number;
+    const N give = side(t.gain), qx = side(mean.slope.qx), rub_dx = side(rub.dx), spring = qx + rub_dx;
+    side.put(t.gain, -give * (spring * seg.per_own - rub_dx));
+    N by_motor = qx;
+    if constexpr (!decltype(side)::kBoth) by_motor = seg.sees_middle() ? qx + seg.spread * spring : qx;
+    side.add(t.slope, -(give * by_motor * (spring * seg.whole - side(rub.dy))));
+  });
 }
 
 template <class T>
@@ -183,24 +234,30 @@ SegmentResultOf<T> Actuator::foresee(const ActuatorStateOf<T>& s, SegmentOf<T>& 
   TrialOf<T>& t = seg.found;
   const T shift = 2.0 * seg.shift(0.0);
   SegmentResultOf<T> r{s.end.torque - s.end.slope.qq * shift, 0.0};
-  for (int i = 0; i < motors<T>(); ++i) {
-    const double c = seg.give[i];
+  each_motor<T>(seg, [&](auto side) {
+    using N = typename decltype(side)::Number;
+    const auto c = side(seg.give);
     // load̄ ≈ end.load − qx·(dq + shift) − κ·dx, at dq = 0.
-    const T qx = s.end.slope.qx[i];
-    T curvature = step::load_curvature(s.end.slope, i), load = s.end.load[i] - qx * shift;
-    if (seg.sees_middle()) {
-      load -= 2.0 * curvature * seg.lag[i];
-      r.torque -= 2.0 * qx * seg.lag[i];
-      curvature *= 1.0 + seg.spread;
+    const N qx = side(s.end.slope.qx);
+    N curvature = step::load_curvature(s.end.slope, side), load = side(s.end.load) - qx * shift;
+    if constexpr (!decltype(side)::kBoth) {
+      if (seg.sees_middle()) {
+        load -= 2.0 * curvature * seg.lag[side.i];
+        r.torque -= 2.0 * qx * seg.lag[side.i];
+        curvature *= 1.0 + seg.spread;
+      }
     }
-    const T resist = 1.0 + c * lanes::max(curvature, 0.0);
-    const T target = seg.free[i] + c * load;
-    const auto found = drive::solve_yielding(seg.gear[i], seg.gear_u[i], target, c, resist);
-    t.dx[i] = found.step.displacement;
-    t.gain[i] = found.gain;
-    r.torque -= qx * t.dx[i];
-    if (seg.sees_middle()) r.torque -= seg.spread * qx * t.dx[i];
-  }
+    const N resist = 1.0 + c * lanes::max(curvature, 0.0);
+    const N target = side(seg.free) + c * load;
+    const auto found = drive::solve_yielding<N>(gear(seg, side), side(seg.gear_u), target, c, resist);
+    const N dx = found.step.displacement;
+    side.put(t.dx, dx);
+    side.put(t.gain, found.gain);
+    side.add(r.torque, -(qx * dx));
+    if constexpr (!decltype(side)::kBoth) {
+      if (seg.sees_middle()) r.torque -= seg.spread * qx * dx;
+    }
+  });
   slopes(seg, t, s.end, s.end_rub);
   r.slope = t.slope;
   t.dq = 0.0;
@@ -213,7 +270,7 @@ template <class T>
 void Actuator::see_middle(TrialOf<T>& t, const std::array<T, 2>& further) noexcept {
   const elastic::HessianOf<T>& h = t.mean.slope;
   for (std::size_t i = 0; i < 2; ++i) {
-    const T xx = spring_slope<T>(t, static_cast<int>(i));
+    const T xx = spring_slope<T>(t, lanes::OneSide<T>{i});
     t.mean.torque -= 2.0 * (h.qx[i] + t.rub.dx[i]) * further[i];
     t.mean.load[i] -= 2.0 * (xx * further[i] + h.x0x1 * further[1 - i]);
   }
@@ -222,30 +279,43 @@ void Actuator::see_middle(TrialOf<T>& t, const std::array<T, 2>& further) noexce
 template <class T>
 lanes::Truth<T> Actuator::correction(SegmentOf<T>& seg, TrialOf<T>& t, std::array<T, 2>& step) const noexcept {
   auto accepted = lanes::truth<T>(true);
-  for (int i = 0; i < motors<T>(); ++i) {
-    if constexpr (lanes::kScalar<T>) {
-      if (seg.chopped(i)) follow(seg, i);
+  const bool whose = springs<T>() == motors<T>();
+  each_motor<T>(seg, [&](auto side) {
+    using N = typename decltype(side)::Number;
+    if constexpr (lanes::kScalar<N>) {
+      if (seg.chopped(static_cast<int>(side.i))) follow(seg, static_cast<int>(side.i));
     }
-    const double c = seg.give[i];
+    const auto c = side(seg.give);
+    const N dx = side(t.dx), load = side(t.mean.load), slope = spring_slope<T>(t, side);
     // load(dx) ≈ load − κ·step; κ > −1/(2c) keeps the linear problem monotone where a law isn't convex.
-    T curvature = step::load_curvature(t.mean.slope, i);
-    if (seg.sees_middle()) curvature += seg.spread * spring_slope<T>(t, i);
-    const T kappa = lanes::max(curvature, -0.5 / c);
-    const T target = seg.free[i] + c * (t.mean.load[i] + kappa * t.dx[i]);
-    const auto found = drive::solve_yielding(seg.gear[i], seg.gear_u[i], target, c, 1.0 + c * kappa);
-    t.friction[i] = found.step;
-    t.gain[i] = found.gain;
-    step[i] = t.friction[i].displacement - t.dx[i];
-    const T move = lanes::abs(step[i]);
+    N curvature = step::load_curvature(t.mean.slope, side);
+    if constexpr (!decltype(side)::kBoth) {
+      if (seg.sees_middle()) curvature += seg.spread * slope;
+    }
+    const N kappa = lanes::max(curvature, -0.5 / c);
+    const N target = side(seg.free) + c * (load + kappa * dx);
+    const auto found = drive::solve_yielding<N>(gear(seg, side), side(seg.gear_u), target, c, 1.0 + c * kappa);
+    side.put(
+        t.friction, found.step.displacement, [](auto& f) -> auto& { return f.displacement; });
+    side.put(
+        t.friction, found.step.torque, [](auto& f) -> auto& { return f.torque; });
+    side.put(
+        t.friction, found.step.anchor_travel, [](auto& f) -> auto& { return f.anchor_travel; });
+    side.put(t.gain, found.gain);
+    side.put(step, found.step.displacement - dx);
+    const N move = lanes::abs(found.step.displacement - dx);
     // Beyond an edge of a tendon's bristle the load may change by all that a tendon can hold.
-    const bool whose = springs<T>() == motors<T>();
-    const auto crosses = lanes::truth<T>(!whose) | (move * t.tension[i] > t.straight_J[i]);
-    const T beyond = lanes::where<T>(crosses, whose ? t.stick[i] : t.stick[0] + t.stick[1]);
-    const T load = lanes::abs(t.mean.load[i]);
-    const auto near = (lanes::abs(kappa) + beyond) * move <= step::kRelativeTolerance * load + step::kAbsoluteTolerance_Nm;
-    const auto straight = (move * lanes::abs(spring_slope<T>(t, i)) <= step::kStraight * load) & !crosses;
-    accepted = accepted & (near | (straight & lanes::truth<T>(!seg.chopped(i))));
-  }
+    const auto crosses = lanes::truth<N>(!whose) | (move * side(t.tension) > side(t.straight_J));
+    const N beyond = lanes::where<N>(crosses, whose ? N(side(t.stick)) : N(t.stick[0] + t.stick[1]));
+    const N size = lanes::abs(load);
+    const auto near = (lanes::abs(kappa) + beyond) * move <= step::kRelativeTolerance * size + step::kAbsoluteTolerance_Nm;
+    const auto straight = (move * lanes::abs(slope) <= step::kStraight * size) & !crosses;
+    if constexpr (decltype(side)::kBoth) {
+      accepted = lanes::all(near | straight);
+    } else {
+      accepted = accepted & (near | (straight & lanes::truth<T>(!seg.chopped(static_cast<int>(side.i)))));
+    }
+  });
   slopes(seg, t, t.mean, t.rub);
   return accepted;
 }
@@ -260,7 +330,7 @@ SegmentResultOf<T> Actuator::attempt(const ActuatorStateOf<T>& s, SegmentOf<T>& 
     if (!lanes::all(which)) *(trial = &seg.apart) = seg.found;
   }
   TrialOf<T>& t = *trial;
-  for (int i = 0; i < motors<T>(); ++i) t.dx[i] += t.gain[i] * (dq - t.dq);
+  each_motor<T>(seg, [&](auto side) { side.put(t.dx, side(t.dx) + side(t.gain) * (dq - t.dq)); });
   t.dq = dq;
   const elastic::PositionsOf<T>& from = s.origin.at;
   const T ahead = seg.shift(dq);
@@ -269,7 +339,7 @@ SegmentResultOf<T> Actuator::attempt(const ActuatorStateOf<T>& s, SegmentOf<T>& 
   SegmentResultOf<T> r;
   for (int iteration = 0; iteration < step::kMaxIterations; ++iteration) {
     const elastic::PositionsOf<T> to{from.q + dq, {from.x[0] + t.dx[0], from.x[1] + t.dx[1]}};
-    t.mean = mean_from<T>(s.origin, to, ahead);
+    mean_from<T>(s.origin, to, ahead, t.mean);
     if (tendon_.coulomb_Nm > 0) add_tendon_friction<T>(seg, t, to);
     if (seg.sees_middle()) see_middle<T>(t, {0.5 * seg.spread * t.dx[0] + seg.lag[0], 0.5 * seg.spread * t.dx[1] + seg.lag[1]});
     std::array<T, 2> step{};
@@ -278,8 +348,8 @@ SegmentResultOf<T> Actuator::attempt(const ActuatorStateOf<T>& s, SegmentOf<T>& 
     const auto done = r.settled | (lanes::truth<T>(rough) & (residual < step::kRough_rad));
     if (lanes::all(done | !which) || iteration + 1 == step::kMaxIterations) {
       r.straight = straight<T>(t, step);
-      for (int i = 0; i < 2; ++i) t.dx[i] += step[i];
-      t.mean = step::carried(t.mean, T(0.0), step);
+      lanes::each_side<T>([&](auto side) { side.put(t.dx, side(t.dx) + side(step)); });
+      step::carry(t.mean, T(0.0), step, t.mean);
       if (seg.sees_middle()) see_middle<T>(t, {0.5 * seg.spread * step[0], 0.5 * seg.spread * step[1]});
       break;
     }
@@ -303,42 +373,56 @@ template <class T>
 void Actuator::drive_motors(ActuatorStateOf<T>& s, const SegmentOf<T>& seg) const noexcept {
   LedgerOf<T>& l = s.ledger;
   const TrialOf<T>& t = seg.found;
-  for (int i = 0; i < motors<T>(); ++i) {
-    const Side& side = sides_[i];
-    drive::MotorStateOf<T>& m = s.motor[i];
-    const T torque = t.mean.load[i] + t.friction[i].torque;
-    const T voltage = seg.in.terminal[i] == drive::Terminal::driven ? seg.in.voltage[i] : T(0.0);
-    const bool pwm = seg.chopped(i);
-    if constexpr (lanes::kScalar<T>) {
-      if (seg.in.terminal[i] == drive::Terminal::open && side.motor.inductance_H) {
-        l.copper += 0.5 * *side.motor.inductance_H * m.current * m.current;  // an opened winding burns what it stored
-        m.current = 0;
-      }
-    }
-    const drive::MotorStepOf<T> step = [&] {
+  each_motor<T>(seg, [&](auto side) {
+    using N = typename decltype(side)::Number;
+    const N friction = side(t.friction, [](const auto& f) { return f.torque; });
+    const N travel = side(t.friction, [](const auto& f) { return f.anchor_travel; });
+    const N load = side(t.mean.load), torque = load + friction;
+    const auto voltage_of = [&](std::size_t i) {
+      return seg.in.terminal[i] == drive::Terminal::driven ? seg.in.voltage[i] : T(0.0);
+    };
+    N voltage;
+    drive::MotorStepOf<N> step;
+    bool pwm = false;
+    if constexpr (decltype(side)::kBoth) {
+      voltage = side(voltage_of(0), voltage_of(1));
+      step = drive::MotorStepper::both(*seg.stepper[0], *seg.stepper[1], side(s.motor, step::kSpeed), voltage, torque);
+    } else {
+      const std::size_t i = side.i;
+      drive::MotorStateOf<T>& m = s.motor[i];
+      voltage = voltage_of(i);
+      pwm = seg.chopped(static_cast<int>(i));
       if constexpr (lanes::kScalar<T>) {
-        if (pwm) return pwm_step(l, side, seg.pwm[i], torque);
+        if (seg.in.terminal[i] == drive::Terminal::open && sides_[i].motor.inductance_H) {
+          l.copper += 0.5 * *sides_[i].motor.inductance_H * m.current * m.current;  // an opened winding burns what it stored
+          m.current = 0;
+        }
+        if (pwm) step = pwm_step(l, sides_[i], seg.pwm[i], torque);
       }
-      return seg.stepper[i]->step(m, voltage, torque);
-    }();
-    l.motor_friction += drive::friction_heat(seg.gear[i], seg.gear_u[i], t.friction[i]);
-    if (!pwm) {
-      l.supply += voltage * step.charge;
-      l.supply_moved += lanes::abs(voltage * step.charge);
-      l.copper += side.winding_Ohm * step.int_II;
-      l.bridge += side.bridge.switch_Ohm * step.int_II;
+      if (!pwm) step = seg.stepper[i]->step(m, voltage, torque);
     }
-    l.conversion += (side.motor.back_emf_Vs_per_rad - side.motor.torque_constant_Nm_per_A) * step.int_Iw;
-    l.viscous += side.motor.viscous_Nms_per_rad * step.int_ww;
-    m.angle += step.displacement;
-    m.speed = step.speed;
-    m.current = side.motor.inductance_H ? step.current : T(0.0);
-    s.motor_anchor[i] += t.friction[i].anchor_travel;
-    s.load[i] = t.mean.load[i];
-  }
+    const drive::FrictionStepOf<N> rubbed{side(t.friction, [](const auto& f) { return f.displacement; }), friction, travel};
+    side.add(l.motor_friction, drive::friction_heat(gear(seg, side), N(side(seg.gear_u)), rubbed));
+    if (!pwm) {
+      side.add(l.supply, voltage * step.charge);
+      side.add(l.supply_moved, lanes::abs(voltage * step.charge));
+      side.add(l.copper, side(sides_, [](const Side& of) { return of.winding_Ohm; }) * step.int_II);
+      side.add(l.bridge, side(sides_, [](const Side& of) { return of.bridge.switch_Ohm; }) * step.int_II);
+    }
+    const auto unlike =
+        side(sides_, [](const Side& of) { return of.motor.back_emf_Vs_per_rad - of.motor.torque_constant_Nm_per_A; });
+    side.add(l.conversion, unlike * step.int_Iw);
+    side.add(l.viscous, side(sides_, [](const Side& of) { return of.motor.viscous_Nms_per_rad; }) * step.int_ww);
+    side.put(s.motor, side(s.motor, step::kAngle) + step.displacement, step::kAngle);
+    side.put(s.motor, step.speed, step::kSpeed);
+    if constexpr (!decltype(side)::kBoth) s.motor[side.i].current = sides_[side.i].motor.inductance_H ? step.current : T(0.0);
+    side.put(s.motor_anchor, side(s.motor_anchor) + travel);
+    side.put(s.load, load);
+  });
   std::array<T, 2> to_end = t.dx;
   for (std::size_t i = 0; i < 2 && seg.sees_middle(); ++i) to_end[i] -= seg.spread * t.dx[i] + 2.0 * seg.lag[i];
-  s.end = step::carried(t.mean, t.dq - 2.0 * seg.shift(t.dq), to_end);
+  step::carry(t.mean, t.dq - 2.0 * seg.shift(t.dq), to_end, s.end);
+  s.end.slope = t.mean.slope;
   s.end_rub = t.rub;
   for (int i = 0; i < springs<T>(); ++i) {
     const T damped = 2.0 * t.rub.damping[i] * (t.dq - t.dx[i]);  // by the mean, and again by `carried`

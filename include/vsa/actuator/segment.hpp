@@ -41,6 +41,20 @@ struct LeadOf {
   // Where a step is several segments and resolves neither the shaft's swing nor the motors':
   double motors = 0;             ///< w of the motors: how far springs see the step's middle in every segment, 0 … 1
   std::array<double, 2> gone{};  ///< of each motor, since the step began, rad
+
+  LeadOf() = default;
+  LeadOf(const LeadOf& o) noexcept { *this = o; }
+  /// Number by number: a copy of the whole would wait for numbers that were stored one by one just before.
+  LeadOf& operator=(const LeadOf& o) noexcept {
+    before = o.before;
+    share = o.share;
+    drift = o.drift;
+    spring = o.spring;
+    for (std::size_t i = 0; i < 2; ++i) tendon[i] = o.tendon[i];
+    motors = o.motors;
+    for (std::size_t i = 0; i < 2; ++i) gone[i] = o.gone[i];
+    return *this;
+  }
 };
 using Lead = LeadOf<double>;  ///< of one unit
 
@@ -125,7 +139,7 @@ class SegmentOf {
   SegmentInputOf<T> in;
   bool tried = false;
   // what the frictions see at the start
-  std::array<drive::FrictionOf<T>, 2> gear{};
+  std::array<T, 2> gear_Nm{}, gear_rad{};  // the gears' friction under the load
   std::array<T, 2> gear_u{};
   std::array<T, 2> w{}, w_u{};   // the springs' signed energies, and their distance from the anchors
   std::array<T, 2> free{};       // the motors' displacements without load

@@ -23,8 +23,8 @@ struct BendOf {
 };
 
 /// From u, w changes by dw; `damper` is what ẇ adds to the bend, `ahead` what w changes from the end to where the engine goes.
-template <class T>
-[[nodiscard]] BendOf<T> bend_over(T u, T dw, T damper, T ahead, double z, T weight, const LeadOf<T>& lead) noexcept {
+template <class T, class Lead>
+[[nodiscard]] BendOf<T> bend_over(T u, T dw, T damper, T ahead, double z, T weight, const Lead& lead) noexcept {
   const double ends = lead.before + lead.share;
   const T held = 0.5 * (1.0 - weight), reached = u + dw, most = z;
   const T begin = u + damper, middle = lanes::clamp(reached, -most, most) + damper;
@@ -58,39 +58,43 @@ void Actuator::add_tendon_friction(const SegmentOf<T>& seg, TrialOf<T>& t, const
   elastic::SegmentMeanOf<T>& mean = t.mean;
   const LeadOf<T>& lead = seg.in.lead;
   const T shift = seg.shift(t.dq), ahead_rad = t.dq * seg.per_share - lead.drift;  // q' − y' of the step
-  for (int i = 0; i < springs<T>(); ++i) {
-    T& xx = i == 0 ? mean.slope.x0x0 : mean.slope.x1x1;
-    const T deflection = t.dq - t.dx[i];
+  std::array<T, 2> xxs{mean.slope.x0x0, mean.slope.x1x1};
+  each_spring<T>([&](auto side) {
+    using N = typename decltype(side)::Number;
+    const N xx = side(xxs), deflection = t.dq - side(t.dx), before = side(seg.w), load = side(mean.load);
     // The mean tension times the deflection's change is the energy's change: w at the end costs no call of the law.
-    const T signed_tension = mean.load[i] - 2.0 * xx * shift;
-    const T energy = lanes::max(lanes::abs(seg.w[i]) + signed_tension * deflection, 0.0);
-    const T w = lanes::copysign(energy, to.q - to.x[i]), dw = w - seg.w[i];
+    const N signed_tension = load - 2.0 * xx * shift;
+    const N energy = lanes::max(lanes::abs(before) + signed_tension * deflection, 0.0);
+    const N w = lanes::copysign(energy, to.q - side(to.x)), dw = w - before;
     // Mean |tension| over the segment, Δw/Δδ; by the elastic mean where the spring doesn't pass through zero.
-    const auto same_side = lanes::same(w < 0.0, seg.w[i] < 0.0);
-    T tension = lanes::abs(signed_tension);
+    const auto same_side = lanes::same(w < 0.0, before < 0.0);
+    N tension = lanes::abs(signed_tension);
     if (!lanes::all(same_side)) tension = lanes::select(same_side, tension, lanes::abs(dw / deflection));
-    const T tension_slope = lanes::select(w < 0.0, -xx, xx), end_tension = tension + deflection * tension_slope;
-    const auto b =
-        step::bend_over<T>(seg.w_u[i], dw, seg.damping * dw, end_tension * ahead_rad, tendon_.presliding_rad, lead.tendon[i], lead);
-    t.straight_J[i] = b.straight;
-    t.tension[i] = lanes::max(lanes::abs(end_tension), step::kNothing);
-    const T level = -tendon_.stiffness * b.bend, stick = tendon_.stiffness * end_tension * tension;
-    t.stick[i] = stick * (1.0 + seg.damping);
-    const T turn = level * -tension_slope, damping = t.rub.damping[i] = stick * seg.damping * b.free;
-    const T dx = t.rub.dx[i] = turn + stick * b.per_dx + damping;
-    t.rub.dy[i] = turn * (2.0 * lead.before + lead.share) + stick * b.per_dy + damping * lead.share;
-    const T torque = level * tension;
-    mean.torque += torque;
-    mean.load[i] -= torque;
-    mean.slope.qq += dx;
-    mean.slope.qx[i] -= dx;
-    xx += dx;
-  }
+    const N tension_slope = lanes::select(w < 0.0, -xx, xx), end_tension = tension + deflection * tension_slope;
+    const auto b = step::bend_over<N>(side(seg.w_u), dw, seg.damping * dw, end_tension * ahead_rad, tendon_.presliding_rad,
+                                      side(lead.tendon), lead);
+    side.put(t.straight_J, b.straight);
+    side.put(t.tension, lanes::max(lanes::abs(end_tension), step::kNothing));
+    const N level = -tendon_.stiffness * b.bend, stick = tendon_.stiffness * end_tension * tension;
+    side.put(t.stick, stick * (1.0 + seg.damping));
+    const N turn = level * -tension_slope, damping = stick * seg.damping * b.free;
+    const N dx = turn + stick * b.per_dx + damping, torque = level * tension;
+    side.put(t.rub.damping, damping);
+    side.put(t.rub.dx, dx);
+    side.put(t.rub.dy, turn * (2.0 * lead.before + lead.share) + stick * b.per_dy + damping * lead.share);
+    side.put(mean.load, load - torque);
+    side.put(mean.slope.qx, side(mean.slope.qx) - dx);
+    side.add(mean.torque, torque);
+    side.add(mean.slope.qq, dx);
+    side.put(xxs, xx + dx);
+  });
+  mean.slope.x0x0 = xxs[0];
+  mean.slope.x1x1 = xxs[1];
 }
 
-template <class T>
-T Actuator::spring_slope(const TrialOf<T>& t, int i) noexcept {
-  return (i == 0 ? t.mean.slope.x0x0 : t.mean.slope.x1x1) - t.rub.dx[i];
+template <class T, class Of>
+typename Of::Number Actuator::spring_slope(const TrialOf<T>& t, const Of& side) noexcept {
+  return side(t.mean.slope.x0x0, t.mean.slope.x1x1) - side(t.rub.dx);
 }
 
 /// How far the springs' deflections may be corrected by the slopes alone: min(a/b, c/d) of each by one division. Nothing where it isn't
@@ -98,30 +102,33 @@ T Actuator::spring_slope(const TrialOf<T>& t, int i) noexcept {
 template <class T>
 T Actuator::straight(const TrialOf<T>& t, const std::array<T, 2>& step) const noexcept {
   if (springs<T>() != motors<T>()) return 0.0;
+  std::array<T, 2> far;
+  each_spring<T>([&](auto side) {
+    using N = typename decltype(side)::Number;
+    const N load = step::kStraight * lanes::abs(side(t.mean.load)), tension = side(t.tension), bent = side(t.straight_J);
+    const N slope = lanes::max(lanes::abs(spring_slope<T>(t, side)), step::kNothing);
+    const auto edge = bent * slope < load * tension;
+    side.put(far, lanes::select(edge, bent, load) / lanes::select(edge, tension, slope) - lanes::abs(side(step)));
+  });
   T least = step::kFar;
-  for (int i = 0; i < springs<T>(); ++i) {
-    const T load = step::kStraight * lanes::abs(t.mean.load[i]);
-    const T slope = lanes::max(lanes::abs(spring_slope<T>(t, i)), step::kNothing);
-    const auto edge = t.straight_J[i] * slope < load * t.tension[i];
-    const T far = lanes::select(edge, t.straight_J[i], load) / lanes::select(edge, t.tension[i], slope);
-    least = lanes::min(least, far - lanes::abs(step[i]));
-  }
+  for (int i = 0; i < springs<T>(); ++i) least = lanes::min(least, far[i]);
   return least;
 }
 
 template <class T>
 void Actuator::move_tendons(ActuatorStateOf<T>& s, const SegmentOf<T>& seg) const noexcept {
-  const std::array<T, 2>& w = s.spring_w;
   s.ledger.tendon_bristle = 0.0;
-  for (int i = 0; i < springs<T>(); ++i) {
-    const T u = seg.w_u[i], dw = w[i] - seg.w[i], damper = seg.damping * dw, z = tendon_.presliding_rad;
-    const drive::FrictionStepOf<T> step = drive::follow_friction(tendon_, u, dw);
-    const T end = u + dw - step.anchor_travel;
-    const T bent_more = lanes::clamp(u + damper, -z, z) - u + lanes::clamp(end + damper, -z, z) - end;
-    s.ledger.tendon_friction += drive::friction_heat(tendon_, u, step) + 0.5 * tendon_.stiffness * bent_more * dw;
-    s.tendon_anchor[i] += step.anchor_travel;
-    s.ledger.tendon_bristle += drive::bristle_energy(tendon_, w[i] - s.tendon_anchor[i]);
-  }
+  each_spring<T>([&](auto side) {
+    using N = typename decltype(side)::Number;
+    const N w = side(s.spring_w), u = side(seg.w_u), dw = w - side(seg.w), damper = seg.damping * dw, z = tendon_.presliding_rad;
+    const drive::FrictionStepOf<N> step = drive::follow_friction(tendon_, u, dw);
+    const N end = u + dw - step.anchor_travel;
+    const N bent_more = lanes::clamp(u + damper, -z, z) - u + lanes::clamp(end + damper, -z, z) - end;
+    side.add(s.ledger.tendon_friction, drive::friction_heat(tendon_, u, step) + 0.5 * tendon_.stiffness * bent_more * dw);
+    const N anchor = side(s.tendon_anchor) + step.anchor_travel;
+    side.put(s.tendon_anchor, anchor);
+    side.add(s.ledger.tendon_bristle, drive::bristle_energy(tendon_, w - anchor));
+  });
 }
 
 }  // namespace vsa::actuator

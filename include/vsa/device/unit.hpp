@@ -227,7 +227,7 @@ class Unit {
   void tick(UnitState& state, std::int64_t t_ns, double shaft_rad) noexcept;
   double step_held(UnitState& state, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept;
   double end_whole(UnitState& state, StepPlan& plan) noexcept;
-  void set_out(UnitState& state, StepPlan& plan) const noexcept;
+  actuator::Lead set_out(UnitState& state, StepPlan& plan) const noexcept;
   void drive_bridges(UnitState& state) const noexcept;
   double walk(UnitState& state, StepPlan& plan, std::int64_t at_ns) noexcept;
   [[nodiscard]] control::ServoReadings read_servo(UnitState& state, double shaft_rad) const noexcept;

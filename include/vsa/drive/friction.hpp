@@ -43,17 +43,17 @@ struct Friction : FrictionParams {
 /// The same where each lane has a limit of its own; the bristle's stiffness is common to all.
 template <class T>
 struct FrictionOf {
-  T coulomb_Nm = 0,        ///< τ_c
-      presliding_rad = 0;  ///< z_max
-  double stiffness = 0;    ///< τ_c/z_max
+  T coulomb_Nm = 0,                  ///< τ_c
+      presliding_rad = 0;            ///< z_max
+  lanes::Constant<T> stiffness = 0;  ///< τ_c/z_max
 };
 
 /// The friction under a load: τ_c grows by ratio·|load|, the bristle's stiffness stays (z_max grows with τ_c); without a bristle it
 /// is Coulomb friction. A caller whose limit shrinks below the bristle's bend turns the difference of energy to heat.
-template <class T>
-[[nodiscard]] FrictionOf<T> at_load(const Friction& p, T ratio, T load_Nm) noexcept {
+template <class T, class Params>
+[[nodiscard]] FrictionOf<T> at_load(const Params& p, T ratio, T load_Nm) noexcept {
   FrictionOf<T> loaded{p.coulomb_Nm + ratio * lanes::abs(load_Nm), 0.0, p.stiffness};
-  if (p.stiffness > 0) loaded.presliding_rad = loaded.coulomb_Nm / p.stiffness;
+  if (bristled(p)) loaded.presliding_rad = loaded.coulomb_Nm / p.stiffness;
   return loaded;
 }
 
@@ -78,7 +78,7 @@ using FrictionTorque = FrictionTorqueOf<double>;  ///< of one part
 /// caller with several lanes needs a bristle or no friction at all.
 template <class Params>
 [[nodiscard]] bool bristled(const Params& p) noexcept {
-  return p.stiffness > 0;
+  return lanes::all(p.stiffness > 0.0);
 }
 
 namespace detail {
@@ -128,16 +128,16 @@ struct YieldingStepOf {
 ///   compliance  displacement per mean torque, rad/(N·m), ≥ 0
 ///   resist      1 + compliance·κ, > 0, of a part on a spring of stiffness κ
 template <class T, class Params>
-[[nodiscard]] YieldingStepOf<T> solve_yielding(const Params& p, T u, std::type_identity_t<T> free, double compliance,
+[[nodiscard]] YieldingStepOf<T> solve_yielding(const Params& p, T u, std::type_identity_t<T> free, lanes::Constant<T> compliance,
                                                std::type_identity_t<T> resist) noexcept {
-  if (p.stiffness <= 0) {
+  if (!bristled(p)) {
     const T yield = 1.0 / resist;
     if constexpr (lanes::kScalar<T>) {
       if (p.coulomb_Nm > 0) return {detail::solve_coulomb(p.coulomb_Nm, free * yield, compliance * yield), compliance * yield};
     }
     return {follow_friction(p, u, free * yield), compliance * yield};
   }
-  const double pull = compliance * p.stiffness;
+  const auto pull = compliance * p.stiffness;
   const T held = 1.0 / (resist + 0.5 * pull), stick = (free - pull * u) * held, reached = u + stick;
   const lanes::Truth<T> sticks = lanes::abs(reached) <= p.presliding_rad;
   if (lanes::all(sticks)) return {follow_friction(p, u, stick), compliance * held};
@@ -154,7 +154,8 @@ template <class T, class Params>
 
 /// The same of a part that stands alone: Δx = free + compliance·τ̄(Δx).
 template <class T, class Params>
-[[nodiscard]] FrictionStepOf<T> solve_friction(const Params& p, T u, std::type_identity_t<T> free, double compliance) noexcept {
+[[nodiscard]] FrictionStepOf<T> solve_friction(const Params& p, T u, std::type_identity_t<T> free,
+                                               lanes::Constant<T> compliance) noexcept {
   return solve_yielding(p, u, free, compliance, 1.0).step;
 }
 

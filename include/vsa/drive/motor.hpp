@@ -99,10 +99,21 @@ class MotorStepper {
   template <class T = double>
   [[nodiscard]] MotorStepOf<T> step(const MotorStateOf<T>& s, std::type_identity_t<T> voltage,
                                     std::type_identity_t<T> torque) const noexcept {
+    MotorStepOf<T> out;
     if constexpr (lanes::kScalar<T>) {
-      if (inductance_) return with_inductance(s, voltage, torque);
+      if (inductance_) {
+        out = with_inductance(s, voltage, torque);
+        return out;
+      }
     }
-    return without_inductance(s, voltage, torque);
+    out = without_inductance<T>([&](auto&& number) { return number(*this); }, s.speed, voltage, torque);
+    return out;
+  }
+  /// Of two motors without inductance side by side, each by its own.
+  [[nodiscard]] static MotorStepOf<lanes::Both> both(const MotorStepper& first, const MotorStepper& second, lanes::Both speed,
+                                                     lanes::Both voltage, lanes::Both torque) noexcept {
+    const auto of = [&](auto&& number) { return lanes::BothSides{}(number(first), number(second)); };
+    return without_inductance<lanes::Both>(of, speed, voltage, torque);
   }
   [[nodiscard]] double h_s() const noexcept { return h_; }  ///< the step length that it was made for
 
@@ -110,20 +121,24 @@ class MotorStepper {
   using Row = std::array<double, 4>;
   using Form = std::array<double, 10>;  // symmetric 4×4, upper triangle by rows
   [[nodiscard]] MotorStep with_inductance(const MotorState& s, double voltage, double torque) const noexcept;
-  /// I = (V − K_b ω)/R at every instant: ∫ω and ∫ω² tell the other integrals.
-  template <class T>
-  [[nodiscard]] MotorStepOf<T> without_inductance(const MotorStateOf<T>& s, T voltage, T torque) const noexcept {
-    const T w = s.speed, v = voltage, t = torque;
+  /// I = (V − K_b ω)/R at every instant: ∫ω and ∫ω² tell the other integrals. `of`: a number of this stepper, or of both.
+  template <class T, class Of>
+  [[nodiscard]] static MotorStepOf<T> without_inductance(Of&& of, T w, T v, T t) noexcept {
+    using M = MotorStepper;
+    const auto at = [&](Row M::*row, std::size_t i) { return of([=](const M& m) { return (m.*row)[i]; }); };
+    const auto ww = [&](std::size_t i) { return of([=](const M& m) { return m.ww_[i]; }); };
+    const auto back_emf = of([](const M&m) { return m.back_emf_; }), conductance = of([](const M&m) { return m.conductance_; });
+    const auto h = of([](const M& m) { return m.h_; });
     MotorStepOf<T> out;
-    out.displacement = displacement_[0] * w + displacement_[2] * v + displacement_[3] * t;
-    out.speed = speed_[0] * w + speed_[2] * v + speed_[3] * t;
-    out.int_ww = w * (ww_[0] * w + ww_[2] * v + ww_[3] * t) + v * (ww_[7] * v + ww_[8] * t) + ww_[9] * t * t;
-    const T emf = back_emf_ * out.displacement, emf_w = back_emf_ * out.int_ww;
-    const T forced = voltage * out.displacement - emf_w;  // ∫(V − K_b ω)ω
-    out.current = conductance_ * (voltage - back_emf_ * out.speed);
-    out.charge = conductance_ * (voltage * h_ - emf);
-    out.int_Iw = conductance_ * forced;
-    out.int_II = lanes::max(conductance_ * (voltage * out.charge - back_emf_ * out.int_Iw), 0.0);
+    out.displacement = at(&M::displacement_, 0) * w + at(&M::displacement_, 2) * v + at(&M::displacement_, 3) * t;
+    out.speed = at(&M::speed_, 0) * w + at(&M::speed_, 2) * v + at(&M::speed_, 3) * t;
+    out.int_ww = w * (ww(0) * w + ww(2) * v + ww(3) * t) + v * (ww(7) * v + ww(8) * t) + ww(9) * t * t;
+    const T emf = back_emf * out.displacement, emf_w = back_emf * out.int_ww;
+    const T forced = v * out.displacement - emf_w;  // ∫(V − K_b ω)ω
+    out.current = conductance * (v - back_emf * out.speed);
+    out.charge = conductance * (v * h - emf);
+    out.int_Iw = conductance * forced;
+    out.int_II = lanes::max(conductance * (v * out.charge - back_emf * out.int_Iw), 0.0);
     return out;
   }
 

@@ -65,12 +65,12 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] std::array<double, 2> signed_energies(const Positions& at) const noexcept override;
 
   /// The same for units side by side; defined where lanes are (vsa/elastic/two_sinh_lanes.hpp). What is rare goes lane by lane.
-  /// As moved(); lanes that went far are worked out anew, one by one.
+  /// As moved(), in place; lanes that went far are worked out anew, one by one.
   template <class T>
-  [[nodiscard]] OriginOf<T> moved_lanes(const OriginOf<T>& from, const PositionsOf<T>& to) const noexcept;
-  /// As mean_from().
+  void move_lanes(OriginOf<T>& origin, const PositionsOf<T>& to) const noexcept;
+  /// As mean_from(), into `mean`.
   template <class T>
-  [[nodiscard]] SegmentMeanOf<T> mean_lanes(const OriginOf<T>& from, const PositionsOf<T>& to, T ahead_rad) const noexcept;
+  void mean_lanes(const OriginOf<T>& from, const PositionsOf<T>& to, T ahead_rad, SegmentMeanOf<T>& mean) const noexcept;
   /// As tangent_of().
   template <class T>
   [[nodiscard]] TangentOf<T> tangent_lanes(const OriginOf<T>& here) const noexcept;
@@ -95,14 +95,18 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] Spring spring(std::size_t i, double deflection) const noexcept;
   [[nodiscard]] Mean mean_inside(std::size_t i, double begin, double end) const noexcept;
   [[nodiscard]] Mean mean(std::size_t i, double begin, double end) const noexcept;
+  template <class T, class Side>
+  [[nodiscard]] auto mean_near(const Side& side, const OriginOf<T>& from, typename Side::Number begin, typename Side::Number move,
+                               T ahead) const noexcept -> MeanOf<typename Side::Number>;
+  template <class Side, class Mask, class T>
+  void mean_far(const Side& side, Mask close, typename Side::Number begin, typename Side::Number end, T ahead,
+                MeanOf<typename Side::Number>& mean) const noexcept;
   template <class T>
-  [[nodiscard]] MeanOf<T> mean_near(std::size_t i, const OriginOf<T>& from, T begin, T move, T ahead) const noexcept;
-  template <class T>
-  static void add(std::size_t i, const MeanOf<T>& mean, SegmentMeanOf<T>& to) noexcept;
-  template <class T>
-  [[nodiscard]] lanes::Truth<T> near(std::size_t i, T begin, T move) const noexcept;
-  template <class T>
-  [[nodiscard]] T energy_of(std::size_t i, const OriginOf<T>& here) const noexcept;
+  static void sum(const std::array<T, 2>& slope, SegmentMeanOf<T>& mean) noexcept;
+  template <class Side, class T>
+  [[nodiscard]] auto energy_near(const Side& side, const OriginOf<T>& here) const noexcept;
+  template <class Side>
+  [[nodiscard]] auto near(const Side& side, typename Side::Number begin, typename Side::Number move) const noexcept;
 
   TwoSinhParams params_;
   std::array<Spring, 2> edge_{};  // at δ = d

@@ -57,113 +57,166 @@ template <class T>
 
 }  // namespace series
 
-template <class T>
-void TwoSinh::add(std::size_t i, const MeanOf<T>& m, SegmentMeanOf<T>& to) noexcept {
-  to.torque -= m.torque;
-  to.load[i] = m.torque;
-  to.slope.qq += m.slope;
-  to.slope.qx[i] = -m.slope;
-  (i == 0 ? to.slope.x0x0 : to.slope.x1x1) = m.slope;
-}
-
 /// Whether the addition theorems' short series hold.
-template <class T>
-lanes::Truth<T> TwoSinh::near(std::size_t i, T begin, T move) const noexcept {
+template <class Side>
+auto TwoSinh::near(const Side& side, typename Side::Number begin, typename Side::Number move) const noexcept {
   const double d = params_.linear_beyond_rad;
-  return (lanes::abs(params_.a_per_rad[i] * move) < series::kShort) & (lanes::abs(begin) <= d) & (lanes::abs(begin + move) <= d);
+  return (lanes::abs(side(params_.a_per_rad) * move) < series::kShort) & (lanes::abs(begin) <= d) & (lanes::abs(begin + move) <= d);
 }
 
 template <class T>
-OriginOf<T> TwoSinh::moved_lanes(const OriginOf<T>& from, const PositionsOf<T>& to) const noexcept {
-  OriginOf<T> here{to, {}, from.moves + 1};
-  lanes::Truth<T> anew = here.moves >= series::kMoves;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const T begin = from.at.q - from.at.x[i], move = (to.q - to.x[i]) - begin;
-    anew = anew | !near(i, begin, move);
-    const T z = params_.a_per_rad[i] * move;
-    const auto h = series::moved(from.kept[2 * i], from.kept[2 * i + 1], z * series::sinhc(z).value, z);
-    here.kept[2 * i] = h.sinh;
-    here.kept[2 * i + 1] = h.cosh_less_1;
-  }
-  if (!lanes::any(anew)) return here;
+void TwoSinh::move_lanes(OriginOf<T>& here, const PositionsOf<T>& to) const noexcept {
+  lanes::Truth<T> anew = here.moves + 1 >= series::kMoves;
+  std::array<T, 2> sinh, less_1;
+  lanes::each_side<T>([&](auto side) {
+    using N = typename decltype(side)::Number;
+    const N begin = here.at.q - side(here.at.x), move = (to.q - side(to.x)) - begin;
+    if constexpr (lanes::kScalar<T>) {
+      anew = anew | !lanes::all(near(side, begin, move));
+    } else {
+      anew = anew | !near(side, begin, move);
+    }
+    const N z = side(params_.a_per_rad) * move;
+    const auto h =
+        series::moved<N>(side(here.kept[0], here.kept[2]), side(here.kept[1], here.kept[3]), z * series::sinhc(z).value, z);
+    side.put(sinh, h.sinh);
+    side.put(less_1, h.cosh_less_1);
+  });
   if constexpr (lanes::kScalar<T>) {
-    return origin(to);
-  } else {
-    for (int lane = 0; lane < T::kWidth; ++lane) {
+    if (anew) {
+      here = origin(to);
+      return;
+    }
+  }
+  // Member by member, as in all that a step does: a copy of the whole would wait for numbers that were stored one by one.
+  here.at.q = to.q;
+  for (std::size_t i = 0; i < 2; ++i) {
+    here.at.x[i] = to.x[i];
+    here.kept[2 * i] = sinh[i];
+    here.kept[2 * i + 1] = less_1[i];
+  }
+  here.moves = here.moves + 1;
+  if constexpr (!lanes::kScalar<T>) {
+    for (int lane = 0; lanes::any(anew) && lane < T::kWidth; ++lane) {
       if (!anew.lane(lane)) continue;
       const Origin one = origin({to.q.lane(lane), {to.x[0].lane(lane), to.x[1].lane(lane)}});
       for (std::size_t k = 0; k < 4; ++k) here.kept[k].set_lane(lane, one.kept[k]);
       here.moves.set_lane(lane, one.moves);
     }
-    return here;
   }
 }
 
-template <class T>
-TwoSinh::MeanOf<T> TwoSinh::mean_near(std::size_t i, const OriginOf<T>& from, T begin, T move, T ahead) const noexcept {
-  const double k = params_.k_Nm[i], a = params_.a_per_rad[i], half_c = 0.5 * params_.c_Nm_per_rad[i];
-  const T half = 0.5 * a * move;
+template <class T, class Side>
+auto TwoSinh::mean_near(const Side& side, const OriginOf<T>& from, typename Side::Number begin, typename Side::Number move,
+                        T ahead) const noexcept -> MeanOf<typename Side::Number> {
+  using N = typename Side::Number;
+  const auto k = side(params_.k_Nm), a = side(params_.a_per_rad), half_c = 0.5 * side(params_.c_Nm_per_rad);
+  const N half = 0.5 * a * move;
   const auto s = series::sinhc(half);
-  T middle = half, sinh_middle = half * s.value;
+  N middle = half, sinh_middle = half * s.value;
   if (lanes::any(ahead != 0.0)) {  // adding 0 changes no bit
     middle += a * ahead;
     sinh_middle = middle * series::sinhc(middle).value;
     begin += ahead;
   }
-  const auto h = series::moved(from.kept[2 * i], from.kept[2 * i + 1], sinh_middle, middle);
+  const auto h = series::moved<N>(side(from.kept[0], from.kept[2]), side(from.kept[1], from.kept[3]), sinh_middle, middle);
   return {k * h.sinh * s.value + half_c * (begin + begin + move), 0.5 * a * k * (h.cosh * s.value + h.sinh * s.slope) + half_c};
 }
 
+/// What the springs' own loads and slopes amount to.
 template <class T>
-SegmentMeanOf<T> TwoSinh::mean_lanes(const OriginOf<T>& from, const PositionsOf<T>& to, T ahead) const noexcept {
-  SegmentMeanOf<T> mean;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const T begin = from.at.q - from.at.x[i], end = to.q - to.x[i], move = end - begin;
-    const lanes::Truth<T> close = near(i, begin, move) & ((ahead == 0.0) | (near(i, begin, ahead) & near(i, begin, move + ahead)));
-    if constexpr (lanes::kScalar<T>) {
-      add(i, close ? mean_near(i, from, begin, move, ahead) : this->mean(i, begin + ahead, end + ahead), mean);
-    } else {
-      MeanOf<T> m = mean_near(i, from, begin, move, ahead);
-      for (int lane = 0; !lanes::all(close) && lane < T::kWidth; ++lane) {
-        if (close.lane(lane)) continue;
-        const Mean one = this->mean(i, begin.lane(lane) + ahead.lane(lane), end.lane(lane) + ahead.lane(lane));
-        m.torque.set_lane(lane, one.torque);
-        m.slope.set_lane(lane, one.slope);
+void TwoSinh::sum(const std::array<T, 2>& slope, SegmentMeanOf<T>& mean) noexcept {
+  mean.torque = 0.0 - mean.load[0] - mean.load[1];
+  mean.slope.qq = slope[0] + slope[1];
+  mean.slope.x0x0 = slope[0];
+  mean.slope.x0x1 = 0.0;
+  mean.slope.x1x1 = slope[1];
+}
+
+template <class T>
+void TwoSinh::mean_lanes(const OriginOf<T>& from, const PositionsOf<T>& to, T ahead, SegmentMeanOf<T>& mean) const noexcept {
+  std::array<T, 2> slope;
+  lanes::each_side<T>([&](auto side) {
+    using N = typename decltype(side)::Number;
+    const N begin = from.at.q - side(from.at.x), end = to.q - side(to.x), move = end - begin;
+    auto close = near(side, begin, move);
+    if (lanes::any(ahead != 0.0)) {
+      const auto led = near(side, begin, ahead) & near(side, begin, move + ahead);
+      if constexpr (lanes::kScalar<T>) {
+        close = close & led;
+      } else {
+        close = close & ((ahead == 0.0) | led);
       }
-      add(i, m, mean);
     }
+    MeanOf<N> m = mean_near<T>(side, from, begin, move, ahead);
+    if (!lanes::all(close)) mean_far(side, close, begin, end, ahead, m);
+    side.put(mean.load, m.torque);
+    side.put(mean.slope.qx, -m.slope);
+    side.put(slope, m.slope);
+  });
+  sum(slope, mean);
+}
+
+/// Those that went far, one by one.
+template <class Side, class Mask, class T>
+void TwoSinh::mean_far(const Side& side, Mask close, typename Side::Number begin, typename Side::Number end, T ahead,
+                       MeanOf<typename Side::Number>& m) const noexcept {
+  for (int lane = 0; lane < Side::Number::kWidth; ++lane) {
+    if (close.lane(lane)) continue;
+    Mean one;
+    if constexpr (lanes::kScalar<T>) {
+      one = this->mean(static_cast<std::size_t>(lane), begin.lane(lane) + ahead, end.lane(lane) + ahead);
+    } else {
+      one = this->mean(side.i, begin.lane(lane) + ahead.lane(lane), end.lane(lane) + ahead.lane(lane));
+    }
+    m.torque.set_lane(lane, one.torque);
+    m.slope.set_lane(lane, one.slope);
   }
-  return mean;
 }
 
 template <class T>
 TangentOf<T> TwoSinh::tangent_lanes(const OriginOf<T>& here) const noexcept {
   TangentOf<T> t;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double k = params_.k_Nm[i], a = params_.a_per_rad[i], c = params_.c_Nm_per_rad[i];
-    const T deflection = here.at.q - here.at.x[i], beyond = lanes::abs(deflection) - params_.linear_beyond_rad;
-    const lanes::Truth<T> past = beyond > 0.0;
-    const T stiffness = a * k * (1.0 + here.kept[2 * i + 1]) + c, tension = lanes::abs(k * here.kept[2 * i] + c * deflection);
-    t.stiffness += lanes::select(past, T(edge_[i].stiffness), stiffness);
-    t.tension[i] = lanes::select(past, edge_[i].torque + beyond * edge_[i].stiffness, tension);
-  }
+  std::array<T, 2> stiffnesses;
+  lanes::each_side<T>([&](auto side) {
+    using N = typename decltype(side)::Number;
+    const auto k = side(params_.k_Nm), a = side(params_.a_per_rad), c = side(params_.c_Nm_per_rad);
+    const N deflection = here.at.q - side(here.at.x), beyond = lanes::abs(deflection) - params_.linear_beyond_rad;
+    const auto past = beyond > 0.0;
+    N stiffness = a * k * (1.0 + side(here.kept[1], here.kept[3])) + c,
+      tension = lanes::abs(k * side(here.kept[0], here.kept[2]) + c * deflection);
+    if (lanes::any(past)) {
+      const auto edge = side(edge_[0].stiffness, edge_[1].stiffness);
+      stiffness = lanes::select(past, N(edge), stiffness);
+      tension = lanes::select(past, side(edge_[0].torque, edge_[1].torque) + beyond * edge, tension);
+    }
+    side.put(stiffnesses, stiffness);
+    side.put(t.tension, tension);
+  });
+  t.stiffness = stiffnesses[0] + stiffnesses[1];
   return t;
 }
 
-template <class T>
-T TwoSinh::energy_of(std::size_t i, const OriginOf<T>& here) const noexcept {
-  const T deflection = here.at.q - here.at.x[i], beyond = lanes::abs(deflection) - params_.linear_beyond_rad;
-  const lanes::Truth<T> past = beyond > 0.0;
-  const T inside =
-      params_.k_Nm[i] / params_.a_per_rad[i] * here.kept[2 * i + 1] + 0.5 * params_.c_Nm_per_rad[i] * deflection * deflection;
+template <class Side, class T>
+auto TwoSinh::energy_near(const Side& side, const OriginOf<T>& here) const noexcept {
+  using N = typename Side::Number;
+  const N deflection = here.at.q - side(here.at.x), beyond = lanes::abs(deflection) - params_.linear_beyond_rad;
+  const auto past = beyond > 0.0;
+  const N inside = side(params_.k_Nm) / side(params_.a_per_rad) * side(here.kept[1], here.kept[3]) +
+                   0.5 * side(params_.c_Nm_per_rad) * deflection * deflection;
   if (!lanes::any(past)) return inside;
-  return lanes::select(past, edge_[i].energy + beyond * (edge_[i].torque + 0.5 * beyond * edge_[i].stiffness), inside);
+  const N further = N(side(edge_[0].torque, edge_[1].torque)) + 0.5 * beyond * side(edge_[0].stiffness, edge_[1].stiffness);
+  return lanes::select(past, side(edge_[0].energy, edge_[1].energy) + beyond * further, inside);
 }
 
 template <class T>
 std::array<T, 2> TwoSinh::signed_energies_lanes(const OriginOf<T>& here) const noexcept {
-  return {lanes::copysign(energy_of(0, here), here.at.q - here.at.x[0]),
-          lanes::copysign(energy_of(1, here), here.at.q - here.at.x[1])};
+  std::array<T, 2> w;
+  lanes::each_side<T>([&](auto side) {
+    using N = typename decltype(side)::Number;
+    side.put(w, lanes::copysign(energy_near(side, here), N(here.at.q - side(here.at.x))));
+  });
+  return w;
 }
 
 }  // namespace vsa::elastic

@@ -44,10 +44,9 @@ template <class T>
 void set_out(Unit& unit, const UnitPhysics<T>& physics, Block<T>& s, Plan<T>& plan, double dt,
              const std::array<T, 2>& voltage) noexcept {
   physics.begin(s, plan, dt);
-  physics.look_ahead(s, plan, dt);
   actuator::SegmentInputOf<T> in;
+  in.lead = physics.look_ahead(s, plan, dt);
   in.voltage = voltage;
-  in.lead = plan.lead;
   unit.physics().begin(s.actuator, plan.last, dt, in);
 }
 
