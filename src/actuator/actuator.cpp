@@ -34,17 +34,12 @@ Actuator::Actuator(ActuatorParams params)
       alike_(motors_ == 2 && plain(sides_[0]) && plain(sides_[1])),
       steppers_of_{0, sides_[0].motor == sides_[1].motor ? std::size_t{0} : std::size_t{1}} {}
 
-const drive::MotorStepper& Actuator::stepper(std::size_t i, double h_s, drive::Terminal terminal) noexcept {
-  const std::size_t of = steppers_of_[i];
+void Actuator::prepare(std::size_t of, double h_s) noexcept {
   auto& [first, second] = prepared_[of];
-  if (first.h_s != h_s) {
-    std::swap(first, second);
-    if (first.h_s != h_s) {
-      const drive::MotorParams& motor = sides_[of].motor;
-      first = {h_s, {motor, drive::Terminal::driven, h_s}, {motor, drive::Terminal::open, h_s}};
-    }
-  }
-  return terminal == drive::Terminal::driven ? first.driven : first.open;
+  std::swap(first, second);
+  if (first.h_s == h_s) return;
+  const drive::MotorParams& motor = sides_[of].motor;
+  first = {h_s, {motor, drive::Terminal::driven, h_s}, {motor, drive::Terminal::open, h_s}};
 }
 
 bool Actuator::plain(const Side& s) noexcept { return s.friction.stiffness > 0 && !s.chopped && !s.motor.inductance_H; }

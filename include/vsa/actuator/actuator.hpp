@@ -141,7 +141,13 @@ class Actuator {
   };
   /// A bristle in its gearbox, and a current that follows voltage and speed at once.
   [[nodiscard]] static bool plain(const Side& side) noexcept;
-  const drive::MotorStepper& stepper(std::size_t i, double h_s, drive::Terminal terminal) noexcept;
+  const drive::MotorStepper& stepper(std::size_t i, double h_s, drive::Terminal terminal) noexcept {
+    const std::size_t of = steppers_of_[i];
+    const Prepared& last = prepared_[of][0];
+    if (last.h_s != h_s) prepare(of, h_s);
+    return terminal == drive::Terminal::driven ? last.driven : last.open;
+  }
+  void prepare(std::size_t of, double h_s) noexcept;  ///< this step length becomes the one used last
   const drive::PwmCycle& cycle(int i, const drive::PwmHold& hold) noexcept;
   [[nodiscard]] drive::PwmCycle new_cycle(int i, const drive::PwmHold& hold) const noexcept;
   void begin_pwm(Segment& segment, int i, double speed, double h_s) noexcept;
