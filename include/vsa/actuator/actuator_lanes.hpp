@@ -282,8 +282,10 @@ lanes::Truth<T> Actuator::correction(SegmentOf<T>& seg, TrialOf<T>& t, std::arra
   const bool whose = springs<T>() == motors<T>();
   each_motor<T>(seg, [&](auto side) {
     using N = typename decltype(side)::Number;
-    if constexpr (lanes::kScalar<N>) {
-      if (seg.chopped(static_cast<int>(side.i))) follow(seg, static_cast<int>(side.i));
+    if constexpr (lanes::kScalar<T>) {
+      if constexpr (!decltype(side)::kBoth) {
+        if (seg.chopped(static_cast<int>(side.i))) follow(seg, static_cast<int>(side.i));
+      }
     }
     const auto c = side(seg.give);
     const N dx = side(t.dx), load = side(t.mean.load), slope = spring_slope<T>(t, side);
