@@ -9,6 +9,7 @@
 
 #include "../record/scratch.hpp"
 #include "generate/generate.hpp"
+#include "generate/gripper.hpp"
 #include "generate/png.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/units.hpp"
@@ -122,6 +123,17 @@ TEST(Generator, RefusesTypesThatArentThereControlCharactersAndSeedsWithAFraction
   EXPECT_NE(problems_of("bus = \"spine\"", "bus = \"sp\\u0001ine\"").find("snake.bus: has a control character"), std::string::npos);
   EXPECT_NE(problems_of("seed = 20150928", "seed = 20150928.7").find("rubble.seed"), std::string::npos);
   EXPECT_NE(problems_of("baud_Hz = 2000000", "baud_Hz = 2000000.5").find("actuator.baud_Hz"), std::string::npos);
+}
+
+TEST(Generator, ThePalmsFingerIsWideAlongTheGrippersAxisAsItIsDrawn) {
+  Description d = read_description(kModels / "robots.toml");
+  const Inertial as_it_is = palm(d, -1, 0);
+  d.gripper.pad_size_m[1] = 0.1;
+  const Inertial wider = palm(d, -1, 0);
+  const double more = d.gripper.finger_mass_kg / 12 * (0.1 * 0.1 - 0.024 * 0.024);
+  EXPECT_NEAR(wider.inertia_kgm2[0], as_it_is.inertia_kgm2[0], 1e-15) << "about the axis itself, x";
+  EXPECT_NEAR(wider.inertia_kgm2[1], as_it_is.inertia_kgm2[1] + more, 1e-15);
+  EXPECT_NEAR(wider.inertia_kgm2[2], as_it_is.inertia_kgm2[2] + more, 1e-15);
 }
 
 TEST(Generator, PutsASnakeWithLargeContactsOnTheGround) {
