@@ -132,7 +132,9 @@ TEST_F(WriteWhole, AFailureLeavesTheFileAndNothingBesideIt) {
 
 TEST_F(WriteWhole, OfSeveralNoneIsReplacedBeforeAllAreWritten) {
   put(file, "old");
-  EXPECT_EQ(message_of([&] { write_all_whole({{file, "new"}, {folder.path() / "none/x", "new"}}); }),
+  EXPECT_EQ(message_of([&] {
+              write_all_whole({{file, "new"}, {folder.path() / "none/x", "new"}});
+            }),
             (folder.path() / "none/x").string() + ": can't open for writing: No such file or directory; 0 of 2 files written");
   EXPECT_EQ(text(file), "old");
   EXPECT_EQ(names(), (std::set<std::string>{"file.txt"}));
