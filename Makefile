@@ -25,6 +25,7 @@
 # make check-abi   what programs that link the shared library rely on against the record of this minor version; make record-abi   writes that (packaging/abi)
 # make dist   the source archive, built without npm and git; in build/dist; make check-dist   builds and runs it so
 # make check-reproducible   both made again in a clone elsewhere: the same bytes (REPRODUCIBLE_IN keeps the clone); make sign   signs SIGN/SHA256SUMS, with KEY
+# make clean   removes build/; what runs wrote into out/ stays
 JOBS ?= $(shell nproc)
 FUZZ_S ?= 300
 HOURS ?= 6
@@ -137,11 +138,12 @@ check-tsan:
 	@TSAN_OPTIONS="suppressions='$(CURDIR)/tests/support/tsan.txt' halt_on_error=1" \
 	  ctest --test-dir build/tsan --output-on-failure -j 1 -L threads
 
-# The same of the rooms that need no engine, by their tests: minutes.
+# The same of the rooms that need no engine, by their tests: minutes. What earlier runs counted goes.
 check-coverage:
 	@sh scripts/setup.sh test coverage
 	@cmake --preset coverage > /dev/null
 	@cmake --build build/coverage -j $(JOBS) --target core-tests -- --quiet
+	@find build/coverage -name '*.gcda' -delete
 	@ctest --test-dir build/coverage --output-on-failure -j 1 -L core
 	@python3 scripts/coverage.py build/coverage 90 core
 
@@ -150,6 +152,7 @@ coverage:
 	@sh scripts/setup.sh test coverage
 	@cmake --preset coverage > /dev/null
 	@cmake --build build/coverage -j $(JOBS) -- --quiet
+	@find build/coverage -name '*.gcda' -delete
 	@ctest --test-dir build/coverage --output-on-failure -j 1 -LE 'long|browser'
 	@python3 scripts/coverage.py build/coverage 90
 
@@ -225,4 +228,4 @@ check-packages: packages
 	@sh tests/packages/bare.sh build/packages/packages || test $$? -eq 77
 
 clean:
-	@rm -rf build out
+	@rm -rf build

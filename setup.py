@@ -2,7 +2,7 @@
 """For pip: CMake builds the module and puts its package together in build/pip, and this takes it from there.
 
 VSA_BUILD_DIR names a build tree that is taken instead, build/release say; it is brought up to date first. CMAKE_ARGS are given to
-CMake when it configures. The replay page's template needs npm and the network once, so it comes along only where that tree has it.
+CMake when it configures, which it doesn't with VSA_BUILD_DIR. The replay page's template needs npm and the network once, so it comes along only where that tree has it.
 """
 import os
 import pathlib
@@ -21,17 +21,26 @@ class CMakeBuild(build_ext):
     def run(self):
         given = os.environ.get("VSA_BUILD_DIR")
         tree = pathlib.Path(given).resolve() if given else ROOT / "build" / "pip"
+        arguments = shlex.split(os.environ.get("CMAKE_ARGS", ""))
+        if given and arguments:
+            raise SystemExit(f"setup.py: CMAKE_ARGS = {shlex.join(arguments)}: VSA_BUILD_DIR = {given} is configured already "
+                             "(allowed: one of the two)")
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DVSA_TESTS=OFF", "-DVSA_BENCH=OFF", "-DVSA_PYTHON=ON"]
-        options += [f"-DPython3_EXECUTABLE={sys.executable}", *shlex.split(os.environ.get("CMAKE_ARGS", ""))]
+        options += [f"-DPython3_EXECUTABLE={sys.executable}", *arguments]
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         if not given:
             subprocess.run(["cmake", "-S", str(ROOT), "-B", str(tree), *generator, *options], check=True)
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
         subprocess.run(["cmake", "--build", str(tree), "--parallel", jobs, "--target", "vsasim_python"], check=True)
-        package = pathlib.Path(self.get_ext_fullpath("vsasim._vsasim")).parent
+        module = pathlib.Path(self.get_ext_fullpath("vsasim._vsasim"))
+        package = module.parent
+        modules = {file.name for file in (tree / "python" / "vsasim").glob("_vsasim*")}
+        if module.name not in modules:
+            raise SystemExit(f"setup.py: {tree} has the module of another Python, {', '.join(sorted(modules)) or 'none'}: "
+                             f"{sys.executable} loads {module.name}")
         if package.exists():
             shutil.rmtree(package)
-        skipped = shutil.ignore_patterns("package.stamp", "__pycache__")
+        skipped = shutil.ignore_patterns("package.stamp", "__pycache__", *(modules - {module.name}))
         # Links become files; one that leads nowhere (the page's template, not built) is left out.
         shutil.copytree(tree / "python" / "vsasim", package, ignore=skipped, ignore_dangling_symlinks=True)
 

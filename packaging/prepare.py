@@ -18,6 +18,7 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+LATEST = 253402300799  # the year 9999
 HEAD = re.compile(r"^## \[(\d+\.\d+\.\d+)\] - (\d{4}-\d\d-\d\d)$", re.M)
 
 
@@ -27,6 +28,9 @@ def newest():
     if not match:
         sys.exit("prepare.py: CHANGELOG.md has no heading such as ## [1.2.3] - 2026-01-31")
     given = os.environ.get("SOURCE_DATE_EPOCH")
+    if given and not (re.fullmatch("[0-9]{1,12}", given) and int(given) <= LATEST):
+        print(f"prepare.py: SOURCE_DATE_EPOCH = {given} (allowed: seconds since 1970, 0 to {LATEST})", file=sys.stderr)
+        sys.exit(2)
     return match.group(1), int(given) if given else calendar.timegm(time.strptime(match.group(2), "%Y-%m-%d"))
 
 

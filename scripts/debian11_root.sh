@@ -25,20 +25,27 @@ prepare() {
   [ "$(id -u)" -eq 0 ] || left_out "a private Debian 11 root needs to be made by root (run it with sudo -E)"
   command -v debootstrap >/dev/null 2>&1 || left_out "debootstrap is not installed"
   [ -d /usr/include/toml++ ] || left_out "libtomlplusplus-dev is not installed"
-  rm -rf "$root" "$root.part"
+  # One at a time (what starts in it doesn't keep the lock); who waited may find it made. The root that is there stays in use until another takes its place.
+  mkdir -p "$roots_folder"
+  exec 9>"$root.lock"
+  flock 9
+  if [ -f "$root/.vsasim" ] && [ "$(cat "$root/.vsasim")" = "$want" ]; then return 0; fi
+  rm -rf "$root.part" "$root.old"
   mkdir -p "$root.part"
   use_apt_proxy
   echo "classic: making a Debian 11 root with Gazebo 11 in $root (once)"
-  why=$(bootstrap bullseye "$root.part") || left_out "$why"
+  why=$(bootstrap bullseye "$root.part" 9>&-) || left_out "$why"
   # shellcheck disable=SC2086 # the list is words on purpose
   if ! enter "$root.part" "$source_tree" /vsasim sh -c 'apt-get update -qq && apt-get install -y -qq --no-install-recommends "$@" && apt-get clean' \
-       sh $packages >>"$root.part.log" 2>&1; then
+       sh $packages >>"$root.part.log" 2>&1 9>&-; then
     tail -n 5 "$root.part.log" >&2
     left_out "its packages could not be installed, see $root.part.log"
   fi
   cp -r /usr/include/toml++ "$root.part/usr/include/"
   echo "$want" >"$root.part/.vsasim"
+  [ ! -e "$root" ] || mv "$root" "$root.old"
   mv "$root.part" "$root"
+  rm -rf "$root.old"
 }
 
 case "${1:-}" in

@@ -10,12 +10,18 @@ cd "$(dirname "$0")/.."
 build=$1
 runs=${FLAKES_N:-50} filter=${FLAKES_FILTER:-.} loads=${FLAKES_LOADS:-0 2 6} out=${FLAKES_OUT:-out/flakes}
 
-tests=$(ctest --test-dir "$build" -N -LE long -R "$filter" 2>/dev/null | sed -n 's/^ *Test *#[0-9]*: //p')
-[ -n "$tests" ] || { echo "flakes.sh: no test matches FLAKES_FILTER = $filter" >&2; exit 2; }
+refuse() {
+  echo "flakes.sh: $1 (allowed: $2)" >&2
+  exit 2
+}
+[[ $runs =~ ^[1-9][0-9]{0,8}$ ]] || refuse "FLAKES_N = '$runs'" "1, 2, …"
+number="(0|[1-9][0-9]{0,2})"
+[[ $loads =~ ^\ *$number(\ +$number)*\ *$ ]] || refuse "FLAKES_LOADS = '$loads'" "numbers of busy processes, 0 2 6"
+tests=$(ctest --test-dir "$build" -N -LE long -R "$filter" 2>/dev/null | sed -n 's/^ *Test *#[0-9]*: //p') || true
+[ -n "$tests" ] || refuse "FLAKES_FILTER = '$filter': no test of $build matches" "a pattern as of ctest -R"
 results=$out/runs.txt # test, load, result, seconds: one line a run
 if [ -n "$(ls -A "$out" 2>/dev/null)" ] && [ ! -f "$results" ]; then
-  echo "flakes.sh: FLAKES_OUT = '$out' (allowed: a new or empty folder, or one with an earlier run's runs.txt)" >&2
-  exit 2
+  refuse "FLAKES_OUT = '$out'" "a new or empty folder, or one with an earlier run's runs.txt"
 fi
 mkdir -p "$out"
 rm -f "$results" "$out"/*.[0-9]*.[0-9]*.txt
@@ -65,12 +71,13 @@ trap 'exit 143' TERM HUP
 
 # One run of one test, as ctest knows it: its time limit, environment and what it needs to have run before.
 one_run() {
-  local name=$1 load=$2 run=$3 log=$out/$1.$2.$3.txt result=failed
+  local name=$1 load=$2 run=$3 log=$out/$1.$2.$3.txt result=failed only
+  only=$(sed 's/[][\\.*^$+?(){}|]/\\&/g' <<< "$name") # this name, whatever signs of patterns are in it
   local order=()
   [ $((run % 2)) = 1 ] || order=(GTEST_SHUFFLE=1 "GTEST_RANDOM_SEED=$run")
-  env "${order[@]}" ctest --test-dir "$build" -j 1 --output-on-failure -R "^${name//./\\.}\$" > "$log" 2>&1 && result=passed
+  env "${order[@]}" ctest --test-dir "$build" -j 1 --output-on-failure --no-tests=error -R "^$only\$" > "$log" 2>&1 && result=passed
   local line
-  line=$(grep -E "Test +#[0-9]+: ${name//./\\.} " "$log" | tail -n 1) || true
+  line=$(grep -E "Test +#[0-9]+: $only " "$log" | tail -n 1) || true
   case $line in *Skipped*) result=skipped ;; esac
   echo "$name $load $result $(sed -nE 's/.* ([0-9.]+) sec.*/\1/p' <<< "$line")" >> "$results"
   [ $result = failed ] || rm "$log"

@@ -3,7 +3,7 @@
 # Idempotent: when every package is present it touches neither the network nor the package manager.
 set -eu
 
-codename=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME:-}")
+codename=$([ ! -r /etc/os-release ] || { . /etc/os-release && echo "${VERSION_CODENAME:-}"; })
 
 packages="
   build-essential cmake ninja-build pkg-config git ca-certificates
@@ -55,6 +55,10 @@ elif ! command -v npm >/dev/null 2>&1 || ! command -v node >/dev/null 2>&1; then
 
 [ -n "$missing" ] || exit 0
 
+for tool in dpkg-query apt-get; do
+  command -v "$tool" >/dev/null 2>&1 ||
+    { echo "setup.sh: there is no $tool here, so nothing can be installed; what Debian calls:$missing" >&2; exit 1; }
+done
 sudo=""
 if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null 2>&1 || { echo "setup.sh: needs root or sudo to install:$missing" >&2; exit 1; }

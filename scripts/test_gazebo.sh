@@ -13,6 +13,10 @@ set -eu
 cd "$(dirname "$0")/.."
 build=$1
 what=${2:-test}
+case "$what" in
+  test | long | bench) ;;
+  *) echo "test_gazebo.sh: '$what' (allowed: test, long, bench)" >&2; exit 2 ;;
+esac
 
 say() { echo "classic: $1"; }
 start=$(date +%s)
@@ -55,6 +59,5 @@ case "$what" in
       run sh -c 'build/classic/bin/gazebo_classic_overhead ode && build/classic/bin/gazebo_classic_overhead dart'
     fi
     ;;
-  *) echo "test_gazebo.sh: $what?" >&2; exit 2 ;;
 esac
 say "$(($(date +%s) - start)) s in all"

@@ -8,6 +8,10 @@ set -eu
 cd "$(dirname "$0")/.."
 build=$1
 what=${2:-test}
+case "$what" in
+  test | long) ;;
+  *) echo "test_gz.sh: '$what' (allowed: test, long)" >&2; exit 2 ;;
+esac
 prefix=${VSA_GZ_PREFIX:-}
 if [ -n "$prefix" ]; then
   for lib in "$prefix"/lib "$prefix"/lib/*-linux-gnu; do
@@ -35,5 +39,4 @@ cd build/gz
 case "$what" in
   test) ctest --output-on-failure -LE long ;;
   long) VSA_TEST_LONG=1 ctest --verbose -L long ;;
-  *) echo "test_gz.sh: $what?" >&2; exit 2 ;;
 esac

@@ -3,9 +3,11 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -63,28 +65,121 @@ void OutputFile::close() {
   if (::close(std::exchange(fd_, -1)) != 0) fail("can't finish writing", errno);
 }
 
-void write_whole(const std::filesystem::path& file, const std::function<void(const std::filesystem::path& beside)>& write,
-                 std::string_view mark) {
-  std::filesystem::path beside = file;
-  beside += ".part";
-  beside += mark;
-  std::error_code error;
-  try {
-    write(beside);
-    std::filesystem::rename(beside, file, error);
-    if (error) throw OutputError(file.string() + ": can't be replaced: " + error.message());
-  } catch (...) {
-    std::filesystem::remove(beside, error);
-    throw;
-  }
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void cant(const fs::path& file, std::string_view what, int error) {
+  throw OutputError(file.string() + ": " + std::string(what) + ": " + std::system_category().message(error));
 }
 
-void write_whole(const std::filesystem::path& file, std::string_view bytes) {
-  write_whole(file, [bytes](const std::filesystem::path& beside) {
-    OutputFile out(beside);
-    out.append(bytes);
-    out.close();
-  });
+/// Where a file's new bytes go until all of them are there.
+class Beside {
+ public:
+  explicit Beside(const fs::path& file) : asked_(file), target_(file), written_(file) {
+    struct stat there {};
+    const bool exists = ::stat(file.c_str(), &there) == 0;
+    if (!exists && errno != ENOENT) cant(file, "can't open for writing", errno);
+    if (exists && S_ISDIR(there.st_mode)) cant(file, "can't open for writing", EISDIR);
+    straight_ = exists && !S_ISREG(there.st_mode);
+    if (straight_) return;
+    // A link stays: what it leads to is written, whether it is there or not.
+    std::error_code none;
+    for (int links = 0; links < kMostLinks && fs::is_symlink(fs::symlink_status(target_, none)); ++links)
+      target_ = target_.parent_path() / fs::read_symlink(target_);
+    if (exists) before_ = there;
+    create();
+  }
+  ~Beside() {
+    std::error_code ignored;
+    if (!straight_) fs::remove(written_, ignored);
+  }
+  Beside(Beside&& other) noexcept
+      : asked_(std::move(other.asked_)),
+        target_(std::move(other.target_)),
+        written_(std::move(other.written_)),
+        before_(other.before_),
+        straight_(std::exchange(other.straight_, true)) {}
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+  Beside& operator=(Beside&&) = delete;
+
+  [[nodiscard]] const fs::path& written() const noexcept { return written_; }
+  [[nodiscard]] bool straight() const noexcept { return straight_; }
+
+  void write(std::string_view bytes) const {
+    try {
+      OutputFile out(written_);
+      out.append(bytes);
+      out.close();
+    } catch (const OutputError& error) {
+      // The name that people know.
+      throw OutputError(asked_.string() + std::string(error.what()).substr(written_.string().size()));
+    }
+  }
+
+  void take_place() {
+    if (straight_) return;
+    if (before_) {
+      if (::chown(written_.c_str(), before_->st_uid, before_->st_gid) != 0) {
+        // Who may not give files away keeps them.
+      }
+      if (::chmod(written_.c_str(), before_->st_mode & 0777) != 0) cant(asked_, "can't keep its permissions", errno);
+    }
+    if (::rename(written_.c_str(), target_.c_str()) != 0) cant(asked_, "can't be replaced", errno);
+    straight_ = true;  // nothing is beside it any more
+  }
+
+ private:
+  static constexpr int kMostLinks = 40;  // Linux's own
+
+  /// A name that nobody has; never wider permissions than those of the file that it shall replace.
+  void create() {
+    const mode_t mode = before_ ? (before_->st_mode & 0777) | S_IWUSR : 0666;
+    for (unsigned number = 0;; ++number) {
+      written_ = target_;
+      written_ += ".part-" + std::to_string(::getpid()) + '-' + std::to_string(number);
+      const int fd = ::open(written_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+      if (fd >= 0) {
+        ::close(fd);
+        return;
+      }
+      if (errno != EEXIST) cant(asked_, "can't open for writing", errno);
+    }
+  }
+
+  fs::path asked_, target_, written_;  // as it was given; without links; what is written
+  std::optional<struct stat> before_;
+  bool straight_ = false;  // pipes and devices, which can't be replaced, are written themselves
+};
+
+}  // namespace
+
+void write_whole(const fs::path& file, const std::function<void(const fs::path& beside)>& write) {
+  Beside beside(file);
+  write(beside.written());
+  beside.take_place();
+}
+
+void write_whole(const fs::path& file, std::string_view bytes) { write_all_whole({{file, bytes}}); }
+
+void write_all_whole(const std::vector<std::pair<fs::path, std::string_view>>& files) {
+  std::vector<Beside> all;
+  all.reserve(files.size());
+  std::size_t done = 0;
+  try {
+    for (const auto& [file, bytes] : files) {
+      all.emplace_back(file);
+      if (!all.back().straight()) all.back().write(bytes);
+    }
+    for (; done < all.size(); ++done) {
+      if (all[done].straight()) all[done].write(files[done].second);
+      all[done].take_place();
+    }
+  } catch (const OutputError& error) {
+    if (files.size() == 1) throw;
+    throw OutputError(error.what() + ("; " + std::to_string(done)) + " of " + std::to_string(files.size()) + " files written");
+  }
 }
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory, const char* taken, Use use) {

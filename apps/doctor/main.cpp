@@ -50,6 +50,10 @@ void read_elements(Findings& findings, const std::filesystem::path& file) {
                      "mend the file");
     return;
   }
+  // <gazebo> was the root until SDF 1.2.
+  if (const std::string_view root = document.RootElement()->Name(); root != "sdf" && root != "gazebo")
+    throw InputError(Problem{file.string(), "", fmt::format("<{}>", root), "is no SDF, and vsa-doctor reads nothing else",
+                             "a file with <sdf>; vsa doctor reads MJCF and URDF, too"});
   if (check_robots(findings, *document.RootElement(), file.string()) == 0)
     findings.note("robot", "no <plugin name=\"vsa::Robot\"> in the file itself", "look at the models that it includes, too");
 }

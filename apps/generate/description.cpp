@@ -1,6 +1,11 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "description.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
 #include "vsa/config/text.hpp"
 #include "vsa/config/toml_section.hpp"
 #include "vsa/errors.hpp"
@@ -25,15 +30,30 @@ class Section : public config::TomlSection {
   int integer(const char* key, int min, int max) {
     return static_cast<int>(asked(key, min, max).whole(key, min, max).value_or(min));
   }
-  std::string text(const char* key) { return (given_ ? need(key, "a name") : *this).TomlSection::text(key).value_or(""); }
+  /// It goes into XML, which has no control characters.
+  std::string text(const char* key) {
+    std::string out = (given_ ? need(key, "a name") : *this).TomlSection::text(key).value_or("");
+    const bool control = std::any_of(out.begin(), out.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+    if (control) add(key, "", "has a control character", "a name");
+    return control ? "" : out;
+  }
+  std::uint32_t seed(const char* key) {
+    constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+    return static_cast<std::uint32_t>(asked(key, 0, kMost).whole(key, 0, kMost).value_or(0));
+  }
   std::vector<double> numbers(const char* key, double min, double max) {
     return asked(key, min, max).TomlSection::numbers(key, min, max);
   }
-  Range range(const char* key, double min, double max) {
+  std::array<double, 2> pair(const char* key, double min, double max) {
     const auto values = numbers(key, min, max);
     if (values.size() == 2) return {values[0], values[1]};
     add(key, "", "not two numbers", config::range_text(min, max));
     return {min, max};
+  }
+  Range range(const char* key, double min, double max) {
+    const Range out = pair(key, min, max);
+    if (out[0] > out[1]) add(key, pair_text(out), "the first is above the second", "from … to");
+    return out;
   }
   Size size(const char* key, double min, double max) {
     const auto values = numbers(key, min, max);
@@ -41,8 +61,17 @@ class Section : public config::TomlSection {
     add(key, "", "not three numbers", config::range_text(min, max));
     return {min, min, min};
   }
+  /// A range in which something changes from one end to the other.
+  Range span(const char* key, double min, double max) {
+    const Range out = range(key, min, max);
+    if (out[0] == out[1]) add(key, pair_text(out), "nothing is between the two", "from … to");
+    return out;
+  }
 
  private:
+  static std::string pair_text(const std::array<double, 2>& p) {
+    return '[' + config::number_text(p[0]) + ", " + config::number_text(p[1]) + ']';
+  }
   TomlSection& asked(const char* key, double min, double max) { return given_ ? need(key, config::range_text(min, max)) : *this; }
 
   bool given_;
@@ -123,8 +152,11 @@ void read_robots(const std::string& file, const toml::table& root, Problems& pro
   }
   {
     Section s(file, "actuator", table("actuator"), problems);
-    d.actuator = {s.text("type"), s.text("plugin_file"), s.number("initial_preset_rad", 0, 0.785), s.number("baud_Hz", 1200, 1e8),
-                  s.number("state_rate_Hz", 1, 1000)};
+    d.actuator = {s.text("type"), s.text("plugin_file"), s.number("initial_preset_rad", 0, 0.785),
+                  static_cast<double>(s.integer("baud_Hz", 1200, 100'000'000)), s.number("state_rate_Hz", 1, 1000)};
+    const auto types = config::TypeLibrary().names();
+    if (!d.actuator.type.empty() && std::find(types.begin(), types.end(), d.actuator.type) == types.end())
+      s.add("type", d.actuator.type, "no such actuator type", fmt::format("{}", fmt::join(types, ", ")));
   }
   for (const auto& [name, bench] : {std::pair{"bench", &d.bench}, std::pair{"throw", &d.throwing}}) {
     Section s(file, name, table(name), problems);
@@ -151,7 +183,7 @@ void read_hills(const std::string& file, const toml::table& root, Problems& prob
   if (const int cells = hills.samples - 1; (cells & (cells - 1)) != 0)
     s.add("samples", "", "not a power of two plus one", "129, 257, 513 …");
   hills.size_m = s.number("size_m", 1, 1000);
-  hills.flat_radius_m = s.range("flat_radius_m", 0, 100);
+  hills.flat_radius_m = s.span("flat_radius_m", 0, 100);
   const auto waves = s.tables("waves");
   if (waves.empty()) s.add("waves", "", "missing or empty", "a list of waves");
   for (std::size_t i = 0; i < waves.size(); ++i) {
@@ -168,16 +200,16 @@ void read_world(const std::string& file, const toml::table& root, Problems& prob
   }
   {
     Section s(file, "rubble", root["rubble"].as_table(), problems);
-    d.rubble.seed = static_cast<std::uint32_t>(s.number("seed", 0, 4294967295.0));
+    d.rubble.seed = s.seed("seed");
     d.rubble.boxes = s.integer("boxes", 0, 1000);
     d.rubble.height_m = s.range("height_m", 1e-3, 1);
     d.rubble.side_m = s.range("side_m", 1e-3, 10);
     d.rubble.steps_m = s.numbers("steps_m", 1e-3, 1);
-    d.rubble.step_size_m = s.range("step_size_m", 1e-2, 100);
+    d.rubble.step_size_m = s.pair("step_size_m", 1e-2, 100);
     d.rubble.step_gap_m = s.number("step_gap_m", 0, 100);
     d.rubble.travel_deg = s.number("travel_deg", -360, 360);
     d.rubble.patch_from_m = s.number("patch_from_m", 0, 100);
-    d.rubble.patch_size_m = s.range("patch_size_m", 0.1, 100);
+    d.rubble.patch_size_m = s.pair("patch_size_m", 0.1, 100);
   }
   read_hills(file, root, problems, d.hills);
 }
@@ -198,6 +230,8 @@ Description read_description(const std::filesystem::path& file) {
                             "throw", "pole", "manipulator", "world", "rubble", "hills"})
     (void)top.find(known);
   top.refuse_others();
+  problems.throw_if_any();
+  check_shapes(name, description, problems);
   problems.throw_if_any();
   return description;
 }

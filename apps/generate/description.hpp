@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "vsa/errors.hpp"
+
 namespace vsa::generate {
 
 using Range = std::array<double, 2>;
@@ -102,5 +104,8 @@ struct Description {
 
 /// Throws InputError with every missing, unknown or impossible key at once.
 [[nodiscard]] Description read_description(const std::filesystem::path& file);
+
+/// Adds a problem for each part that such numbers leave no room.
+void check_shapes(const std::string& file, const Description& description, Problems& problems);
 
 }  // namespace vsa::generate

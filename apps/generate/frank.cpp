@@ -86,12 +86,12 @@ void face_visuals(Xml& xml, const Vec& size, double z) {
 void write_head(Xml& xml, const Description& d) {
   const FrankSpec& f = d.frank;
   const ModuleSpec& m = d.module;
-  const double above = 0.052 + f.head_size_m[2] / 2;  // a housing's corner turns below the shell
+  const double above = kTurningRoom + f.head_size_m[2] / 2;  // a housing's corner turns below the shell
   begin_link(xml, "head", {0, 0, f.head_pan_height_m + f.head_tilt_m}, 0);
   const Inertial flange = solid_cylinder(m.flange_mass_kg, m.flange_radius_m, m.flange_thickness_m, Axis::y, {});
   write_inertial(xml, combine({flange, solid_box(f.head_mass_kg, f.head_size_m, {0, 0, above})}));
   box_contact(xml, "shell", {0, 0, above, 0, 0, 0}, f.head_size_m, m.friction);
-  bracket_visuals(xml, m, Axis::y, 0.088);
+  bracket_visuals(xml, m, Axis::y, kTurningRoom + 0.003 + m.edge_m / 2);  // it ends within the shell
   face_visuals(xml, f.head_size_m, above);
   xml.close();
 }

@@ -57,8 +57,9 @@ void palm_shapes(Xml& xml, const Description& d, double side, double z) {
 Inertial palm(const Description& d, double side, double z) {
   Inertial box = housing(d.module);
   box.center_m[2] = z;
-  const double y = side * (fixed_face(d.gripper) + d.gripper.pad_size_m[0]);
-  return combine({box, solid_box(d.gripper.finger_mass_kg, d.gripper.pad_size_m, {0, y, z - d.gripper.pad_at_m * 0.7})});
+  const auto& [thick, wide, tall] = d.gripper.pad_size_m;
+  const double y = side * (fixed_face(d.gripper) + thick);
+  return combine({box, solid_box(d.gripper.finger_mass_kg, {wide, thick, tall}, {0, y, z - d.gripper.pad_at_m * 0.7})});
 }
 
 void write_finger_link(Xml& xml, const Description& d, const std::string& name, double side, const Vec& at, double yaw_rad) {

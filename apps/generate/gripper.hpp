@@ -8,6 +8,8 @@
 
 namespace vsa::generate {
 
+inline constexpr double kFaceThickness = 0.008;  // of the soft object, between the fingers
+
 /// Housing and fixed finger as parts of a link, `z` above its origin.
 void palm_shapes(Xml& xml, const Description& d, double side, double z);
 [[nodiscard]] Inertial palm(const Description& d, double side, double z);

@@ -6,40 +6,66 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "generate.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/output_file.hpp"
 
 namespace {
 
-void write(const vsa::generate::Files& files, const std::filesystem::path& out) {
-  for (const auto& [name, content] : files) {
-    std::filesystem::create_directories((out / name).parent_path());
-    std::ofstream file(out / name, std::ios::binary);
-    file << content;
-    if (!file.flush()) throw std::runtime_error(fmt::format("can't write {}", (out / name).string()));
+namespace fs = std::filesystem;
+
+constexpr const char* kUsage =
+    R"(usage: vsa-generate DESCRIPTION.toml OUTDIR [ROS2DIR]
+Writes models and worlds of models/robots.toml, or of a copy of it, below OUTDIR, and the robots' bridges for ROS 2 below ROS2DIR.
+The worlds' MJCF is written by vsa export --mjcf.
+)";
+
+/// A file and what it shall hold.
+using Written = std::vector<std::pair<fs::path, std::string_view>>;
+
+void list(Written& all, const vsa::generate::Files& files, const fs::path& out) {
+  for (const auto& [name, content] : files) all.emplace_back(out / name, content);
+}
+
+int run(const std::vector<std::string_view>& arguments) {
+  if (arguments.size() == 1 && (arguments[0] == "--help" || arguments[0] == "-h")) {
+    fmt::print("{}", kUsage);
+    return 0;
   }
-  fmt::print("{} files in {}\n", files.size(), out.string());
+  bool usage = arguments.size() == 2 || arguments.size() == 3;
+  for (const std::string_view a : arguments) usage &= !a.empty() && a[0] != '-';
+  if (!usage) {
+    fmt::print(stderr, "{}", kUsage);
+    return 2;
+  }
+  const auto files = vsa::generate::generate(vsa::generate::read_description(arguments[0]));
+  const auto bridges = arguments.size() == 3 ? vsa::generate::bridges(files) : vsa::generate::Files{};
+  Written all;
+  list(all, files, arguments[1]);
+  if (!bridges.empty()) list(all, bridges, arguments[2]);
+  for (const auto& [file, content] : all) fs::create_directories(file.parent_path());
+  vsa::write_all_whole(all);
+  fmt::print("{} files in {}\n", files.size(), arguments[1]);
+  if (!bridges.empty()) fmt::print("{} files in {}\n", bridges.size(), arguments[2]);
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3 && argc != 4) {
-    fmt::print(stderr, "usage: vsa-generate DESCRIPTION.toml OUTDIR [ROS2DIR]\n");
-    return 2;
-  }
   try {
-    const auto files = vsa::generate::generate(vsa::generate::read_description(argv[1]));
-    write(files, argv[2]);
-    if (argc == 4) write(vsa::generate::bridges(files), argv[3]);
+    const int code = run({argv + (argc > 0 ? 1 : 0), argv + argc});
+    if (std::fflush(stdout) == 0) return code;
+    fmt::print(stderr, "vsa-generate: can't write to standard output\n");
   } catch (const vsa::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;
   } catch (const std::exception& error) {
     fmt::print(stderr, "vsa-generate: {}\n", error.what());
-    return 1;
   }
-  return 0;
+  return 1;
 }

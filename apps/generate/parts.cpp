@@ -8,8 +8,7 @@
 namespace vsa::generate {
 namespace {
 
-constexpr double kPlate = 0.005;        // thickness
-constexpr double kTurningRoom = 0.052;  // from the axis to the C-flange's back: a housing's corner is at 47 mm
+constexpr double kPlate = 0.005;  // thickness
 constexpr double kTubeRadius = 0.013;
 
 Vec across(Axis axis, double along_axis, double other, double z) {

@@ -8,6 +8,7 @@
 namespace vsa::generate {
 
 inline constexpr Vec kUp{0, 0, 1};
+inline constexpr double kTurningRoom = 0.052;  // from the axis to the C-flange's back: a housing's corner is at 47 mm
 
 /// A shaft: its pose and axis in the child's frame, no stops.
 void write_joint(Xml& xml, const std::string& name, const std::string& parent, const std::string& child, const Vec& at,

@@ -96,8 +96,6 @@ std::string gripper_model(const Description& d) {
   return xml.text();
 }
 
-constexpr double kFace = 0.008;  // thickness of the soft object's face
-
 /// Lies against the fixed finger; its other face touches the moving one at 0 rad, at +y.
 std::string hard_model(const Description& d) {
   const double wide = 0.030, w = d.gripper.opening_m;
@@ -111,7 +109,7 @@ std::string hard_model(const Description& d) {
 }
 
 std::string soft_model(const Description& d) {
-  const double wide = 0.030, w = d.gripper.opening_m, back = w - kFace - d.bench_object.travel_m;
+  const double wide = 0.030, w = d.gripper.opening_m, back = w - kFaceThickness - d.bench_object.travel_m;
   const BenchObjectSpec& o = d.bench_object;
   Xml xml = begin_sdf();
   xml.open("model", {{"name", "object_soft"}});
@@ -121,10 +119,10 @@ std::string soft_model(const Description& d) {
   box_visual(xml, "back", {0, (back - w) / 2, 0, 0, 0, 0}, {wide, back, wide}, kWood);
   xml.close();
   begin_link(xml, "face", {}, 0);
-  const Vec middle{0, (w - kFace) / 2, 0};
-  write_inertial(xml, solid_box(o.face_mass_kg, {wide, kFace, wide}, middle));
-  box_contact(xml, "face", {0, middle[1], 0, 0, 0, 0}, {wide, kFace, wide}, 0.0);
-  box_visual(xml, "face", {0, middle[1], 0, 0, 0, 0}, {wide, kFace, wide}, kMark);
+  const Vec middle{0, (w - kFaceThickness) / 2, 0};
+  write_inertial(xml, solid_box(o.face_mass_kg, {wide, kFaceThickness, wide}, middle));
+  box_contact(xml, "face", {0, middle[1], 0, 0, 0, 0}, {wide, kFaceThickness, wide}, 0.0);
+  box_visual(xml, "face", {0, middle[1], 0, 0, 0, 0}, {wide, kFaceThickness, wide}, kMark);
   xml.close();
   xml.open("joint", {{"name", "spring"}, {"type", "prismatic"}});
   xml.leaf("parent", "back").leaf("child", "face");

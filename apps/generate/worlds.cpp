@@ -3,6 +3,7 @@
 // One world a file. Models come by model:// URI, so that every host finds them on its model path.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -106,15 +107,17 @@ void add_model(Files& files, const std::string& name, const std::string& title, 
 
 void add_worlds(Files& files, const Description& d) {
   const double lying = d.module.edge_m / 2 + d.snake.clearance_m;
+  // The snake's contacts are spheres, which may be larger than its housings.
+  const double snake = std::max(d.module.edge_m / 2, 2 * d.module.contact_radius_m) + d.snake.clearance_m;
   const double quarter = kPi / 2;
   const auto put = [&](const std::string& name, const std::vector<Placed>& models) {
     files["worlds/" + name + ".sdf"] = world(d, name, models);
   };
-  put("snake_flat", {{"terrain_flat", {}}, {"qbmove_snake", {0, 0, lying, 0, 0, 0}}});
-  put("snake_rubble", {{"terrain_rubble", {}}, {"qbmove_snake", {0, 0, lying, 0, 0, 0}}});
+  put("snake_flat", {{"terrain_flat", {}}, {"qbmove_snake", {0, 0, snake, 0, 0, 0}}});
+  put("snake_rubble", {{"terrain_rubble", {}}, {"qbmove_snake", {0, 0, snake, 0, 0, 0}}});
   // One grey level of the heightmap more, so that its rounding can't put the start into the ground.
   const Hills h = hills(d.hills);
-  put("snake_hills", {{"terrain_hills", {}}, {"qbmove_snake", {0, 0, h.start_m + h.height_m / 255 + lying, 0, 0, 0}}});
+  put("snake_hills", {{"terrain_hills", {}}, {"qbmove_snake", {0, 0, h.start_m + h.height_m / 255 + snake, 0, 0, 0}}});
   // Rolled by −90°, the shaft lies along the world's +y and the lever, along the module's +y, hangs straight down.
   put("bench_load", {{"terrain_flat", {}}, {"qbmove_bench_load", {0, 0, d.bench.height_m, -quarter, 0, 0}}});
   put("bench_free", {{"terrain_flat", {}}, {"qbmove_bench_free", {0, 0, d.bench.height_m, 0, 0, 0}}});

@@ -7,6 +7,8 @@
 #include <functional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace vsa {
 
@@ -41,13 +43,14 @@ class OutputFile {
   off_t good_ = 0;  // bytes in whole pieces
 };
 
-/// `file` as a whole or as it was: `write` gets the name of a file beside it, FILE.part, which takes its place afterwards. Throws what
-/// `write` does, OutputError where the place can't be taken; nothing is left beside it then. `mark` behind FILE.part: where several
-/// processes may write the same file at once, a word of this one's own.
-void write_whole(const std::filesystem::path& file, const std::function<void(const std::filesystem::path& beside)>& write,
-                 std::string_view mark = {});
+/// `file` as a whole or as it was: `write` gets the name of a file beside it, FILE.part-…, which takes its place afterwards, with the
+/// permissions of the one that was there. A link stays, and what it leads to is replaced; a pipe or device is itself what `write` gets.
+/// Throws what `write` does, OutputError where the place can't be taken; nothing is left beside it then.
+void write_whole(const std::filesystem::path& file, const std::function<void(const std::filesystem::path& beside)>& write);
 /// The same with these bytes. Throws OutputError.
 void write_whole(const std::filesystem::path& file, std::string_view bytes);
+/// Several, none of which takes its place before all are written. Throws OutputError, which tells how many are new.
+void write_all_whole(const std::vector<std::pair<std::filesystem::path, std::string_view>>& files);
 
 /// Holds a directory for one program at a time, or for several that share it, by a lock on the directory itself: it leaves nothing
 /// behind, whatever ends the program.

@@ -1,6 +1,5 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <set>
@@ -161,18 +160,11 @@ bool has_hdf5() noexcept { return false; }
 #endif
 
 std::vector<fs::path> write_tables(const fs::path& folder, const Plan& plan, const Results& results) {
-  const std::string mark = '-' + std::to_string(getpid());  // two may merge at once
   std::vector<fs::path> out{folder / "results.csv"};
-  const auto write_csv = [&](const fs::path& file) {
-    OutputFile table(file);
-    table.append(csv(plan, results));
-    table.close();
-  };
-  write_whole(out.back(), write_csv, mark);
+  write_whole(out.back(), csv(plan, results));
 #ifdef VSA_HDF5
   out.push_back(folder / "results.h5");
-  write_whole(
-      out.back(), [&](const fs::path& file) { write_hdf5(columns(plan, results), plan.runs(), file); }, mark);
+  write_whole(out.back(), [&](const fs::path& file) { write_hdf5(columns(plan, results), plan.runs(), file); });
 #endif
   return out;
 }

@@ -101,6 +101,23 @@ TEST(Doctor, IgnOrGzWithoutGazeboIsNone) {
   expect(machine.doctor(), 1, {"ok: gz-sim (Fortress): ", "IGN_GAZEBO_SYSTEM_PLUGIN_PATH"});
 }
 
+TEST(Doctor, TheNewestGazeboIsTheNewestByItsNameWhereverItIs) {
+  Machine machine;
+  machine.add_program("gz");
+  const fs::path longer = machine.scratch / "a_much_longer_folder";
+  for (const fs::path& folder : {longer, machine.scratch / "s"}) fs::create_directories(folder);
+  for (const char* old : {"sim8.yaml", "sim9.yaml"}) write_file(longer / old, "");
+  write_file(machine.scratch / "s" / "sim10.yaml", "");
+  machine.set("GZ_CONFIG_PATH", longer.string() + ":" + (machine.scratch / "s").string());
+  expect(machine.doctor(), 1, {"ok: gz-sim: ", "s/sim10.yaml"});
+}
+
+TEST(Doctor, FoldersOfTypesThatAreNoneAreTold) {
+  Machine machine;
+  machine.set("VSA_ACTUATOR_PATH", (machine.scratch / "").string() + ":/nowhere/types");
+  expect(machine.doctor(), 0, {"note: VSA_ACTUATOR_PATH: /nowhere/types is no directory"});
+}
+
 TEST(Doctor, ALibraryThatIsNoneOrLacksAnotherOrIsAnotherGazebosIsAProblem) {
   const auto with = [](const std::string& directory, const std::string& program = "") {
     Machine machine;
@@ -255,6 +272,28 @@ TEST(DoctorAlone, LooksAtTheSameAndReadsTheElementsOfAWorld) {
   write_file(file, world("<model name='m'><plugin name='vsa::Robot'><actuator><joint>j</joint><type>qbmov</type></actuator>"
                          "</plugin></model>"));
   expect(doctor_alone(machine, {file}), 1, {"problem: robot: " + file + ":1", "unknown actuator type"});
+}
+
+TEST(DoctorAlone, AStepThatNoRobotTakesIsAProblem) {
+  const Machine machine;
+  const std::string file = (machine.scratch / "w.sdf").string();
+  for (const char* step : {"0", "-0.001", "nan", "inf", "1e-7", "0.02", "fast", ""}) {
+    write_file(file, world(kModel, step));
+    expect(doctor_alone(machine, {file}), 1, {"problem: time step: <max_step_size> of ", "from 1e-6 to 0.016"});
+  }
+  for (const char* step : {"1e-6", "0.001", " 0.016 "}) {
+    write_file(file, world(kModel, step));
+    expect_none(doctor_alone(machine, {file}), "time step");
+  }
+}
+
+TEST(DoctorAlone, ReadsSdfAndNothingElse) {
+  const Machine machine;
+  const std::string file = std::string(VSA_SOURCE_DIR) + "/models/worlds/snake_flat.xml";
+  const Result r = doctor_alone(machine, {file});
+  EXPECT_EQ(r.exit_code, 2);
+  EXPECT_EQ(r.out, "");
+  EXPECT_NE(r.err.find(file + ": <mujoco>: is no SDF"), std::string::npos) << r.err;
 }
 
 TEST(DoctorAlone, RefusesWhatItDoesNotKnow) {

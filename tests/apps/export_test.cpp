@@ -44,6 +44,16 @@ TEST(Export, WritesAWorldAsMjcfWhichRunsWhereItStands) {
   EXPECT_FALSE(fs::exists(scratch / "x"));
 }
 
+TEST(Export, OfAnMjcfsFilesNoneIsNewWhereOneCantBeWritten) {
+  const Scratch scratch;
+  fs::create_directories(scratch / "out/bench_load.vsa.xml");  // a directory in the way of the second
+  write_file(scratch / "out/bench_load.xml", "old");
+  const Result r = run_vsa({"export", "--mjcf", "bench_load", "--out", (scratch / "out").string()});
+  EXPECT_EQ(r.exit_code, 1);
+  EXPECT_TRUE(has(r.err, "bench_load.vsa.xml: can't open for writing: Is a directory")) << r.err;
+  EXPECT_EQ(read_file(scratch / "out/bench_load.xml"), "old");
+}
+
 TEST(Export, WritesAnMjcfForThePluginBesideTheOthers) {
   const Scratch scratch;
   const Result r = run_vsa({"export", "--mjcf", "bench_load", "--plugin", "--out", (scratch / "out").string()});

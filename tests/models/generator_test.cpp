@@ -9,6 +9,7 @@
 
 #include "../record/scratch.hpp"
 #include "generate/generate.hpp"
+#include "generate/gripper.hpp"
 #include "generate/png.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/units.hpp"
@@ -90,6 +91,56 @@ TEST(Generator, RefusesANegativeMassAndABadSampleCountTogether) {
   const std::string text = problems_of("mass_kg = 0.45\n", "mass_kg = -1\n");
   EXPECT_NE(text.find("module.mass_kg = -1: out of range"), std::string::npos) << text;
   EXPECT_NE(problems_of("samples = 257", "samples = 256").find("hills.samples"), std::string::npos);
+}
+
+TEST(Generator, RefusesRangesThatGoBackwardsAndHillsThatBeginAtOnce) {
+  EXPECT_NE(problems_of("flat_radius_m = [0.7, 2.5]", "flat_radius_m = [2.5, 2.5]").find("hills.flat_radius_m = [2.5, 2.5]"),
+            std::string::npos);
+  EXPECT_NE(problems_of("side_m = [0.040, 0.140]", "side_m = [0.140, 0.040]").find("rubble.side_m = [0.14, 0.04]"),
+            std::string::npos);
+  EXPECT_EQ(problems_of("side_m = [0.040, 0.140]", "side_m = [0.140, 0.140]"), "");
+  EXPECT_EQ(problems_of("step_size_m = [0.50, 8.00]", "step_size_m = [8.00, 0.50]"), "") << "along and across, no range";
+}
+
+TEST(Generator, RefusesPartsWithoutRoomByTheirKeys) {
+  const auto told = [](const std::string& from, const std::string& to, const std::vector<std::string>& parts) {
+    const std::string text = problems_of(from, to);
+    for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " isn't in: " << text;
+  };
+  told("edge_m = 0.066", "edge_m = 0.1",
+       {"manipulator.shoulder_m = 0.095: no room", "module.edge_m = 0.1", "frank.head_tilt_m = 0.09"});
+  told("forearm_m = 0.140", "forearm_m = 0.05", {"manipulator.forearm_m = 0.05: no room for the tube", "module.edge_m / 2"});
+  told("chamfer_m = 0.011", "chamfer_m = 0.1", {"module.edge_m / 2 = 0.033: no room", "more than chamfer_m = 0.1"});
+  told("travel_m = 0.015", "travel_m = 0.05", {"gripper.opening_m = 0.04: no room", "bench_object.travel_m + 0.008 = 0.058"});
+  told("opening_m = 0.040", "opening_m = 0.005", {"gripper.opening_m / 2 = 0.0025: no room for the moving finger"});
+  told("pad_size_m = [0.006,", "pad_size_m = [0.036,", {"gripper.pad_size_m[1] = 0.024: no room"});
+}
+
+TEST(Generator, RefusesTypesThatArentThereControlCharactersAndSeedsWithAFraction) {
+  const std::string text = problems_of("type = \"qbmove_maker_pro_6_1\"", "type = \"no such type\"");
+  EXPECT_NE(text.find("actuator.type = no such type: no such actuator type"), std::string::npos) << text;
+  EXPECT_NE(text.find("qbmove_maker_pro_6_1"), std::string::npos) << text;
+  EXPECT_NE(problems_of("bus = \"spine\"", "bus = \"sp\\u0001ine\"").find("snake.bus: has a control character"), std::string::npos);
+  EXPECT_NE(problems_of("seed = 20150928", "seed = 20150928.7").find("rubble.seed"), std::string::npos);
+  EXPECT_NE(problems_of("baud_Hz = 2000000", "baud_Hz = 2000000.5").find("actuator.baud_Hz"), std::string::npos);
+}
+
+TEST(Generator, ThePalmsFingerIsWideAlongTheGrippersAxisAsItIsDrawn) {
+  Description d = read_description(kModels / "robots.toml");
+  const Inertial as_it_is = palm(d, -1, 0);
+  d.gripper.pad_size_m[1] = 0.1;
+  const Inertial wider = palm(d, -1, 0);
+  const double more = d.gripper.finger_mass_kg / 12 * (0.1 * 0.1 - 0.024 * 0.024);
+  EXPECT_NEAR(wider.inertia_kgm2[0], as_it_is.inertia_kgm2[0], 1e-15) << "about the axis itself, x";
+  EXPECT_NEAR(wider.inertia_kgm2[1], as_it_is.inertia_kgm2[1] + more, 1e-15);
+  EXPECT_NEAR(wider.inertia_kgm2[2], as_it_is.inertia_kgm2[2] + more, 1e-15);
+}
+
+TEST(Generator, PutsASnakeWithLargeContactsOnTheGround) {
+  Description d = read_description(kModels / "robots.toml");
+  d.module.contact_radius_m = 0.05;
+  const std::string world = generate(d).at("worlds/snake_flat.sdf");
+  EXPECT_NE(world.find("<pose>0 0 0.1005 0 0 0</pose>"), std::string::npos) << "twice the radius, and the clearance";
 }
 
 TEST(Generator, RefusesBrokenToml) { EXPECT_NE(problems_of("[bench]", "[bench").find("description.toml:"), std::string::npos); }

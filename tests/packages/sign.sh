@@ -24,7 +24,11 @@ sh "$root/scripts/sign.sh" "$work/out" test@localhost 2>"$work/log" || { cat "$w
 gpg --quiet --verify SHA256SUMS.asc SHA256SUMS 2>/dev/null || fail "not verified"
 echo more >>SHA256SUMS
 if gpg --quiet --verify SHA256SUMS.asc SHA256SUMS 2>/dev/null; then fail "changed sums are verified"; fi
+if sh "$root/scripts/sign.sh" "$work/out" test@localhost >/dev/null 2>&1; then fail "signed a line that is no sum"; fi
 sha256sum -- *.deb >SHA256SUMS
+if sh "$root/scripts/sign.sh" "$work/out" nobody@localhost 2>/dev/null; then fail "signed without a key"; fi
+gpg --quiet --verify SHA256SUMS.asc SHA256SUMS 2>/dev/null || fail "a signature is gone before there is another"
+test "$(ls)" = "$(printf '%s\n' SHA256SUMS SHA256SUMS.asc one.deb | sort)" || fail "something is left: $(ls)"
 echo two >two.deb
 if sh "$root/scripts/sign.sh" "$work/out" test@localhost 2>/dev/null; then fail "signed beside a file that nobody summed"; fi
 rm two.deb

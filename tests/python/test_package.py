@@ -1,11 +1,13 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 """The package itself: stubs, docstrings, examples, data."""
 import ast
+import importlib.util
 import inspect
 import os
 import pathlib
 import subprocess
 import sys
+import sysconfig
 import tempfile
 import unittest
 
@@ -102,6 +104,39 @@ class Data(unittest.TestCase):
         self.assertIn("vsasim", own.stdout)
         other = subprocess.run([sys.executable, "-c", program], env={**without, "VSA_DATA_DIR": "/nowhere"}, capture_output=True, text=True)
         self.assertIn("InputError", other.stderr)
+
+
+@unittest.skipIf(importlib.util.find_spec("setuptools") is None, "setuptools isn't installed")
+class Setup(unittest.TestCase):
+    def built(self, folder, *modules, **environment):
+        """setup.py on a tree of these modules, which cmake, one that does nothing, finds up to date."""
+        (folder / "bin").mkdir()
+        (folder / "bin" / "cmake").write_text("#!/bin/sh\n")
+        (folder / "bin" / "cmake").chmod(0o700)
+        package = folder / "tree" / "python" / "vsasim"
+        package.mkdir(parents=True)
+        for module in modules:
+            (package / module).touch()
+        given = {**os.environ, "PATH": f"{folder}/bin:{os.environ['PATH']}", "VSA_BUILD_DIR": str(folder / "tree"), "CMAKE_ARGS": "", **environment}
+        return subprocess.run([sys.executable, SOURCE / "setup.py", "-q", "build_ext", "--build-lib", "lib", "--build-temp", "temp"],
+                              cwd=folder, env=given, capture_output=True, text=True)
+
+    def test_the_module_is_this_pythons_and_no_other_comes_along(self):
+        own, other = "_vsasim" + sysconfig.get_config_var("EXT_SUFFIX"), "_vsasim.cpython-20-x86_64-linux-gnu.so"
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.built(pathlib.Path(folder), own, other)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual([file.name for file in (pathlib.Path(folder) / "lib" / "vsasim").iterdir()], [own])
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.built(pathlib.Path(folder), other)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"has the module of another Python, {other}: {sys.executable} loads {own}", done.stderr)
+
+    def test_flags_for_a_tree_that_is_configured_are_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.built(pathlib.Path(folder), CMAKE_ARGS="-DVSA_TOPICS=OFF")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("CMAKE_ARGS = -DVSA_TOPICS=OFF: VSA_BUILD_DIR = ", done.stderr)
 
 
 if __name__ == "__main__":

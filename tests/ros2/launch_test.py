@@ -9,7 +9,10 @@ launch_test.py SOURCE_DIR
 
 import os
 import pathlib
+import shlex
+import shutil
 import sys
+import tempfile
 import types
 import unittest
 
@@ -39,7 +42,7 @@ def launch_configuration(variable_name, *, default=None):
 
 
 def environment_variable(name, *, default_value=None):
-    return Substitution(lambda context: context['environment'][name])
+    return Substitution(lambda context: context['environment'].get(name, default_value))
 
 
 def path_join(substitutions):
@@ -63,6 +66,11 @@ class IncludeLaunchDescription:
         self.source, self.arguments, self.condition = launch_description_source, list(launch_arguments or []), condition
 
 
+class OpaqueFunction:
+    def __init__(self, *, function, args=None, kwargs=None, condition=None):
+        self.function = function
+
+
 class Node:
     def __init__(self, *, executable, package=None, name=None, namespace=None, parameters=None, remappings=None, arguments=None,
                  output=None, condition=None):
@@ -75,7 +83,8 @@ def install_stand_ins():
         sys.modules[name].__dict__.update(names)
 
     module('launch', LaunchDescription=list)
-    module('launch.actions', DeclareLaunchArgument=DeclareLaunchArgument, IncludeLaunchDescription=IncludeLaunchDescription)
+    module('launch.actions', DeclareLaunchArgument=DeclareLaunchArgument, IncludeLaunchDescription=IncludeLaunchDescription,
+           OpaqueFunction=OpaqueFunction)
     module('launch.conditions', IfCondition=lambda predicate_expression: predicate_expression)
     module('launch.launch_description_sources', PythonLaunchDescriptionSource=lambda launch_file_path: launch_file_path)
     module('launch.substitutions', EnvironmentVariable=environment_variable, LaunchConfiguration=launch_configuration,
@@ -85,18 +94,23 @@ def install_stand_ins():
     module('launch_ros.substitutions', FindPackageShare=find_package_share)
 
 
-def start(file, given):
-    """What launching `file` with these arguments starts: (kind, details) in order."""
+def start(file, given, data=SOURCE):
+    """What launching `file` with these arguments starts: (kind, details) in order. `data`: VSA_DATA_DIR, if set."""
     content = pathlib.Path(file).read_text()
     scope = {}
     exec(compile(content, str(file), 'exec'), scope)  # a launch file is a program: launch does the same
     context = {
         'arguments': dict(given),
-        'environment': {'VSA_DATA_DIR': str(SOURCE)},
+        'environment': {'VSA_DATA_DIR': str(data)} if data else {},
         'shares': {'vsa_ros2': str(SOURCE / 'ros2'), 'ros_gz_sim': '/ros_gz_sim'},
     }
     started = []
-    for entity in scope['generate_launch_description']():
+    entities = list(scope['generate_launch_description']())
+    while entities:
+        entity = entities.pop(0)
+        if isinstance(entity, OpaqueFunction):
+            entities[:0] = entity.function(context)
+            continue
         if isinstance(entity, DeclareLaunchArgument):
             context['arguments'].setdefault(entity.name, text(entity.default, context))
             assert entity.description
@@ -117,7 +131,7 @@ def start(file, given):
             else:
                 declared = {e.name for e in load(path) if isinstance(e, DeclareLaunchArgument)}
                 assert set(arguments) <= declared, f'{path} knows only {declared}'
-                started += start(path, arguments)
+                started += start(path, arguments, data)
     return started
 
 
@@ -128,11 +142,11 @@ def load(path):
 
 
 class LaunchFiles(unittest.TestCase):
-    def check(self, started, world, robot):
+    def check(self, started, world, robot, worlds=WORLDS):
         simulator, bridge = started
         self.assertEqual(simulator[0], '/ros_gz_sim/launch/gz_sim.launch.py')
-        option, path = simulator[1]['gz_args'].split(' ')
-        self.assertEqual((option, path), ('-r', str(WORLDS / f'{world}.sdf')))
+        option, path = shlex.split(simulator[1]['gz_args'])  # as the shell that ros_gz_sim starts
+        self.assertEqual((option, path), ('-r', str(worlds / f'{world}.sdf')))
         self.assertIn(f'<uri>model://{robot}</uri>', pathlib.Path(path).read_text(), 'the world has the robot')
         self.assertEqual(bridge[0], 'ros_gz_bridge/parameter_bridge')
         self.assertTrue(yaml.safe_load(pathlib.Path(bridge[1]['config_file']).read_text()))
@@ -145,6 +159,34 @@ class LaunchFiles(unittest.TestCase):
 
     def test_the_snake_goes_over_other_ground(self):
         self.check(start(LAUNCH / 'snake.launch.py', {'world': 'snake_rubble'}), 'snake_rubble', 'qbmove_snake')
+
+    def test_any_worlds_bridge_is_its_robots(self):
+        robots = {'bench_load': 'qbmove_bench_load', 'frank': 'frank', 'frank_table': 'frank', 'gripper_soft': 'qbmove_gripper',
+                  'snake_hills': 'qbmove_snake', 'manipulator_3r': 'qbmove_manipulator_3r', 'bench_pole': 'qbmove_bench_pole'}
+        for world, robot in robots.items():
+            self.check(start(LAUNCH / 'world.launch.py', {'world': world}), world, robot)
+        self.check(start(LAUNCH / 'world.launch.py', {}), 'bench_load', 'qbmove_bench_load')
+
+    def test_a_path_with_blanks_and_quotes_stays_one(self):
+        with tempfile.TemporaryDirectory(prefix="my ro'bots ") as folder:
+            worlds = pathlib.Path(folder, 'models', 'worlds')
+            worlds.mkdir(parents=True)
+            shutil.copy(WORLDS / 'frank.sdf', worlds)
+            self.check(start(LAUNCH / 'world.launch.py', {'world': 'frank'}, folder), 'frank', 'frank', worlds)
+
+    def test_what_does_not_fit_is_told(self):
+        def refused(given, message, data=SOURCE, file='world'):
+            with self.assertRaisesRegex(RuntimeError, message):
+                start(LAUNCH / f'{file}.launch.py', given, data)
+        refused({'world': 'atlantis'}, 'world:=atlantis: there is no .*atlantis.sdf .allowed: bench_free, ')
+        refused({'robot': 'qbmove_snak'}, 'robot:=qbmove_snak: there is no .*bridge.yaml .allowed: frank, qbmove, ')
+        refused({'world': 'frank', 'robot': 'qbmove'}, 'robot:=qbmove: .*frank.sdf has no such model')
+        refused({'world': 'frank'}, 'robot:=qbmove_bench_load: .*frank.sdf has no such model', file='bench_load')
+        refused({}, 'VSA_DATA_DIR is unset', None)
+
+    def test_the_bridge_alone_needs_no_data(self):
+        started = start(LAUNCH / 'world.launch.py', {'simulator': 'false', 'robot': 'frank'}, None)
+        self.assertEqual([what for what, _ in started], ['ros_gz_bridge/parameter_bridge'])
 
     def test_without_a_simulator_only_the_bridge_starts(self):
         self.assertEqual([what for what, _ in start(LAUNCH / 'snake.launch.py', {'simulator': 'false'})],

@@ -71,6 +71,12 @@ void check_presets(Findings& findings) {
     }
   }
   if (good > 0) findings.ok("actuator types", fmt::format("{} found", good));
+  constexpr const char* kPath = "VSA_ACTUATOR_PATH";
+  for (const std::filesystem::path& directory : directories_of(kPath)) {
+    std::error_code none;
+    if (!std::filesystem::is_directory(directory, none))
+      findings.note(kPath, directory.string() + " is no directory", "take it out of the list");
+  }
   if (library.names().empty()) findings.problem("actuator types", "none found", "set VSA_DATA_DIR or VSA_ACTUATOR_PATH");
 }
 

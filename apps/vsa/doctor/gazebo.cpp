@@ -74,8 +74,10 @@ std::optional<fs::path> configuration(const fs::path& executable, const char* va
       if (name.rfind(stem, 0) == 0 && at->path().extension() == ".yaml") found.push_back(at->path());
     }
   }
+  // By their names alone, wherever they are: sim10 is above sim9.
   const auto last = std::max_element(found.begin(), found.end(), [](const fs::path& a, const fs::path& b) {
-    return std::pair(a.string().size(), a) < std::pair(b.string().size(), b);
+    const std::string x = a.filename().string(), y = b.filename().string();
+    return std::pair(x.size(), x) < std::pair(y.size(), y);
   });
   return last == found.end() ? std::nullopt : std::optional(*last);
 }

@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using tinyxml2::XMLElement;
 
-constexpr double kLongestStep_s = 0.016;  // of a robot: host/robot.hpp
+constexpr double kShortestStep_s = 1e-6,
+                 kLongestStep_s = 0.016;  // of a world, and of a robot: engine/world_load.cpp, host/robot.hpp
 
 std::string text_of(const XMLElement& e) {
   tinyxml2::XMLPrinter printer(nullptr, true);
@@ -52,11 +53,12 @@ const XMLElement* world_of(const tinyxml2::XMLDocument& document) {
 void check_step(Findings& findings, const XMLElement& world) {
   for (const XMLElement* p = world.FirstChildElement("physics"); p != nullptr; p = p->NextSiblingElement("physics")) {
     const XMLElement* step = p->FirstChildElement("max_step_size");
-    const auto value =
-        step != nullptr && step->GetText() != nullptr ? config::parse_number(config::trim(step->GetText())) : std::nullopt;
-    if (value && *value > kLongestStep_s)
-      findings.problem("time step", fmt::format("<max_step_size> of {} s", *value),
-                       "at most 0.016; it is in seconds: 0.001 is 1 ms");
+    if (step == nullptr) continue;
+    const std::string text(config::trim(step->GetText() == nullptr ? "" : step->GetText()));
+    const auto value = config::parse_number(text);
+    if (!(value && *value >= kShortestStep_s && *value <= kLongestStep_s))
+      findings.problem("time step", fmt::format("<max_step_size> of {} s", value ? fmt::format("{}", *value) : "'" + text + "'"),
+                       "a number from 1e-6 to 0.016; it is in seconds: 0.001 is 1 ms");
   }
 }
 

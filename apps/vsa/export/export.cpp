@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "export/fmu.hpp"
 #include "terminal/exit_codes.hpp"
@@ -56,11 +59,10 @@ int export_mjcf(const ExportOptions& o) {
     files.push_back(std::move(more.file));
   }
   make_directory(directory, "--out");
-  for (const engine::ExportedFile& file : files) {
-    const std::filesystem::path path = std::filesystem::path(directory) / file.name;
-    write_whole(path, file.bytes);
-    std::cout << path.string() << '\n';
-  }
+  std::vector<std::pair<std::filesystem::path, std::string_view>> whole;
+  for (const engine::ExportedFile& file : files) whole.emplace_back(std::filesystem::path(directory) / file.name, file.bytes);
+  write_all_whole(whole);  // they belong to each other
+  for (const auto& [path, bytes] : whole) std::cout << path.string() << '\n';
   return std::cout.flush() ? kDone : kFailed;
 }
 

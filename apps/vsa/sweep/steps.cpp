@@ -2,7 +2,6 @@
 #include "sweep/steps.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +13,6 @@
 #include "terminal/exit_codes.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
-#include "vsa/output_file.hpp"
 #include "vsa/sweep/summary.hpp"
 
 namespace vsa::app {
@@ -129,9 +127,7 @@ std::string account_text(const sweep::Account& a, std::size_t processes) {
 
 bool write_page(const report::Report& page, const fs::path& file, Console& console) {
   try {
-    const std::string mark = '-' + std::to_string(getpid());  // two may merge at once
-    write_whole(
-        file, [&page](const fs::path& own) { report::write_report(page, own); }, mark);
+    report::write_report(page, file);
     return true;
   } catch (const InputError& error) {
     console.line("page left out: " + error.problems().front().text());
