@@ -23,6 +23,11 @@ TEST(Generate, TellsItsUseAndRefusesOthers) {
   const Result help = generate({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.out.rfind("usage: vsa-generate DESCRIPTION.toml OUTDIR [ROS2DIR]\n", 0), 0U) << help.out;
+  Surroundings full;
+  full.full_stdout = true;
+  const Result unheard = generate({"--help"}, full);
+  EXPECT_EQ(unheard.exit_code, 1);
+  EXPECT_NE(unheard.err.find("can't write to standard output"), std::string::npos) << unheard.err;
   for (const std::vector<std::string>& bad :
        {std::vector<std::string>{}, {kRobots}, {kRobots, ""}, {"", "out"}, {kRobots, "--out", "x"}, {kRobots, "a", "b", "c"}}) {
     const Result r = generate(bad);
