@@ -194,7 +194,8 @@ void bind_law(Class& c) {
             return py::make_tuple(found.equilibrium, found.preset);
           },
           py::arg("motor_rad"),
-          "The inverse of references(): where the unloaded shaft rests, rad, and the preset, of motors at (2,) rad.")
+          "The inverse of references(): the command (equilibrium in rad, preset) that motors at (2,) rad amount to. Springs that\n"
+          "are alike rest there unloaded; of unequal ones it is the pulleys' mean, beside which the shaft rests.")
       .def(
           "command_for", &command_for, py::arg("shaft_rad"), py::arg("torque_Nm"), py::arg("stiffness_Nm_per_rad"),
           "The command (equilibrium in rad, preset) that gives this torque and stiffness with the shaft at that angle. InputError\n"

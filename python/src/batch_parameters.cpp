@@ -134,7 +134,8 @@ std::string text(const Distribution& d) {
 constexpr const char* kSet =
     "Parameters of copies from the next step on. which: a copy, indices (k,), a mask (copies,) of bool, None: all. who: an "
     "actuator\n"
-    "(name or index) or a link (name); None: every one that has the key. key: of the actuator's type (ActuatorType.keys), or\n"
+    "(name or index) or a link (name); None: every one that has the key, as owners(key) tells (drive_2.…: that gives it).\n"
+    "key: of the actuator's type (ActuatorType.keys), or\n"
     "link.mass_kg (the inertia goes in proportion), link.inertia_factor (on top, 1e-6 … 1e6), link.friction (of all its shapes).\n"
     "value: a number, (k,) or, where who is None, (k, owners), (k, 1), (1, owners); or one text (\"coast\") or bool. Motion goes\n"
     "on as after World.set_parameters. InputError with copy, name, key and what is allowed; nothing has changed then.";

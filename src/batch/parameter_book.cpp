@@ -31,6 +31,12 @@ std::string recipe(const std::string& type, const std::vector<Override>& values)
   return out;
 }
 
+/// "drive_2.friction_Nm": who has none has motors alike.
+bool of_second_motor(std::string_view key) {
+  const auto all = config::parameters();
+  return std::any_of(all.begin(), all.end(), [key](const config::Parameter& p) { return p.key == key && p.second; });
+}
+
 std::string value_text(const std::variant<double, std::string>& value, config::Kind kind) {
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   const double number = std::get<double>(value);
@@ -123,8 +129,15 @@ std::vector<std::size_t> ParameterBook::owners(const engine::World& world, const
     return out;
   }
   const std::size_t count = links ? links_.size() : world.actuators().size();
-  for (std::size_t k = 0; k < count; ++k)
-    if (has(world, k, key)) out.push_back(k);
+  bool could = false;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!has(world, k, key)) continue;
+    could = true;
+    // Nobody asked for unlike motors where they are alike: those who are named get them.
+    if (links || !of_second_motor(key) || entry(world, k, key) != nullptr) out.push_back(k);
+  }
+  if (out.empty() && could)
+    throw InputError(Problem{"", key, "", "no actuator has it: their motors are alike", "the name of one that shall have it"});
   if (!out.empty() || count == 0 || links) {
     if (out.empty()) throw InputError(Problem{"", key, "", links ? "no link has it" : "no actuator has it", ""});
     return out;

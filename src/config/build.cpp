@@ -164,6 +164,16 @@ void read_parameter(const Parameter& p, const Law& law, Resolver& resolver, devi
   }
 }
 
+/// A base's tendons are those of its springs: a law that names none doesn't take them, as it doesn't take the springs.
+bool leaves_tendons(const Law& law, const Resolver& resolver) {
+  return law && law->spring_count() == 0 && resolver.inherited("tendon.friction").value_or(0) > 0;
+}
+
+void leave_tendon(const Parameter& p, Resolver& resolver, device::UnitConfig& unit) {
+  resolver.know(p.key);
+  p.apply(unit, resolver.use_default(spec_of(p, nullptr, unit), p.default_value, "the base's is of springs that this law hasn't"));
+}
+
 /// What the models need beyond single values; of keys that have none, and of a law that couldn't be made, enough is said.
 void check_together(const device::UnitConfig& unit, Resolver& resolver) {
   Problems found;
@@ -198,10 +208,12 @@ ActuatorType build_type(const Document& document, const std::vector<Override>& o
   bool law_known = false;
   const Law law = make_law(document, laws, resolver, law_known, type.remarks);
   type.unit.actuator.transmission = law;
-  const bool controller_known = make_controller(document, resolver, type);
+  const bool controller_known = make_controller(document, resolver, type), no_tendons = leaves_tendons(law, resolver);
   for (const Parameter& p : parameters()) {
     if (!controller_known) {
       resolver.know(p.key);
+    } else if (no_tendons && p.key.rfind("tendon.", 0) == 0 && !resolver.has_own(p.key)) {
+      leave_tendon(p, resolver, type.unit);
     } else if (is_of(p, type.controller, resolver)) {
       read_parameter(p, law, resolver, type.unit);
     }

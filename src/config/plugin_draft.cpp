@@ -122,7 +122,9 @@ class Finisher {
     if (const auto tag = a.tag_of.find(key); tag != a.tag_of.end()) {
       add(a.path + "/" + tag->second, p.value, key + ": " + p.message, p.allowed);
     } else if (const auto flag = a.flag_of.find(key); flag != a.flag_of.end()) {
-      problems_.add({"", flag->second + " " + key, p.value, p.message, p.allowed});  // the robot's file is right
+      // The robot's file is right; of several types one may lack the key.
+      problems_.add(
+          {"", flag->second + " " + key, p.value, p.message + " (actuator " + a.name + ", type " + a.type + ")", p.allowed});
     } else if (from_override) {
       add(a.path + "/override[" + key + "]", p.value, p.message, p.allowed);
     } else if (p.key == "type" && p.file.empty()) {

@@ -143,6 +143,11 @@ bool Resolver::has_own(std::string_view key) const {
   return (item != nullptr && item->file.empty()) || std::any_of(overrides_.begin(), overrides_.end(), same);
 }
 
+std::optional<double> Resolver::inherited(std::string_view key) const {
+  const Item* item = has_own(key) ? nullptr : find(key);
+  return item == nullptr ? std::nullopt : convert(Spec{}, item->value);
+}
+
 bool Resolver::has(std::string_view key) const { return find(key) != nullptr || has_own(key); }
 
 std::optional<double> Resolver::resolve(const Spec& spec) {

@@ -37,6 +37,8 @@ class Resolver {
   [[nodiscard]] bool has(std::string_view key) const;
   /// In the file itself or by an override, not only in its base.
   [[nodiscard]] bool has_own(std::string_view key) const;
+  /// Its base's number, where it has none of its own and no override; none: the base has none either, or no number.
+  [[nodiscard]] std::optional<double> inherited(std::string_view key) const;
   /// It has no value that could be judged: missing or wrong, and reported.
   [[nodiscard]] bool failed(std::string_view key) const;
   /// The value (a word's index, 0 or 1 for a switch), with its entry added to entries(); none: absent, or wrong and reported.

@@ -113,6 +113,16 @@ bus::ParameterValue read_limits(ValueReader& reader, const Resolutions& r) {
   return value;
 }
 
+/// The unit leaves out one of the wrong sign, and stores the other.
+bus::ParameterValue read_max_steps(ValueReader& reader, const Resolutions& r) {
+  const auto value = read_ticks<2>(reader, "-10 10", {r[0], r[0]});
+  const auto& steps = std::get<std::array<std::int32_t, 2>>(value);
+  constexpr const char* kAllowed = "-10 10: lowest ≤ 0, highest ≥ 0";
+  if (steps[0] > 0) reader.refuse(0, "above 0", kAllowed);
+  if (steps[1] < 0) reader.refuse(1, "below 0", kAllowed);
+  return value;
+}
+
 }  // namespace
 
 std::vector<std::string> unit_parameter_names(bus::Dialect dialect) {
@@ -209,7 +219,7 @@ bus::ParameterValue read_unit_parameter(ValueReader& reader, ParameterId id, con
     case ParameterId::limits:
       return read_limits(reader, resolutions);
     case ParameterId::max_steps:
-      return read_ticks<2>(reader, "-10 10", {resolutions[0], resolutions[0]});
+      return read_max_steps(reader, resolutions);
     case ParameterId::current_limit:
       return static_cast<std::int16_t>(reader.expect(1, "1500") ? reader.whole(0, 0, kMost_mA, " mA") : 0);
     case ParameterId::rate_limiter:

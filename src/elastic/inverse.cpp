@@ -229,6 +229,31 @@ std::optional<double> equilibrium_for(const Transmission& law, double q, double 
   }
 }
 
+std::optional<double> rest_under(const Transmission& law, const std::array<double, 2>& x, double load_Nm,
+                                 double reach_rad) noexcept {
+  for (const double v : {x[0], x[1], load_Nm})
+    if (!std::isfinite(v)) return std::nullopt;
+  const double from = law.attained(x).equilibrium, there = law.evaluate({from, x}).torque + load_Nm;
+  if (there == 0) return from;
+  const double side = there < 0 ? -1 : 1;
+  const auto pushed = [&](double size) { return side * (law.evaluate({from + side * size, x}).torque + load_Nm) > 0; };
+  double low = 0, high = std::min(1e-3, reach_rad);
+  while (pushed(high)) {
+    if (high >= reach_rad) return std::nullopt;
+    low = high;
+    high = std::min(2 * high, reach_rad);
+  }
+  for (double mid = 0.5 * (low + high); mid > low && mid < high; mid = 0.5 * (low + high)) (pushed(mid) ? low : high) = mid;
+  return from + side * high;
+}
+
+bool antagonistic(const Transmission& law) noexcept {
+  if (law.motor_count() != 2) return false;
+  constexpr EquilibriumPreset kAny{0.25, 0.125};
+  const auto x = law.references(kAny);
+  return std::abs(x[0] - 0.375) < 1e-9 && std::abs(x[1] - 0.125) < 1e-9;
+}
+
 Command command_for(const Transmission& law, const Wanted& wanted, double preset_max) noexcept {
   using Outcome = Command::Outcome;
   Command result;

@@ -19,6 +19,31 @@ void put(std::vector<std::pair<std::size_t, Value>>& list, std::size_t key, cons
   if (!none) list.emplace_back(key, value);
 }
 
+/// Limits give way a little: a joint beyond them may be set to where it is, and linear_world tries 2e-3 about a place.
+void check_limits(const std::string& joint, const std::array<double, 2>& range, double now, double angle) {
+  constexpr double kSoft = 5e-3;  // rad or m
+  if (angle >= std::min(range[0] - kSoft, now) && angle <= std::max(range[1] + kSoft, now)) return;
+  throw InputError(Problem{"", joint + ": angle", fmt::format("{}", angle), "beyond the joint's limits",
+                           fmt::format("{} … {}", range[0], range[1])});
+}
+
+struct Follower {
+  physics::JointState now, leader, wanted;
+};
+/// A follower is where its leader has it: all joints may be set one by one, to where they were.
+void check_follower(const description::Coupling& c, const std::vector<JointInfo>& joints, const Follower& f) {
+  constexpr double kNear = 1e-6;
+  const double there = c.multiplier * f.leader.position + c.offset, moves = c.multiplier * f.leader.speed;
+  const bool angle =
+      std::abs(f.wanted.position - there) <= std::max(std::abs(f.now.position - there), kNear * (1 + std::abs(there)));
+  const bool speed = f.wanted.speed == 0 || std::abs(f.wanted.speed - moves) <= kNear * (1 + std::abs(moves));
+  if (angle && speed) return;
+  const auto state = [](double position, double v) { return fmt::format("{}, speed {}", position, v); };
+  throw InputError(Problem{"", joints[c.follower].name, state(f.wanted.position, f.wanted.speed),
+                           "follows " + joints[c.leader].name + " (<mimic>), which has it at " + state(there, moves),
+                           "setting " + joints[c.leader].name + ", which moves it along"});
+}
+
 }  // namespace
 
 bool World::command(std::string_view name, double equilibrium_rad, double preset) {
@@ -108,7 +133,17 @@ void World::set_joint(JointHandle joint, double angle, double speed) {
   const std::size_t index = at(joint);
   check_within("angle", angle, kMostState);
   check_within("speed", speed, kMostState);
+  const physics::JointState now = impl_->physics->joint(index);
+  const auto own = [index](const description::Coupling& c) { return c.follower == index; };
+  const auto coupling = std::find_if(impl_->world->couplings.begin(), impl_->world->couplings.end(), own);
+  if (coupling != impl_->world->couplings.end()) {
+    check_follower(*coupling, joints(), {now, impl_->physics->joint(coupling->leader), {angle, speed}});
+    impl_->set_followers(coupling->leader);
+    return impl_->forget_mobility();
+  }
+  if (const auto& range = joints()[index].range) check_limits(joints()[index].name, *range, now.position, angle);
   impl_->physics->set_joint(index, {angle, speed});
+  impl_->set_followers(index);
   impl_->placed(index);
 }
 

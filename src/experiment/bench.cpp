@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "experiment/bench_world.hpp"
+#include "vsa/elastic/inverse.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/units.hpp"
 
@@ -132,19 +133,12 @@ void check_preset(const Specimen& specimen, double preset) {
 
 double law_deflection(const elastic::Transmission& law, double preset, double load_Nm) {
   const auto x = law.references({0.0, preset});
-  const double rest = law.attained(x).equilibrium, sign = load_Nm < 0 ? -1 : 1;
-  const auto excess = [&](double size) { return -sign * law.evaluate({rest + sign * size, x}).torque - std::abs(load_Nm); };
-  double low = 0, high = 1e-3;
-  while (excess(high) < 0) {
-    if (high > 2 * kPi) {
-      throw InputError(
-          {"", "load_Nm", fmt::format("{}", load_Nm), "the elastic law doesn't carry it within a turn", "a smaller load"});
-    }
-    low = high;
-    high *= 2;
+  const auto rest = elastic::rest_under(law, x, load_Nm);
+  if (!rest) {
+    throw InputError(
+        {"", "load_Nm", fmt::format("{}", load_Nm), "the elastic law doesn't carry it within a turn", "a smaller load"});
   }
-  for (double mid = 0.5 * (low + high); mid > low && mid < high; mid = 0.5 * (low + high)) (excess(mid) < 0 ? low : high) = mid;
-  return sign * high;
+  return *rest - law.attained(x).equilibrium;
 }
 
 /// The parabola through the three angles that the recordings' shaft reached, in Lagrange's form.

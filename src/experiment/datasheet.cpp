@@ -15,21 +15,29 @@ constexpr int kEnergyPoints = 61;
 constexpr int kBoundaryPoints = 81;
 constexpr int kCurvePoints = 101;
 
+OneWay one_way(const Workspace& workspace, double preset, int direction) {
+  OneWay w;
+  w.peak = workspace.reach(preset, 0, Task::move, direction);
+  w.holding = workspace.reach(preset, 0, Task::hold, direction);
+  w.unpowered = workspace.reach(preset, 0, Task::unpowered, direction);
+  w.no_load_speed_rad_per_s = workspace.no_load_speed(preset, direction);
+  w.half_load_Nm = w.peak.torque_Nm / 2;
+  const double against_Nm = -direction * w.half_load_Nm;  // the load that such a torque carries
+  w.stiffness_at_half_Nm_per_rad = workspace.stiffness_under(preset, against_Nm);
+  w.held_at_half = workspace.holding(preset, against_Nm);
+  w.boundary = workspace.boundary(preset, kBoundaryPoints, direction);
+  w.power = best_power(w.boundary);
+  return w;
+}
+
 PresetColumn column(const Workspace& workspace, double preset) {
   PresetColumn c;
+  static_cast<OneWay&>(c) = one_way(workspace, preset, 1);
+  c.back = one_way(workspace, preset, -1);
   c.preset = preset;
   c.stiffness_at_rest_Nm_per_rad = workspace.stiffness_at_rest(preset);
-  c.peak = workspace.reach(preset, 0, Task::move);
-  c.holding = workspace.reach(preset, 0, Task::hold);
-  c.unpowered = workspace.reach(preset, 0, Task::unpowered);
-  c.no_load_speed_rad_per_s = workspace.no_load_speed(preset);
   c.energy_at_rest_J = workspace.energy_at_rest(preset);
-  c.half_load_Nm = c.peak.torque_Nm / 2;
-  c.stiffness_at_half_Nm_per_rad = workspace.stiffness_under(preset, c.half_load_Nm);
   c.held_at_rest = workspace.holding(preset);
-  c.held_at_half = workspace.holding(preset, c.half_load_Nm);
-  c.boundary = workspace.boundary(preset, kBoundaryPoints);
-  c.power = best_power(c.boundary);
   c.curve = workspace.law_curve(preset, kCurvePoints);
   return c;
 }
@@ -52,6 +60,11 @@ LoopErrors loop_errors(const device::UnitConfig& unit, std::size_t motor, const 
 
 }  // namespace
 
+const OneWay& PresetColumn::weaker() const noexcept {
+  constexpr double kAlike = 1e-9;
+  return back.peak.torque_Nm < (1 - kAlike) * peak.torque_Nm ? back : *this;
+}
+
 DataSheet data_sheet(const config::ActuatorType& type) {
   const Workspace workspace(type.unit);
   DataSheet sheet;
@@ -67,7 +80,8 @@ DataSheet data_sheet(const config::ActuatorType& type) {
   }
   for (int i = 0; i < (one ? 1 : kEnergyPoints); ++i) {
     const double p = sheet.attainable_preset * i / (kEnergyPoints - 1);
-    for (const double e : {workspace.reach(p, 0).energy_J, workspace.energy_at_rest(p)}) {
+    for (const double e :
+         {workspace.reach(p, 0).energy_J, workspace.reach(p, 0, Task::move, -1).energy_J, workspace.energy_at_rest(p)}) {
       sheet.most_energy_J = std::fmax(sheet.most_energy_J, e);
     }
   }

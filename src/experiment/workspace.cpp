@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vsa/elastic/inverse.hpp"
 #include "vsa/not_a_number.hpp"
 #include "vsa/units.hpp"
 
@@ -114,6 +115,14 @@ elastic::Response Workspace::at(double preset, double lag_rad, int direction) co
   return law.evaluate({law.attained(x).equilibrium - direction * lag_rad, x});
 }
 
+/// How far the unloaded shaft lags behind its equilibrium: with springs alike not at all.
+double Workspace::lag_at_rest(double preset, int direction) const {
+  const elastic::Transmission& law = *unit_.actuator.transmission;
+  const auto x = law.references({0.0, preset});
+  const double equilibrium = law.attained(x).equilibrium;
+  return direction * (equilibrium - elastic::rest_under(law, x).value_or(equilibrium));
+}
+
 bool Workspace::carries(const elastic::Response& r, const std::array<double, 2>& rates, double speed, Task task) const {
   for (int i = 0; i < unit_.actuator.transmission->motor_count(); ++i) {
     const MotorLine& line = lines_[static_cast<std::size_t>(i)];
@@ -138,17 +147,23 @@ Reach Workspace::reach(double preset, double speed, Task task, int direction) co
     const elastic::Response r = at(preset, lag, direction);
     return r.curvature.qq >= 0 && carries(r, rates, speed, task);  // where the law softens to nothing, the joint gives way
   };
-  if (!ok(0)) return {kNaN, kNaN, kNaN, kNaN};
+  const double rest = lag_at_rest(preset, direction);
+  if (!ok(rest)) return {kNaN, kNaN, kNaN, kNaN};
   const double share = unit_.actuator.linear() ? kSlideShare_m_per_rad : 1.0;
-  const double lag = last_good(share * kLagMost_rad, share * kLagStep_rad, ok);
+  const double lag = rest + last_good(share * kLagMost_rad, share * kLagStep_rad, [&](double more) { return ok(rest + more); });
   const elastic::Response r = at(preset, lag, direction);
   const double shaft = unit_.actuator.shaft_friction.coulomb_Nm;
   const double torque = direction * r.torque + (task == Task::move ? -shaft : shaft);
   return {lag, torque, r.curvature.qq, r.energy};
 }
 
+double Workspace::moves_Nm(double preset) const {
+  const double to = reach(preset, 0).torque_Nm, fro = reach(preset, 0, Task::move, -1).torque_Nm;
+  return fro < to || std::isnan(fro) ? fro : to;
+}
+
 bool Workspace::winds(double preset) const {
-  const elastic::Response r = at(preset, 0, 1);
+  const elastic::Response r = at(preset, lag_at_rest(preset, 1), 1);
   for (int i = 0; i < unit_.actuator.transmission->motor_count(); ++i) {
     if (std::abs(r.load[i]) > lines_[static_cast<std::size_t>(i)].most_Nm(0)) return false;
   }
@@ -160,19 +175,19 @@ double Workspace::attainable_preset() const {
   return last_good(unit_.preset_max, unit_.preset_max / 500, [this](double p) { return winds(p); });
 }
 
-double Workspace::no_load_speed(double preset) const {
-  const auto turns = [&](double speed) { return reach(preset, speed).torque_Nm >= 0; };  // NaN: no
+double Workspace::no_load_speed(double preset, int direction) const {
+  const auto turns = [&](double speed) { return reach(preset, speed, Task::move, direction).torque_Nm >= 0; };  // NaN: no
   if (!turns(0)) return 0;
   const double most = 2 * std::max(lines_[0].no_load_speed_rad_per_s(), lines_[1].no_load_speed_rad_per_s()) + 1e-9;
   return last_good(most, most / 20, turns);
 }
 
-std::vector<WorkspacePoint> Workspace::boundary(double preset, int points) const {
-  const double fastest = no_load_speed(preset);
+std::vector<WorkspacePoint> Workspace::boundary(double preset, int points, int direction) const {
+  const double fastest = no_load_speed(preset, direction);
   std::vector<WorkspacePoint> out;
   for (int i = 0; i < points; ++i) {
     const double speed = fastest * i / (points - 1);
-    out.push_back({speed, reach(preset, speed)});
+    out.push_back({speed, reach(preset, speed, Task::move, direction)});
   }
   return out;
 }
@@ -189,15 +204,15 @@ std::vector<LawPoint> Workspace::law_curve(double preset, int points) const {
   return out;
 }
 
-double Workspace::stiffness_at_rest(double preset) const { return at(preset, 0, 1).curvature.qq; }
-double Workspace::energy_at_rest(double preset) const { return at(preset, 0, 1).energy; }
+double Workspace::stiffness_at_rest(double preset) const { return at(preset, lag_at_rest(preset, 1), 1).curvature.qq; }
+double Workspace::energy_at_rest(double preset) const { return at(preset, lag_at_rest(preset, 1), 1).energy; }
 
 /// How far the shaft gives way to an external load; none: beyond the task's reach.
 std::optional<double> Workspace::lag_under(double preset, double load_Nm, Task task) const {
   const int direction = load_Nm < 0 ? 1 : -1;
   const Reach most = reach(preset, 0, task, direction);
   if (!(direction * at(preset, most.deflection_rad, direction).torque >= std::abs(load_Nm))) return std::nullopt;
-  double low = 0, high = most.deflection_rad;  // within reach the torque grows
+  double low = lag_at_rest(preset, direction), high = most.deflection_rad;  // within reach the torque grows
   for (double mid = 0.5 * (low + high); mid > low && mid < high; mid = 0.5 * (low + high))
     (direction * at(preset, mid, direction).torque < std::abs(load_Nm) ? low : high) = mid;
   return high;

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/ports/robot_ports.hpp"
 
+#include "vsa/elastic/inverse.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/serial/ports.hpp"
 
@@ -12,6 +13,16 @@ std::string ids_on(const host::RobotConfig& config, std::size_t bus) {
   std::string ids;
   for (const auto& actuator : config.actuators)
     if (actuator.bus == bus) ids += (ids.empty() ? "" : ", ") + std::to_string(actuator.id);
+  return ids;
+}
+
+/// "3": those for which equilibrium ± preset means nothing; "": none.
+std::string others_on(const host::RobotConfig& config, std::size_t bus) {
+  std::string ids;
+  for (const auto& actuator : config.actuators) {
+    if (actuator.bus != bus || elastic::antagonistic(*actuator.unit.actuator.transmission)) continue;
+    ids += (ids.empty() ? "" : ", ") + std::to_string(actuator.id);
+  }
   return ids;
 }
 
@@ -29,6 +40,9 @@ void RobotPorts::open(host::Robot& robot, const std::string& model, const Report
       const std::string& path = ports_.back()->path();
       report("serial port " + path + ": bus " + bus.name + " of " + model + ", units " + ids_on(robot.config(), b) + "; vsa ping " +
              path);
+      if (const std::string others = others_on(robot.config(), b); !others.empty())
+        report("serial port " + path + ": the references of unit " + others + " aren't equilibrium ± preset; use vsa set " + path +
+               " inputs …");
     } catch (const InputError& error) {
       problems.add_all(error);
     }

@@ -17,10 +17,11 @@ constexpr int kPresets = 100;          // tried between 0 and the largest that t
 constexpr double kMargin = 1.1;        // of torque: no lever hangs on the verge of falling
 constexpr double kReserve = 2;         // peak torque over load, at least
 
-/// Less than a right angle under the load.
+/// Less than a right angle under the load, to both sides.
 bool law_carries(const elastic::Transmission& law, double preset, double load_Nm) {
   try {
-    return experiment::law_deflection(law, preset, load_Nm) < kPi / 2;
+    return experiment::law_deflection(law, preset, load_Nm) < kPi / 2 &&
+           experiment::law_deflection(law, preset, -load_Nm) > -kPi / 2;
   } catch (const InputError&) {
     return false;
   }
@@ -28,7 +29,7 @@ bool law_carries(const elastic::Transmission& law, double preset, double load_Nm
 
 /// That, and the motors can move it.
 bool carries(const experiment::Workspace& workspace, const elastic::Transmission& law, double preset, double load_Nm) {
-  return workspace.reach(preset, 0).torque_Nm >= kMargin * load_Nm && law_carries(law, preset, load_Nm);
+  return workspace.moves_Nm(preset) >= kMargin * load_Nm && law_carries(law, preset, load_Nm);
 }
 
 /// 1, 2 or 5 times a power of ten, at most `value`.
@@ -47,7 +48,7 @@ struct Searched {
   /// Over all presets.
   [[nodiscard]] double peak_Nm() const {
     double out = 0;
-    for (int i = 0; i <= last(); i += 5) out = std::fmax(out, workspace.reach(preset(i), 0).torque_Nm);
+    for (int i = 0; i <= last(); i += 5) out = std::fmax(out, workspace.moves_Nm(preset(i)));
     return out;
   }
   [[nodiscard]] std::optional<double> first(double load_Nm) const {

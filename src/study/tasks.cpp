@@ -28,8 +28,8 @@ TaskResults planned(config::ActuatorType type, const TaskOptions& options) {
   for (const double share : experiment::kPresetShares) {
     if (share == 0 || attainable > 0) out.presets.push_back(share * attainable);
   }
-  for (const double p : out.presets) out.torque_Nm = std::fmax(out.torque_Nm, workspace.reach(p, 0).torque_Nm);
-  out.no_load_speed_rad_per_s = workspace.no_load_speed(0);
+  for (const double p : out.presets) out.torque_Nm = std::fmax(out.torque_Nm, workspace.moves_Nm(p));
+  out.no_load_speed_rad_per_s = std::min(workspace.no_load_speed(0), workspace.no_load_speed(0, -1));
   const bool moves = out.torque_Nm > 0;
   out.inertia_kgm2 = moves ? options.inertia_kgm2.value_or(out.torque_Nm / kAcceleration_rad_per_s2) : kNaN;
   out.load_Nm = moves ? options.load_Nm.value_or(out.torque_Nm / 2) : kNaN;

@@ -127,7 +127,7 @@ Chart parallel(const Sheet& sheet) {
     double least = kNaN, most = kNaN;
   };
   std::vector<Line> lines;
-  std::string label;
+  std::string list;  // an axis has no place for so many names
   for (std::size_t c = 2; c + 2 < sheet.all.size(); ++c) {
     const Column& column = sheet.all[c];
     if (!column.is_number) continue;
@@ -139,15 +139,14 @@ Chart parallel(const Sheet& sheet) {
     }
     if (!(line.least < line.most)) continue;
     lines.push_back(line);
-    label += fmt::format("{}{}: {} [{} … {}]", label.empty() ? "" : ", ", lines.size(), column.name, digits(line.least),
-                         digits(line.most));
+    list += fmt::format(" {}: {}, {} … {}.", lines.size(), column.name, digits(line.least), digits(line.most));
   }
   const std::vector<double>& first = sheet.measure(0).numbers;
   const Fifths fifths(first);
-  Chart chart{"All at once", label, "from the least to the most", {}, ""};
+  Chart chart{"All at once", "axes and measures, listed below", "from the least to the most", {}, ""};
   const std::size_t every = std::max<std::size_t>(1, (first.size() + kMostLines - 1) / kMostLines);
   chart.caption = "A run a line, coloured by the fifths of " + sheet.measure(0).name +
-                  (every > 1 ? "; every " + std::to_string(every) + "th run" : "") + ".";
+                  (every > 1 ? "; every " + std::to_string(every) + "th run" : "") + "." + list;
   for (int k = 0; k < kClasses; ++k) chart.curves.push_back(report::curve(fifths.name(k), {}, {}, Curve::Style::line, k));
   for (std::size_t r = 0; r < first.size(); r += every) {
     if (!std::isfinite(first[r])) continue;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <regex>
 #include <sstream>
 
 #include "subprocess.hpp"
@@ -71,6 +72,28 @@ TEST(Characterize, WritesAReportResultsAndOneRecordingAPreset) {
        {"\"preset_rad\": 0.2", "\"period_s\": 6.0", "\"load_peak_Nm\": 1.4715", "\"area_Nm_rad\"", "\"program\": \"vsa "}) {
     EXPECT_NE(json.find(key), std::string::npos) << key;
   }
+}
+
+TEST(Characterize, WhatAnEarlierRunLeftThereIsTold) {
+  const Scratch scratch;
+  const fs::path out = scratch / "out";
+  const Result first = run_vsa(stiffness("qbmove_maker_pro_6_1", out, {"--preset-rad", "0.2"}));
+  const Result again = run_vsa(stiffness("qbmove_maker_pro_6_1", out, {"--preset-rad", "0.2"}));
+  const Result other = run_vsa(stiffness("sea_example", out));
+  EXPECT_EQ(first.err, "");
+  EXPECT_EQ(again.err, "");
+  EXPECT_NE(other.err.find("warning: " + out.string() + " keeps an earlier run's stiffness_preset_0.2000rad.csv\n"),
+            std::string::npos)
+      << other.err;
+}
+
+/// Springs of which one is weaker go further to its side.
+TEST(Characterize, UnequalSpringsHaveTwoEnds) {
+  const Scratch scratch;
+  const Result r =
+      run_vsa(stiffness("qbmove_maker_pro_paper", scratch / "out", {"--preset-rad", "0.3", "--set", "elastic.k1_Nm=0.06"}));
+  ASSERT_EQ(r.exit_code, 0) << r.err;
+  EXPECT_TRUE(std::regex_search(r.out, std::regex("-0\\.[0-9]+ … 0\\.[0-9]+"))) << "deflection\n" << r.out;
 }
 
 TEST(Characterize, TheSameCommandWritesTheSameBytes) {

@@ -100,10 +100,20 @@ TEST(Emulate, BadInputIsToldBeforeThereIsAPort) {
   expect(with({"--fault", "7 off"}), 2, {"--fault", "no such unit"});
   expect(with({"--fault", "1"}), 2, {"names no fault"});
   expect(with({"--dialect", "8"}), 2, {"--dialect"});
+  expect(run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", "x y"}), 2, {"--port", "x y", "letters, digits"});
   expect(run_vsa({"emulate", "walker", "--port", path}), 2, {"walker"});
   expect(run_vsa({"emulate", "anydrive_ad119e20", "--port", path}), 2, {"anydrive_ad119e20", "speaks no qbmove protocol"});
   write_file(path, "mine");
   expect(with({}), 2, {"left alone"});
+}
+
+TEST(Emulate, SaysWhereAnEquilibriumIsntASumAndADifference) {
+  for (const auto& [type, antagonists] : {std::pair{"qbmove_maker_pro_6_1", true}, std::pair{"bi_stiffness_example", false}}) {
+    Emulated units({}, type);
+    ASSERT_TRUE(units.ready);
+    const Result result = units.end();
+    EXPECT_EQ(result.err.find("aren't equilibrium ± preset; use vsa set") == std::string::npos, antagonists) << type << result.err;
+  }
 }
 
 TEST(Emulate, APortThatIsServedIsRefused) {
@@ -195,7 +205,10 @@ TEST(GetAndSet, ParametersAreCheckedSentStoredAndReadBack) {
   expect(units.vsa({"set", "position_pid", "0.25", "0", "0.5"}, {"--store"}), 0, {"P 0.25", "D 0.5", "stored"});
   expect(units.vsa({"get", "position_pid"}), 0, {"P 0.25"});
   expect(units.vsa({"set", "control_mode", "deflection"}, {"--store"}), 0, {"deflection, stored"});
+  expect(units.vsa({"set", "equilibrium", "10", "5"}), 0, {"warning: unit 1: its control_mode is deflection"});
   expect(units.vsa({"set", "limits", "-90", "90", "-45", "45"}, {"--store"}), 0, {"-90.00°", "45.00°"});
+  expect(units.vsa({"set", "id", "1"}, {"--id", "2", "--store"}), 2, {"unit that answers", "nobody has"});
+  expect(units.vsa({"ping"}, {"--id", "1-2"}), 0, {"1 ", "2 "});
   expect(units.vsa({"set", "id", "9"}, {"--id", "2", "--store"}), 0, {"id = 9"});
   expect(units.vsa({"ping"}, {"--id", "9"}), 0, {"9 "});
   expect(units.vsa({"get", "info"}), 0, {"Firmware version: QBMMP v6.1.0", "Control Mode: Deflection"});
@@ -256,6 +269,7 @@ TEST(GetAndSet, BadValuesAreToldAllAtOnceAndNothingIsSent) {
   expect(units.vsa({"set", "limits", "10", "-10", "0", "0"}), 2, {"above the upper"});
   expect(units.vsa({"set", "resolutions", "1", "1", "9"}), 2, {"0 to 8"});
   expect(units.vsa({"set", "position_pid", "1", "nan", "1e9"}), 2, {"no number", "out of range"});
+  expect(units.vsa({"set", "max_steps", "5", "5"}, {"--store"}), 2, {"above 0", "lowest ≤ 0, highest ≥ 0"});
   expect(units.vsa({"set", "rate_limiter", "1"}), 2, {"nothing that this unit has"});
   expect(units.vsa({"set", "colour", "red"}), 2, {"colour"});
   expect(units.vsa({"get", "colour"}), 2, {"colour", "measurements"});
@@ -313,6 +327,9 @@ TEST(RunWithAPort, AClientMovesTheRobotInTheSimulator) {
   const Result ended = run.wait();
   expect(ended, 0, {"serial port", port, "exchanges"});
   EXPECT_FALSE(std::filesystem::is_symlink(port));
+  EXPECT_EQ((ended.out + ended.err).find("aren't equilibrium"), std::string::npos) << ended.out << ended.err;
+  expect(run_vsa({"run", world, "--no-topics", "--duration-s", "0.1", "--type", "bi_stiffness_example"}), 0,
+         {"the references of unit", "aren't equilibrium ± preset; use vsa set " + port + " inputs"});
 }
 
 /// Opens the port, says half a frame, waits to be killed.

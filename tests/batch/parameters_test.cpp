@@ -183,6 +183,26 @@ TEST(BatchParameters, WordsSwitchesAndWholeNumbersAreSetAndTold) {
             (std::vector<std::string>{"qbmove_bench_load::housing", "qbmove_bench_load::flange"}));
 }
 
+TEST(BatchParameters, OfTheSecondMotorAreOfThoseWhoseTypeHasThem) {
+  engine::WorldOptions options;
+  options.actuator.type = "qbmove_maker_pro_6_1";
+  options.actuator.overrides = {{"drive_2.friction_Nm", "0.5"}};
+  Batch unlike(World::load("bench_load.sdf", options), 1, 1), alike(World::load("bench_load.sdf"), 1, 1);
+  EXPECT_EQ(unlike.owners("", "drive_2.friction_Nm"), std::vector<std::string>{"shaft"});
+  unlike.set(0, "", "drive_2.friction_Nm", 0.6);
+  EXPECT_EQ(unlike.value(0, "shaft", "drive_2.friction_Nm"), 0.6);
+  try {
+    alike.randomize(1, std::vector<Spread>{{"", "drive_2.friction_Nm", {Kind::uniform, 0.1, 0.9}}});
+    ADD_FAILURE() << "motors that are alike";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("drive_2.friction_Nm: no actuator has it: their motors are alike"), std::string::npos) << text;
+  }
+  EXPECT_TRUE(std::isnan(alike.value(0, "shaft", "drive_2.friction_Nm")));
+  alike.set(0, "shaft", "drive_2.friction_Nm", 0.6);
+  EXPECT_EQ(alike.value(0, "shaft", "drive_2.friction_Nm"), 0.6) << "who is named gets it";
+}
+
 std::string error_of(const std::function<void()>& work) {
   try {
     work();

@@ -416,5 +416,28 @@ TEST(Documentation, NamesEveryKeyUnitAndBoundOfTheSchema) {
   }
 }
 
+TEST(Base, GivesItsTendonsWithItsSprings) {
+  const std::string levers =
+      "[elastic]\nlaw = \"lever_spring\"\n"
+      "spring_N_per_m = { value = 5000.0, unit = \"N/m\", bounds = [100.0, 1e6], source = \"x\" }\n"
+      "start_m = { value = 0.02, unit = \"m\", bounds = [0.0, 0.1], source = \"x\" }\n"
+      "screw_m_per_rad = { value = 0.01, unit = \"m/rad\", bounds = [1e-4, 0.1], source = \"x\" }\n"
+      "[limits]\npreset_max = { value = 1.5, unit = \"rad\", bounds = [0.0, 1.5], source = \"x\" }\n";
+  ASSERT_GT(shipped().load("qbmove_maker_pro").unit.actuator.tendon.friction, 0);
+  const config::ActuatorType mine = shipped().load_text(derived("qbmove_maker_pro", levers), "mine.toml");
+  EXPECT_EQ(mine.unit.actuator.tendon.friction, 0);
+  const auto entry =
+      std::find_if(mine.entries.begin(), mine.entries.end(), [](const auto& e) { return e.key == "tendon.friction"; });
+  ASSERT_NE(entry, mine.entries.end());
+  EXPECT_NE(entry->source.find("springs that this law hasn't"), std::string::npos) << entry->source;
+  // One of one's own is refused, where it stands.
+  const std::string own = levers + "[tendon]\nfriction = { value = 0.1, unit = \"1\", bounds = [0.0, 0.5], source = \"x\" }\n";
+  expect_pieces(text_of(problems_of([&] { (void)shipped().load_text(derived("qbmove_maker_pro", own), "mine.toml"); })),
+                {"mine.toml:13: tendon.friction", "names no spring"});
+  // Springs of their own keep them.
+  const config::ActuatorType softer = shipped().load("qbmove_maker_pro", {{"elastic.k1_Nm", "0.02"}});
+  EXPECT_GT(softer.unit.actuator.tendon.friction, 0);
+}
+
 }  // namespace
 }  // namespace vsa::test

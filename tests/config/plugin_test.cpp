@@ -111,6 +111,8 @@ TEST(Plugin, AReplacementsProblemsAreTold) {
                 .rfind("--set drive.friction_Nm = \"much\": must be a number", 0),
             0u)
       << "not the robot's file, which is right";
+  EXPECT_NE(told({std::nullopt, {{"drive.friction_Nm", "much"}}, "--set"}).find("(actuator elbow, type sea_example)"),
+            std::string::npos);
   EXPECT_NE(told({std::nullopt, {{"drive.friktion_Nm", "1"}}}).find("did you mean drive.friction_Nm"), std::string::npos);
 }
 

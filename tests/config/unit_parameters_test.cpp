@@ -50,6 +50,13 @@ TEST(UnitParameters, TellAllThatIsWrongWithTheirValues) {
   ASSERT_EQ(told.size(), 2u);
   EXPECT_NE(told[0].find("no angle"), std::string::npos) << told[0];
   EXPECT_NE(told[1].find("above the upper limit"), std::string::npos) << told[1];
+  for (const auto& [values, wrong] : {std::pair{std::vector<std::string>{"5", "5"}, "above 0"}, {{"-5", "-5"}, "below 0"}}) {
+    ValueReader steps("max_steps", values);
+    (void)read_unit_parameter(steps, bus::ParameterId::max_steps, kOneBit);
+    const auto problems = problems_of(steps);
+    ASSERT_EQ(problems.size(), 1u);
+    for (const char* part : {wrong, "lowest ≤ 0, highest ≥ 0"}) EXPECT_NE(problems[0].find(part), std::string::npos) << problems[0];
+  }
   ValueReader few("position_pid", {"1"});
   (void)read_unit_parameter(few, bus::ParameterId::position_pid, kOneBit);
   EXPECT_EQ(problems_of(few).size(), 1u);

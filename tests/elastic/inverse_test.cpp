@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "all_laws.hpp"
 #include "vsa/elastic/law.hpp"
 #include "vsa/elastic/series_spring.hpp"
 #include "vsa/elastic/two_sinh.hpp"
@@ -19,6 +20,7 @@ using vsa::elastic::Command;
 using vsa::elastic::command_for;
 using vsa::elastic::equilibrium_for;
 using vsa::elastic::Response;
+using vsa::elastic::rest_under;
 using vsa::elastic::SeriesSpring;
 using vsa::elastic::Transmission;
 using vsa::elastic::TwoSinh;
@@ -198,6 +200,44 @@ TEST(Inverse, NumbersThatAreNoneAreNoCommand) {
   EXPECT_FALSE(equilibrium_for(law, 0, 1e300, 0, 10));
   static_cast<void>(equilibrium_for(law, 1e300, 1, 0));
   static_cast<void>(equilibrium_for(law, 0, 1e200, 0, 1e3));
+}
+
+/// Every law, springs as they come: the torque is the load's there, and the shaft comes back to it.
+TEST(Inverse, AFreeShaftRestsWhereTheTorqueIsTheLoads) {
+  std::mt19937 chance(11);
+  int found = 0;
+  for (const vsa::test::SomeLaw& some : vsa::test::all_laws(4)) {
+    for (int n = 0; n < 20; ++n) {
+      const vsa::elastic::Positions place = vsa::test::random_place(some, chance);
+      const double load = -some.law->evaluate(place).torque, from = some.law->attained(place.x).equilibrium;
+      const auto rest = rest_under(*some.law, place.x, load);
+      if (!rest) continue;  // a lever beyond its peak
+      ++found;
+      const Response there = some.law->evaluate({*rest, place.x});
+      EXPECT_NEAR(there.torque, -load, 1e-9 * (1 + std::abs(load) + there.curvature.qq)) << some.name;
+      EXPECT_GE(there.curvature.qq, -1e-9) << some.name;
+      EXPECT_GE((*rest - from) * (some.law->evaluate({from, place.x}).torque + load), 0) << some.name << ": against the push";
+    }
+  }
+  EXPECT_GT(found, 1000);
+}
+
+TEST(Inverse, AntagonistsAreThoseWhoseReferencesAreSumAndDifference) {
+  for (const vsa::test::SomeLaw& some : vsa::test::all_laws(0)) {
+    const bool two = some.name.rfind("two_", 0) == 0 && some.name != "two_cams";  // there motor 2 turns the cams apart
+    EXPECT_EQ(vsa::elastic::antagonistic(*some.law), two) << some.name;
+  }
+}
+
+TEST(Inverse, AShaftThatNothingStopsDoesNotRest) {
+  const SeriesSpring soft(0.1);
+  EXPECT_FALSE(rest_under(soft, {0, 0}, 5));
+  EXPECT_NEAR(*rest_under(soft, {0.5, 0}, 5, 100), 50.5, 1e-12);
+  EXPECT_EQ(*rest_under(soft, {0.5, 0}), 0.5);
+  for (const double bad : {kNan, std::numeric_limits<double>::infinity()}) {
+    EXPECT_FALSE(rest_under(soft, {bad, 0}));
+    EXPECT_FALSE(rest_under(soft, {0, 0}, bad));
+  }
 }
 
 }  // namespace

@@ -61,6 +61,44 @@ TEST(Followers, OfALightLeaderGiveItHardlyAnyEnergyOutOfNothing) {
   }
 }
 
+TEST(Followers, GoWhereTheirLeaderIsSetAndNowhereElse) {
+  World w = load(row("m", {1e-3, 1e-3}, -2), 1e-3);
+  w.set_joint("m::j0", 0.2, 0.5);
+  EXPECT_EQ(w.joint_angle("m::j1"), -0.4);
+  EXPECT_EQ(w.joint_speed("m::j1"), -1.0);
+  w.run(0.05);
+  EXPECT_NEAR(w.joint_angle("m::j1"), -2 * w.joint_angle("m::j0"), 0.01) << "no kick";
+  for (const auto& [angle, speed] : {std::pair{0.3, 0.0}, std::pair{w.joint_angle("m::j1"), 7.0}}) {
+    try {
+      w.set_joint("m::j1", angle, speed);
+      ADD_FAILURE() << angle << ", " << speed;
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("follows m::j0"), std::string::npos) << e.what();
+    }
+  }
+  for (const char* joint : {"m::j1", "m::j0", "m::j1"}) EXPECT_NO_THROW(w.set_joint(joint, w.joint_angle(joint), 0)) << joint;
+  EXPECT_EQ(w.joint_angle("m::j1"), -2 * w.joint_angle("m::j0"));
+}
+
+TEST(Joints, AreNotSetBeyondTheirLimits) {
+  World w = World::load_string(passive_arm());  // -3 … 2.5
+  for (const double bad : {2.52, -3.02, 100.0}) {
+    try {
+      w.set_joint("arm::shoulder", bad, 0);
+      ADD_FAILURE() << bad;
+    } catch (const InputError& e) {
+      const std::string text = e.what();
+      for (const char* part : {"arm::shoulder", "beyond the joint's limits", "-3 … 2.5"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    }
+  }
+  EXPECT_EQ(w.joint_angle("arm::shoulder"), 0);
+  EXPECT_NO_THROW(w.set_joint("arm::shoulder", 2.503, 20)) << "as soft as limits are";
+  w.step();
+  EXPECT_GT(w.joint_angle("arm::shoulder"), 2.506);
+  EXPECT_NO_THROW(w.set_joint("arm::shoulder", w.joint_angle("arm::shoulder"), 0)) << "where it is";
+}
+
 TEST(Followers, SwingTheirLeaderAsTheirInertiaWouldByItself) {
   // m: 1e-4 and a follower of 2e-3 that goes three times as far. one: 1e-4 + 9·2e-3 at the joint.
   World tied = load(row("m", {1e-4, 2e-3}, 3), 1e-3), one = load(row("m", {1e-4 + 9 * 2e-3}, 1), 1e-3);

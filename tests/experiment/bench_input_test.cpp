@@ -3,10 +3,13 @@
 // What the benches refuse, and the small tools that they use.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "bench_support.hpp"
+#include "vsa/elastic/law.hpp"
 #include "vsa/elastic/series_spring.hpp"
 #include "vsa/elastic/two_sinh.hpp"
 #include "vsa/errors.hpp"
@@ -65,6 +68,31 @@ TEST(LawDeflection, IsTheLawTurnedRound) {
   }
   EXPECT_NEAR(law_deflection(elastic::SeriesSpring(10), 0, 1.5), 0.15, 1e-12);
   EXPECT_THROW(static_cast<void>(law_deflection(elastic::SeriesSpring(0.1), 0, 5)), InputError);
+}
+
+/// Two quadratic springs, K₁ of the one behind the shaft: τ = −K₁(δ + p + s)² + K₂(δ − p − s)², both taut while |δ| < p + s.
+std::shared_ptr<const elastic::Transmission> unequal(double k1, double k2) {
+  for (const elastic::Law* law : elastic::laws())
+    if (law->name == "two_quadratic") return law->make(std::array{k1, k2, 0.2});
+  throw std::runtime_error("no such law");
+}
+
+TEST(LawDeflection, OfUnequalSpringsIsFromTheCommandAndNotFromWhereTheyRest) {
+  const auto law = unequal(2, 5), mirrored = unequal(5, 2);
+  for (const double preset : {0.0, 0.3, 0.6}) {
+    const double taut = preset + 0.2;
+    // K₂(t − δ)² = K₁(t + δ)² or the other way round, by which spring lies on which side.
+    const double rest = taut * (std::sqrt(5.0) - std::sqrt(2.0)) / (std::sqrt(5.0) + std::sqrt(2.0));
+    EXPECT_NEAR(std::abs(law_deflection(*law, preset, 0)), rest, 1e-12);
+    double before = -10;
+    for (const double load : {-1.5, -0.2, -0.05, -1e-6, 0.0, 1e-6, 0.05, 0.2, 1.5}) {
+      const double there = law_deflection(*law, preset, load);
+      EXPECT_NEAR(law->evaluate({there, law->references({0, preset})}).torque, -load, 1e-12) << load << " N·m at " << preset;
+      EXPECT_NEAR(law_deflection(*mirrored, preset, -load), -there, 1e-12) << load << " N·m at " << preset;
+      EXPECT_GT(there, before) << load << " N·m at " << preset;
+      before = there;
+    }
+  }
 }
 
 TEST(Parallel, EveryJobRunsOnceAndTheFirstFailureIsThrown) {

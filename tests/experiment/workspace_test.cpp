@@ -231,6 +231,44 @@ TEST(Workspace, IsWhatTheSimulatedUnitGivesToAShaftThatTurnsSteadily) {
   }
 }
 
+TEST(Workspace, OfUnequalSpringsStartsWhereTheShaftRests) {
+  const Workspace w(qbmove(0.06));  // k of the other is kK
+  const auto& law = *qbmove(0.06).actuator.transmission;
+  for (const double p : {0.1, 0.3}) {
+    const auto x = law.references({0, p});
+    // By hand: the shaft goes where k₁ sinh(a(q − p)) + k₂ sinh(a(q + p)) = 0.
+    double low = -p, high = p;
+    for (int i = 0; i < 100; ++i) (law.evaluate({0.5 * (low + high), x}).torque > 0 ? low : high) = 0.5 * (low + high);
+    ASSERT_GT(std::abs(low), 0.01);
+    EXPECT_NEAR(w.stiffness_at_rest(p), law.evaluate({low, x}).curvature.qq, 1e-9);
+    EXPECT_NEAR(w.energy_at_rest(p), law.evaluate({low, x}).energy, 1e-12);
+    EXPECT_LT(w.energy_at_rest(p), law.evaluate({0, x}).energy) << "at rest there is the least";
+    EXPECT_NEAR(w.stiffness_under(p, 1e-9), w.stiffness_at_rest(p), 1e-6);
+    EXPECT_NEAR(w.stiffness_under(p, -1e-9), w.stiffness_at_rest(p), 1e-6);
+  }
+}
+
+TEST(DataSheet, TellsBothDirectionsAndTheMirroredActuatorHasThemExchanged) {
+  config::ActuatorType one, mirrored;
+  one.unit = qbmove(0.06);
+  mirrored.unit = one.unit;
+  elastic::TwoSinhParams springs;
+  springs.k_Nm = {0.06, kK};
+  springs.a_per_rad = {kA, kA};
+  mirrored.unit.actuator.transmission = std::make_shared<elastic::TwoSinh>(springs);
+  const DataSheet a = data_sheet(one), b = data_sheet(mirrored);
+  ASSERT_EQ(a.columns.size(), b.columns.size());
+  for (std::size_t i = 0; i < a.columns.size(); ++i) {
+    const PresetColumn &x = a.columns[i], &y = b.columns[i];
+    EXPECT_NEAR(x.peak.torque_Nm, y.back.peak.torque_Nm, 1e-9);
+    EXPECT_NEAR(x.back.peak.torque_Nm, y.peak.torque_Nm, 1e-9);
+    EXPECT_NEAR(x.no_load_speed_rad_per_s, y.back.no_load_speed_rad_per_s, 1e-9);
+    EXPECT_NEAR(x.stiffness_at_half_Nm_per_rad, y.back.stiffness_at_half_Nm_per_rad, 1e-6);
+    EXPECT_EQ(x.weaker().peak.torque_Nm, std::min(x.peak.torque_Nm, x.back.peak.torque_Nm));
+  }
+  EXPECT_GT(std::abs(a.columns[2].peak.torque_Nm - a.columns[2].back.peak.torque_Nm), 0.01) << "they differ";
+}
+
 TEST(DataSheet, StoresTheMostEnergyAtItsCorners) {
   config::ActuatorType type;
   type.unit = qbmove();

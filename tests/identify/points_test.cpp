@@ -128,5 +128,46 @@ TEST(Points, NeedNoOrderAndAreRefusedWhereTheyAreNoNumbers) {
   std::filesystem::remove_all(folder);
 }
 
+/// They rest beside the command, which a small load doesn't change: the loads around 0 tell of it.
+TEST(Points, OfUnequalSpringsGiveBackBoth) {
+  experiment::Specimen specimen;
+  specimen.library = test::shipped();
+  specimen.type = "amasc_example";
+  const auto with = [](double k1, double k2) {
+    return std::vector<config::Override>{{"elastic.K1_Nm_per_rad2", config::number_text(k1)},
+                                         {"elastic.K2_Nm_per_rad2", config::number_text(k2)}};
+  };
+  const config::ActuatorType made = specimen.library.load(specimen.type, with(4, 9));
+  const elastic::Transmission& law = *made.unit.actuator.transmission;
+  std::vector<Observation> observations;
+  for (const double preset : {0.1, 0.3}) {
+    Observation o;
+    o.preset = preset;
+    o.points = true;
+    for (int i = -10; i <= 10; ++i) {
+      // The load that holds the shaft there: no root is looked for.
+      const double at = 0.01 * i;
+      o.data.torque_Nm.push_back(-law.evaluate({at, law.references({0, preset})}).torque);
+      o.data.rising_rad.push_back(at);
+    }
+    o.data.falling_rad = o.data.sd_rising_rad = o.data.sd_falling_rad = std::vector<double>(21, std::nan(""));
+    observations.push_back(o);
+  }
+  specimen.overrides = with(6, 6);
+  const config::ActuatorType type = specimen.library.load(specimen.type, specimen.overrides);
+  const MakeTask make = [=](unsigned threads) {
+    Task task;
+    task.parameters = parse_parameters("elastic.K1_Nm_per_rad2,elastic.K2_Nm_per_rad2", type);
+    task.observations = observations;
+    use_bench(task, specimen, {}, nullptr, threads);
+    return task;
+  };
+  IdentificationOptions o;
+  o.draws = 0;
+  const Identification r = identify(make, o, one_by_one(make, o.fit));
+  EXPECT_NEAR(r.fit.values[0], 4, 1e-3);
+  EXPECT_NEAR(r.fit.values[1], 9, 1e-3);
+}
+
 }  // namespace
 }  // namespace vsa::identify

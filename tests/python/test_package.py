@@ -105,6 +105,15 @@ class Data(unittest.TestCase):
         other = subprocess.run([sys.executable, "-c", program], env={**without, "VSA_DATA_DIR": "/nowhere"}, capture_output=True, text=True)
         self.assertIn("InputError", other.stderr)
 
+    def test_the_how_tos_blocks_run_as_they_stand(self):
+        text = (SOURCE / "docs/howto/python.md").read_text(encoding="utf-8")
+        blocks = text.split("```python\n")[1:]
+        self.assertGreater(len(blocks), 4)
+        program = "\n".join(b.split("```")[0] for b in blocks)
+        with tempfile.TemporaryDirectory() as folder:
+            ran = subprocess.run([sys.executable, "-c", program], cwd=folder, capture_output=True, text=True)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+
 
 @unittest.skipIf(importlib.util.find_spec("setuptools") is None, "setuptools isn't installed")
 class Setup(unittest.TestCase):

@@ -127,6 +127,11 @@ test('the table of linear actuators is in metres and newtons', () => {
   assert.deepEqual(hands, ['position by hand']);
 });
 
+test('an actuator without a preset has none in the table', () => {
+  const { rows } = table(some({ preset_unit: '' }, {}));
+  assert.deepEqual(rows.map((cells) => cells[1].slice(0, 4)), ['–', '43.0']);
+});
+
 test('in a table of both, each number has its unit beside it, and bars compare what has one unit', () => {
   const both = some({}, { linear: true });
   both[1].data.torque_Nm[0] = 300;

@@ -100,6 +100,9 @@ TEST(Summary, ParallelCoordinatesHaveEveryRunThatHasANumber) {
     }
   }
   EXPECT_EQ(lines, f.plan.runs() - 1);
+  EXPECT_LT(all.x_label.size(), 60u) << "an axis' label is one line";
+  EXPECT_NE(all.caption.find(" 1: "), std::string::npos) << all.caption;
+  EXPECT_NE(all.caption.find(" … "), std::string::npos) << all.caption;
 }
 
 TEST(Summary, FailuresAndNamesAreTablesAndThePageIsWritten) {

@@ -13,6 +13,7 @@
 #include "terminal/table.hpp"
 #include "vsa/config/actuator_type.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/elastic/inverse.hpp"
 #include "vsa/elastic/transmission.hpp"
 
 namespace vsa::app {
@@ -20,10 +21,10 @@ namespace {
 
 constexpr std::size_t kReadableWidth = 100;  // of running text on a terminal that is wider
 
-/// σ of the unloaded actuator at a stiffness preset: at the equilibrium where its shaft rests.
+/// σ of the unloaded actuator at a stiffness preset: where its shaft rests.
 double stiffness_of(const elastic::Transmission& law, double preset) {
   const auto x = law.references({0.0, preset});
-  return law.evaluate({law.attained(x).equilibrium, x}).curvature.qq;
+  return law.evaluate({elastic::rest_under(law, x).value_or(law.attained(x).equilibrium), x}).curvature.qq;
 }
 
 std::string stiffness_text(const device::UnitConfig& unit) {

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <memory>
 
@@ -16,6 +17,7 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/numbers.hpp"
 #include "terminal/output_files.hpp"
+#include "vsa/config/text.hpp"
 
 namespace vsa::app {
 namespace {
@@ -75,6 +77,23 @@ void tell_notices(const Results& results, const std::string& unit, Console& cons
   }
 }
 
+/// What another type, or other presets, left there has other names, and nobody overwrites it.
+void tell_of_others(const std::filesystem::path& directory, const std::vector<std::string>& ours, Console& console) {
+  constexpr std::array<std::string_view, 3> kOurs{"stiffness", "speed", "preset_step"};
+  std::vector<std::string> others;
+  std::error_code none;
+  for (std::filesystem::directory_iterator at(directory, none), end; !none && at != end; at.increment(none)) {
+    const std::string name = at->path().filename().string();
+    const auto kind =
+        std::find_if(kOurs.begin(), kOurs.end(), [&](std::string_view k) { return name.compare(0, k.size(), k) == 0; });
+    const bool a_run =
+        at->path().extension() == ".csv" && kind != kOurs.end() && (name[kind->size()] == '_' || name[kind->size()] == '.');
+    if (a_run && std::find(ours.begin(), ours.end(), name) == ours.end()) others.push_back(name);
+  }
+  std::sort(others.begin(), others.end());
+  if (!others.empty()) console.line("warning: " + directory.string() + " keeps an earlier run's " + config::join(others));
+}
+
 }  // namespace
 
 int run_characterize(const CharacterizeOptions& options) {
@@ -94,6 +113,7 @@ int run_characterize(const CharacterizeOptions& options) {
   const std::filesystem::path out = options.out.empty() ? "characterize_" + options.type : options.out;
   make_directory(out, "--out");
   const auto files = write_characterization(*result, command_of(options), out);
+  tell_of_others(out, files, console);
   std::cout << characterization_text(*result) << "written: " << (out / files.front()).string();
   std::cout << fmt::format(" and {} more files in {}\n", files.size() - 1, out.string());
   return std::cout.flush() ? kDone : kFailed;

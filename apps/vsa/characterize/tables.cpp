@@ -50,6 +50,14 @@ std::string range_text(double least, double most) {
   return from == to ? from : from + " … " + to;
 }
 
+/// "0.327", up to where a range goes to both sides; "-0.44 … 0.3" where the sides differ, as of unequal springs.
+template <class Text>
+std::string both_ways(const study::Range& r, const Text& text) {
+  constexpr double kAlike = 0.05;
+  const bool alike = std::abs(r.most + r.least) <= kAlike * std::max(std::abs(r.most), std::abs(r.least));
+  return alike ? text(r.most) : text(r.least) + " … " + text(r.most);
+}
+
 /// Up to where the branches go.
 double most_Nm(const study::Characterization& c) {
   return experiment::BranchOptions{}.max_Nm * c.stiffness.front().options.load_share;
@@ -98,9 +106,10 @@ report::Table stiffness_table(const study::Characterization& c) {
     Row row;
     put_preset(row, c, fmt::format("{:.4g}", r.options.preset));
     put_preset(row, c, range_text(r.preset.least, r.preset.most));
-    row.push_back(c.linear() ? fmt::format("{:.4f}", r.shaft_rad.most) : fmt::format("{:.1f}", r.shaft_rad.most * 180 / kPi));
-    row.push_back(fmt::format("{:.3f}", r.load_Nm.most));
-    row.push_back(rad(r.deflection_rad.most, 3));
+    row.push_back(both_ways(
+        r.shaft_rad, [&](double q) { return c.linear() ? fmt::format("{:.4f}", q) : fmt::format("{:.1f}", q * 180 / kPi); }));
+    row.push_back(both_ways(r.load_Nm, [](double load) { return fmt::format("{:.3f}", load); }));
+    row.push_back(both_ways(r.deflection_rad, [&](double d) { return rad(d, 3); }));
     row.push_back(stiffness_at(r, 0, c.load_scale));
     row.push_back(stiffness_at(r, share, c.load_scale));
     row.push_back(text(r.loop.area_Nm_rad, "{:.4f}"));
@@ -139,7 +148,8 @@ report::Table speed_table(const study::Characterization& c) {
   }
   out.caption =
       "Means over the square wave's edges. Rise: 10–90 % of the attained change; ω: Δθ/Δt over it, of the shaft and of the mean of "
-      "the pulleys. Steady error: negative where the shaft falls short. –: nothing to measure.";
+      "the pulleys. Steady error: of the way commanded, negative where the shaft falls short; what stays at both ends, as unequal "
+      "springs' rest beside the command, isn't in it. –: nothing to measure.";
   return c.linear() ? report::sliding(std::move(out)) : out;
 }
 

@@ -46,6 +46,16 @@ Chart torque_speed(const study::DataSheet& d) {
       curve.y.push_back(p.reach.torque_Nm);
     }
   });
+  if (lopsided(d)) {
+    int color = 0;
+    for (const PresetColumn& c : d.computed.columns) {
+      Curve& curve = out.curves.emplace_back(started(name_of(d, c.preset) + ", −q", color++, Curve::Style::dashed));
+      for (const auto& p : c.back.boundary) {
+        curve.x.push_back(p.speed_rad_per_s);
+        curve.y.push_back(p.reach.torque_Nm);
+      }
+    }
+  }
   out.caption = d.has_preset()
                     ? "Reachable under each line, at that attained preset; both motors at full voltage. From law and drive."
                     : "Reachable under the line, at full voltage. From law and drive.";
@@ -75,7 +85,8 @@ Chart stiffness_load(const study::DataSheet& d) {
       curve.y.push_back(p.stiffness_Nm_per_rad);
     }
   });
-  out.caption = "From the law, at that attained preset.";
+  out.caption = lopsided(d) ? "From the law, at that attained preset, loads about +q; about −q it is another."
+                            : "From the law, at that attained preset.";
   return out;
 }
 

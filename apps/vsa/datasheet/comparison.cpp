@@ -157,7 +157,8 @@ report::Table strength_table(const Sheets& sheets) {
       {"type", "rank", "law", "motors", "peak torque [N·m]", "deflection there [rad]", "speed [rad/s]", "output power [W]",
        "elastic energy [J]", "mass [kg]"},
       {},
-      "Two numbers: at preset 0 / at 90 % of the largest that the motors wind to. Peak torque: begins to move it. Speed: "
+      "Two numbers: at preset 0 / at 90 % of the largest that the motors wind to, of unequal springs in the weaker direction. Peak "
+      "torque: begins to move it. Speed: "
       "without load, softest. Elastic energy: the most that the motors load. From law and drive; mass: as the type's file "
       "states it, – where no source does."};
   add_rows(sheets, out, [](const study::DataSheet& d) {
@@ -166,10 +167,10 @@ report::Table strength_table(const Sheets& sheets) {
     return std::vector<std::string>{s.type.rank.empty() ? "–" : s.type.rank,
                                     s.type.law,
                                     std::to_string(s.type.unit.actuator.transmission->motor_count()),
-                                    both(d, [](const PresetColumn& c) { return c.peak.torque_Nm; }),
-                                    both(d, [](const PresetColumn& c) { return c.peak.deflection_rad; }),
-                                    number(soft.no_load_speed_rad_per_s),
-                                    number(soft.power.power_W),
+                                    both(d, [](const PresetColumn& c) { return c.weaker().peak.torque_Nm; }),
+                                    both(d, [](const PresetColumn& c) { return c.weaker().peak.deflection_rad; }),
+                                    number(soft.weaker().no_load_speed_rad_per_s),
+                                    number(soft.weaker().power.power_W),
                                     number(s.most_energy_J),
                                     s.type.mass_kg ? number(s.type.mass_kg->value) : "–"};
   });
@@ -189,7 +190,8 @@ report::Table stiffness_range_table(const Sheets& sheets) {
     const experiment::DataSheet& s = d.computed;
     const auto [low, high] = stiffness_at_rest(d);
     const auto& steps = d.simulated.preset_step;
-    const double soft = s.columns.front().stiffness_at_half_Nm_per_rad, stiff = s.columns.back().stiffness_at_half_Nm_per_rad;
+    const double soft = s.columns.front().weaker().stiffness_at_half_Nm_per_rad,
+                 stiff = s.columns.back().weaker().stiffness_at_half_Nm_per_rad;
     const bool loaded = steps.size() > 1;
     return std::vector<std::string>{d.has_preset() ? number(s.attainable_preset) + " " + d.preset_unit() : "none",
                                     span_text(low, high),
@@ -214,9 +216,9 @@ report::Table holding_table(const Sheets& sheets) {
     const PresetColumn &soft = d.computed.columns.front(), &stiff = d.computed.columns.back();
     const actuator::ActuatorParams& a = d.computed.type.unit.actuator;
     return std::vector<std::string>{d.has_preset() ? amount_held(stiff.held_at_rest) : "–",
-                                    amount_held(soft.held_at_half),
-                                    d.has_preset() ? amount_held(stiff.held_at_half) : "–",
-                                    number(soft.unpowered.torque_Nm),
+                                    amount_held(soft.weaker().held_at_half),
+                                    d.has_preset() ? amount_held(stiff.weaker().held_at_half) : "–",
+                                    number(soft.weaker().unpowered.torque_Nm),
                                     of_each(d.computed.line, [](const auto& l) { return number(l.friction_Nm); }),
                                     number(a.shaft_friction.coulomb_Nm),
                                     number(100 * a.tendon.friction)};

@@ -28,7 +28,7 @@ study::DataSheet turning(study::DataSheet d) {
 /// σ against load up to the softest preset's peak torque: the least and the most over presets.
 void add_picture(const study::DataSheet& d, report::Cards::Card& card) {
   const experiment::Workspace workspace(d.computed.type.unit);
-  const double most = d.computed.columns.front().peak.torque_Nm;
+  const double most = d.computed.columns.front().weaker().peak.torque_Nm;
   for (int i = 0; i < kPicturePoints; ++i) {
     const double load = most * std::pow(kLeastPictureLoad, 1 - static_cast<double>(i) / (kPicturePoints - 1));
     double low = std::nan(""), high = std::nan("");
@@ -55,8 +55,8 @@ report::Cards::Card card_of(const study::DataSheet& d) {
   add_picture(d.simulated.linear() ? turning(d) : d, card);
   const auto [low, high] = stiffness_at_rest(d);
   card.figures = {{"stiffness", span_text(low, high) + " N·m/rad"},
-                  {"peak torque", number(soft.peak.torque_Nm) + " N·m"},
-                  {"speed, no load", number(soft.no_load_speed_rad_per_s) + " rad/s"},
+                  {"peak torque", number(soft.weaker().peak.torque_Nm) + " N·m"},
+                  {"speed, no load", number(soft.weaker().no_load_speed_rad_per_s) + " rad/s"},
                   {"elastic energy", number(s.most_energy_J) + " J"}};
   const auto& steps = d.simulated.preset_step;
   if (d.simulated.linear())

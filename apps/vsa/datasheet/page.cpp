@@ -71,6 +71,14 @@ std::string number(double value) {
   return fmt::format("{:.3g}", std::abs(value) < kRounding ? 0.0 : value);
 }
 
+bool lopsided(const study::DataSheet& d) {
+  const auto differ = [](const experiment::PresetColumn& c) {
+    return number(c.peak.torque_Nm) != number(c.back.peak.torque_Nm) ||
+           number(c.no_load_speed_rad_per_s) != number(c.back.no_load_speed_rad_per_s);
+  };
+  return std::any_of(d.computed.columns.begin(), d.computed.columns.end(), differ);
+}
+
 report::Report data_sheet_report(const study::DataSheet& d, const std::string& command) {
   const config::ActuatorType& p = d.computed.type;
   report::Report out;

@@ -27,6 +27,16 @@ namespace vsa::app {
 /// "0.302": three digits that count; "–" where there is no number.
 [[nodiscard]] std::string number(double value);
 
+/// text(way) of a column's two directions: once where both read the same, else "5.04 (+q) / 3.84 (−q)".
+template <class Text>
+std::string ways(const experiment::PresetColumn& c, const Text& text) {
+  const std::string to = text(c), fro = text(c.back);
+  return to == fro ? to : to + " (+q) / " + fro + " (−q)";
+}
+
+/// Whether it can tell +q from −q: of unequal springs or motors.
+[[nodiscard]] bool lopsided(const study::DataSheet& d);
+
 /// A value of each motor or encoder: once where all are alike, else one after the other, as "0.8, 0.5".
 template <class Values, class Text>
 std::string of_each(const Values& values, const Text& text) {

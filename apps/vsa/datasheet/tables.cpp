@@ -11,6 +11,7 @@
 namespace vsa::app {
 namespace {
 
+using experiment::OneWay;
 using experiment::PresetColumn;
 
 constexpr const char* kDrive = "drive";
@@ -23,7 +24,7 @@ std::string range(double low, double high) { return low == -high ? "±" + number
 std::string pair(double a, double b) { return number(a) + " / " + number(b); }
 
 /// Speed at which the actuator still moves a load, along the boundary at its softest; NaN: it doesn't.
-double speed_under(const PresetColumn& c, double load_Nm) {
+double speed_under(const OneWay& c, double load_Nm) {
   for (std::size_t i = 1; i < c.boundary.size(); ++i) {
     const auto &a = c.boundary[i - 1], &b = c.boundary[i];
     if (!(a.reach.torque_Nm >= load_Nm && b.reach.torque_Nm <= load_Nm)) continue;
@@ -61,14 +62,26 @@ void add_speeds(const study::DataSheet& d, report::Table& out) {
   row(step + ", overshoot", "%", &experiment::StepMeasures::overshoot_pct);
 }
 
+/// A number of each direction.
+std::string of_ways(const PresetColumn& c, double (*value)(const OneWay&)) {
+  return ways(c, [&](const OneWay& w) { return number(value(w)); });
+}
+constexpr auto kPeak = [](const OneWay& w) { return w.peak.torque_Nm; };
+constexpr auto kUnpowered = [](const OneWay& w) { return w.unpowered.torque_Nm; };
+constexpr auto kSpeed = [](const OneWay& w) { return w.no_load_speed_rad_per_s; };
+constexpr auto kLag = [](const OneWay& w) { return w.peak.deflection_rad; };
+
+/// Where the two directions differ, what the sheet's marks mean.
+std::string marks(const study::DataSheet& d) { return lopsided(d) ? "(+q), (−q): driven that way. " : ""; }
+
 /// What a sheet with presets has in a table of its own.
 void add_columns(const PresetColumn& c, report::Table& out) {
-  out.rows.push_back({"peak torque", number(c.peak.torque_Nm), "N·m", kBoth});
-  out.rows.push_back({"torque held without current", number(c.unpowered.torque_Nm), "N·m", kBoth});
-  out.rows.push_back({"no-load speed", number(c.no_load_speed_rad_per_s), "rad/s", kDrive});
-  out.rows.push_back({"deflection at peak torque", number(c.peak.deflection_rad), "rad", kBoth});
-  out.rows.push_back(
-      {"power / current to hold half the peak torque", pair(c.held_at_half.power_W, c.held_at_half.current_A), "W / A", kBoth});
+  out.rows.push_back({"peak torque", of_ways(c, kPeak), "N·m", kBoth});
+  out.rows.push_back({"torque held without current", of_ways(c, kUnpowered), "N·m", kBoth});
+  out.rows.push_back({"no-load speed", of_ways(c, kSpeed), "rad/s", kDrive});
+  out.rows.push_back({"deflection at peak torque", of_ways(c, kLag), "rad", kBoth});
+  const auto held = [](const OneWay& w) { return pair(w.held_at_half.power_W, w.held_at_half.current_A); };
+  out.rows.push_back({"power / current to hold half the peak torque", ways(c, held), "W / A", kBoth});
 }
 
 }  // namespace
@@ -76,12 +89,15 @@ void add_columns(const PresetColumn& c, report::Table& out) {
 std::vector<report::Figure> key_figures(const study::DataSheet& d) {
   const experiment::DataSheet& s = d.computed;
   const PresetColumn& soft = s.columns.front();
+  const auto rpm = [](const OneWay& w) { return fmt::format("{:.0f}", w.no_load_speed_rad_per_s * 30 / kPi); };
+  const auto best = [](const OneWay& w) {
+    return fmt::format("{} N·m, {} rad/s", number(w.power.torque_Nm), number(w.power.speed_rad_per_s));
+  };
   std::vector<report::Figure> out{
-      {"Peak torque", number(soft.peak.torque_Nm) + " N·m", "moves it; holds " + number(soft.holding.torque_Nm)},
-      {"No-load speed", number(soft.no_load_speed_rad_per_s) + " rad/s",
-       d.simulated.linear() ? "" : fmt::format("{:.0f} rpm", soft.no_load_speed_rad_per_s * 30 / kPi)},
-      {"Peak output power", number(soft.power.power_W) + " W",
-       fmt::format("{} N·m, {} rad/s", number(soft.power.torque_Nm), number(soft.power.speed_rad_per_s))},
+      {"Peak torque", of_ways(soft, kPeak) + " N·m",
+       "moves it; holds " + of_ways(soft, [](const OneWay& w) { return w.holding.torque_Nm; })},
+      {"No-load speed", of_ways(soft, kSpeed) + " rad/s", d.simulated.linear() ? "" : ways(soft, rpm) + " rpm"},
+      {"Peak output power", of_ways(soft, [](const OneWay& w) { return w.power.power_W; }) + " W", ways(soft, best)},
   };
   if (d.has_preset()) {
     out.push_back({"Stiffness at rest", range(soft.stiffness_at_rest_Nm_per_rad, s.stiffest_Nm_per_rad),
@@ -104,16 +120,18 @@ report::Table mechanical_table(const study::DataSheet& d) {
   report::Table out{"Mechanics", {"quantity", "value", "unit", "from"}, {}, ""};
   auto& rows = out.rows;
   if (!d.has_preset()) add_columns(c, out);  // else they stand in the table of presets
-  rows.push_back({"torque that full voltage holds", number(c.holding.torque_Nm), "N·m", kBoth});
+  rows.push_back({"torque that full voltage holds", of_ways(c, [](const OneWay& w) { return w.holding.torque_Nm; }), "N·m", kBoth});
   if (const auto load = d.nominal_load_Nm()) {
-    rows.push_back({fmt::format("speed at {} N·m", number(*load)), number(speed_under(c, *load)), "rad/s", kBoth});
+    rows.push_back({fmt::format("speed at {} N·m", number(*load)),
+                    ways(c, [&](const OneWay& w) { return number(speed_under(w, *load)); }), "rad/s", kBoth});
   }
-  rows.push_back({"elastic energy, released at the shaft", number(c.peak.energy_J - c.energy_at_rest_J), "J", kBoth});
+  const auto released = [&](const OneWay& w) { return number(w.peak.energy_J - c.energy_at_rest_J); };
+  rows.push_back({"elastic energy, released at the shaft", ways(c, released), "J", kBoth});
   add_speeds(d, out);
   add_preset_steps(d, out);
   rows.push_back({"friction of the shaft", number(s.type.unit.actuator.shaft_friction.coulomb_Nm), "N·m", kType});
   if (s.type.mass_kg) rows.push_back({"mass", number(s.type.mass_kg->value), "kg", kType});
-  if (d.has_preset()) out.caption = "At preset 0 where nothing else is said.";
+  out.caption = marks(d) + (d.has_preset() ? "At preset 0 where nothing else is said." : "");
   return out;
 }
 
@@ -163,23 +181,28 @@ report::Table electrical_table(const study::DataSheet& d) {
 
 report::Table preset_table(const study::DataSheet& d) {
   const auto& columns = d.computed.columns;
-  report::Table out{"By stiffness preset", {fmt::format("attained preset [{}]", d.preset_unit())}, {}, ""};
+  report::Table out{"By stiffness preset", {fmt::format("attained preset [{}]", d.preset_unit())}, {}, marks(d)};
   const auto row = [&](const char* what, auto value) {
     std::vector<std::string> cells{what};
     for (const PresetColumn& c : columns) cells.push_back(number(value(c)));
     out.rows.push_back(std::move(cells));
   };
+  const auto both = [&](const char* what, double (*value)(const OneWay&)) {
+    std::vector<std::string> cells{what};
+    for (const PresetColumn& c : columns) cells.push_back(of_ways(c, value));
+    out.rows.push_back(std::move(cells));
+  };
   for (const PresetColumn& c : columns) out.head.push_back(number(c.preset));
   row("stiffness at rest [N·m/rad]", [](const PresetColumn& c) { return c.stiffness_at_rest_Nm_per_rad; });
-  row("peak torque [N·m]", [](const PresetColumn& c) { return c.peak.torque_Nm; });
-  row("deflection at peak torque [rad]", [](const PresetColumn& c) { return c.peak.deflection_rad; });
-  row("stiffness at peak torque [N·m/rad]", [](const PresetColumn& c) { return c.peak.stiffness_Nm_per_rad; });
-  row("stiffness at half of it [N·m/rad]", [](const PresetColumn& c) { return c.stiffness_at_half_Nm_per_rad; });
-  row("torque held without current [N·m]", [](const PresetColumn& c) { return c.unpowered.torque_Nm; });
+  both("peak torque [N·m]", kPeak);
+  both("deflection at peak torque [rad]", kLag);
+  both("stiffness at peak torque [N·m/rad]", [](const OneWay& w) { return w.peak.stiffness_Nm_per_rad; });
+  both("stiffness at half of it [N·m/rad]", [](const OneWay& w) { return w.stiffness_at_half_Nm_per_rad; });
+  both("torque held without current [N·m]", kUnpowered);
   row("power to hold it at rest [W]", [](const PresetColumn& c) { return c.held_at_rest.power_W; });
-  row("power to hold half the peak torque [W]", [](const PresetColumn& c) { return c.held_at_half.power_W; });
-  row("no-load speed [rad/s]", [](const PresetColumn& c) { return c.no_load_speed_rad_per_s; });
-  row("peak output power [W]", [](const PresetColumn& c) { return c.power.power_W; });
+  both("power to hold half the peak torque [W]", [](const OneWay& w) { return w.held_at_half.power_W; });
+  both("no-load speed [rad/s]", kSpeed);
+  both("peak output power [W]", [](const OneWay& w) { return w.power.power_W; });
   row("elastic energy without load [J]", [](const PresetColumn& c) { return c.energy_at_rest_J; });
   return out;
 }

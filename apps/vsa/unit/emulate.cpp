@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -21,6 +22,7 @@
 #include "vsa/config/faults_text.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/device/emulation.hpp"
+#include "vsa/elastic/inverse.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/serial/ports.hpp"
 #include "vsa/serial/processors_awake.hpp"
@@ -54,6 +56,10 @@ void check(const EmulateOptions& o) {
   }
   if (o.duration_s && !(*o.duration_s > 0 && *o.duration_s <= 1e8)) {
     problems.add({"", "--duration-s", fmt::format("{}", *o.duration_s), "out of range", "above 0 to 1e8 s"});
+  }
+  const auto good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
+  if (o.port.find('/') == std::string::npos && !std::all_of(o.port.begin(), o.port.end(), good)) {
+    problems.add({"", "--port", o.port, "can't be the name of a serial port", "letters, digits, and _ - . (or a path)"});
   }
   problems.throw_if_any();
 }
@@ -163,7 +169,7 @@ class Runner {
   bool told_ = false, told_rate_ = false;
 };
 
-void introduce(const EmulateOptions& o, const std::string& path, bus::Dialect dialect) {
+void introduce(const EmulateOptions& o, const std::string& path, bus::Dialect dialect, bool antagonists) {
   const std::string ids = o.units == 1 ? fmt::format("unit {}", o.first_id)
                                        : fmt::format("{} units, ids {} to {}", o.units, o.first_id, o.first_id + o.units - 1);
   std::cout << fmt::format("{:<20}{}  ({}, dialect {}, motors {})\n", "port", path, ids, static_cast<int>(dialect),
@@ -171,6 +177,8 @@ void introduce(const EmulateOptions& o, const std::string& path, bus::Dialect di
             << fmt::format("{:<20}vsa ping {}\n", "talk to it", path)
             << fmt::format("{:<20}vsa set {} active on --id {}\n", "", path, o.first_id) << fmt::format("{:<20}Ctrl-C\n", "end it")
             << std::flush;
+  if (!antagonists)
+    std::cerr << fmt::format("warning: {}: its references aren't equilibrium ± preset; use vsa set {} inputs …\n", o.type, path);
 }
 
 }  // namespace
@@ -188,7 +196,7 @@ int run_emulate(const EmulateOptions& options) {
   int signal = 0;
   {
     const serial::VirtualPort port(emulation.line(), {serial::port_path(options.port.empty() ? options.type : options.port)});
-    introduce(options, port.path(), dialect);
+    introduce(options, port.path(), dialect, elastic::antagonistic(*units.front().config.actuator.transmission));
     Runner runner(emulation, port, options.duration_s);
     signal = runner.run();
     std::cout << fmt::format("{:<20}{:.3f} s in {:.3f} s of wall time\n", "simulated time", runner.simulated_s(), runner.wall_s())

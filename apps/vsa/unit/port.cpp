@@ -95,6 +95,13 @@ UnitPort::UnitPort(const UnitPortOptions& options)
 
 bus::Client UnitPort::client(bus::Dialect dialect) { return {channel_, client_options(options_, dialect)}; }
 
+bus::Result<bus::Dialect> UnitPort::look_for(std::uint8_t id) {
+  constexpr double kMost_ms = 1000;
+  UnitPortOptions brief = options_;
+  brief.timeout_ms = std::min(brief.timeout_ms, kMost_ms);
+  return bus::Client(channel_, client_options(brief, bus::Dialect::six)).dialect(id);
+}
+
 bus::Dialect UnitPort::dialect(std::uint8_t id) {
   const bus::Dialect seen = take(client(bus::Dialect::six).dialect(id), id, "a ping");
   if (!options_.dialect) return seen;

@@ -50,6 +50,8 @@ class UnitPort {
   /// What the options say, or else what the unit's ping shows. Throws NoAnswer.
   [[nodiscard]] bus::Dialect dialect(std::uint8_t id);
   [[nodiscard]] bus::Client client(bus::Dialect dialect);
+  /// A ping of one that hopefully isn't there: nobody waits longer than a second for that.
+  [[nodiscard]] bus::Result<bus::Dialect> look_for(std::uint8_t id);
   /// How long an answer may take: --timeout-ms, or what texts, lists and the unit's memory need.
   enum class Wait { brief, slow };
   /// The content, or NoAnswer with unit, port and what was asked.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kSetNotes = R"(WHAT and its values; angles in degrees, or in the unit's ticks as 910ticks:
   inputs MOTOR_1 MOTOR_2          references of both motors
-  equilibrium EQUILIBRIUM PRESET   the same as equilibrium + preset and equilibrium - preset
+  equilibrium EQUILIBRIUM PRESET   the same as equilibrium + preset and equilibrium - preset: of antagonists
   position_stiffness POSITION S   the unit's own command; S in percent of its max stiffness, -100 to 100
   active on|off                   motors on: they hold where they are, until the next references
   PARAMETER VALUE...              named as vsa get PORT parameters shows them; most act only once they are stored
@@ -64,6 +64,8 @@ class Told {
   std::string references(config::ValueReader& reader);
   std::string position_stiffness(config::ValueReader& reader);
   std::string parameter(config::ValueReader& reader);
+  void check_free(std::uint8_t id) const;
+  void warn_of_mode();
   void store();
   /// The list is long, and who only switches motors on needs none of it.
   const bus::ParameterValues& now() {
@@ -85,6 +87,24 @@ class Told {
 
 std::string Told::shown(const std::array<Ticks, 2>& has) {
   return "references " + config::angles_text({has[0].value, has[1].value}, now().resolutions);
+}
+
+/// References are of motors' positions in two of the modes only.
+void Told::warn_of_mode() {
+  const std::string mode = config::unit_parameter_text(now(), bus::ParameterId::control_mode);
+  if (mode == "position" || mode == "position_current") return;
+  std::cerr << fmt::format("warning: unit {}: its control_mode is {}: references are no positions of the motors there\n", id_,
+                           mode);
+}
+
+/// Two units of one id answer at once, and neither can be told anything any more.
+void Told::check_free(std::uint8_t id) const {
+  if (id == id_) return;
+  const auto there = port_.look_for(id);
+  if (!there && there.error() == bus::ClientError::timeout) return;
+  if (!there && there.error() == bus::ClientError::closed) static_cast<void>(port_.take(there, id, "a ping"));
+  throw InputError({"", "id", std::to_string(id), "is that of a unit that answers on " + port_.path() + " already",
+                    "an id that nobody has; vsa ping " + port_.path() + " lists them"});
 }
 
 std::string Told::activate(config::ValueReader& reader) {
@@ -113,6 +133,7 @@ std::string Told::references(config::ValueReader& reader) {
     inputs = {Ticks{static_cast<std::int16_t>(a)}, Ticks{static_cast<std::int16_t>(b)}};
   }
   reader.throw_if_any();
+  warn_of_mode();
   static_cast<void>(port_.take(client_.set_inputs(id_, inputs), id_, options_.what));
   const auto end = std::chrono::steady_clock::now() + kSettles;
   while (true) {
@@ -144,10 +165,11 @@ std::string Told::parameter(config::ValueReader& reader) {
   const bus::ParameterId parameter = config::need_unit_parameter(dialect_, options_.what, kWritable);
   const bus::ParameterValue value = config::read_unit_parameter(reader, parameter, now().resolutions);
   reader.throw_if_any();
+  const bool new_id = parameter == bus::ParameterId::id;
+  if (new_id) check_free(std::get<std::uint8_t>(value));
   static_cast<void>(port_.take(client_.set_parameter(id_, parameter, value), id_, options_.what));
   if (!options_.store) return options_.what + " sent; most parameters act, and are kept, once they are stored (vsa set PORT store)";
   // A new id is in force at once in dialect seven, in six from the store on, which the old one answers.
-  const bool new_id = parameter == bus::ParameterId::id;
   if (new_id && dialect_ == bus::Dialect::seven) id_ = std::get<std::uint8_t>(value);
   store();
   if (new_id) id_ = std::get<std::uint8_t>(value);

@@ -9,9 +9,11 @@
 // solution; a lever's grows up to a peak, and the solution before it is taken. command_for looks for p in [0, preset_max] with σ = σ*
 // along that curve, up to the borders of what reaches τ*; where several give it, the first that steps of preset_max/16 from 0 show. TwoSinh with a₁ = a₂ = a and c = 0 is solved in closed form: with u_i = exp(a δ_i)
 //     k₁u₁ + k₂u₂ = σ*/a − τ*,   k₁/u₁ + k₂/u₂ = σ*/a + τ*            a quadratic equation
-// Both are static: friction, and what the position loop gives way, come on top. A solution is good to about 1e-9 of τ* and σ*.
+// rest_under solves τ(q, x) + load = 0 for q with the inputs held: what a free shaft does.
+// All are static: friction, and what the position loop gives way, come on top. A solution is good to about 1e-9 of τ* and σ*.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -22,6 +24,15 @@ namespace vsa::elastic {
 /// The equilibrium, rad; none where the torque isn't reached within `reach_rad` of q, or an argument isn't finite.
 [[nodiscard]] std::optional<double> equilibrium_for(const Transmission& law, double q, double torque_Nm, double preset,
                                                     double reach_rad = 6.283185307179586) noexcept;
+
+/// Where a free shaft comes to rest under an external torque about +q with the inputs held at x, rad: the first place found to the side
+/// to which law and load push it from attained(x).equilibrium. Without load it rests there if the springs are alike, elsewhere if they
+/// aren't. none: nothing stops it within `reach_rad`, or an argument isn't finite.
+[[nodiscard]] std::optional<double> rest_under(const Transmission& law, const std::array<double, 2>& x, double load_Nm = 0,
+                                               double reach_rad = 6.283185307179586) noexcept;
+
+/// Whether the references of (e, p) are (e + p, e − p), as antagonists have them; software for the qbmove takes it for granted.
+[[nodiscard]] bool antagonistic(const Transmission& law) noexcept;
 
 /// What a command is to bring about at a standing shaft: τ(q; e, p) and σ(q; e, p).
 struct Wanted {

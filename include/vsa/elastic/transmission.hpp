@@ -137,7 +137,8 @@ class Transmission {
 
   /// Motor references x_ref for a commanded (equilibrium, preset).
   [[nodiscard]] virtual std::array<double, 2> references(const EquilibriumPreset& command) const noexcept = 0;
-  /// The inverse: where the unloaded shaft rests and which preset the inputs amount to.
+  /// The inverse: which command the inputs amount to. Springs that are alike rest there unloaded; unequal ones, of which it is the
+  /// pulleys' mean, where rest_under() says (inverse.hpp).
   [[nodiscard]] virtual EquilibriumPreset attained(const std::array<double, 2>& x) const noexcept = 0;
 
   /// The smallest preset ≥ 0 and its equilibrium that give this torque and stiffness at q, where the law has a closed form for it;

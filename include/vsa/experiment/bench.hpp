@@ -77,7 +77,8 @@ struct BenchRun {
 /// Throws InputError where the type or an override is unknown, or `preset` is beyond the unit's limits or it has none.
 void check_preset(const Specimen& specimen, double preset);
 
-/// Deflection of the law alone under an external torque: −τ(θ_eq + δ) = load with the pulleys on the references of (0, preset).
+/// Deflection of the law alone under an external torque: −τ(θ_eq + δ) = load with the pulleys on the references of (0, preset). As
+/// BenchSample measures it, from the commanded equilibrium: unequal springs are deflected without load, too (elastic/inverse.hpp).
 /// Throws InputError where the law can't carry it within a turn.
 [[nodiscard]] double law_deflection(const elastic::Transmission& law, double preset, double load_Nm);
 

@@ -18,22 +18,29 @@ namespace vsa::experiment {
 /// Of the attainable preset; all of it leaves no torque for a load.
 inline constexpr std::array kPresetShares{0.0, 0.25, 0.5, 0.75, 0.9};
 
-/// The actuator at one attained preset, computed.
-struct PresetColumn {
-  double preset = 0;                        ///< attained, in the law's unit
-  double stiffness_at_rest_Nm_per_rad = 0;  ///< σ there, the shaft unloaded
+/// What depends on the direction in which the shaft is driven, where springs or motors are unequal.
+struct OneWay {
   Reach peak;                               ///< at standstill, begins to move the load
   Reach holding;                            ///< at standstill, both motors at full voltage
   Reach unpowered;                          ///< at standstill, held by friction; NaN: the springs turn the motors back
   double no_load_speed_rad_per_s = 0;       ///< of the unloaded shaft
   BestPower power;                          ///< along the boundary
-  double energy_at_rest_J = 0;              ///< H with the shaft unloaded
   double half_load_Nm = 0;                  ///< half of what it moves at its peak
   double stiffness_at_half_Nm_per_rad = 0;  ///< σ there
-  Holding held_at_rest,                     ///< unloaded
-      held_at_half;                         ///< at half of what it moves
+  Holding held_at_half;                     ///< at half of what it moves
   std::vector<WorkspacePoint> boundary;     ///< speeds at which it still moves something
+};
+
+/// The actuator at one attained preset, computed: driven towards +q, and backwards.
+struct PresetColumn : OneWay {
+  double preset = 0;                        ///< attained, in the law's unit
+  double stiffness_at_rest_Nm_per_rad = 0;  ///< σ there, the shaft unloaded
+  double energy_at_rest_J = 0;              ///< H with the shaft unloaded
+  Holding held_at_rest;                     ///< unloaded
   std::vector<LawPoint> curve;              ///< the law alone, under a load
+  OneWay back;                              ///< driven towards −q
+  /// The direction in which it moves less.
+  [[nodiscard]] const OneWay& weaker() const noexcept;
 };
 
 /// The position loop's errors, one motor without load.

@@ -12,8 +12,8 @@
 // gives full voltage. With a servo K_τ I_max ∓ b ω bounds both, and full voltage is the supply.
 //
 // While the shaft turns at ω against a load it stays behind its equilibrium by d, and the law's inputs follow the equilibrium with
-// ẋ_i = r_i ω, r_i = ∂x_ref,i/∂θ. Motor i carries M_i = −load_i(q₀ − d, x_ref(0, p)). (ω, p) is reachable with every lag from 0 up
-// to d for which
+// ẋ_i = r_i ω, r_i = ∂x_ref,i/∂θ. Motor i carries M_i = −load_i(q₀ − d, x_ref(0, p)). (ω, p) is reachable with every lag from d₀ up
+// to d for which, d₀ being that of the shaft at rest: 0 if the springs are alike, else of either sign (elastic/inverse.hpp)
 //
 //   M⁻(|r_i ω|) ≤ sign(r_i ω) M_i ≤ M⁺(|r_i ω|)  for all motors;    an input that stands (r_i = 0):  (1 − λ_b)|M_i| ≤ K_τ V/R + τ_c
 //   σ ≥ 0                                         beyond the law's largest torque the joint gives way
@@ -87,7 +87,7 @@ enum class Task {
 
 /// The end of the reachable range: the largest load. NaN where not even an unloaded shaft is reachable.
 struct Reach {
-  double deflection_rad = 0;        ///< d ≥ 0
+  double deflection_rad = 0;        ///< d, from the equilibrium; ≥ 0 where the springs are alike
   double torque_Nm = 0;             ///< at the shaft, in the direction of motion
   double stiffness_Nm_per_rad = 0;  ///< σ there
   double energy_J = 0;              ///< H there
@@ -116,7 +116,7 @@ struct Holding {
 
 /// The law under an external load at a preset, pulleys held: what a torque–deflection curve shows.
 struct LawPoint {
-  double deflection_rad = 0,     ///< δ
+  double deflection_rad = 0,     ///< δ, from the equilibrium
       load_Nm = 0,               ///< external
       stiffness_Nm_per_rad = 0;  ///< σ
 };
@@ -132,10 +132,12 @@ class Workspace {
   [[nodiscard]] double attainable_preset() const;
   /// `direction` +1 or −1: which way the shaft is driven; they differ for unequal springs.
   [[nodiscard]] Reach reach(double preset, double speed_rad_per_s, Task task = Task::move, int direction = 1) const;
-  /// The largest speed of the unloaded shaft.
-  [[nodiscard]] double no_load_speed(double preset) const;
+  /// The largest load that it begins to move in both directions.
+  [[nodiscard]] double moves_Nm(double preset) const;
+  /// The largest speed of the unloaded shaft; `direction` as reach() has it.
+  [[nodiscard]] double no_load_speed(double preset, int direction = 1) const;
   /// From standstill to the no-load speed, evenly spaced.
-  [[nodiscard]] std::vector<WorkspacePoint> boundary(double preset, int points) const;
+  [[nodiscard]] std::vector<WorkspacePoint> boundary(double preset, int points, int direction = 1) const;
   /// Between the largest loads that the motors move in both directions.
   [[nodiscard]] std::vector<LawPoint> law_curve(double preset, int points) const;
   [[nodiscard]] double stiffness_at_rest(double preset) const;  ///< σ with the shaft unloaded
@@ -148,6 +150,7 @@ class Workspace {
 
  private:
   [[nodiscard]] elastic::Response at(double preset, double lag_rad, int direction) const;
+  [[nodiscard]] double lag_at_rest(double preset, int direction) const;
   [[nodiscard]] bool carries(const elastic::Response& r, const std::array<double, 2>& rates, double speed, Task task) const;
   [[nodiscard]] bool winds(double preset) const;
   [[nodiscard]] std::optional<double> lag_under(double preset, double load_Nm, Task task) const;

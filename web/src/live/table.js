@@ -115,7 +115,7 @@ export class Table {
     texts.place.textContent = shown(now('shaft_rad'), units.place);
     parts.preset.set('fill', part(limits.preset, Math.abs(now('preset'))));
     parts.preset.set('told', part(limits.preset, Math.abs(now('preset_command'))));
-    texts.preset.textContent = shown(now('preset'), units.preset);
+    texts.preset.textContent = units.preset.unit === '' ? '–' : shown(now('preset'), units.preset);
     // The scales grow with what was seen, so that bars of different actuators compare.
     const stiffness = now('stiffness_Nm_per_rad');
     const load = now('torque_Nm');
