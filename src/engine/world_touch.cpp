@@ -53,7 +53,7 @@ void World::Impl::set_followers(std::size_t leader) {
     for (const description::Coupling& c : world->couplings) {
       if (std::find(due.begin(), due.end(), c.leader) == due.end()) continue;
       const physics::JointState of = physics->joint(c.leader);
-      physics->set_joint(c.follower, {c.multiplier * of.position + c.offset, c.multiplier * of.speed});
+      physics->set_joint(c.follower, {c.at(of.position), c.slope(of.position) * of.speed});
       next.push_back(c.follower);
     }
     due = std::move(next);

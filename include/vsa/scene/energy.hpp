@@ -3,7 +3,8 @@
 
 namespace vsa::scene {
 
-/// Kinetic and gravitational energy of all bodies and that of the description's own springs, J. What a file switches off counts for nothing.
+/// Kinetic and gravitational energy of all bodies and that of the description's own springs, J. What a file switches off counts for
+/// nothing.
 struct Energy {
   double kinetic = 0,     ///< of all bodies
       gravitational = 0,  ///< 0 of a body at the world's origin
