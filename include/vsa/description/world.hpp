@@ -106,6 +106,8 @@ struct Joint {
   std::optional<std::size_t> child;                                             ///< the link that it moves; none: the world
   Pose3 pose;                                                                   ///< in the world, at the start: where the axes meet
   std::vector<Axis> axes;  ///< hinge, slide: 1; universal: 2, the first fixed in the parent
+  /// What else of a native file acts on it, in words: what holds it with others or in its place, but for couplings below; what pulls.
+  std::vector<std::string> held, pulled;
   /// Hinge or slide: what an actuator can drive.
   [[nodiscard]] bool one_axis() const { return kind == Kind::hinge || kind == Kind::slide; }
 };

@@ -41,6 +41,7 @@ class Describer {
     geoms();
     beside_.joints.empty() ? joints_of_bodies() : joints_as_told();
     couplings();
+    describe_forces(m_, objects_, out_);
   }
 
  private:
@@ -162,9 +163,9 @@ class Describer {
     Axis axis;
     axis.xyz = reversed ? -vector(data_->xaxis + 3 * id) : vector(data_->xaxis + 3 * id);
     if (m_.jnt_limited[id] != 0) axis.range = {{m_.jnt_range[2 * id], m_.jnt_range[2 * id + 1]}};
-    axis.damping = m_.dof_damping[v];
-    axis.friction = m_.dof_frictionloss[v];
-    axis.stiffness = m_.jnt_stiffness[id];
+    if (!without_dampers(m_)) axis.damping = m_.dof_damping[v];
+    if (!switched_off(m_, {"Constraint", "Frictionloss"})) axis.friction = m_.dof_frictionloss[v];
+    if (!without_springs(m_)) axis.stiffness = m_.jnt_stiffness[id];
     axis.rest = axis.stiffness > 0 ? m_.qpos_spring[q] : 0;
     return axis;
   }
@@ -233,7 +234,7 @@ class Describer {
         if (objects_.joints[j][0] == id) return j;
       return std::nullopt;
     };
-    for (int e = 0; e < m_.neq; ++e) {
+    for (int e = 0; e < m_.neq && !without_equalities(m_); ++e) {
       if (m_.eq_type[e] != mjEQ_JOINT || m_.eq_obj2id[e] < 0 || !starts_active(m_, e)) continue;
       const auto follower = joint(m_.eq_obj1id[e]), leader = joint(m_.eq_obj2id[e]);
       if (!follower || !leader) continue;

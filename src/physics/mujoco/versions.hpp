@@ -71,6 +71,7 @@ inline bool switched_off(const mjModel& m, std::initializer_list<std::string_vie
       return true;
   return false;
 }
+inline bool without_equalities(const mjModel& m) { return switched_off(m, {"Constraint", "Equality"}); }
 inline bool without_springs(const mjModel& m) { return switched_off(m, {"Passive", "Spring"}); }
 inline bool without_dampers(const mjModel& m) { return switched_off(m, {"Passive", "Damper"}); }
 
