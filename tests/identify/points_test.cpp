@@ -120,6 +120,10 @@ TEST(Points, NeedNoOrderAndAreRefusedWhereTheyAreNoNumbers) {
   EXPECT_EQ(o.data.rising_rad, (std::vector<double>{-0.1, 0.1, 0.12, 0.2}));
   const Identification r = fitted({o}).found;
   EXPECT_NEAR(r.fit.values[0], 10, 0.5) << "two readings of one load count as two";
+  const Observation lowest = read("g_points.csv", "load_torque_Nm,deflection_rad\n-2,-0.2\n-2,-0.2\n-2,-0.2\n1,0.1\n2,0.2\n", sea);
+  const Fitted line = fitted({lowest});
+  EXPECT_NEAR(line.found.fit.values[0], 10, 1e-3) << "so do those of the lowest";
+  EXPECT_LT(line.found.fit.rms_rad, 1e-5);
   EXPECT_EQ(read("b_preset_0.4000rad_points.csv", "load_torque_Nm,deflection_rad\n1,0.1\n2,0.2\n", vsa).preset, 0.4);
   EXPECT_THROW((void)read("c_points.csv", "load_torque_Nm,deflection_rad\n1,0.1\n2,0.2\n", vsa), InputError) << "at which preset?";
   EXPECT_THROW((void)read("d_points.csv", "load_torque_Nm,deflection_rad\n1,nan\n2,0.2\n", sea), InputError);
