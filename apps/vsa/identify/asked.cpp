@@ -25,13 +25,17 @@ namespace fs = std::filesystem;
 
 constexpr int kDigits = 5;  // of the estimates: more than any interval is narrow
 
-/// As many numbers as there are to be found fit them all and tell nothing of their scatter.
+/// Each has points, and all together more than there are numbers to be found: as many fit them all and tell nothing of their scatter.
 void check_enough(const identify::Task& task) {
   std::size_t points = 0;
+  Problems problems;
   for (const identify::Observation& o : task.observations) {
+    const std::size_t before = points;
     for (const auto* branch : {&o.data.rising_rad, &o.data.falling_rad})
       points += static_cast<std::size_t>(std::count_if(branch->begin(), branch->end(), [](double v) { return std::isfinite(v); }));
+    if (points == before) problems.add({o.name, "", "", "holds no branch of a load cycle", "a sweep of more than half a cycle"});
   }
+  problems.throw_if_any();
   if (points > task.parameters.size()) return;
   throw InputError({"", "--parameters", fmt::format("{} of them", task.parameters.size()),
                     fmt::format("the recordings have {} points, which say nothing of the values' scatter", points),
