@@ -44,10 +44,10 @@ void check_range(const char* name, double value, double min, double max) {
 }
 
 id::Task read_task(const std::vector<std::string>& recordings, const config::ActuatorType& type, const std::string& parameters,
-                   const std::string& weights) {
+                   const std::string& weights, double load_kg) {
   id::Task task;
   task.parameters = id::parse_parameters(parameters, type);
-  for (const std::string& file : recordings) task.observations.push_back(id::read_observation(file, type));
+  for (const std::string& file : recordings) task.observations.push_back(id::read_observation(file, type, load_kg));
   if (weights == "scatter") id::weigh_by_scatter(task.observations);
   return task;
 }
@@ -133,6 +133,7 @@ py::dict fit(const std::vector<std::string>& recordings, const std::string& type
   check_range("iterations", o.fit.iterations, 1, 1000);
   check_range("period_s", o.sweep.period_s, 1, 3600);
   if (o.sweep.amplitude_rad) check_range("amplitude_rad", *o.sweep.amplitude_rad, 0.01, 3);
+  check_range("load_kg", o.sweep.load_share, 1e-3, 1e3);
   if (recordings.empty()) throw InputError({"", "recordings", "", "there is none", "one or more files"});
   experiment::Specimen specimen;
   specimen.type = type;
@@ -143,7 +144,7 @@ py::dict fit(const std::vector<std::string>& recordings, const std::string& type
   {
     const py::gil_scoped_release others_run;
     outcome = interruptible(watch, [&] {
-      task = read_task(recordings, specimen.library.load(type, specimen.overrides), parameters, o.weights);
+      task = read_task(recordings, specimen.library.load(type, specimen.overrides), parameters, o.weights, o.sweep.load_share);
       id::use_bench(task, specimen, o.sweep, &watch, o.threads);
       if (o.model == "quasi-static") use_surrogate(task);
       return solve(task, o);
@@ -172,7 +173,7 @@ constexpr const char* kFit =
     "simulated load test with full dynamics (minutes), or \"quasi-static\", the same without dynamics (seconds; 2 to 5 mrad off).\n"
     "weights: \"scatter\" or \"equal\". starts, seed, iterations, global_search: as the command's options. period_s, "
     "amplitude_rad,\n"
-    "cycles: the sweep. threads: 0: all that the machine has.\n"
+    "cycles, load_kg: the sweep and what the bench carries. threads: 0: all that the machine has.\n"
     "Returns a dict: parameters (name to dict of value, unit, start, min, max, at_bound, standard_error, low, high: a 95 % "
     "interval),\n"
     "set (for World.load and ActuatorType.load), rms_rad, misfits_before and misfits (a dict each recording), residuals_rad (n,),\n"
@@ -183,8 +184,9 @@ void bind_fit(py::module_& m) {
       "fit",
       [](const std::vector<std::string>& recordings, const std::string& type, const std::string& parameters, const py::object& set,
          const std::string& model, const std::string& weights, int starts, unsigned seed, int iterations, bool global_search,
-         double period_s, std::optional<double> amplitude_rad, double cycles, unsigned threads) {
+         double period_s, std::optional<double> amplitude_rad, double cycles, unsigned threads, double load_kg) {
         Options o{model, weights, {period_s, amplitude_rad, cycles}, {}, threads};
+        o.sweep.load_share = load_kg;  // of 1 kg
         o.fit.starts = starts;
         o.fit.seed = seed;
         o.fit.iterations = iterations;
@@ -194,7 +196,7 @@ void bind_fit(py::module_& m) {
       py::arg("recordings"), py::arg("type"), py::arg("parameters"), py::kw_only(), py::arg("set") = py::none(),
       py::arg("model") = "bench", py::arg("weights") = "scatter", py::arg("starts") = 3, py::arg("seed") = 1,
       py::arg("iterations") = 20, py::arg("global_search") = true, py::arg("period_s") = 38.0,
-      py::arg("amplitude_rad") = py::none(), py::arg("cycles") = 1.5, py::arg("threads") = 0, kFit);
+      py::arg("amplitude_rad") = py::none(), py::arg("cycles") = 1.5, py::arg("threads") = 0, py::arg("load_kg") = 1.0, kFit);
 }
 
 }  // namespace

@@ -37,6 +37,8 @@ JointInfo info_of(const Joint& joint) {
       info.type = Type::universal;
       break;
   }
+  info.held = joint.held;
+  info.pulled = joint.pulled;
   if (!joint.one_axis()) return info;
   const Axis& axis = joint.axes.front();
   info.range = axis.range;

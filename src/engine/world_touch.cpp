@@ -19,24 +19,25 @@ void put(std::vector<std::pair<std::size_t, Value>>& list, std::size_t key, cons
   if (!none) list.emplace_back(key, value);
 }
 
-/// Limits give way a little: a joint beyond them may be set to where it is, and linear_world tries 2e-3 about a place.
-void check_limits(const std::string& joint, const std::array<double, 2>& range, double now, double angle) {
-  constexpr double kSoft = 5e-3;  // rad or m
-  if (angle >= std::min(range[0] - kSoft, now) && angle <= std::max(range[1] + kSoft, now)) return;
-  throw InputError(Problem{"", joint + ": angle", fmt::format("{}", angle), "beyond the joint's limits",
+/// Limits give way, and what a recording has of a joint that hit them may be set; a joint beyond them may be set to where it is.
+void check_limits(const JointInfo& joint, const std::array<double, 2>& range, double now, double angle) {
+  const double soft = joint.type == JointInfo::Type::prismatic ? 5e-3 : 0.05;  // m, rad
+  if (angle >= std::min(range[0] - soft, now) && angle <= std::max(range[1] + soft, now)) return;
+  throw InputError(Problem{"", joint.name + ": angle", fmt::format("{}", angle), "beyond the joint's limits",
                            fmt::format("{} … {}", range[0], range[1])});
 }
 
 struct Follower {
   physics::JointState now, leader, wanted;
 };
-/// A follower is where its leader has it: all joints may be set one by one, to where they were.
+/// A follower is where its leader has it, but for what the engine's equality gives way: all joints may be set one by one, to where they
+/// were.
 void check_follower(const description::Coupling& c, const std::vector<JointInfo>& joints, const Follower& f) {
-  constexpr double kNear = 1e-6;
-  const double there = c.multiplier * f.leader.position + c.offset, moves = c.multiplier * f.leader.speed;
+  constexpr double kNear = 0.02, kNearSpeed = 0.1;
+  const double there = c.at(f.leader.position), moves = c.slope(f.leader.position) * f.leader.speed;
   const bool angle =
       std::abs(f.wanted.position - there) <= std::max(std::abs(f.now.position - there), kNear * (1 + std::abs(there)));
-  const bool speed = f.wanted.speed == 0 || std::abs(f.wanted.speed - moves) <= kNear * (1 + std::abs(moves));
+  const bool speed = f.wanted.speed == 0 || std::abs(f.wanted.speed - moves) <= kNearSpeed * (1 + std::abs(moves));
   if (angle && speed) return;
   const auto state = [](double position, double v) { return fmt::format("{}, speed {}", position, v); };
   throw InputError(Problem{"", joints[c.follower].name, state(f.wanted.position, f.wanted.speed),
@@ -78,7 +79,7 @@ void World::Impl::set_followers(std::size_t leader) {
     for (const description::Coupling& c : world->couplings) {
       if (std::find(due.begin(), due.end(), c.leader) == due.end()) continue;
       const physics::JointState of = physics->joint(c.leader);
-      physics->set_joint(c.follower, {c.multiplier * of.position + c.offset, c.multiplier * of.speed});
+      physics->set_joint(c.follower, {c.at(of.position), c.slope(of.position) * of.speed});
       next.push_back(c.follower);
     }
     due = std::move(next);
@@ -138,10 +139,9 @@ void World::set_joint(JointHandle joint, double angle, double speed) {
   const auto coupling = std::find_if(impl_->world->couplings.begin(), impl_->world->couplings.end(), own);
   if (coupling != impl_->world->couplings.end()) {
     check_follower(*coupling, joints(), {now, impl_->physics->joint(coupling->leader), {angle, speed}});
-    impl_->set_followers(coupling->leader);
-    return impl_->forget_mobility();
+  } else if (const auto& range = joints()[index].range) {
+    check_limits(joints()[index], *range, now.position, angle);
   }
-  if (const auto& range = joints()[index].range) check_limits(joints()[index].name, *range, now.position, angle);
   impl_->physics->set_joint(index, {angle, speed});
   impl_->set_followers(index);
   impl_->placed(index);

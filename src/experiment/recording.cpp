@@ -19,7 +19,7 @@ using config::at_line, config::CsvTable, config::FewProblems, config::read_csv, 
 
 namespace {
 
-constexpr double kForceLimit_N = 1e6;
+constexpr double kForceLimit_N = 1e6, kTorqueLimit_Nm = 1e4;
 constexpr double kDeflectionLimit = 6.3;  // a turn: no spring of an actuator gives way further
 constexpr std::string_view kNameMark = "preset_";
 
@@ -32,9 +32,35 @@ void require_within(const CsvTable& table, std::size_t column, std::string_view 
                     const std::filesystem::path& file, FewProblems& problems) {
   const std::vector<double>& values = table.columns[column];
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::abs(values[i]) <= limit) continue;
+    if (!(std::abs(values[i]) > limit)) continue;  // an empty cell is NaN
     problems.add({at_line(file, table.lines[i]), std::string(name), config::number_text(values[i]), "out of range",
                   config::range_text(-limit, limit)});
+  }
+}
+
+/// Branches are compared on a grid of one spacing; numbers that were rounded may miss it a little.
+void require_even(const CsvTable& table, std::size_t column, std::string_view name, const std::filesystem::path& file,
+                  FewProblems& problems) {
+  constexpr double kRounding = 0.05;  // of the spacing
+  const std::vector<double>& values = table.columns[column];
+  const double spacing = values[1] - values[0];
+  for (std::size_t i = 2; i < values.size(); ++i) {
+    if (std::abs(values[i] - values[i - 1] - spacing) <= kRounding * spacing) continue;
+    problems.add({at_line(file, table.lines[i]), std::string(name), config::number_text(values[i]),
+                  "isn't a spacing after the row before",
+                  config::number_text(values[i - 1] + spacing) +
+                      ", as between the first two rows; a branch without samples there has an empty cell"});
+    return;
+  }
+}
+
+void require_scatter(const CsvTable& table, std::size_t column, std::string_view name, const std::filesystem::path& file,
+                     FewProblems& problems) {
+  const std::vector<double>& values = table.columns[column];
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!(values[i] < 0) && !(values[i] > kDeflectionLimit)) continue;
+    problems.add({at_line(file, table.lines[i]), std::string(name), config::number_text(values[i]), "out of range",
+                  config::range_text(0, kDeflectionLimit)});
   }
 }
 
@@ -93,7 +119,14 @@ Branches read_branches(const std::filesystem::path& csv) {
                                         {"sd_falling_rad", true, true}});
   require_samples(table.lines.size(), csv);
   FewProblems problems;
+  require_within(table, 0, "load_torque_Nm", kTorqueLimit_Nm, csv, problems);
+  require_within(table, 1, "deflection_rising_rad", kDeflectionLimit, csv, problems);
+  require_within(table, 2, "deflection_falling_rad", kDeflectionLimit, csv, problems);
+  require_scatter(table, 3, "sd_rising_rad", csv, problems);
+  require_scatter(table, 4, "sd_falling_rad", csv, problems);
   require_increasing(table, 0, "load_torque_Nm", csv, problems);
+  problems.throw_if_any();
+  require_even(table, 0, "load_torque_Nm", csv, problems);
   problems.throw_if_any();
   const auto& c = table.columns;
   return {c[0], c[1], c[2], c[3], c[4]};

@@ -35,13 +35,14 @@ std::string text_of(const Comparison& c, const Hypothesis& h) {
   for (const Parameter& p : h.free) out += fmt::format("free {} {} {} {}\n", p.name, p.start, p.min, p.max);
   out +=
       fmt::format("sweep {} {} {} {}\n", c.sweep.period_s, c.sweep.amplitude_rad.value_or(0.0), c.sweep.cycles, c.sweep.sample_s);
+  if (c.sweep.load_share != 1) out += fmt::format("load {}\n", c.sweep.load_share);
   out += fmt::format("fit {} {} {} {} {} {} {}\n", c.fit.starts, c.fit.seed, c.fit.global, c.fit.iterations, c.fit.effect_rad,
                      c.fit.interval_effect_rad, c.fit.tolerance);
   return out;
 }
 
 /// A second of the bench, to a microradian; of places at rest, which the law alone predicts, the law's.
-std::string physics_of(const Hypothesis& h, const Observation& o, experiment::Watch* watch) {
+std::string physics_of(const Hypothesis& h, const Observation& o, double load_share, experiment::Watch* watch) {
   if (o.points) {
     std::string out = "law";
     for (const double load_Nm : o.data.torque_Nm)
@@ -52,6 +53,7 @@ std::string physics_of(const Hypothesis& h, const Observation& o, experiment::Wa
   brief.period_s = 1.0;
   brief.amplitude_rad = 1.0;
   brief.sample_s = 0.05;
+  brief.load_share = load_share;
   std::string out = "bench";
   for (const double d : simulated_recording(h.specimen, o.preset, brief, watch).deflection_rad) out += fmt::format(" {:.6f}", d);
   return out + '\n';
@@ -115,8 +117,9 @@ std::vector<std::string> request_hashes(const Comparison& c, const std::vector<F
                                         experiment::Watch* watch) {
   const std::size_t n = c.recordings.size();
   std::vector<std::string> physics(c.hypotheses.size() * n);
-  experiment::run_in_parallel(physics.size(), threads,
-                              [&](std::size_t i) { physics[i] = physics_of(c.hypotheses[i / n], c.recordings[i % n], watch); });
+  experiment::run_in_parallel(physics.size(), threads, [&](std::size_t i) {
+    physics[i] = physics_of(c.hypotheses[i / n], c.recordings[i % n], c.sweep.load_share, watch);
+  });
   std::vector<std::string> out;
   for (const FitRequest& request : all) {
     std::string text = text_of(c, c.hypotheses[request.hypothesis]);

@@ -49,6 +49,7 @@ void read_bench(Section& section, SweepOptions& out) {
   out.period_s = section.number("period_s", 1, 3600).value_or(out.period_s);
   out.amplitude_rad = section.number("amplitude_rad", 0.01, 3);
   out.cycles = section.number("cycles", 1.5, 100).value_or(out.cycles);
+  out.load_share = section.number("load_kg", 1e-3, 1e3).value_or(1);  // of 1 kg
   section.refuse_others();
 }
 
@@ -117,7 +118,7 @@ Hypothesis read_hypothesis(Section& section, const Comparison& comparison, const
 void read_recordings(Comparison& out, const Sources& sources, Problems& problems) {
   for (const fs::path& file : sources.files) {
     try {
-      out.recordings.push_back(read_observation(file, out.hypotheses.front().type));
+      out.recordings.push_back(read_observation(file, out.hypotheses.front().type, out.sweep.load_share));
     } catch (const InputError& error) {
       problems.add_all(error);
     }

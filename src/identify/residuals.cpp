@@ -28,6 +28,8 @@ double model_at(const experiment::Branches& model, bool rising, double torque) {
   const auto it = std::lower_bound(known.begin(), known.end(), torque - kSameTorque_Nm, below);
   const std::size_t next = std::clamp<std::size_t>(static_cast<std::size_t>(it - known.begin()), 1, known.size() - 1);
   const std::size_t a = known[next - 1], b = known[next];
+  for (const std::size_t i : {a, b})  // places at rest may have one load several times
+    if (std::abs(model.torque_Nm[i] - torque) <= kSameTorque_Nm) return value[i];
   const double slope = (value[b] - value[a]) / (model.torque_Nm[b] - model.torque_Nm[a]);
   return value[b] + slope * (torque - model.torque_Nm[b]);
 }

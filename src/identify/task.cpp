@@ -103,7 +103,29 @@ std::vector<config::Override> overrides(const std::vector<Parameter>& parameters
   return out;
 }
 
+namespace {
+
+/// On the grid that the bench's load fills, as vsa characterize has it.
+Observation of_samples(const std::string& path, double preset, double load_share) {
+  constexpr double kLimit_Nm = 10;  // of what 1 kg gives
+  experiment::BranchOptions grid;
+  grid.grid_Nm *= load_share;
+  grid.max_Nm *= load_share;
+  const experiment::LoadRecording samples = experiment::read_load_recording(path, kLimit_Nm * std::max(1.0, load_share));
+  Observation out{path, preset, experiment::branches(samples, grid), 1.0};
+  const auto beyond = [&](double torque) { return std::abs(torque) > grid.max_Nm + grid.grid_Nm / 2; };
+  const auto n = std::count_if(samples.torque_Nm.begin(), samples.torque_Nm.end(), beyond);
+  out.beyond = static_cast<double>(n) / static_cast<double>(samples.torque_Nm.size());
+  return out;
+}
+
+}  // namespace
+
 Observation read_observation(const std::filesystem::path& file, const config::ActuatorType& type) {
+  return read_observation(file, type, 1.0);
+}
+
+Observation read_observation(const std::filesystem::path& file, const config::ActuatorType& type, double load_share) {
   const std::string path = file.string();
   const auto ends = [&](std::string_view with) {
     return path.size() >= with.size() && path.compare(path.size() - with.size(), with.size(), with) == 0;
@@ -121,9 +143,8 @@ Observation read_observation(const std::filesystem::path& file, const config::Ac
                       unit.empty() ? "an actuator with a preset" : unit});
   }
   if (points) return {path, named.value, experiment::read_points(file, linear), 1.0, true};
-  const bool means = ends("_branches.csv");
-  return {path, named.value, means ? experiment::read_branches(file) : experiment::branches(experiment::read_load_recording(file)),
-          1.0};
+  if (ends("_branches.csv")) return {path, named.value, experiment::read_branches(file), 1.0};
+  return of_samples(path, named.value, load_share);
 }
 
 namespace {

@@ -87,6 +87,9 @@ void check(const World& w, const Whole& all, Problems& problems) {
       if (joint.follows)
         problems.add({"", joint.name, "", "follows " + w.joints()[*joint.follows].name + " (<mimic>), which isn't linearised",
                       "joints that move by themselves"});
+      for (const std::string& what : joint.held)
+        problems.add({"", joint.name, "", "is held by an <equality> (" + what + "), which isn't linearised",
+                      "joints that move by themselves"});
     } else if (all.refused[i] != told) {
       told = all.refused[i];
       const bool link = std::any_of(w.links().begin(), w.links().end(), [&](const auto& l) { return l.name == all.refused[i]; });
@@ -95,6 +98,22 @@ void check(const World& w, const Whole& all, Problems& problems) {
                     link ? "a robot fixed to the world" : "revolute and prismatic joints"});
     }
   }
+}
+
+/// Of the model's joints: each once, with those that it acts on.
+void tell_of_forces(const World& w, const std::vector<std::size_t>& joints, std::vector<std::string>& notices) {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const std::size_t j : joints) {
+    for (const std::string& what : w.joints()[j].pulled) {
+      const auto it = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.first == what; });
+      if (it == all.end()) {
+        all.emplace_back(what, w.joints()[j].name);
+      } else {
+        it->second += ", " + w.joints()[j].name;
+      }
+    }
+  }
+  for (const auto& [what, on] : all) notices.push_back("left out: " + what + ", which acts on " + on);
 }
 
 void tell_what_is_left_out(const World& w, const Whole& all, std::vector<std::string>& notices) {
@@ -138,6 +157,7 @@ WorldBodies find_bodies(World& w) {
     out.gravity.push_back(weight[static_cast<Index>(i)]);
     dofs.push_back(static_cast<Index>(i));
   }
+  tell_of_forces(w, out.joint, out.notices);
   tell_what_is_left_out(w, all, out.notices);
   out.bodies.mass = all.mass(dofs, dofs);
   const MatrixXd k = all.stiffness(dofs, dofs);

@@ -67,7 +67,7 @@ Prepared prepare(const FitTask& task, experiment::Watch* watch) {
   const auto read = [&](const std::vector<fs::path>& files, identify::Task& into) {
     for (const fs::path& file : files) {
       try {
-        into.observations.push_back(identify::read_observation(file, type));
+        into.observations.push_back(identify::read_observation(file, type, task.bench.load_share));
       } catch (const InputError& error) {
         problems.add_all(error);
       }
@@ -149,6 +149,7 @@ FitTask read_fit(TomlSection& s, const fs::path& file, experiment::Specimen spec
   out.bench.period_s = s.number("period_s", 1, 3600).value_or(38);
   out.bench.amplitude_rad = s.number("amplitude_rad", 0.01, 3);
   out.bench.cycles = s.number("cycles", 1.5, 100).value_or(1.5);
+  out.bench.load_share = s.number("load_kg", 1e-3, 1e3).value_or(1);  // of 1 kg
   out.iterations = static_cast<int>(s.whole("iterations", 1, 1000).value_or(20));
   out.by_scatter = s.word("weights", {"scatter", "equal"}).value_or("scatter") == "scatter";
   return out;

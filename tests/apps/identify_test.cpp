@@ -156,6 +156,22 @@ TEST(Identify, RefusesBadRecordingsAllAtOnceAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }
 
+TEST(Identify, NamesARecordingWithoutPoints) {
+  const Scratch scratch;
+  const auto half = scratch / "half_preset_0.1000rad.csv";
+  std::string text = "load_torque_Nm,deflection_rad\n";
+  for (int k = 0; k <= 40; ++k) text += std::to_string(0.025 * k) + ',' + std::to_string(0.01 * k) + '\n';
+  write_file(half, text);
+  for (const bool alone : {true, false}) {
+    std::vector<std::string> arguments{"identify", half.string()};
+    if (!alone) arguments.push_back(kRecording);
+    for (const char* more : {"--type", "qbmove_maker_pro", "--parameters", "shaft.friction_Nm", "--out"}) arguments.push_back(more);
+    arguments.push_back((scratch / "out").string());
+    const auto r = run_vsa(arguments);
+    expect_refused(r, "half_preset_0.1000rad.csv: holds no branch of a load cycle");
+  }
+}
+
 /// 11 short fits: one start, two profile points, eight draws.
 class IdentifyPool : public vsa::test::WithRanks {
  protected:

@@ -135,5 +135,40 @@ TEST(LinkParameters, ThatNoBodyHasAreRefusedAndNothingChanges) {
   EXPECT_EQ(w.link_parameters(w.link("chest::lid")), before);
 }
 
+/// A double pendulum; a soft tendon limits the difference of its angles.
+World tied() {
+  World w = World::load_string(
+      "<mujoco model='arm'><option timestep='0.001'/><worldbody><body name='a'><joint name='j0' axis='0 1 0'/>"
+      "<inertial pos='0 0 -0.1' mass='0.3' diaginertia='0.002 0.002 0.0005'/>"
+      "<body name='b' pos='0 0 -0.2'><joint name='j1' axis='0 1 0'/>"
+      "<inertial pos='0 0 -0.1' mass='0.3' diaginertia='0.002 0.002 0.0005'/></body></body></worldbody>"
+      "<tendon><fixed name='t' limited='true' range='-0.1 0.1' solreflimit='0.1 1' solimplimit='0.5 0.5 0.01'>"
+      "<joint joint='j0' coef='1'/><joint joint='j1' coef='-1'/></fixed></tendon></mujoco>");
+  w.set_joint("arm::j1", 0.6, 0);
+  return w;
+}
+
+/// MuJoCo derives a tendon's weight in its rows from the masses, too.
+TEST(LinkParameters, CopiesWithALimitedTendonGoAsWorldsForAnyNumberOfThreads) {
+  const std::vector<double> masses{0.3, 3, 30};
+  for (const std::size_t threads : {1, 2}) {
+    Batch batch(tied(), masses.size(), threads);
+    std::vector<Setting> settings;
+    for (std::size_t c = 0; c < masses.size(); ++c) settings.push_back({c, "arm::b", "link.mass_kg", masses[c]});
+    batch.set(settings);
+    batch.step(200);
+    for (std::size_t c = 0; c < masses.size(); ++c) {
+      World alone = tied();
+      LinkParameters p = alone.link_parameters(alone.link("arm::b"));
+      for (double& moment : p.inertia_kgm2) moment *= masses[c] / p.mass_kg;
+      p.mass_kg = masses[c];
+      alone.set_link_parameters(alone.link("arm::b"), p);
+      alone.run(0.2);
+      EXPECT_EQ(batch.joint_position()[2 * c], alone.joint_angle("arm::j0")) << masses[c] << " kg, threads " << threads;
+      EXPECT_EQ(batch.joint_position()[2 * c + 1], alone.joint_angle("arm::j1")) << masses[c] << " kg, threads " << threads;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vsa::batch

@@ -148,6 +148,19 @@ TEST(BadBranchFile, IsTold) {
   EXPECT_TRUE(has(told(head + "0,0,0,0,0\n0,0,0,0,0\n").at(0), "doesn't increase"));
   EXPECT_TRUE(has(told("load_torque_Nm,deflection_rising_deg\n").at(0), "deflection_rising_rad"));
   EXPECT_TRUE(told(head + "0,,0,,0\n1,0,,0,\n").empty()) << "a branch may have gaps";
+  const auto uneven = told(head + "-1,0,0,0,0\n0,0,0,0,0\n3,0,0,0,0\n5,0,0,0,0\n").at(0);
+  for (const char* part : {"b.csv:4", "load_torque_Nm", "3", "isn't a spacing after the row before", "1, as between"})
+    EXPECT_TRUE(has(uneven, part)) << part;
+  EXPECT_TRUE(told(head + "0,0,0,0,0\n0.33,0,0,0,0\n0.67,0,0,0,0\n1,0,0,0,0\n").empty()) << "rounded";
+  for (const auto& [row, key] : std::vector<std::pair<std::string, std::string>>{{"1e5,0,0,0,0", "load_torque_Nm"},
+                                                                                 {"1,7,0,0,0", "deflection_rising_rad"},
+                                                                                 {"1,0,-7,0,0", "deflection_falling_rad"},
+                                                                                 {"1,0,0,-0.1,0", "sd_rising_rad"},
+                                                                                 {"1,0,0,0,7", "sd_falling_rad"}}) {
+    const auto text = told(head + "0,0,0,0,0\n" + row + "\n");
+    ASSERT_EQ(text.size(), 1u) << row;
+    EXPECT_TRUE(has(text[0], "b.csv:3") && has(text[0], key) && has(text[0], "out of range")) << text[0];
+  }
 }
 
 TEST(BadSeries, IsTold) {

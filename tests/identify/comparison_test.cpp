@@ -132,6 +132,16 @@ fre = 3
     EXPECT_TOLD(told, part);
 }
 
+TEST_F(ComparisonFile, SaysWhatTheBenchCarries) {
+  const std::string lighter = std::string(kSettings) + "load_kg = 0.5\n" + kFixed;
+  const Comparison c = read(lighter), one = read(std::string(kSettings) + kFixed);
+  EXPECT_EQ(c.sweep.load_share, 0.5);
+  EXPECT_EQ(one.sweep.load_share, 1);
+  const FitRequest all{0, std::nullopt};
+  EXPECT_NE(request_hashes(c, {all}, 2), request_hashes(one, {all}, 2)) << "another bench, another fit";
+  EXPECT_TOLD(problems(std::string(kSettings) + "load_kg = 0\n" + kFixed), "load_kg = 0");
+}
+
 TEST_F(ComparisonFile, WithoutHypothesesOrRecordingsIsRefused) {
   EXPECT_TOLD(problems(kSettings), "one [[hypothesis]] or more");
   EXPECT_TOLD(problems(std::string("[compare]\nrecordings = []\n") + kFixed), "one CSV file or more");

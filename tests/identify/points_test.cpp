@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -120,6 +121,10 @@ TEST(Points, NeedNoOrderAndAreRefusedWhereTheyAreNoNumbers) {
   EXPECT_EQ(o.data.rising_rad, (std::vector<double>{-0.1, 0.1, 0.12, 0.2}));
   const Identification r = fitted({o}).found;
   EXPECT_NEAR(r.fit.values[0], 10, 0.5) << "two readings of one load count as two";
+  const Observation lowest = read("g_points.csv", "load_torque_Nm,deflection_rad\n-2,-0.2\n-2,-0.2\n-2,-0.2\n1,0.1\n2,0.2\n", sea);
+  const Fitted line = fitted({lowest});
+  EXPECT_NEAR(line.found.fit.values[0], 10, 1e-3) << "so do those of the lowest";
+  EXPECT_LT(line.found.fit.rms_rad, 1e-5);
   EXPECT_EQ(read("b_preset_0.4000rad_points.csv", "load_torque_Nm,deflection_rad\n1,0.1\n2,0.2\n", vsa).preset, 0.4);
   EXPECT_THROW((void)read("c_points.csv", "load_torque_Nm,deflection_rad\n1,0.1\n2,0.2\n", vsa), InputError) << "at which preset?";
   EXPECT_THROW((void)read("d_points.csv", "load_torque_Nm,deflection_rad\n1,nan\n2,0.2\n", sea), InputError);
@@ -167,6 +172,30 @@ TEST(Points, OfUnequalSpringsGiveBackBoth) {
   const Identification r = identify(make, o, one_by_one(make, o.fit));
   EXPECT_NEAR(r.fit.values[0], 4, 1e-3);
   EXPECT_NEAR(r.fit.values[1], 9, 1e-3);
+}
+
+/// A sweep of another load fills a grid of another width.
+TEST(Samples, AreReadOnAGridAsWideAsTheirLoad) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("vsa_samples_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path file = folder / "stiffness_preset_0.3000rad.csv";
+  {
+    std::ofstream out(file);
+    out << "load_torque_Nm,deflection_rad\n";
+    for (int k = 0; k < 2000; ++k) out << 50 * std::sin(k * 0.005) << ',' << std::sin(k * 0.005) << '\n';
+  }
+  const config::ActuatorType type = test::shipped().load("qbmove_maker_pro_paper");
+  const auto points = [](const Observation& o) {
+    return std::count_if(o.data.rising_rad.begin(), o.data.rising_rad.end(), [](double v) { return std::isfinite(v); });
+  };
+  const Observation right = read_observation(file, type, 50.0 / 1.4);
+  EXPECT_NEAR(right.data.torque_Nm.back(), 50, 1e-9);
+  EXPECT_GT(points(right), 50);
+  EXPECT_EQ(right.beyond, 0);
+  EXPECT_NEAR(right.data.rising_rad[10], right.data.torque_Nm[10] / 50, 1e-3);
+  EXPECT_NEAR(read_observation(file, type, 5).beyond, 1 - 2 / 3.14159 * std::asin((7 + 0.125) / 50), 0.02) << "most of it";
+  EXPECT_THROW((void)read_observation(file, type), InputError) << "no load of 1 kg gives 50 N·m";
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

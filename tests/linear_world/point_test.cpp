@@ -198,4 +198,63 @@ TEST(Point, RefusesWhatCantBe) {
   expect_refused(heavy, {{}, 0.0}, {"shoulder"});
 }
 
+/// A double pendulum as MJCF, its upper joint driven, and a third body beside it.
+std::string mjcf(const std::string& more, const std::string& option, const std::string& lower = {}) {
+  const std::string inertial = "<inertial pos='0 0 -0.1' mass='0.3' diaginertia='0.002 0.002 0.0005'/>";
+  return "<mujoco model='arm'><option timestep='0.001' gravity='0 0 -9.81' " + option +
+         "<worldbody><body name='a'><joint name='j0' axis='0 1 0'/>" + inertial +
+         "<body name='b' pos='0 0 -0.2'><joint name='j1' axis='0 1 0' " + lower + "/>" + inertial +
+         "<site name='tip'/></body></body><body name='c' pos='0.2 0 0'><joint name='j2' axis='0 1 0'/>" + inertial +
+         "</body></worldbody>" + more +
+         "<custom><text name='vsa::Robot' data=\"&lt;plugin name='vsa::Robot'&gt;&lt;actuator&gt;&lt;joint&gt;j0&lt;/joint&gt;"
+         "&lt;type&gt;sea_example&lt;/type&gt;&lt;/actuator&gt;&lt;/plugin&gt;\"/></custom></mujoco>";
+}
+
+TEST(Point, RefusesWhatMjcfHoldsByEqualities) {
+  for (const auto& [equality, said] : std::vector<std::pair<std::string, std::string>>{
+           {"<weld body1='b' body2='world'/>", "weld of b and world"},
+           {"<connect body1='b' body2='c' anchor='0 0 -0.2'/>", "connect of b and c"},
+           {"<joint joint1='j1' polycoef='0.3 0 0 0 0'/>", "a lock"},
+           {"<joint joint1='j1' joint2='j0' polycoef='0 1 1 0 0'/>", "follows arm::j0"}})
+    expect_refused(mjcf("<equality>" + equality + "</equality>", "/>"), {}, {"arm::j1", said, "isn't linearised"});
+  const std::string elsewhere =
+      "<equality><joint joint1='j2' polycoef='0 0 0 0 0'/><weld body1='b' body2='world' active='false'/></equality>";
+  EXPECT_EQ(linear_world::linearize(World::load_string(mjcf(elsewhere, "/>")), {}, Firmware::frozen).model.bodies.joints.size(), 2u)
+      << "what holds no joint of the model";
+}
+
+TEST(Point, TellsOfForcesThatOnlyMjcfHas) {
+  const auto notices = [](const std::string& text) {
+    std::string all;
+    for (const auto& n : linear_world::linearize(World::load_string(text), {}, Firmware::frozen).model.notices) all += n + '\n';
+    return all;
+  };
+  const std::string tendon =
+      "<tendon><fixed name='t' stiffness='50'><joint joint='j0' coef='1'/><joint joint='j1' coef='-1'/></fixed></tendon>";
+  EXPECT_NE(notices(mjcf(tendon, "/>")).find("left out: tendon t, which acts on arm::j0, arm::j1\n"), std::string::npos);
+  const std::string servo = "<actuator><position name='p' joint='j1' kp='100'/><motor joint='j0'/></actuator>";
+  EXPECT_NE(notices(mjcf(servo, "/>")).find("left out: MuJoCo's actuator p, which acts on arm::j1\n"), std::string::npos);
+  EXPECT_NE(notices(mjcf("", "viscosity='20'/>")).find("left out: the fluid of <option>, which acts on arm::j0, arm::j1\n"),
+            std::string::npos);
+  const std::string slack = tendon.substr(0, tendon.find(" stiffness")) + tendon.substr(tendon.find("'50'") + 4);
+  EXPECT_EQ(notices(mjcf(slack + "<actuator><motor joint='j0'/></actuator>", "/>")),
+            "left out, since no actuator here moves it: arm::j2\n")
+      << "what pulls at nothing";
+}
+
+/// A spring, a damper and the weight that a file's flags switch off are no part of it either.
+TEST(Point, HasWhatMjcfFlagsLeave) {
+  const std::string lower = "stiffness='3' damping='0.1'";
+  const auto model = [&](const std::string& flags) {
+    return linear_world::linearize(World::load_string(mjcf("", ">" + flags + "</option>", lower)), {{{"arm::j1", 0.5}}},
+                                   Firmware::frozen);
+  };
+  const WorldModel whole = model(""), slack = model("<flag passive='disable'/>"), floating = model("<flag gravity='disable'/>");
+  EXPECT_EQ(whole.model.bodies.joints[1].stiffness, 3);
+  EXPECT_EQ(slack.model.bodies.joints[1].stiffness, 0);
+  EXPECT_EQ(slack.model.bodies.joints[1].damping, 0);
+  EXPECT_GT(std::abs(whole.gravity_torque[1]), 0.1);
+  EXPECT_EQ(floating.gravity_torque[1], 0);
+}
+
 }  // namespace

@@ -56,9 +56,12 @@ value = "rms_rad.stiffness_preset_0.0000rad_branches.csv"
 /// The same by hand: parameters from the type, the start, one held, one local solution.
 TEST(Fit, ARunIsALocalSolutionFromItsStart) {
   const Scratch scratch;
-  const Plan plan = plan_of(scratch, kFit);
+  std::string text = kFit;
+  text.insert(text.find("period_s"), "load_kg = 0.9\n");
+  const Plan plan = plan_of(scratch, text);
   plan.check();
   ASSERT_EQ(plan.runs(), 4U);
+  EXPECT_NE(plan.fingerprint(), plan_of(scratch, kFit).fingerprint());
   const Outcome outcome = *Runner(plan).run(1);
   ASSERT_EQ(outcome.error, "");
   experiment::Specimen specimen;
@@ -69,6 +72,7 @@ TEST(Fit, ARunIsALocalSolutionFromItsStart) {
   for (const std::string& file : {kSoft, kStiff}) task.observations.push_back(identify::read_observation(file, type));
   identify::SweepOptions sweep;
   sweep.period_s = 12;
+  sweep.load_share = 0.9;
   identify::use_bench(task, specimen, sweep);
   const identify::Residuals residuals(task, 2);
   identify::FitOptions options;

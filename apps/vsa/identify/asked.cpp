@@ -25,13 +25,17 @@ namespace fs = std::filesystem;
 
 constexpr int kDigits = 5;  // of the estimates: more than any interval is narrow
 
-/// As many numbers as there are to be found fit them all and tell nothing of their scatter.
+/// Each has points, and all together more than there are numbers to be found: as many fit them all and tell nothing of their scatter.
 void check_enough(const identify::Task& task) {
   std::size_t points = 0;
+  Problems problems;
   for (const identify::Observation& o : task.observations) {
+    const std::size_t before = points;
     for (const auto* branch : {&o.data.rising_rad, &o.data.falling_rad})
       points += static_cast<std::size_t>(std::count_if(branch->begin(), branch->end(), [](double v) { return std::isfinite(v); }));
+    if (points == before) problems.add({o.name, "", "", "holds no branch of a load cycle", "a sweep of more than half a cycle"});
   }
+  problems.throw_if_any();
   if (points > task.parameters.size()) return;
   throw InputError({"", "--parameters", fmt::format("{} of them", task.parameters.size()),
                     fmt::format("the recordings have {} points, which say nothing of the values' scatter", points),
@@ -50,7 +54,7 @@ identify::Task read_task(const IdentifyOptions& o, const config::ActuatorType& t
   };
   collect([&] { task.parameters = identify::parse_parameters(o.parameters, type); });
   for (const std::string& file : o.recordings) {
-    collect([&] { task.observations.push_back(identify::read_observation(file, type)); });
+    collect([&] { task.observations.push_back(identify::read_observation(file, type, o.load_kg)); });
   }
   problems.throw_if_any();
   if (o.weights == "scatter") identify::weigh_by_scatter(task.observations);
@@ -103,6 +107,7 @@ int write_results(const Asked& asked, Identification r, Console& console) {
   report::write_report(identification_report(r), out / "report.html");
   console.wipe();
   for (const std::string& w : warnings(r)) console.line("warning: " + w);
+  for (const std::string& w : asked.beyond_the_grid()) console.line("warning: " + w);
   std::cout << identification_text(r) << "written: " << (out / "report.html").string() << ", results.json";
   std::cout << (determined ? ", " + r.name + ".toml\n" : "; no type, as the data don't determine it\n");
   return std::cout.flush() && determined ? kDone : kFailed;
@@ -132,6 +137,18 @@ fs::path Asked::folder() const { return out() / "jobs"; }
 identify::Task Asked::task(unsigned threads, experiment::Watch* watch) const {
   identify::Task out = bare_;
   identify::use_bench(out, specimen_, sweep_, watch, threads);
+  return out;
+}
+
+std::vector<std::string> Asked::beyond_the_grid() const {
+  constexpr double kFew = 0.01;  // a hand's last push
+  std::vector<std::string> out;
+  for (const identify::Observation& o : bare_.observations)
+    if (o.beyond > kFew)
+      out.push_back(
+          fmt::format("{}: {:.0f} % of its samples lie beyond ±{:.3g} N·m, what a load of {} kg gives, and count for "
+                      "nothing: --load-kg tells of another",
+                      o.name, 100 * o.beyond, experiment::BranchOptions{}.max_Nm * options_.load_kg, options_.load_kg));
   return out;
 }
 

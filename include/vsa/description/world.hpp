@@ -106,16 +106,22 @@ struct Joint {
   std::optional<std::size_t> child;                                             ///< the link that it moves; none: the world
   Pose3 pose;                                                                   ///< in the world, at the start: where the axes meet
   std::vector<Axis> axes;  ///< hinge, slide: 1; universal: 2, the first fixed in the parent
+  /// What else of a native file acts on it, in words: what holds it with others or in its place, but for couplings below; what pulls.
+  std::vector<std::string> held, pulled;
   /// Hinge or slide: what an actuator can drive.
   [[nodiscard]] bool one_axis() const { return kind == Kind::hinge || kind == Kind::slide; }
 };
 
-/// One joint that follows another: q_follower = multiplier·q_leader + offset. Both have one axis.
+/// One joint that follows another: q_follower = offset + multiplier·q + c2·q² + c3·q³ + c4·q⁴ with q of the leader; an SDF's and a
+/// URDF's have no more than the first two terms. Both have one axis.
 struct Coupling {
-  std::size_t follower = 0,  ///< into World::joints
-      leader = 0;            ///< into World::joints
-  double multiplier = 1,     ///< rad or m of the follower per rad or m of the leader
-      offset = 0;            ///< rad or m
+  std::size_t follower = 0,                                  ///< into World::joints
+      leader = 0;                                            ///< into World::joints
+  double multiplier = 1,                                     ///< rad or m of the follower per rad or m of the leader
+      offset = 0;                                            ///< rad or m
+  std::array<double, 3> higher{};                            ///< c2, c3, c4
+  [[nodiscard]] double at(double leader_position) const;     ///< where the follower stands then, rad or m
+  [[nodiscard]] double slope(double leader_position) const;  ///< how far it goes per rad or m of the leader there
 };
 
 /// A `<plugin>` of ours, as text.

@@ -52,6 +52,10 @@ struct JointInfo {
       rest = 0;                        ///< where its spring rests, rad or m
   double dry_friction = 0;             ///< N·m; N of a prismatic one
   std::optional<std::size_t> follows;  ///< the joint that it follows (`<mimic>`): an index into World::joints()
+  /// What else of an MJCF holds it with others or in its place ("weld of arm and world"), but for the joint that it follows.
+  std::vector<std::string> held;
+  /// What else of an MJCF acts on it ("tendon t"): tendons, MuJoCo's own actuators where they pull at control 0, a fluid.
+  std::vector<std::string> pulled;
 };
 
 }  // namespace vsa::engine

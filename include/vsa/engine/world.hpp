@@ -143,7 +143,7 @@ class World : public motion::Stage, public host::Simulation {
   [[nodiscard]] double joint_speed(JointHandle joint) const;              ///< by handle: no search
   /// Sets a one-axis joint's angle and speed (kicks, initial conditions), ±1e12, and those of joints that follow it (`<mimic>`); other
   /// state stays, its actuator's too: place() moves that along. InputError: an angle farther beyond the joint's limits than it is now
-  /// (or than 5e-3 rad, m), and a follower elsewhere than its leader has it.
+  /// (or than 0.05 rad, 5e-3 m), and a follower elsewhere than its leader has it (0.02 and 0.1 of speed are let pass).
   void set_joint(std::string_view scoped_joint, double angle, double speed);
   void set_joint(JointHandle joint, double angle, double speed);  ///< by handle: no search
   [[nodiscard]] Pose pose(LinkHandle link) const;                 ///< now, in the world

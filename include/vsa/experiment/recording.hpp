@@ -59,7 +59,8 @@ void write_load_recording(const LoadRecording& recording, const std::filesystem:
 /// The branch means of a recording on the options' grid. Throws InputError for options out of range.
 [[nodiscard]] Branches branches(const LoadRecording& recording, const BranchOptions& options = {});
 /// The same from a file of branch means: load_torque_Nm,deflection_rising_rad,deflection_falling_rad,sd_rising_rad,sd_falling_rad.
-/// An empty cell is a branch without samples there.
+/// An empty cell is a branch without samples there; the torques have one spacing. Throws InputError as read_load_recording, but for the
+/// file's name; torques up to 1e4 N·m.
 [[nodiscard]] Branches read_branches(const std::filesystem::path& csv);
 
 /// Places at rest, each reached for itself: load_torque_Nm,deflection_rad, in any order. As branches they are all "rising", upwards by

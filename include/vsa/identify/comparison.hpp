@@ -8,7 +8,7 @@
 //   starts = 2            see FitOptions; also: seed, iterations, weights ("scatter" or "equal"), title
 //   jobs = 0              fits side by side; 0: as many as the machine runs at once
 //   [bench]               see SweepOptions; all optional
-//   period_s = 38         also: amplitude_rad, cycles
+//   period_s = 38         also: amplitude_rad, cycles, load_kg
 //   [[hypothesis]]
 //   name = "no_clamp"     letters, digits, _ and -; names the files of its fits
 //   title = "no clamp"

@@ -42,6 +42,7 @@ struct Observation {
   experiment::Branches data;  ///< its branch means
   double weight = 1;          ///< w, 1/rad; see scatter_weight()
   bool points = false;        ///< places at rest (experiment::read_points), which the law alone predicts, not the bench
+  double beyond = 0;          ///< part of its samples whose torque lies beyond the grid and counts for nothing
 };
 
 /// The branches that observation number i would show. Called from several threads at once; may throw where the values make no
@@ -74,6 +75,8 @@ struct Task {
 /// weight 1. Places of an actuator without a preset need none. Throws InputError where it can't be read, or where that preset isn't in
 /// the unit of this actuator's.
 [[nodiscard]] Observation read_observation(const std::filesystem::path& file, const config::ActuatorType& type);
+/// Of a bench that carries another mass, 1 for its own 1 kg: samples' torque grid, 0.05 N·m within ±1.4 N·m, is as many times as wide.
+[[nodiscard]] Observation read_observation(const std::filesystem::path& file, const config::ActuatorType& type, double load_share);
 
 /// 1 / root mean square of the recording's own scatter about its branches, so that a curve counts as much as it is known.
 [[nodiscard]] double scatter_weight(const experiment::Branches& data);

@@ -13,8 +13,9 @@
 // order over steps of 1 mrad (mm), then made symmetric: off by less than 1e-10 of the largest |g|, in N·m/rad.
 //
 // NOT IN IT, with a notice: joints and free bodies that nothing here moves; contacts, hands and a limit that a joint stands at; dry
-// friction of the file's joints. REFUSED: a robot on links that fly free, joints of several axes, joints that follow another
-// (`<mimic>`), all where they move with a driven joint.
+// friction of the file's joints; an MJCF's tendons, fluid, and actuators of MuJoCo's own that pull at control 0. REFUSED: a robot on
+// links that fly free, joints of several axes, joints that follow another (`<mimic>`) or that another <equality> of an MJCF holds, all
+// where they move with a driven joint. What an MJCF's <flag> switches off counts for nothing.
 #pragma once
 
 #include <optional>

@@ -10,18 +10,30 @@ namespace vsa::physics {
 namespace {
 
 struct Field {
-  mjtNum* begin;
-  std::ptrdiff_t count;
+  mjtNum* begin = nullptr;
+  std::ptrdiff_t count = 0;
 };
 
-/// Where the masses and what follows from them stand.
-std::array<Field, 8> fields_of(mjModel& m) {
+/// Where the masses and what follows from them stand. A template, so that what only some of MuJoCo's versions have can be asked for.
+template <class Model>
+std::array<Field, 14> fields_of(Model& m) {
+  std::ptrdiff_t outputs = m.nu;
+  if constexpr (requires { m.nout; }) outputs = m.nout;
+  Field edges{}, metric{};
+  if constexpr (requires { m.flexedge_invweight0; }) edges = {m.flexedge_invweight0, m.nflexedge};
+  if constexpr (requires { m.flex_vertmetric; }) metric = {m.flex_vertmetric, 4 * m.nflexvert};
   return {{{m.body_mass, m.nbody},
            {m.body_inertia, 3 * m.nbody},
            {m.body_subtreemass, m.nbody},
            {m.body_invweight0, 2 * m.nbody},
            {m.dof_M0, m.nv},
            {m.dof_invweight0, m.nv},
+           {m.tendon_invweight0, m.ntendon},
+           {m.actuator_acc0, outputs},
+           {m.cam_poscom0, 3 * m.ncam},
+           {m.light_poscom0, 3 * m.nlight},
+           edges,
+           metric,
            {&m.stat.meanmass, 1},
            {&m.stat.meaninertia, 1}}};
 }

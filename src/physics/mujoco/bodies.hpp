@@ -4,9 +4,11 @@
 // another model of the same world in no time.
 //
 //   set by us                    body_mass, body_inertia; geom_friction, geom_condim, geom_priority
-//   derived by mj_setConst       body_subtreemass, body_invweight0, dof_M0, dof_invweight0, stat.meanmass, stat.meaninertia
+//   derived by mj_setConst       body_subtreemass, body_invweight0, dof_M0, dof_invweight0, stat.meanmass, stat.meaninertia;
+//                                tendon_invweight0, actuator_acc0, flexedge_invweight0, flex_vertmetric; cam_, light_poscom0
 //
-// Nothing else that mj_setConst derives (lengths, centres, extent, cameras) follows from masses.
+// Nothing else that mj_setConst derives (lengths, extent, what equalities hold) follows from masses. A position servo's `dampratio`
+// has become its damping when the file was compiled, and stays.
 #pragma once
 
 #include <array>

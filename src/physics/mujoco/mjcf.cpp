@@ -60,8 +60,9 @@ class Writer {
     excludes();
     result_.xml += "</contact>\n<equality>\n";
     for (const Coupling& k : world_.couplings) {
-      fmt::format_to(out(), "<joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} 0 0 0\" solref=\"0.004 1\"/>\n",
-                     escaped(names_.joint(k.follower)), escaped(names_.joint(k.leader)), k.offset, k.multiplier);
+      fmt::format_to(out(), "<joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} {} {} {}\" solref=\"0.004 1\"/>\n",
+                     escaped(names_.joint(k.follower)), escaped(names_.joint(k.leader)), k.offset, k.multiplier, k.higher[0],
+                     k.higher[1], k.higher[2]);
     }
     result_.xml += "</equality>\n</mujoco>\n";
     return std::move(result_);

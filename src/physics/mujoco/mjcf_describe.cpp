@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "physics/mujoco/mjcf_file.hpp"
 #include "physics/mujoco/versions.hpp"
@@ -40,6 +41,7 @@ class Describer {
     geoms();
     beside_.joints.empty() ? joints_of_bodies() : joints_as_told();
     couplings();
+    describe_forces(m_, objects_, out_);
   }
 
  private:
@@ -161,9 +163,9 @@ class Describer {
     Axis axis;
     axis.xyz = reversed ? -vector(data_->xaxis + 3 * id) : vector(data_->xaxis + 3 * id);
     if (m_.jnt_limited[id] != 0) axis.range = {{m_.jnt_range[2 * id], m_.jnt_range[2 * id + 1]}};
-    axis.damping = m_.dof_damping[v];
-    axis.friction = m_.dof_frictionloss[v];
-    axis.stiffness = m_.jnt_stiffness[id];
+    if (!without_dampers(m_)) axis.damping = m_.dof_damping[v];
+    if (!switched_off(m_, {"Constraint", "Frictionloss"})) axis.friction = m_.dof_frictionloss[v];
+    if (!without_springs(m_)) axis.stiffness = m_.jnt_stiffness[id];
     axis.rest = axis.stiffness > 0 ? m_.qpos_spring[q] : 0;
     return axis;
   }
@@ -232,12 +234,26 @@ class Describer {
         if (objects_.joints[j][0] == id) return j;
       return std::nullopt;
     };
-    for (int e = 0; e < m_.neq; ++e) {
+    for (int e = 0; e < m_.neq && !without_equalities(m_); ++e) {
       if (m_.eq_type[e] != mjEQ_JOINT || m_.eq_obj2id[e] < 0 || !starts_active(m_, e)) continue;
       const auto follower = joint(m_.eq_obj1id[e]), leader = joint(m_.eq_obj2id[e]);
-      const mjtNum* p = m_.eq_data + static_cast<std::ptrdiff_t>(mjNEQDATA) * e;
-      if (follower && leader) out_.couplings.push_back({*follower, *leader, p[1], p[0]});
+      if (!follower || !leader) continue;
+      const auto start = [&](int id) { return m_.qpos0[m_.jnt_qposadr[id]]; };
+      const std::array<double, 5> c =
+          from_zero(m_.eq_data + static_cast<std::ptrdiff_t>(mjNEQDATA) * e, start(m_.eq_obj1id[e]), start(m_.eq_obj2id[e]));
+      out_.couplings.push_back({*follower, *leader, c[1], c[0], {c[2], c[3], c[4]}});
     }
+  }
+
+  /// MuJoCo counts both joints from where they start: q_f − f0 = Σ p_k (q − l0)^k. The same polynomial in q.
+  static std::array<double, 5> from_zero(const mjtNum* p, double f0, double l0) {
+    std::array<double, 5> c{};
+    for (std::size_t k = 5; k-- > 0;) {  // c ← c·(q − l0) + p_k
+      for (std::size_t i = 4; i > 0; --i) c[i] = c[i - 1] - l0 * c[i];
+      c[0] = p[k] - l0 * c[0];
+    }
+    c[0] += f0;
+    return c;
   }
 
   const mjModel& m_;

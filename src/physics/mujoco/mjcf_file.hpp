@@ -46,6 +46,9 @@ struct Beside {
 void describe(const mjModel& model, const std::string& file, const Beside& beside, description::World& out, LinkObjects& objects,
               Problems& problems);
 
+/// What else of the model acts on the joints of `out`.
+void describe_forces(const mjModel& model, const LinkObjects& objects, description::World& out);
+
 /// What geoms of a body look like.
 [[nodiscard]] std::vector<scene::Shape> visuals_of(const mjModel& model, int body);
 /// A geom's triangles, or its form. False where it can't be shown.

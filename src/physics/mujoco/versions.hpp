@@ -8,9 +8,12 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace vsa::physics {
 
@@ -58,6 +61,26 @@ inline bool starts_active(const mjModel& m, int equality) {
   return m.eq_active0[equality] != 0;
 #else
   return m.eq_active[equality] != 0;
+#endif
+}
+
+/// What `<option><flag>` switches off, by MuJoCo's words: where its versions have several for one thing, all of them.
+inline bool switched_off(const mjModel& m, std::initializer_list<std::string_view> words) {
+  for (int bit = 0; bit < mjNDISABLE; ++bit)
+    if ((m.opt.disableflags & (1 << bit)) != 0 && std::find(words.begin(), words.end(), mjDISABLESTRING[bit]) != words.end())
+      return true;
+  return false;
+}
+inline bool without_equalities(const mjModel& m) { return switched_off(m, {"Constraint", "Equality"}); }
+inline bool without_springs(const mjModel& m) { return switched_off(m, {"Passive", "Spring"}); }
+inline bool without_dampers(const mjModel& m) { return switched_off(m, {"Passive", "Damper"}); }
+
+/// Between which lengths a tendon's spring rests.
+inline std::array<mjtNum, 2> rest_of_tendon(const mjModel& m, int tendon) {
+#if mjVERSION_HEADER >= 300
+  return {m.tendon_lengthspring[2 * tendon], m.tendon_lengthspring[2 * tendon + 1]};
+#else
+  return {m.tendon_lengthspring[tendon], m.tendon_lengthspring[tendon]};
 #endif
 }
 

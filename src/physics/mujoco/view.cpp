@@ -69,6 +69,38 @@ bool MujocoPhysics::displace(std::span<const std::size_t> links, double yaw, con
   return true;
 }
 
+namespace {
+
+double half_square(double stiffness, double stretch) { return stiffness * stretch * stretch / 2; }
+
+/// Of a joint's spring, as MuJoCo pulls by it: a ball's by the angle of the turn from where it rests, a free body's also by the way.
+double spring_of_joint(const mjModel& m, const mjData& d, int joint) {
+  const double k = m.jnt_stiffness[joint];
+  if (!(k > 0)) return 0;
+  const mjtNum *q = d.qpos + m.jnt_qposadr[joint], *rest = m.qpos_spring + m.jnt_qposadr[joint];
+  const int type = m.jnt_type[joint];
+  if (type == mjJNT_HINGE || type == mjJNT_SLIDE) return half_square(k, *q - *rest);
+  double out = 0;
+  if (type == mjJNT_FREE) {
+    out = half_square(k, mju_dist3(q, rest));
+    q += 3;
+    rest += 3;
+  }
+  mjtNum turned[4], away[3];
+  mju_copy4(turned, q);
+  mju_normalize4(turned);
+  mju_subQuat(away, turned, rest);
+  return out + half_square(k, mju_norm3(away));
+}
+
+double spring_of_tendon(const mjModel& m, const mjData& d, int tendon) {
+  const auto [shortest, longest] = rest_of_tendon(m, tendon);
+  const double length = d.ten_length[tendon];
+  return half_square(m.tendon_stiffness[tendon], length - std::clamp(length, shortest, std::max(shortest, longest)));
+}
+
+}  // namespace
+
 scene::Energy MujocoPhysics::energy() const {
   const mjModel* m = model_.get();
   mjData* d = view_.get();
@@ -78,18 +110,17 @@ scene::Energy MujocoPhysics::energy() const {
   mj_integratePos(m, d->qpos, d->qvel, -m->opt.timestep / 2);
   mj_kinematics(m, d);
   mj_comPos(m, d);
+  mj_tendon(m, d);
   make_mass(*m, *d);
   std::vector<mjtNum> momentum(static_cast<std::size_t>(m->nv));
   mj_mulM(m, d, momentum.data(), d->qvel);
   scene::Energy out;
   out.kinetic = mju_dot(momentum.data(), d->qvel, m->nv) / 2;
-  for (std::size_t i = 0; i < objects_.body.size(); ++i)
+  for (std::size_t i = 0; i < objects_.body.size() && !switched_off(*m, {"Gravity"}); ++i)
     out.gravitational -= bodies_->links()[i].mass_kg * mju_dot3(m->opt.gravity, d->xipos + 3 * objects_.body[i]);
-  for (int j = 0; j < m->njnt; ++j) {
-    const int q = m->jnt_qposadr[j];
-    const double stretch = m->jnt_stiffness[j] > 0 ? d->qpos[q] - m->qpos_spring[q] : 0;
-    out.springs += m->jnt_stiffness[j] * stretch * stretch / 2;
-  }
+  if (without_springs(*m)) return out;
+  for (int j = 0; j < m->njnt; ++j) out.springs += spring_of_joint(*m, *d, j);
+  for (int t = 0; t < m->ntendon; ++t) out.springs += spring_of_tendon(*m, *d, t);
   return out;
 }
 
