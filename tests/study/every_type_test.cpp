@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "vsa/elastic/inverse.hpp"
 #include "vsa/experiment/workspace.hpp"
 #include "vsa/study/characterization.hpp"
 #include "vsa/study/data_sheet.hpp"
@@ -59,8 +60,12 @@ TEST_P(EveryType, HasADataSheetWhoseNumbersFitTogether) {
   EXPECT_EQ(sheet.simulated.preset_step.size(), sheet.has_preset() ? 2u : 0u);
   for (const experiment::PresetColumn& c : s.columns) {
     const auto x = law.references({0, c.preset});
-    EXPECT_NEAR(c.stiffness_at_rest_Nm_per_rad, law.evaluate({law.attained(x).equilibrium, x}).curvature.qq, 1e-9);
+    const auto rest = law.evaluate({elastic::rest_under(law, x).value(), x});
+    EXPECT_NEAR(rest.torque, 0, 1e-12);
+    EXPECT_NEAR(c.stiffness_at_rest_Nm_per_rad, rest.curvature.qq, 1e-9);
+    EXPECT_NEAR(c.energy_at_rest_J, rest.energy, 1e-12);
     EXPECT_GT(c.peak.torque_Nm, 0);
+    EXPECT_GT(c.back.peak.torque_Nm, 0);
     EXPECT_GE(c.holding.torque_Nm, c.peak.torque_Nm) << "friction helps to hold";
     EXPECT_GT(c.no_load_speed_rad_per_s, 0);
     EXPECT_GE(c.stiffness_at_half_Nm_per_rad, 0);
