@@ -150,7 +150,8 @@ void bind_joints(WorldClass& c) {
            "All joints, those without or with several axes too: list of dicts of name, type, range (rad or m; None: no limits),\n"
            "actuator (name or None) and dof (first degree of freedom, or None); of one axis also what the file gives the joint "
            "besides,\n"
-           "damping, stiffness about rest, dry_friction (N·m, rad, s), and follows (the joint that it follows, or None). held and pulled: what\n"
+           "damping, stiffness about rest, dry_friction (N·m, rad, s), and follows (the joint that it follows, or None). held and "
+           "pulled: what\n"
            "else of an MJCF holds it (\"weld of arm and world\") or acts on it (\"tendon t\"), lists of str.")
       .def("joint_angles", &joint_angles, py::arg("out") = py::none(),
            "Angles (rad; m of a prismatic one) of `joints`: ndarray (joints,). out: such an array, which is filled and returned. A "

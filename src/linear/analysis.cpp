@@ -2,8 +2,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "linear/deflate.hpp"
 #include "vsa/checks.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/linear/linear.hpp"
@@ -14,7 +16,8 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::MatrixXcd;
 
-constexpr double kRounding = 1e-9;  // of the largest eigenvalue: below it a pole is 0 (a motor that nothing holds)
+constexpr double kTwins = 1e-7;  // of a pole: two real ones that are alike come out as a pair so little off the axis
+constexpr double kOver = 1e-9;   // of a sampled system: what of a motion is left after a loop that is over then
 
 Pole pole_of(Complex s) {
   const double size = std::abs(s);
@@ -26,21 +29,23 @@ struct Found {
   Eigen::Index at = 0;  // among the eigenvalues
 };
 
-std::vector<Found> find(const System& m, const Eigen::VectorXcd& values) {
-  const double largest = values.cwiseAbs().maxCoeff();
+/// Sampled: eigenvalues of A − 1, whose zeros stay where they are; entries of e^{AT} are known to some tens of roundings.
+Spectrum spectrum_of(const System& m) {
+  const double rounding = static_cast<double>(m.a.rows()) * std::numeric_limits<double>::epsilon();
+  if (m.period_s == 0) return spectrum(m.a, 8 * rounding);
+  return spectrum(m.a - Eigen::MatrixXd::Identity(m.a.rows(), m.a.rows()), 64 * rounding);
+}
+
+std::vector<Found> find(const System& m, const Spectrum& of) {
   std::vector<Found> out;
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    const Complex v = values[i];
-    if (v.imag() < 0) continue;
-    if (m.period_s > 0) {
-      if (std::abs(v) <= kRounding) continue;
-      const Complex s = std::log(v) / m.period_s;
-      out.push_back({pole_of(std::abs(v - 1.0) <= kRounding ? 0.0 : s), i});
-    } else {
-      out.push_back({pole_of(std::abs(v) <= kRounding * largest ? 0.0 : v), i});
-    }
+  for (Eigen::Index i = 0; i < of.values.size(); ++i) {
+    Complex v = of.values[i];
+    if (std::abs(v.imag()) <= kTwins * std::abs(v)) v = v.real();
+    if (v.imag() < 0 || (m.period_s > 0 && std::abs(v + 1.0) <= kOver)) continue;
+    out.push_back({pole_of(m.period_s > 0 && v != 0.0 ? std::log(v + 1.0) / m.period_s : v), i});
   }
-  std::sort(out.begin(), out.end(), [](const Found& a, const Found& b) { return a.pole.frequency_Hz < b.pole.frequency_Hz; });
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Found& a, const Found& b) { return a.pole.frequency_Hz < b.pole.frequency_Hz; });
   return out;
 }
 
@@ -48,16 +53,15 @@ std::vector<Found> find(const System& m, const Eigen::VectorXcd& values) {
 
 std::vector<Pole> poles(const System& m) {
   std::vector<Pole> out;
-  for (const Found& f : find(m, Eigen::EigenSolver<Eigen::MatrixXd>(m.a).eigenvalues())) out.push_back(f.pole);
+  for (const Found& f : find(m, spectrum_of(m))) out.push_back(f.pole);
   return out;
 }
 
 MatrixXcd shapes(const System& m) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(m.a);
-  const std::vector<Found> found = find(m, solver.eigenvalues());
-  const MatrixXcd vectors = solver.eigenvectors();
+  const Spectrum of = spectrum_of(m);
+  const std::vector<Found> found = find(m, of);
   MatrixXcd out(m.a.rows(), static_cast<Eigen::Index>(found.size()));
-  for (std::size_t i = 0; i < found.size(); ++i) out.col(static_cast<Eigen::Index>(i)) = vectors.col(found[i].at).normalized();
+  for (std::size_t i = 0; i < found.size(); ++i) out.col(static_cast<Eigen::Index>(i)) = of.vectors.col(found[i].at);
   return out;
 }
 

@@ -242,6 +242,29 @@ TEST(Point, TellsOfForcesThatOnlyMjcfHas) {
       << "what pulls at nothing";
 }
 
+/// A joint that neither weight nor spring brings back stays where it is put and goes on as it is pushed: two poles at 0, none grows.
+TEST(Point, OfAJointThatNothingHoldsHasTwoPolesAtZero) {
+  const auto zeros = [](const std::string& text, Firmware firmware) {
+    const WorldModel m = linear_world::linearize(World::load_string(text), {}, firmware);
+    EXPECT_EQ(m.model.bodies.joints.size(), 2u);
+    std::ptrdiff_t out = 0;
+    for (const linear::Pole& p : linear::poles(m.model)) {
+      EXPECT_LE(p.s.real(), 0) << text;
+      out += p.s == 0.0 ? 1 : 0;
+    }
+    return out;
+  };
+  for (const Firmware firmware : {Firmware::frozen, Firmware::averaged, Firmware::sampled})
+    EXPECT_EQ(zeros(mjcf("", "><flag gravity='disable'/></option>"), firmware), 3)
+        << "the motor has nothing to carry, and yields for ever";
+  // Upright, so that the weight leaves it alone; askew, so that the other joint's motion doesn't.
+  std::string upright = mjcf("", "/>");
+  const std::string joint = "<joint name='j1' axis='0 1 0'", inertia = "diaginertia='0.002 0.002 0.0005'";
+  upright.replace(upright.find(joint), joint.size(), "<joint name='j1' axis='0 0 1'");
+  upright.replace(upright.find(inertia, upright.find("j1")), inertia.size(), "fullinertia='0.002 0.002 0.001 0 0 0.0005'");
+  EXPECT_EQ(zeros(upright, Firmware::frozen), 2);
+}
+
 /// A spring, a damper and the weight that a file's flags switch off are no part of it either.
 TEST(Point, HasWhatMjcfFlagsLeave) {
   const std::string lower = "stiffness='3' damping='0.1'";

@@ -105,9 +105,9 @@ struct Joint {
   std::optional<std::size_t> parent;                                            ///< none: the world
   std::optional<std::size_t> child;                                             ///< the link that it moves; none: the world
   Pose3 pose;                                                                   ///< in the world, at the start: where the axes meet
-  std::vector<Axis> axes;  ///< hinge, slide: 1; universal: 2, the first fixed in the parent
-  /// What else of a native file acts on it, in words: what holds it with others or in its place, but for couplings below; what pulls.
-  std::vector<std::string> held, pulled;
+  std::vector<Axis> axes;         ///< hinge, slide: 1; universal: 2, the first fixed in the parent
+  std::vector<std::string> held,  ///< what else of a native file holds it with others or in its place, in words, but for couplings
+      pulled;                     ///< what else of it acts on it, in words
   /// Hinge or slide: what an actuator can drive.
   [[nodiscard]] bool one_axis() const { return kind == Kind::hinge || kind == Kind::slide; }
 };

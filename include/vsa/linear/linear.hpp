@@ -109,7 +109,8 @@ struct Pole {
   double frequency_Hz = 0;   ///< |s|/2π
   double damping_ratio = 0;  ///< −Re s/|s|; 1 for s = 0
 };
-/// Those with Im s ≥ 0, by frequency. Sampled: without z = 0, which is over after one period.
+/// Those with Im s ≥ 0, by frequency; 0 as often as the motion has it, to within rounding of A. Sampled: without z = 0, which is over
+/// after one period.
 [[nodiscard]] std::vector<Pole> poles(const System& system);
 /// How the states share in each pole's motion: states × poles(), columns of length 1.
 [[nodiscard]] Eigen::MatrixXcd shapes(const System& system);
