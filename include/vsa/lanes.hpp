@@ -238,7 +238,6 @@ struct BothSides {
   static constexpr bool kBoth = true;  ///< of one unit
 
   [[nodiscard]] Both operator()(double first, double second) const noexcept { return Both(Vectors<2>::Number{first, second}); }
-  // Whole, both ways: what was stored as one number of 16 bytes is there at once for who loads it as one.
   [[nodiscard]] Both operator()(const std::array<double, 2>& of) const noexcept {  ///< its elements
     return (*this)(of[0], of[1]);
   }
@@ -246,7 +245,8 @@ struct BothSides {
   [[nodiscard]] Both operator()(const std::array<A, 2>& of, F&& member) const noexcept {  ///< member(element) of both
     return (*this)(member(of[0]), member(of[1]));
   }
-  void put(std::array<double, 2>& into, Both value) const noexcept {  ///< its elements
+  /// Its elements, stored as one: who loads them as one has them at once.
+  void put(std::array<double, 2>& into, Both value) const noexcept {
     std::memcpy(into.data(), &value.v, sizeof value.v);
   }
   template <class A, class F>
