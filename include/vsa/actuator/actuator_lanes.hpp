@@ -25,8 +25,9 @@ template <class T, class Side>
   return side(h.x0x0, h.x1x1);
 }
 
-// What a side picks.
+/// What a side picks of its motor: ∫ω so far.
 inline constexpr auto kAngle = [](auto& motor) -> auto& { return motor.angle; };
+/// What a side picks of its motor: ω.
 inline constexpr auto kSpeed = [](auto& motor) -> auto& { return motor.speed; };
 
 /// `to` := the mean's torque and loads, carried from the displacements it was evaluated at to nearby ones.

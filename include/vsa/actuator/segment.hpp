@@ -43,7 +43,7 @@ struct LeadOf {
   std::array<double, 2> gone{};  ///< of each motor, since the step began, rad
 
   LeadOf() = default;
-  LeadOf(const LeadOf& o) noexcept { *this = o; }
+  LeadOf(const LeadOf& o) noexcept { *this = o; }  ///< number by number
   /// Number by number: a copy of the whole would wait for numbers that were stored one by one just before.
   LeadOf& operator=(const LeadOf& o) noexcept {
     before = o.before;
