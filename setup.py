@@ -2,7 +2,8 @@
 """For pip: CMake builds the module and puts its package together in build/pip, and this takes it from there.
 
 VSA_BUILD_DIR names a build tree that is taken instead, build/release say; it is brought up to date first. CMAKE_ARGS are given to
-CMake when it configures, which it doesn't with VSA_BUILD_DIR. The replay page's template needs npm and the network once, so it comes along only where that tree has it.
+CMake when it configures, which it doesn't with VSA_BUILD_DIR. The replay page's template needs npm and the network once, so it comes
+along only where that tree has it.
 """
 import os
 import pathlib

@@ -246,9 +246,7 @@ struct BothSides {
     return (*this)(member(of[0]), member(of[1]));
   }
   /// Its elements, stored as one: who loads them as one has them at once.
-  void put(std::array<double, 2>& into, Both value) const noexcept {
-    std::memcpy(into.data(), &value.v, sizeof value.v);
-  }
+  void put(std::array<double, 2>& into, Both value) const noexcept { std::memcpy(into.data(), &value.v, sizeof value.v); }
   template <class A, class F>
   void put(std::array<A, 2>& into, Both value, F&& member) const noexcept {  ///< member(element) of both
     member(into[0]) = value.lane(0);

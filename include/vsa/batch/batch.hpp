@@ -81,7 +81,8 @@ class Batch {
   /// One number of one copy; at first all have the World's. A key is one of the actuator's type (drive.friction_Nm …: `vsa
   /// actuators TYPE`), or of a link: link.mass_kg, with which the inertia goes in proportion; link.inertia_factor, 1e-6 … 1e6 on
   /// top of that, at first 1; link.friction, Coulomb's of all its shapes. Who: an actuator or a link as World finds it; empty:
-  /// every one that has the key; one of motor 2 alone (drive_2.…) have those whose type or overrides give it. It holds from the next step on, and the copy becomes what World::set_parameters() would make of
+  /// every one that has the key; one of motor 2 alone (drive_2.…) have those whose type or overrides give it. It holds from
+  /// the next step on, and the copy becomes what World::set_parameters() would make of
   /// it: motion goes on. InputError, here and below: what isn't there, what is out of bounds, with copy, name, key and what is
   /// allowed; nothing has changed then.
   void set(std::size_t copy, std::string_view who, std::string_view key, double value);

@@ -7,7 +7,8 @@
 //
 // equilibrium_for solves τ = τ* for e at a given p: τ grows with e for every convex law, so that a bracket around q holds the one
 // solution; a lever's grows up to a peak, and the solution before it is taken. command_for looks for p in [0, preset_max] with σ = σ*
-// along that curve, up to the borders of what reaches τ*; where several give it, the first that steps of preset_max/16 from 0 show. TwoSinh with a₁ = a₂ = a and c = 0 is solved in closed form: with u_i = exp(a δ_i)
+// along that curve, up to the borders of what reaches τ*; where several give it, the first that steps of preset_max/16 from 0
+// show. TwoSinh with a₁ = a₂ = a and c = 0 is solved in closed form: with u_i = exp(a δ_i)
 //     k₁u₁ + k₂u₂ = σ*/a − τ*,   k₁/u₁ + k₂/u₂ = σ*/a + τ*            a quadratic equation
 // rest_under solves τ(q, x) + load = 0 for q with the inputs held: what a free shaft does.
 // All are static: friction, and what the position loop gives way, come on top. A solution is good to about 1e-9 of τ* and σ*.
