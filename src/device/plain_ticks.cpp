@@ -69,9 +69,9 @@ bool PlainTicks::volts(const std::array<std::int32_t, 2>& duty_pct, std::int32_t
                        std::array<double, 2>& volts) const noexcept {
   if (!program_ || limit_pct != common_.limit_pct || supply_V != supply_V_) return false;
   for (std::size_t m = 0; m < 2; ++m) {
-    const std::size_t at = static_cast<std::size_t>(duty_pct[m] + kFull);
-    if (at >= volts_of_duty_[m].size()) return false;
-    volts[m] = volts_of_duty_[m][at];
+    const std::int32_t at = duty_pct[m] + kFull;
+    if (at < 0 || at > 2 * kFull) return false;
+    volts[m] = volts_of_duty_[m][static_cast<std::size_t>(at)];
   }
   return true;
 }
