@@ -234,6 +234,7 @@ std::optional<double> rest_under(const Transmission& law, const std::array<doubl
   for (const double v : {x[0], x[1], load_Nm})
     if (!std::isfinite(v)) return std::nullopt;
   const double from = law.attained(x).equilibrium, there = law.evaluate({from, x}).torque + load_Nm;
+  if (!(reach_rad > 0) || !std::isfinite(reach_rad) || !std::isfinite(there)) return std::nullopt;
   if (there == 0) return from;
   const double side = there < 0 ? -1 : 1;
   const auto pushed = [&](double size) { return side * (law.evaluate({from + side * size, x}).torque + load_Nm) > 0; };

@@ -43,6 +43,24 @@ TEST(Segment, WhatTheTransmissionDoesToTheShaftItDoesToThePulleysTheOtherWay) {
   EXPECT_NEAR(all.torque + all.load[0] + all.load[1], 0.0, 1e-12);
 }
 
+/// Parameters may change between steps, a winding's inductance with them.
+TEST(Segment, ACurrentThatNoInductanceHoldsIsGone) {
+  for (const double share : {1.0, 1.1}) {
+    for (const double friction : {0.8, 0.0}) {
+      ActuatorParams p = lossy();
+      for (auto& side : p.side) side.gearbox.friction.coulomb_Nm = friction;
+      p.side[1].motor.inertia_kgm2 *= share;
+      Actuator a(p);
+      auto s = a.initial({0.2, -0.2}, 0.0);
+      s.motor[0].current = 1;
+      s.motor[1].current = -2;
+      a.segment(s, 1e-3, {0.0, {3, 3}, {Terminal::driven, Terminal::driven}});
+      for (const auto& motor : s.motor) EXPECT_EQ(motor.current, 0) << share << ' ' << friction;
+      EXPECT_EQ(s.ledger.magnetic, 0);
+    }
+  }
+}
+
 TEST(Segment, AShaftThatWasPutElsewhereHasItsTendonsBentNoFurtherThanTheyGo) {
   const ActuatorParams p = lossy();
   Actuator a(p);

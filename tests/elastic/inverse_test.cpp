@@ -237,6 +237,7 @@ TEST(Inverse, AShaftThatNothingStopsDoesNotRest) {
   for (const double bad : {kNan, std::numeric_limits<double>::infinity()}) {
     EXPECT_FALSE(rest_under(soft, {bad, 0}));
     EXPECT_FALSE(rest_under(soft, {0, 0}, bad));
+    EXPECT_FALSE(rest_under(soft, {0, 0}, 5, bad));
   }
 }
 

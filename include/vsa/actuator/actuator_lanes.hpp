@@ -30,6 +30,9 @@ inline constexpr auto kAngle = [](auto& motor) -> auto& { return motor.angle; };
 /// What a side picks of its motor: ω.
 inline constexpr auto kSpeed = [](auto& motor) -> auto& { return motor.speed; };
 
+/// What a side picks of its motor: I where that is a state.
+inline constexpr auto kCurrent = [](auto& motor) -> auto& { return motor.current; };
+
 /// `to` := the mean's torque and loads, carried from the displacements it was evaluated at to nearby ones.
 template <class T>
 void carry(const elastic::SegmentMeanOf<T>& mean, T dq, const std::array<T, 2>& dx, elastic::SegmentMeanOf<T>& to) noexcept {
@@ -418,7 +421,11 @@ void Actuator::drive_motors(ActuatorStateOf<T>& s, const SegmentOf<T>& seg) cons
     side.add(l.viscous, side(sides_, [](const Side& of) { return of.motor.viscous_Nms_per_rad; }) * step.int_ww);
     side.put(s.motor, side(s.motor, step::kAngle) + step.displacement, step::kAngle);
     side.put(s.motor, step.speed, step::kSpeed);
-    if constexpr (!decltype(side)::kBoth) s.motor[side.i].current = sides_[side.i].motor.inductance_H ? step.current : T(0.0);
+    if constexpr (decltype(side)::kBoth) {
+      side.put(s.motor, N(0.0), step::kCurrent);
+    } else {
+      s.motor[side.i].current = sides_[side.i].motor.inductance_H ? step.current : T(0.0);
+    }
     side.put(s.motor_anchor, side(s.motor_anchor) + travel);
     side.put(s.load, load);
   });
@@ -428,7 +435,7 @@ void Actuator::drive_motors(ActuatorStateOf<T>& s, const SegmentOf<T>& seg) cons
   s.end.slope = t.mean.slope;
   s.end_rub = t.rub;
   for (int i = 0; i < springs<T>(); ++i) {
-    const T damped = 2.0 * t.rub.damping[i] * (t.dq - t.dx[i]);  // by the mean, and again by `carried`
+    const T damped = 2.0 * t.rub.damping[i] * (t.dq - t.dx[i]);  // by the mean, and again by carry()
     s.end.torque += damped;
     s.end.load[i] -= damped;
   }

@@ -99,15 +99,10 @@ class MotorStepper {
   template <class T = double>
   [[nodiscard]] MotorStepOf<T> step(const MotorStateOf<T>& s, std::type_identity_t<T> voltage,
                                     std::type_identity_t<T> torque) const noexcept {
-    MotorStepOf<T> out;
     if constexpr (lanes::kScalar<T>) {
-      if (inductance_) {
-        out = with_inductance(s, voltage, torque);
-        return out;
-      }
+      if (inductance_) return with_inductance(s, voltage, torque);
     }
-    out = without_inductance<T>([&](auto&& number) { return number(*this); }, s.speed, voltage, torque);
-    return out;
+    return without_inductance<T>([&](auto&& number) { return number(*this); }, s.speed, voltage, torque);
   }
   /// Of two motors without inductance side by side, each by its own.
   [[nodiscard]] static MotorStepOf<lanes::Both> both(const MotorStepper& first, const MotorStepper& second, lanes::Both speed,
@@ -127,7 +122,8 @@ class MotorStepper {
     using M = MotorStepper;
     const auto at = [&](Row M::*row, std::size_t i) { return of([=](const M& m) { return (m.*row)[i]; }); };
     const auto ww = [&](std::size_t i) { return of([=](const M& m) { return m.ww_[i]; }); };
-    const auto back_emf = of([](const M&m) { return m.back_emf_; }), conductance = of([](const M&m) { return m.conductance_; });
+    const auto back_emf = of([](const M& m) { return m.back_emf_; });
+    const auto conductance = of([](const M& m) { return m.conductance_; });
     const auto h = of([](const M& m) { return m.h_; });
     MotorStepOf<T> out;
     out.displacement = at(&M::displacement_, 0) * w + at(&M::displacement_, 2) * v + at(&M::displacement_, 3) * t;
