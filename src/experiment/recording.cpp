@@ -39,17 +39,15 @@ void require_within(const CsvTable& table, std::size_t column, std::string_view 
 }
 
 /// Branches are compared on a grid of one spacing; numbers that were rounded may miss it a little.
-void require_even(const CsvTable& table, std::size_t column, std::string_view name, const std::filesystem::path& file,
-                  FewProblems& problems) {
+void require_even(const CsvTable& table, const Branches& branches, const std::filesystem::path& file, FewProblems& problems) {
   constexpr double kRounding = 0.05;  // of the spacing
-  const std::vector<double>& values = table.columns[column];
-  const double spacing = values[1] - values[0];
-  for (std::size_t i = 2; i < values.size(); ++i) {
-    if (std::abs(values[i] - values[i - 1] - spacing) <= kRounding * spacing) continue;
-    problems.add({at_line(file, table.lines[i]), std::string(name), config::number_text(values[i]),
-                  "isn't a spacing after the row before",
-                  config::number_text(values[i - 1] + spacing) +
-                      ", as between the first two rows; a branch without samples there has an empty cell"});
+  const std::vector<double>& values = branches.torque_Nm;
+  const double spacing = branches.spacing_Nm();
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double rows = (values[i] - values[i - 1]) / spacing;
+    if (std::abs(rows - std::round(rows)) <= kRounding) continue;
+    problems.add({at_line(file, table.lines[i]), "load_torque_Nm", config::number_text(values[i]),
+                  "isn't on one grid with the others", "steps of whole multiples of the least, " + config::number_text(spacing)});
     return;
   }
 }
@@ -126,10 +124,11 @@ Branches read_branches(const std::filesystem::path& csv) {
   require_scatter(table, 4, "sd_falling_rad", csv, problems);
   require_increasing(table, 0, "load_torque_Nm", csv, problems);
   problems.throw_if_any();
-  require_even(table, 0, "load_torque_Nm", csv, problems);
-  problems.throw_if_any();
   const auto& c = table.columns;
-  return {c[0], c[1], c[2], c[3], c[4]};
+  Branches out{c[0], c[1], c[2], c[3], c[4]};
+  require_even(table, out, csv, problems);
+  problems.throw_if_any();
+  return out;
 }
 
 Branches read_points(const std::filesystem::path& csv, bool linear, double limit_Nm) {

@@ -65,7 +65,7 @@ experiment::Branches at_rest(const experiment::Specimen& specimen, double preset
 /// A grid like the data's: its spacing and its reach.
 experiment::BranchOptions grid_of(const experiment::Branches& data) {
   experiment::BranchOptions out;
-  out.grid_Nm = data.torque_Nm[1] - data.torque_Nm[0];
+  out.grid_Nm = data.spacing_Nm();
   out.max_Nm = std::max(std::abs(data.torque_Nm.front()), std::abs(data.torque_Nm.back()));
   return out;
 }

@@ -148,9 +148,12 @@ TEST(BadBranchFile, IsTold) {
   EXPECT_TRUE(has(told(head + "0,0,0,0,0\n0,0,0,0,0\n").at(0), "doesn't increase"));
   EXPECT_TRUE(has(told("load_torque_Nm,deflection_rising_deg\n").at(0), "deflection_rising_rad"));
   EXPECT_TRUE(told(head + "0,,0,,0\n1,0,,0,\n").empty()) << "a branch may have gaps";
-  const auto uneven = told(head + "-1,0,0,0,0\n0,0,0,0,0\n3,0,0,0,0\n5,0,0,0,0\n").at(0);
-  for (const char* part : {"b.csv:4", "load_torque_Nm", "3", "isn't a spacing after the row before", "1, as between"})
+  const auto uneven = told(head + "-1,0,0,0,0\n0,0,0,0,0\n3.5,0,0,0,0\n5,0,0,0,0\n").at(0);
+  for (const char* part : {"b.csv:4", "load_torque_Nm", "3.5", "isn't on one grid", "multiples of the least, 1"})
     EXPECT_TRUE(has(uneven, part)) << part;
+  const std::string gap = head + "-1,0,0,0,0\n0.5,0,0,0,0\n1,0,0,0,0\n";
+  EXPECT_TRUE(told(gap).empty()) << "rows may be missing";
+  EXPECT_EQ(read_branches(files.write("b.csv", gap)).spacing_Nm(), 0.5) << "whichever come first";
   EXPECT_TRUE(told(head + "0,0,0,0,0\n0.33,0,0,0,0\n0.67,0,0,0,0\n1,0,0,0,0\n").empty()) << "rounded";
   for (const auto& [row, key] : std::vector<std::pair<std::string, std::string>>{{"1e5,0,0,0,0", "load_torque_Nm"},
                                                                                  {"1,7,0,0,0", "deflection_rising_rad"},

@@ -10,6 +10,7 @@
 // names the column that was expected.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -37,6 +38,13 @@ struct Branches {
       falling_rad;                    ///< NaN where that branch has no samples
   std::vector<double> sd_rising_rad,  ///< scatter about the line
       sd_falling_rad;                 ///< scatter about the line
+
+  /// The least step of the grid, N·m; rows of it may be missing. Needs two.
+  [[nodiscard]] double spacing_Nm() const {
+    double least = torque_Nm[1] - torque_Nm[0];
+    for (std::size_t i = 2; i < torque_Nm.size(); ++i) least = std::min(least, torque_Nm[i] - torque_Nm[i - 1]);
+    return least;
+  }
 };
 
 /// Torque's direction is judged between turning points: a maximum counts as one when the torque has since fallen by
@@ -59,7 +67,7 @@ void write_load_recording(const LoadRecording& recording, const std::filesystem:
 /// The branch means of a recording on the options' grid. Throws InputError for options out of range.
 [[nodiscard]] Branches branches(const LoadRecording& recording, const BranchOptions& options = {});
 /// The same from a file of branch means: load_torque_Nm,deflection_rising_rad,deflection_falling_rad,sd_rising_rad,sd_falling_rad.
-/// An empty cell is a branch without samples there; the torques have one spacing. Throws InputError as read_load_recording, but for the
+/// An empty cell is a branch without samples there; the torques have one spacing, but for missing rows. Throws InputError as read_load_recording, but for the
 /// file's name; torques up to 1e4 N·m.
 [[nodiscard]] Branches read_branches(const std::filesystem::path& csv);
 
