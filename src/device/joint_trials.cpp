@@ -106,12 +106,13 @@ struct JointTrials::Inputs {
         angle(row(g, [&](std::size_t i) { return joints[i].plan->in.angle; })),
         speed(row(g, [&](std::size_t i) { return joints[i].plan->in.speed; })),
         inverse_inertia(row(g, [&](std::size_t i) { return joints[i].plan->in.inverse_inertia; })),
+        free_acceleration(row(g, [&](std::size_t i) { return joints[i].plan->in.free_acceleration; })),
         voltage(loops_in_lanes ? g.voltage : std::array{held(g, joints, 0), held(g, joints, 1)}) {}
   static Row held(const Group& g, std::span<const JointInStep> joints, std::size_t motor) noexcept {
     return row(g, [&](std::size_t i) { return joints[i].plan->held[0].voltage[motor]; });
   }
   double dt_s;
-  Row angle, speed, inverse_inertia;
+  Row angle, speed, inverse_inertia, free_acceleration;
   std::array<Row, 2> voltage;
 };
 
@@ -147,6 +148,7 @@ void JointTrials::begin(std::span<const JointInStep> joints, TrialColumns& c, do
                            in.angle.data(),
                            in.speed.data(),
                            in.inverse_inertia.data(),
+                           in.free_acceleration.data(),
                            {in.voltage[0].data(), in.voltage[1].data()},
                            free.data(),
                            last_torque.data(),
@@ -243,6 +245,7 @@ std::size_t JointTrials::solve_each(std::span<const JointInStep> joints, std::sp
                                          in.angle.data(),
                                          in.speed.data(),
                                          in.inverse_inertia.data(),
+                                         in.free_acceleration.data(),
                                          {in.voltage[0].data(), in.voltage[1].data()},
                                          torque.data(),
                                          {motor_angle[0].data(), motor_angle[1].data()},

@@ -1,12 +1,23 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // How a block is stepped, and where its numbers are meanwhile.
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 #include "device/unit_batch_impl.hpp"
 
 namespace vsa::device {
+namespace {
+
+constexpr auto kNotTold = [] {
+  std::array<double, kBlock> none{};
+  none.fill(std::numeric_limits<double>::quiet_NaN());
+  return none;
+}();
+
+}  // namespace
 
 void UnitBatch::Impl::ticks_to_lanes(std::size_t b) noexcept {
   for (std::size_t i = 0; i < width; ++i) table.put_loop(loop(b), static_cast<int>(i), states[b * width + i]);
@@ -57,6 +68,7 @@ void UnitBatch::Impl::step_in_lanes(std::size_t b, std::int64_t dt_ns) noexcept 
   io.angle = &angle[first];
   io.speed = &speed[first];
   io.inverse_inertia = &inverse_inertia[first];
+  io.free_acceleration = kNotTold.data();
   io.torque = &torque[first];
   for (std::size_t m = 0; m < 2; ++m) {
     io.voltage[m] = &voltage[m][first];

@@ -21,8 +21,9 @@ struct UnitPhysics {
     plan.y = plan.in.angle - 0.5 * dt_s * plan.in.speed;
     plan.free = plan.dy = dt_s * plan.in.speed;
     actuator.settle(s.actuator, plan.y, s.applied_torque, plan.y - s.start_y, s.path_work);
-    // All else that moved the joint in the last step goes on: a_other dt²/2 = dt²/2·Δv/dt_last − Σ C τ_last.
-    plan.free += 0.5 * dt_s * dt_s * (plan.in.speed - s.last_speed) / s.last_dt;
+    // All else that moved the joint in the last step goes on, a_other dt²/2 = dt²/2·Δv/dt_last − Σ C τ_last; or the host knows.
+    const T told = plan.in.free_acceleration, goes_on = 0.5 * dt_s * dt_s * (plan.in.speed - s.last_speed) / s.last_dt;
+    plan.free += lanes::select(told == told, 0.5 * dt_s * dt_s * told, goes_on);
     plan.last_torque = s.applied_torque;
   }
 

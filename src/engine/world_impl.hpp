@@ -54,6 +54,8 @@ struct World::Impl {
   std::vector<RobotSlot> robots;
   seat::SeatGroup group;                        ///< of the robots
   std::vector<std::vector<std::size_t>> trees;  ///< of driven joints that move each other, as the group knows them
+  std::vector<std::size_t> driven;              ///< the robots' joints, one robot after the other
+  std::vector<double> foreseen;                 ///< of those, in the step under way
   std::vector<ActuatorRef> actuators;
   std::vector<Pull> pulls;
   std::vector<std::pair<std::size_t, Wrench>> wrenches;  ///< by link

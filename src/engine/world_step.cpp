@@ -2,7 +2,7 @@
 //
 // A step, or each of its substeps:
 //   1  prepare()              everything that depends on q
-//   2  where it is due        B of the driven joints of every tree
+//   2  foresee()              where the driven joints would go without new torques; where it is due, B of those of every tree
 //   3  SeatGroup::step        q, v, B → torque, for [t, t + dt)
 //   4  apply, hands, advance()  v' = v + dt·a, q' = q + dt·v'
 //   5  Seat::observe          q', v', for readings
@@ -24,12 +24,13 @@ constexpr double kNanosecond = 1e-9;
 
 /// Once, when physics is there.
 void World::Impl::join_trees() {
-  std::vector<std::size_t> joints;
-  for (const RobotSlot& slot : robots) joints.insert(joints.end(), slot.joints.begin(), slot.joints.end());
-  trees = physics->trees(joints);
+  driven.clear();
+  for (const RobotSlot& slot : robots) driven.insert(driven.end(), slot.joints.begin(), slot.joints.end());
+  foreseen.resize(driven.size());
+  trees = physics->trees(driven);
   group = seat::SeatGroup(seats(), trees);
   for (auto& tree : trees)
-    for (std::size_t& k : tree) k = joints[k];
+    for (std::size_t& k : tree) k = driven[k];
 }
 
 std::vector<seat::Seat*> World::Impl::seats() const {
@@ -60,7 +61,12 @@ void World::Impl::tell_joints(const RobotSlot& slot) const {
 
 /// What isn't finite any more stops a seat, too; then advance() finds it and says so.
 void World::Impl::drive() {
-  for (const RobotSlot& slot : robots) tell_joints(slot);
+  if (!driven.empty()) physics->foresee(driven, foreseen);
+  auto next = foreseen.begin();
+  for (const RobotSlot& slot : robots) {
+    tell_joints(slot);
+    for (host::JointIn& joint : slot.seat->in()) joint.free_acceleration_rad_per_s2 = *next++;
+  }
   group.step(substep_ns(), [this](std::size_t tree, std::span<double> out) { physics->mobility(trees[tree], out); });
   for (const RobotSlot& slot : robots) {
     for (std::size_t i = 0; i < slot.joints.size(); ++i) physics->apply(slot.joints[i], slot.seat->torques()[i]);

@@ -28,7 +28,8 @@ inline constexpr double kCreatedLeast_J = 1e-3;
 /// Whether a joint can be worked with.
 [[nodiscard]] inline bool is_told(const JointIn& joint) noexcept {
   const double a = joint.inverse_inertia.value_or(0.0);
-  return std::isfinite(joint.angle_rad) && std::isfinite(joint.speed_rad_per_s) && a >= 0 && std::isfinite(a);
+  return std::isfinite(joint.angle_rad) && std::isfinite(joint.speed_rad_per_s) && a >= 0 && std::isfinite(a) &&
+         std::isfinite(joint.free_acceleration_rad_per_s2.value_or(0.0));
 }
 
 /// Adds what a unit's state can't cross.

@@ -23,6 +23,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -94,6 +95,7 @@ struct ShaftIn {
   double inverse_inertia = 0;  ///< A = B_jj, 1/(kg·m²); 0: the shaft's motion is prescribed
   /// Somebody put the shaft there since the last step: its change of angle was no work, that of its speed no acceleration.
   bool placed = false;
+  double free_acceleration = std::numeric_limits<double>::quiet_NaN();  ///< host::JointIn's, rad/s²; NaN: not told
 };
 
 /// A host step under way: the owner's scratch, of no meaning between steps.

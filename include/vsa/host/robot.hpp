@@ -20,7 +20,8 @@
 // a step they do no work on v' = −v, and a held joint would buzz. What (2) takes from the energy is the ledger's `integrator`.
 //   B        1/(kg·m²); per tree with `join` and the last argument of `advance`, else the diagonal per joint, else the configured
 //            shaft_inertia_kgm2
-//   a_other  acceleration by all else (gravity, contacts, other joints), from the last step: (v − v_before)/dt − B τ_before
+//   a_other  acceleration by all else (gravity, contacts, other joints): JointIn::free_acceleration where the host works it out, else
+//            from the last step: (v − v_before)/dt − B τ_before
 // What (1) mispredicts is not hidden: it is the `coupling` entry of the energy ledger.
 #pragma once
 
@@ -58,9 +59,13 @@ struct JointIn {
   std::optional<double> inverse_inertia;
   /// Somebody put the joint there since the last step; what that did to angle and speed is neither work nor acceleration.
   bool placed = false;
+  /// a_other + B τ_before of this step, rad/s²: how the joint would be accelerated if its tree's torques stayed those of the last step.
+  /// Of a host that works out what gravity, joint springs and dampers do at the present angles and speeds; none: what moved the joint
+  /// in the last step goes on. With dampers, followers (mimic) or much weight behind a light link a chain is quiet only if it is told.
+  std::optional<double> free_acceleration_rad_per_s2;
   static auto fields(auto& s, auto&& visit) {
     return visit("angle", "rad", s.angle_rad, "speed", "rad/s", s.speed_rad_per_s, "inverse_inertia", "1/(kg·m²)",
-                 s.inverse_inertia, "placed", "", s.placed);
+                 s.inverse_inertia, "placed", "", s.placed, "free_acceleration", "rad/s²", s.free_acceleration_rad_per_s2);
   }
 };
 

@@ -66,6 +66,10 @@ class Physics {
   /// B of those joints: how advance() answers to torques, (v' − v)/dt = … + B τ, contacts and limits aside. By rows, 1/(kg·m²);
   /// between prepare() and advance().
   virtual void mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
+  /// How advance() would accelerate those joints, rad/s² or m/s², if what pushes the bodies stayed as it was in the last step
+  /// (apply(), push(), pull(), contacts and limits; nothing before the first); what follows from positions and speeds, dampers and
+  /// equalities among it, is of now. Between prepare() and apply().
+  virtual void foresee(std::span<const std::size_t> joints, std::span<double> out) = 0;
   /// Of a driven one-axis joint, N·m or N; in place of what was applied there.
   virtual void apply(std::size_t joint, double torque) = 0;
   /// Adds the spring's force to what is applied; after all apply() of the step.

@@ -16,7 +16,7 @@ namespace vsa::device::lane_kernel {
 
 template <class T>
 struct ShaftInOf {
-  T angle, speed, inverse_inertia;
+  T angle, speed, inverse_inertia, free_acceleration;
 };
 
 /// Of UnitState what the physics has, in lanes.
@@ -56,7 +56,7 @@ template <class T>
   Plan<T>& plan = *std::launder(static_cast<Plan<T>*>(scratch));
   const UnitPhysics<T> physics = unit.template steps<T>();
   const double dt = io.dt_s;
-  plan.in = {load<T>(io.angle), load<T>(io.speed), load<T>(io.inverse_inertia)};
+  plan.in = {load<T>(io.angle), load<T>(io.speed), load<T>(io.inverse_inertia), load<T>(io.free_acceleration)};
   set_out<T>(unit, physics, s, plan, dt, {load<T>(io.voltage[0]), load<T>(io.voltage[1])});
   T torque;
   const auto settled = solve_whole<T>(physics, s, plan, dt, torque);
@@ -81,7 +81,7 @@ template <class T>
 [[gnu::flatten]] void begin_trials(Unit& unit, void* memory, const BlockTrials& io) noexcept {
   Trials<T>& t = *std::launder(static_cast<Trials<T>*>(memory));
   const UnitPhysics<T> physics = unit.template steps<T>();
-  t.plan.in = {load<T>(io.angle), load<T>(io.speed), load<T>(io.inverse_inertia)};
+  t.plan.in = {load<T>(io.angle), load<T>(io.speed), load<T>(io.inverse_inertia), load<T>(io.free_acceleration)};
   set_out<T>(unit, physics, t.s, t.plan, io.dt_s, {load<T>(io.voltage[0]), load<T>(io.voltage[1])});
   const ShaftTorqueOf<T> r = physics.foresee(t.s, t.plan, lanes::clamp(t.plan.free, -T(io.reach), io.reach));
   store(t.plan.free, io.free);

@@ -18,7 +18,7 @@ struct UnitState;
 /// What goes into a block's step and comes out: `width` numbers each.
 struct BlockStep {
   double dt_s = 0;
-  const double *angle = nullptr, *speed = nullptr, *inverse_inertia = nullptr;
+  const double *angle = nullptr, *speed = nullptr, *inverse_inertia = nullptr, *free_acceleration = nullptr;
   const double* voltage[2]{};
   double* torque = nullptr;
   double *motor_angle[2]{}, *motor_speed[2]{};
@@ -27,7 +27,7 @@ struct BlockStep {
 /// What the trials of a block begin with: `width` numbers each, and what comes out.
 struct BlockTrials {
   double dt_s = 0, reach = 0;
-  const double *angle = nullptr, *speed = nullptr, *inverse_inertia = nullptr;
+  const double *angle = nullptr, *speed = nullptr, *inverse_inertia = nullptr, *free_acceleration = nullptr;
   const double* voltage[2]{};
   double *free = nullptr, *last_torque = nullptr, *torque = nullptr, *slope = nullptr;
 };

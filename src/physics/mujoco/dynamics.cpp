@@ -19,6 +19,7 @@ MujocoPhysics::MujocoPhysics(const MujocoPhysics& other)
       q_owner_(other.q_owner_),
       v_owner_(other.v_owner_),
       before_(other.before_),
+      pushed_(other.pushed_),
       unit_(other.unit_),
       column_(other.column_),
       jacobian_(other.jacobian_),

@@ -57,6 +57,7 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::
     if (first >= 0 && m->jnt_type[first] == mjJNT_FREE) root_[l] = first;
   }
   unit_.resize(static_cast<std::size_t>(m->nv));
+  pushed_.resize(unit_.size());
   column_.resize(unit_.size());
   damped_ = std::any_of(m->dof_damping, m->dof_damping + m->nv, [](mjtNum d) { return d > 0; });
   jacobian_.resize(3 * unit_.size());
@@ -148,15 +149,26 @@ void MujocoPhysics::tie(std::span<const std::size_t> joints, std::span<double> o
   }
 }
 
-// mj_Euler steps v' = v + dt·(M + dt·D)⁻¹ f with the joints' damping D.
-void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<double> out) {
+/// mj_Euler steps v' = v + dt·(M + dt·D)⁻¹ f with the joints' damping D: works where mj_solveM() solves with that matrix.
+template <class Work>
+void MujocoPhysics::with_dampers(Work&& work) {
+  if (!damped_) return work();
   const mjModel* m = model_.get();
-  if (damped_) {
-    const std::span<mjtNum> mass = mass_numbers(*m, *data_);
-    std::copy(mass.begin(), mass.end(), mass_matrix_.begin());
-    for (int i = 0; i < m->nv; ++i) mass_of_dof(*m, *data_, i) += m->opt.timestep * m->dof_damping[i];
-    mj_factorM(m, data_.get());
-  }
+  const std::span<mjtNum> mass = mass_numbers(*m, *data_);
+  std::copy(mass.begin(), mass.end(), mass_matrix_.begin());
+  for (int i = 0; i < m->nv; ++i) mass_of_dof(*m, *data_, i) += m->opt.timestep * m->dof_damping[i];
+  mj_factorM(m, data_.get());
+  work();
+  std::copy(mass_matrix_.begin(), mass_matrix_.end(), mass.begin());
+  mj_factorM(m, data_.get());
+}
+
+void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<double> out) {
+  with_dampers([&] { solve_mobility(joints, out); });
+}
+
+void MujocoPhysics::solve_mobility(std::span<const std::size_t> joints, std::span<double> out) {
+  const mjModel* m = model_.get();
   const std::size_t n = joints.size();
   for (std::size_t i = 0; i < n; ++i) {
     const int v = joint_[joints[i]].v;
@@ -166,10 +178,28 @@ void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<doub
     for (std::size_t k = 0; k < n; ++k) out[i * n + k] = column_[static_cast<std::size_t>(joint_[joints[k]].v)];
   }
   tie(joints, out);
-  if (damped_) {
-    std::copy(mass_matrix_.begin(), mass_matrix_.end(), mass_numbers(*m, *data_).begin());
-    mj_factorM(m, data_.get());
+}
+
+/// Equalities answer to what joint speeds do at once, so where there are any all constraints are solved as in advance().
+void MujocoPhysics::foresee(std::span<const std::size_t> joints, std::span<double> out) {
+  const mjModel* m = model_.get();
+  mjData* d = data_.get();
+  mj_fwdActuation(m, d);
+  if (d->ne > 0) {
+    mju_copy(d->qfrc_applied, pushed_.data(), m->nv);
+    mj_fwdAcceleration(m, d);
+    mj_fwdConstraint(m, d);
+    mju_zero(d->qfrc_applied, m->nv);
+    mju_add(unit_.data(), d->qfrc_smooth, d->qfrc_constraint, m->nv);
+  } else {
+    mju_sub(unit_.data(), d->qfrc_passive, d->qfrc_bias, m->nv);
+    mju_addTo(unit_.data(), d->qfrc_actuator, m->nv);
+    mju_addTo(unit_.data(), pushed_.data(), m->nv);
   }
+  with_dampers([&] { mj_solveM(m, d, column_.data(), unit_.data(), 1); });
+  mju_zero(unit_.data(), m->nv);
+  std::transform(joints.begin(), joints.end(), out.begin(),
+                 [&](std::size_t joint) { return column_[static_cast<std::size_t>(joint_[joint].v)]; });
 }
 
 void MujocoPhysics::apply(std::size_t joint, double torque) { data_->qfrc_applied[joint_[joint].v] = torque; }
@@ -212,6 +242,8 @@ std::optional<Refusal> MujocoPhysics::advance() {
   if (!fault) fault = find_fault();
   if (!fault) {
     mj_Euler(m, d);
+    mju_copy(pushed_.data(), d->qfrc_applied, m->nv);
+    if (d->ne == 0) mju_addTo(pushed_.data(), d->qfrc_constraint, m->nv);
     fault = check(d->qvel, m->nv, false, "speed");
     if (!fault) fault = check(d->qpos, m->nq, true, "position");
     if (!fault) fault = find_fault();
@@ -231,7 +263,7 @@ void MujocoPhysics::set_joint(std::size_t joint, JointState state) {
 }
 
 std::size_t MujocoPhysics::state_size() const {
-  return static_cast<std::size_t>(model_->nq) + 2 * static_cast<std::size_t>(model_->nv);
+  return static_cast<std::size_t>(model_->nq) + 3 * static_cast<std::size_t>(model_->nv);
 }
 
 StateLayout MujocoPhysics::state_layout() const {
@@ -251,6 +283,7 @@ StateLayout MujocoPhysics::state_layout() const {
   block("position", true, "rad", "m", "m, quaternion w x y z");
   block("speed", false, "rad/s", "m/s", "m/s, rad/s");
   block("acceleration", false, "rad/s²", "m/s²", "m/s², rad/s²");
+  block("pushed", false, "N·m", "N", "N, N·m");
   return out;
 }
 
@@ -259,6 +292,7 @@ void MujocoPhysics::save(std::span<double> out) const {
   mju_copy(out.data(), data_->qpos, m->nq);
   mju_copy(out.data() + m->nq, data_->qvel, m->nv);
   mju_copy(out.data() + m->nq + m->nv, data_->qacc_warmstart, m->nv);
+  mju_copy(out.data() + m->nq + 2 * m->nv, pushed_.data(), m->nv);
 }
 
 void MujocoPhysics::restore(std::span<const double> in) {
@@ -266,6 +300,7 @@ void MujocoPhysics::restore(std::span<const double> in) {
   mju_copy(data_->qpos, in.data(), m->nq);
   mju_copy(data_->qvel, in.data() + m->nq, m->nv);
   mju_copy(data_->qacc_warmstart, in.data() + m->nq + m->nv, m->nv);
+  mju_copy(pushed_.data(), in.data() + m->nq + 2 * m->nv, m->nv);
   for (mjWarningStat& warning : data_->warning) warning = {};
   stepped_ = false;
   changed();

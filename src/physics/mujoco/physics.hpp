@@ -8,7 +8,7 @@
 //
 // Contacts live in fixed arrays: where they overflow, prepare() doubles them and starts again, so the result is as if they had been
 // that large from the beginning.
-// State: qpos, qvel, qacc_warmstart (the solver's first guess). There are no activations.
+// State: qpos, qvel, qacc_warmstart (the solver's first guess), and what pushed in the last step. There are no activations.
 #pragma once
 
 #include <string>
@@ -28,6 +28,7 @@ class MujocoPhysics final : public Physics {
   void prepare() override;
   std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const override;
   void mobility(std::span<const std::size_t> joints, std::span<double> out) override;
+  void foresee(std::span<const std::size_t> joints, std::span<double> out) override;
   void apply(std::size_t joint, double torque) override;
   void pull(const scene::Pull& pull) override;
   std::optional<Refusal> advance() override;
@@ -70,6 +71,9 @@ class MujocoPhysics final : public Physics {
   std::optional<Refusal> find_fault() const;
   std::optional<Refusal> check(const mjtNum* values, int n, bool positions, const char* quantity) const;
 
+  template <class Work>
+  void with_dampers(Work&& work);
+  void solve_mobility(std::span<const std::size_t> joints, std::span<double> out);
   void tie(std::span<const std::size_t> joints, std::span<double> out);
   mjModel& own_model();
 
@@ -84,6 +88,7 @@ class MujocoPhysics final : public Physics {
   std::vector<int> root_;                       // of a link: the joint id of its free root, −1: tied to the world
   std::vector<std::string> q_owner_, v_owner_;
   std::vector<double> before_;  // the state, of the last prepare()
+  std::vector<mjtNum> pushed_;  // in the last step, by degree of freedom: applied and, without equalities, by constraints
   std::vector<mjtNum> unit_, column_, jacobian_, mobility_, mass_matrix_;
   std::vector<mjtNum> row_, tied_, ties_, of_joint_;  // of equalities; row_ is 0
   bool damped_ = false;                               // some joint has damping, which MuJoCo's Euler takes implicitly
