@@ -185,6 +185,8 @@ World World::clone() const {
   for (const RobotSlot& slot : impl_->robots) to->robots.push_back({slot.seat->clone(), slot.joints});
   to->group = impl_->group.another(to->seats());
   to->trees = impl_->trees;
+  to->driven = impl_->driven;
+  to->foreseen = impl_->foreseen;
   to->actuators = impl_->actuators;
   to->pulls = impl_->pulls;
   to->wrenches = impl_->wrenches;

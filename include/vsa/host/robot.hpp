@@ -62,7 +62,7 @@ struct JointIn {
   /// a_other + B τ_before of this step, rad/s²: how the joint would be accelerated if its tree's torques stayed those of the last step.
   /// Of a host that works out what gravity, joint springs and dampers do at the present angles and speeds; none: what moved the joint
   /// in the last step goes on. With dampers, followers (mimic) or much weight behind a light link a chain is quiet only if it is told.
-  std::optional<double> free_acceleration_rad_per_s2;
+  std::optional<double> free_acceleration_rad_per_s2 = std::nullopt;
   static auto fields(auto& s, auto&& visit) {
     return visit("angle", "rad", s.angle_rad, "speed", "rad/s", s.speed_rad_per_s, "inverse_inertia", "1/(kg·m²)",
                  s.inverse_inertia, "placed", "", s.placed, "free_acceleration", "rad/s²", s.free_acceleration_rad_per_s2);
