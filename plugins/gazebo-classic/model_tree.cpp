@@ -7,6 +7,8 @@
 #include <gazebo/physics/Joint.hh>
 #include <gazebo/physics/Link.hh>
 #include <gazebo/physics/Model.hh>
+#include <gazebo/physics/PhysicsEngine.hh>
+#include <gazebo/physics/World.hh>
 #include <utility>
 
 #include "model_links.hpp"
@@ -77,11 +79,12 @@ bool ModelTree::build(const std::vector<LinkPtr>& links, std::vector<TreeBody>& 
 }
 
 /// An axis keeps its place in its link, so what it is there is asked for once, when the model stands.
-void ModelTree::read_joint(Item& item, const TreeBody& body) {
+void ModelTree::read_joint(Item& item, TreeBody& body) {
   if (body.joint != TreeBody::Joint::revolute && body.joint != TreeBody::Joint::prismatic) return;
   const auto& pose = item.link->WorldPose();
   item.axis = pose.Rot().RotateVectorReverse(item.joint->GlobalAxis(0));
   item.anchor = pose.Rot().RotateVectorReverse(item.joint->WorldPose().Pos() - pose.Pos());
+  body.damping_dt = item.joint->GetDamping(0) * item.link->GetWorld()->Physics()->GetMaxStepSize();
 }
 
 void ModelTree::read_inertia(Item& item, TreeBody& body) {

@@ -29,7 +29,7 @@ class ModelTree final : public LinkTrees {
     ignition::math::Matrix3d inertia;
   };
 
-  void read_joint(Item& item, const host::TreeBody& body);
+  void read_joint(Item& item, host::TreeBody& body);
   void read_inertia(Item& item, host::TreeBody& body);
 
   bool build(const std::vector<gazebo::physics::LinkPtr>& links, std::vector<host::TreeBody>& bodies);

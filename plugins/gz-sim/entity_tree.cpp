@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "entities.hpp"
+#include "joint_components.hpp"
+#include "model_links.hpp"
 #include "robot_system.hpp"
 
 namespace vsa::plugins {
@@ -73,6 +75,7 @@ bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<
     at->item.joint_pose = ecm_.ComponentData<components::Pose>(joint).value_or(math::Pose3d::Zero);
     at->item.axis = ecm_.ComponentData<components::JointAxis>(joint).value_or(sdf::JointAxis()).Xyz();
     at->body.joint = *kind(*type);
+    at->body.damping_dt = damping(joint, ecm_) * world_step_s(ecm_);  // DART takes dampers implicitly
     at->parent = *parent == "world" ? sim::kNullEntity : named_link(joint, *parent, ecm_);
     if (*parent != "world" && at->parent == sim::kNullEntity) return false;
   }

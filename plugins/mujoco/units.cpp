@@ -77,7 +77,7 @@ Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units
       if (id < 0) continue;
       ids.push_back(id);
       joints_.push_back({id, m.jnt_qposadr[id], m.jnt_dofadr[id], m.qpos0[m.jnt_qposadr[id]]});
-      joints.push_back({joint_name(m, id), {}, {}, joints_.back().start, m.jnt_type[id] == mjJNT_SLIDE});
+      joints.push_back({joint_name(m, id), {}, {}, joints_.back().start, m.jnt_type[id] == mjJNT_SLIDE, m.dof_damping[m.jnt_dofadr[id]]});
     } catch (const InputError& error) {
       problems.add_all(error);
     }
@@ -122,7 +122,7 @@ std::size_t Units::state_size(std::span<const UnitSpec> specs) {
   std::vector<seat::Joint> joints;
   for (const UnitSpec& spec : specs) {
     try {
-      joints.push_back({"joint of " + spec.name, {}, {}, {}, type_of(spec, library).unit.actuator.linear()});
+      joints.push_back({"joint of " + spec.name, {}, {}, {}, type_of(spec, library).unit.actuator.linear(), 1.0});  // a damper has numbers of its own
     } catch (const InputError& error) {
       problems.add_all(error);
     }

@@ -69,7 +69,7 @@ bool has_ticks_inside(std::int64_t t_ns, std::int64_t dt_ns) noexcept {
 
 bool is_usable(std::span<const double> matrix, std::size_t n) noexcept {
   for (std::size_t i = 0; i < n; ++i)
-    if (!(matrix[i * n + i] > 0) || !std::isfinite(matrix[i * n + i])) return false;
+    if (!(matrix[i * n + i] > 0 && matrix[i * n + i] <= kMostMobility)) return false;
   return true;
 }
 

@@ -22,13 +22,13 @@
 namespace vsa::host {
 
 inline constexpr std::int64_t kLookSteps = 128;
-inline constexpr double kCreated = 0.01;  ///< energy out of nothing, over what moved, that is told
+inline constexpr double kCreated = 0.01;  ///< energy out of nothing, over what went to and fro at the shafts, that is told
 inline constexpr double kCreatedLeast_J = 1e-3;
 
 /// Whether a joint can be worked with.
 [[nodiscard]] inline bool is_told(const JointIn& joint) noexcept {
   const double a = joint.inverse_inertia.value_or(0.0);
-  return std::isfinite(joint.angle_rad) && std::isfinite(joint.speed_rad_per_s) && a >= 0 && std::isfinite(a) &&
+  return std::isfinite(joint.angle_rad) && std::isfinite(joint.speed_rad_per_s) && a >= 0 && a <= kMostMobility &&
          std::isfinite(joint.free_acceleration_rad_per_s2.value_or(0.0));
 }
 
@@ -202,8 +202,8 @@ struct Robot::Impl {
     }
     for (const auto& bus : buses) look_at_client(*bus);
     notice(0, state.noted_unsettled, state.unsettled > 0, NoticeKind::unsettled, static_cast<double>(state.unsettled));
-    const bool created = sum.coupling < -std::max(kCreated * sum.moved(), kCreatedLeast_J);
-    notice(0, state.noted_energy, created, NoticeKind::energy, -sum.coupling / sum.moved());
+    const bool created = sum.coupling < -std::max(kCreated * sum.delivered_moved, kCreatedLeast_J);
+    notice(0, state.noted_energy, created, NoticeKind::energy, -sum.coupling / sum.delivered_moved);
   }
 
   void expect(std::int64_t t_ns) noexcept {

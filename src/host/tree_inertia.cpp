@@ -116,7 +116,7 @@ void TreeInertia::update(const std::vector<TreeBody>& bodies) noexcept {
     const TreeBody::Joint joint = bodies[i].joint;
     const bool moves = joint == TreeBody::Joint::revolute || joint == TreeBody::Joint::prismatic;
     n.momentum = times(n.inertia, n.axis);
-    n.reciprocal = moves ? 1 / dot(n.axis, n.momentum) : 0.0;
+    n.reciprocal = moves ? 1 / (dot(n.axis, n.momentum) + bodies[i].damping_dt) : 0.0;
     if (joint == TreeBody::Joint::free) n.response = inverse_of(n.inertia);
     if (bodies[i].parent == TreeBody::kGround) continue;
     Matrix& parent = nodes_[bodies[i].parent].inertia;

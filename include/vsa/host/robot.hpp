@@ -54,7 +54,7 @@ namespace vsa::host {
 struct JointIn {
   double angle_rad = 0;        ///< q at the step's start
   double speed_rad_per_s = 0;  ///< v there
-  /// B_jj = (M⁻¹)_jj, 1/(kg·m²); none: the unit's configured shaft_inertia_kgm2 is used. Joints of a tree with a matrix have it
+  /// B_jj = (M⁻¹)_jj, 0 … 1e12/(kg·m²); none: the unit's configured shaft_inertia_kgm2 is used. Joints of a tree with a matrix have it
   /// there.
   std::optional<double> inverse_inertia;
   /// Somebody put the joint there since the last step; what that did to angle and speed is neither work nor acceleration.

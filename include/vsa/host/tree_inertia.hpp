@@ -5,10 +5,10 @@
 //
 // With S the joint's axis as a spatial vector and I the articulated inertia of a body and all that hangs on it (6×6; all in world
 // axes about one point, so that nothing needs to be transformed), at rest and without gravity:
-//     U = I S,   D = Sᵀ U,   I_parent += I − U Uᵀ/D                                          from the leaves to the roots, once
+//     U = I S,   D = Sᵀ U + dt·d,   I_parent += I − U Uᵀ/D                                          from the leaves to the roots, once
 //     u = τ − Sᵀ p,   p_parent += p + U u/D                                                  from joint j to its root
 //     q̈ = (u − Uᵀ a_parent)/D,   a = a_parent + S q̈                                         from the roots to the leaves
-// With a = 0 for the ground and a = −I⁻¹ p for a body that flies free. Four columns at a time, and only as far out as their joints:
+// With d of a damper that the engine takes implicitly, a = 0 for the ground and a = −I⁻¹ p for a body that flies free. Four columns at a time, and only as far out as their joints:
 // B is symmetric. Contacts aren't in it. Reference: R. Featherstone, Rigid Body Dynamics Algorithms, ch. 7.
 #pragma once
 
@@ -32,6 +32,7 @@ struct TreeBody {
   double mass_kg = 0;                      ///< where nothing that moves has any, B isn't finite
   std::array<double, 3> center_of_mass{};  ///< world
   std::array<double, 9> inertia_kgm2{};    ///< about the centre of mass, world axes, by rows
+  double damping_dt = 0;                   ///< dt·d of the joint, where the engine takes its damper implicitly: B = ((M + dt·D)⁻¹)_aa
 };
 
 /// Works out B = (M⁻¹)_aa of joints of a tree of rigid bodies, 1/(kg·m²), step after step without allocating.
