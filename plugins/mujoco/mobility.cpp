@@ -2,6 +2,7 @@
 #include "mobility.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "versions.hpp"
 
@@ -39,9 +40,9 @@ void Mobility::solve(const mjModel& m, mjData& d) {
   }
 }
 
-void Mobility::tie(const mjModel& m, mjData& d, std::span<const int> dofs, std::span<double> out) {
-  const auto rows = static_cast<std::size_t>(d.ne), nv = static_cast<std::size_t>(m.nv), n = dofs.size();
-  if (rows == 0) return;
+/// tied_ := M⁻¹ Jᵀ by rows, ties_ := the factor of J M⁻¹ Jᵀ + R; M as solve() has it.
+void Mobility::factor_ties(const mjModel& m, mjData& d) {
+  const auto rows = static_cast<std::size_t>(d.ne), nv = static_cast<std::size_t>(m.nv);
   row_.assign(static_cast<std::size_t>(d.nefc), 0);
   moved_.resize(row_.size());
   tied_.resize(rows * nv);
@@ -58,6 +59,12 @@ void Mobility::tie(const mjModel& m, mjData& d, std::span<const int> dofs, std::
     ties_[r * rows + r] += d.efc_R[r];
   }
   mju_cholFactor(ties_.data(), static_cast<int>(rows), mjMINVAL);
+}
+
+void Mobility::tie(const mjModel& m, mjData& d, std::span<const int> dofs, std::span<double> out) {
+  const auto rows = static_cast<std::size_t>(d.ne), nv = static_cast<std::size_t>(m.nv), n = dofs.size();
+  if (rows == 0) return;
+  factor_ties(m, d);
   double *const x = of_joint_.data(), *const y = x + rows;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t r = 0; r < rows; ++r) x[r] = tied_[r * nv + static_cast<std::size_t>(dofs[i])];
@@ -69,6 +76,43 @@ void Mobility::tie(const mjModel& m, mjData& d, std::span<const int> dofs, std::
       if (k < i) out[k * n + i] -= sum;
     }
   }
+}
+
+std::span<const double> Mobility::foresee(const mjModel& m, mjData& d, std::span<const double> pushed) {
+  const auto rows = static_cast<std::size_t>(d.ne), nv = static_cast<std::size_t>(m.nv);
+  unit_.resize(nv);
+  column_.resize(nv);
+  force_.resize(nv);
+  for (std::size_t i = 0; i < nv; ++i) force_[i] = d.qfrc_passive[i] - d.qfrc_bias[i] + pushed[i];
+  if (rows > 0) {  // MuJoCo works constraints out with M, and takes dampers implicitly after that
+    damped_ = false;
+    factor_ties(m, d);
+    unit_ = force_;
+    solve(m, d);
+    mj_mulJacVec(&m, &d, moved_.data(), column_.data());
+    double *const x = of_joint_.data(), *const f = x + rows;
+    for (std::size_t r = 0; r < rows; ++r) x[r] = d.efc_aref[r] - moved_[r];
+    mju_cholSolve(f, ties_.data(), x, static_cast<int>(rows));
+    std::copy_n(f, rows, row_.begin());
+    mj_mulJacTVec(&m, &d, unit_.data(), row_.data());
+    std::transform(force_.begin(), force_.end(), unit_.begin(), force_.begin(), std::plus<>());
+  }
+  damped_ = damps_implicitly(m);
+  if (damped_) factor_damped(m, d);
+  unit_ = force_;
+  solve(m, d);
+  return column_;
+}
+
+void Mobility::push(const mjModel& m, mjData& d, std::span<double> out) {
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = d.qfrc_smooth[i] - d.qfrc_passive[i] + d.qfrc_bias[i] + d.qfrc_constraint[i];
+  if (d.ne == 0) return;
+  row_.assign(static_cast<std::size_t>(d.nefc), 0);
+  std::copy_n(d.efc_force, d.ne, row_.begin());
+  unit_.resize(out.size());
+  mj_mulJacTVec(&m, &d, unit_.data(), row_.data());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] -= unit_[i];
 }
 
 }  // namespace vsa::mujoco

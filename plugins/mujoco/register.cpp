@@ -180,7 +180,7 @@ int number_of_states(const mjModel* m, int instance) {
     patterns.forget();
     std::vector<UnitSpec> specs;
     for (const int i : instances) specs.push_back(spec_of(*m, i, "unit_" + std::to_string(i)));
-    return static_cast<int>(Units::state_size(specs));
+    return static_cast<int>(Units::state_size(specs, static_cast<std::size_t>(m->nv)));
   } catch (const std::exception&) {
     return 0;  // init() says why, with names
   }
@@ -267,7 +267,7 @@ void advance(const mjModel* m, mjData* d, int instance) {
   Robot* const robot = robot_of(*d, instance);
   if (robot == nullptr || (m->opt.disableflags & mjDSBL_ACTUATION) != 0) return;
   try {
-    robot->units->advance(state_of(*m, *d, *robot));
+    robot->units->advance(*m, *d, state_of(*m, *d, *robot));
   } catch (const std::exception& error) {
     warn(one_line(error));
   }

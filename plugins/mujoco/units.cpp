@@ -36,12 +36,13 @@ device::Faults faults_of(const UnitSpec& spec) { return config::read_faults(spec
 bool is_broken(const UnitSpec& spec) { return !spec.get("faults").empty(); }
 
 // In a state.
-constexpr std::size_t kCount = 0, kBegun = 1, kTaken = 2;
-std::size_t head(std::size_t units) { return kTaken + 2 * units; }
+constexpr std::size_t kCount = 0, kBegun = 1,
+                      kTaken = 2;  // then what is taken of controls, then what pushed each degree of freedom
+std::size_t head(std::size_t units, std::size_t dofs) { return kTaken + 2 * units + dofs; }
 
 /// What a state has at most.
-std::size_t size_of(const seat::Seat& seat, std::size_t units) {
-  std::size_t out = head(units);
+std::size_t size_of(const seat::Seat& seat, std::size_t units, std::size_t dofs) {
+  std::size_t out = head(units, dofs);
   const StateLayout layout = seat.state_layout();
   for (const StateEntry& e : layout.entries())
     if (e.name.find(".knot[") == std::string::npos) out += e.count;
@@ -62,7 +63,7 @@ std::int64_t step_ns(const mjModel& m) { return std::llround(m.opt.timestep * 1e
 
 }  // namespace
 
-Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units)) {
+Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units)), dofs_(static_cast<std::size_t>(m.nv)) {
   const std::vector<UnitSpec> specs = specs_of(units_);
   const config::TypeLibrary library = library_for(specs);
   Problems problems;
@@ -77,14 +78,14 @@ Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units
       if (id < 0) continue;
       ids.push_back(id);
       joints_.push_back({id, m.jnt_qposadr[id], m.jnt_dofadr[id], m.qpos0[m.jnt_qposadr[id]]});
-      joints.push_back({joint_name(m, id), {}, {}, joints_.back().start, m.jnt_type[id] == mjJNT_SLIDE, m.dof_damping[m.jnt_dofadr[id]]});
+      joints.push_back({joint_name(m, id), {}, {}, joints_.back().start, m.jnt_type[id] == mjJNT_SLIDE});
     } catch (const InputError& error) {
       problems.add_all(error);
     }
   }
   problems.throw_if_any();
   seat_ = make_seat(specs, joints, library);
-  size_ = state_size(specs);
+  size_ = state_size(specs, dofs_);
   const auto trees = trees_of(m, ids);
   for (const auto& tree : trees) {
     tree_dofs_.emplace_back();
@@ -94,19 +95,20 @@ Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units
   for (std::size_t i = 0; i < units_.size(); ++i) {
     if (is_broken(specs[i])) seat_->robot().set_faults(i, faults_of(specs[i]));  // throws here what no unit of that type can have
   }
-  here_ = state::Rewriter(head(units_.size()), seat_->state_size());
+  here_ = state::Rewriter(head(units_.size(), dofs_), seat_->state_size());
   note();
   first_.assign(here_.numbers().begin(), here_.numbers().end());
 }
 
 Units::Units(const Units& other, std::unique_ptr<seat::Seat> seat)
     : units_(other.units_),
+      dofs_(other.dofs_),
       joints_(other.joints_),
       volts_(other.volts_),
       tree_dofs_(other.tree_dofs_),
       seat_(std::move(seat)),
       size_(other.size_),
-      here_(head(units_.size()), seat_->state_size()),
+      here_(head(units_.size(), dofs_), seat_->state_size()),
       there_(true),
       first_(other.first_) {
   here_.assign(first_);
@@ -116,13 +118,13 @@ Units::~Units() = default;
 
 std::unique_ptr<Units> Units::clone() const { return std::unique_ptr<Units>(new Units(*this, seat_->clone())); }
 
-std::size_t Units::state_size(std::span<const UnitSpec> specs) {
+std::size_t Units::state_size(std::span<const UnitSpec> specs, std::size_t dofs) {
   const config::TypeLibrary library = library_for(specs);
   Problems problems;
   std::vector<seat::Joint> joints;
   for (const UnitSpec& spec : specs) {
     try {
-      joints.push_back({"joint of " + spec.name, {}, {}, {}, type_of(spec, library).unit.actuator.linear(), 1.0});  // a damper has numbers of its own
+      joints.push_back({"joint of " + spec.name, {}, {}, {}, type_of(spec, library).unit.actuator.linear()});
     } catch (const InputError& error) {
       problems.add_all(error);
     }
@@ -132,7 +134,7 @@ std::size_t Units::state_size(std::span<const UnitSpec> specs) {
   std::vector<std::size_t> all(specs.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   seat->join({all});
-  return size_of(*seat, specs.size());
+  return size_of(*seat, specs.size(), dofs);
 }
 
 void Units::reset(std::span<double> state) const {
@@ -148,7 +150,7 @@ bool Units::is_at(std::span<const double> state) const {
 
 void Units::take(std::span<const double> state) {
   there_ = false;  // should anything throw
-  const std::size_t first = head(units_.size()), count = first + seat_->restore_tight(state.subspan(first));
+  const std::size_t first = head(units_.size(), dofs_), count = first + seat_->restore_tight(state.subspan(first));
   if (state[kCount] != static_cast<double>(count))
     throw InputError(
         {"vsasim.unit", "state", std::to_string(state[kCount]), "isn't how many of its numbers count", std::to_string(count)});
@@ -195,6 +197,9 @@ void Units::command(const mjModel& m, const mjData& d) {
 
 /// A step of the seat, from here_ to here_.
 void Units::step(const mjModel& m, mjData& d) {
+  const std::span<const double> free = mobility_.foresee(m, d, pushed());
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    seat_->in()[i].free_acceleration_rad_per_s2 = free[static_cast<std::size_t>(joints_[i].v)];
   if (seat_->wants_mobility()) {
     std::span<double> rest = seat_->mobility();
     for (const std::vector<int>& dofs : tree_dofs_) {
@@ -222,9 +227,10 @@ void Units::compute(const mjModel& m, mjData& d, std::span<const double> state) 
   computed_ = true;
 }
 
-void Units::advance(std::span<double> state) {
+void Units::advance(const mjModel& m, mjData& d, std::span<double> state) {
   if (!computed_) return;
   computed_ = false;
+  mobility_.push(m, d, pushed());
   put(here_.numbers(), state);
   seat_->publish(0);
 }

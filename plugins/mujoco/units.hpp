@@ -7,13 +7,14 @@
 //   reset(state)               the first sample, into the plug-in's part of mjData
 //   observe(d, state)          for sensors: the units as they are, at the positions and speeds of d; then read(unit, …)
 //   compute(m, d, state)       torques of the step that comes, t … t + dt, from the present positions, speeds, M and controls
-//   advance(state)             the step has been made: state becomes that of t + dt
+//   advance(m, d, state)       the step has been made: state becomes that of t + dt
 //
 // PURE: compute() and observe() change nothing but this object's scratch: the same state and data give the same torques, however often
 // and whatever was computed between. What decides the future is `state`: numbers without pointers, which MuJoCo copies and sets as it
 // likes. So a MuJoCo that steps several mjData needs one object each, and none of them knows of another.
 //
-// STATE of n units: [how many numbers of it count, begun, which controls were taken as commands (n × 2), the seat's without the room
+// STATE of n units: [how many numbers of it count, begun, which controls were taken as commands (n × 2), what pushed each
+// of the model's degrees of freedom in the last step, the seat's without the room
 // that nothing takes (vsa/seat/seat.hpp), 0 …]. There is room for one tree of all, and for no knots of trajectories, which nobody can
 // command here. Before anything is made of a state, all of it that counts is compared with the one that this object is at.
 //
@@ -73,8 +74,8 @@ class Units {
   /// Another, at the first sample, without report. Safe from several threads at once.
   [[nodiscard]] std::unique_ptr<Units> clone() const;
 
-  /// How many numbers the state of such units has, before there is a model. Throws InputError for what is wrong without one.
-  [[nodiscard]] static std::size_t state_size(std::span<const UnitSpec> specs);
+  /// How many numbers the state of such units has in a model of so many degrees of freedom. Throws InputError for what is wrong without one.
+  [[nodiscard]] static std::size_t state_size(std::span<const UnitSpec> specs, std::size_t dofs);
   [[nodiscard]] std::size_t state_size() const noexcept { return size_; }
   [[nodiscard]] std::size_t size() const noexcept { return units_.size(); }
   [[nodiscard]] const Unit& unit(std::size_t i) const { return units_[i]; }
@@ -83,7 +84,7 @@ class Units {
   void compute(const mjModel& m, mjData& d, std::span<const double> state);
   [[nodiscard]] double torque(std::size_t unit) const { return seat_->torques()[unit]; }  ///< of the last compute()
   /// After a step of MuJoCo's that began with compute(); without one since the last time nothing moves.
-  void advance(std::span<double> state);
+  void advance(const mjModel& m, mjData& d, std::span<double> state);
   void observe(const mjData& d, std::span<const double> state);
   void read(std::size_t unit, std::span<double> out) const;  ///< kReadings numbers, after observe()
   /// Of another's mjData, which is being copied: what its last compute() foresaw, too.
@@ -103,9 +104,11 @@ class Units {
   void step(const mjModel& m, mjData& d);
   [[nodiscard]] bool is_at(std::span<const double> state) const;
   void take(std::span<const double> state);
-  void note();  ///< here_, of the seat
+  void note();                                                                           ///< here_, of the seat
+  [[nodiscard]] std::span<double> pushed() noexcept { return here_.own().last(dofs_); }  ///< in the last step, by degree of freedom
 
   std::vector<Unit> units_;
+  std::size_t dofs_ = 0;  ///< the model's
   std::vector<Joint> joints_;
   std::vector<bool> volts_;                  ///< the unit's controls are its motors' voltages
   std::vector<std::vector<int>> tree_dofs_;  ///< as the seat joins them

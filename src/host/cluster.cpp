@@ -79,8 +79,9 @@ double own_mobility(const device::Unit& unit, const JointIn& joint) noexcept {
 
 void begin_step(const device::JointInStep& j, const JointIn& in, double inverse_inertia, std::int64_t t_ns,
                 std::int64_t dt_ns) noexcept {
-  j.unit->begin_step(*j.state, *j.plan, t_ns, dt_ns, {in.angle_rad, in.speed_rad_per_s, inverse_inertia, in.placed,
-                                             in.free_acceleration_rad_per_s2.value_or(kNotTold)});
+  j.unit->begin_step(
+      *j.state, *j.plan, t_ns, dt_ns,
+      {in.angle_rad, in.speed_rad_per_s, inverse_inertia, in.placed, in.free_acceleration_rad_per_s2.value_or(kNotTold)});
 }
 
 std::vector<Cluster> make_clusters(const ClusterParts& parts) {

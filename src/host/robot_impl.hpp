@@ -22,8 +22,8 @@
 namespace vsa::host {
 
 inline constexpr std::int64_t kLookSteps = 128;
-inline constexpr double kCreated = 0.01;  ///< energy out of nothing, over what went to and fro at the shafts, that is told
-inline constexpr double kCreatedLeast_J = 1e-3;
+inline constexpr double kCreated = 0.01;  ///< energy out of nothing that is told: over what moved, and over what shafts exchanged
+inline constexpr double kCreatedLeast_J = 1e-3, kCreatedAtShafts_J = 1e-2;  ///< at least; the second: a robot that falls makes 2e-3
 
 /// Whether a joint can be worked with.
 [[nodiscard]] inline bool is_told(const JointIn& joint) noexcept {
@@ -202,7 +202,9 @@ struct Robot::Impl {
     }
     for (const auto& bus : buses) look_at_client(*bus);
     notice(0, state.noted_unsettled, state.unsettled > 0, NoticeKind::unsettled, static_cast<double>(state.unsettled));
-    const bool created = sum.coupling < -std::max(kCreated * sum.delivered_moved, kCreatedLeast_J);
+    // A motor that holds turns 15 W into heat, beside which a joint that shakes for ever is nothing: so by what its shafts exchange, too.
+    const bool created = sum.coupling < -std::max(kCreated * sum.moved(), kCreatedLeast_J) ||
+                         sum.coupling < -std::max(kCreated * sum.delivered_moved, kCreatedAtShafts_J);
     notice(0, state.noted_energy, created, NoticeKind::energy, -sum.coupling / sum.delivered_moved);
   }
 

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,9 +51,9 @@ std::string world_of(const Chain& c) {
     const Link& l = c.links[i - 1];
     const double inertia = l.mass_kg * l.length_m * l.length_m / 12;
     const bool slides = l.kind == Kind::slide;
-    s << "<link name='l" << i << "'><pose>0 0 " << z << " 0 0 0</pose><inertial><pose>0 0 " << -l.length_m / 2 << " 0 0 0</pose><mass>"
-      << l.mass_kg << "</mass><inertia><ixx>" << inertia << "</ixx><iyy>" << inertia << "</iyy><izz>" << inertia
-      << "</izz></inertia></inertial></link><joint name='j" << i << "' type='" << (slides ? "prismatic" : "revolute")
+    s << "<link name='l" << i << "'><pose>0 0 " << z << " 0 0 0</pose><inertial><pose>0 0 " << -l.length_m / 2
+      << " 0 0 0</pose><mass>" << l.mass_kg << "</mass><inertia><ixx>" << inertia << "</ixx><iyy>" << inertia << "</iyy><izz>"
+      << inertia << "</izz></inertia></inertial></link><joint name='j" << i << "' type='" << (slides ? "prismatic" : "revolute")
       << "'><parent>l" << i - 1 << "</parent><child>l" << i << "</child><axis><xyz>" << (slides ? "1 0 0" : "0 1 0") << "</xyz>";
     if (l.kind == Kind::follower) s << "<mimic joint='j1'><multiplier>" << l.multiplier << "</multiplier></mimic>";
     s << "<dynamics><damping>" << l.damping << "</damping><spring_stiffness>" << l.spring
@@ -68,8 +68,8 @@ std::string world_of(const Chain& c) {
 }
 
 struct Left {
-  Rest rest;                ///< of the actuated joints
-  double created_J = 0;     ///< out of nothing
+  Rest rest;               ///< of the actuated joints
+  double created_J = 0;    ///< out of nothing
   double passive_rms = 0;  ///< of all others, rad/s or m/s
 };
 
@@ -146,9 +146,10 @@ TEST(RestBeside, FollowersWithAnotherActuatorBehindThem) {
       for (const auto& [leader, follower] : {std::pair{0.1, 0.1}, {0.45, 0.45}, {0.5, 0.05}}) {
         std::ostringstream named;
         named << leader << " and " << follower << " kg, x " << multiplier << ", " << step_s * 1e3 << " ms";
-        expect_quiet({{{Kind::actuated, leader, 0.06}, {Kind::follower, follower, 0.06, 0, 0, multiplier}, {Kind::actuated, leader, 0.06}},
-                      step_s},
-                     named.str());
+        expect_quiet(
+            {{{Kind::actuated, leader, 0.06}, {Kind::follower, follower, 0.06, 0, 0, multiplier}, {Kind::actuated, leader, 0.06}},
+             step_s},
+            named.str());
       }
     }
   }
@@ -158,8 +159,9 @@ TEST(RestBeside, AHeavyLoadThatHangsOnLightLinks) {
   for (const double preset : {0.2, 0.4, 0.785})
     for (const double load_kg : {1.0, 3.0, 10.0})
       for (const double step_s : {1e-3, 2e-3})
-        expect_quiet({{{Kind::actuated, 0.01, 0.02}, {Kind::actuated, 0.01, 0.02}, {Kind::actuated, load_kg, 0.1}}, step_s, preset, true},
-                     std::to_string(load_kg) + " kg, preset " + std::to_string(preset) + ", " + std::to_string(step_s));
+        expect_quiet(
+            {{{Kind::actuated, 0.01, 0.02}, {Kind::actuated, 0.01, 0.02}, {Kind::actuated, load_kg, 0.1}}, step_s, preset, true},
+            std::to_string(load_kg) + " kg, preset " + std::to_string(preset) + ", " + std::to_string(step_s));
 }
 
 }  // namespace

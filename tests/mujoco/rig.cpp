@@ -172,7 +172,7 @@ void Data::reset() {
 void Data::step() {
   const Stepping stepping(*units_, state_);
   mj_step(&rig_->model(), data_.get());
-  units_->advance(state_);
+  units_->advance(rig_->model(), *data_, state_);
 }
 
 void Data::forward() {

@@ -25,9 +25,9 @@ class JointDampers {
  public:
   /// What one step leaves for the next: a part of the host's state.
   struct Memory {
-    double last_dt_s = 0;                         ///< length of the last step; 0: there was none
-    std::vector<double> speeds;                   ///< at its start; none without dampers
-    void forget() noexcept { last_dt_s = 0; }     ///< as before the first step
+    double last_dt_s = 0;                      ///< length of the last step; 0: there was none
+    std::vector<double> speeds;                ///< at its start; none without dampers
+    void forget() noexcept { last_dt_s = 0; }  ///< as before the first step
     static auto fields(auto& s, auto&& visit) { return visit("last_dt", "s", s.last_dt_s, "speed", "rad/s", s.speeds); }
     /// What a state can't hold.
     [[nodiscard]] const char* impossible() const noexcept {
@@ -45,7 +45,8 @@ class JointDampers {
         problems.add({"", "damping[" + std::to_string(i) + "]", std::to_string(damping_[i]), "can't be", "0 or more"});
     for (const auto& tree : trees_)
       for (const std::size_t i : tree)
-        if (i >= damping_.size()) problems.add({"", "tree", std::to_string(i), "no such joint", "0 … " + std::to_string(damping_.size() - 1)});
+        if (i >= damping_.size())
+          problems.add({"", "tree", std::to_string(i), "no such joint", "0 … " + std::to_string(damping_.size() - 1)});
     problems.throw_if_any();
     if (std::all_of(damping_.begin(), damping_.end(), [](double d) { return d == 0; })) trees_.clear();
   }

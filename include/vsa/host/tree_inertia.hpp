@@ -32,7 +32,7 @@ struct TreeBody {
   double mass_kg = 0;                      ///< where nothing that moves has any, B isn't finite
   std::array<double, 3> center_of_mass{};  ///< world
   std::array<double, 9> inertia_kgm2{};    ///< about the centre of mass, world axes, by rows
-  double damping_dt = 0;                   ///< dt·d of the joint, where the engine takes its damper implicitly: B = ((M + dt·D)⁻¹)_aa
+  double damping_dt = 0;  ///< dt·d of the joint, where the engine takes its damper implicitly: B = ((M + dt·D)⁻¹)_aa
 };
 
 /// Works out B = (M⁻¹)_aa of joints of a tree of rigid bodies, 1/(kg·m²), step after step without allocating.
