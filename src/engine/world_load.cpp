@@ -28,6 +28,11 @@ std::int64_t step_ns(const WorldOptions& options, const description::World& worl
   return std::llround(step_s * 1e9);
 }
 
+void check_concave(const WorldOptions& options, Problems& problems) {
+  if (options.concave == Concave::refuse || options.concave == Concave::hull || options.concave == Concave::decompose) return;
+  problems.add({"", "concave", fmt::format("{}", static_cast<int>(options.concave)), "no such choice", "refuse, hull, decompose"});
+}
+
 /// Empty: an actuator can drive it.
 std::string refusal_of(const description::World& world, std::size_t joint) {
   const Joint& j = world.joints[joint];
@@ -113,6 +118,8 @@ std::unique_ptr<World::Impl> World::Impl::load(const reader::SdfSource& source, 
   auto impl = std::make_unique<World::Impl>();
   impl->options = std::move(options);
   Problems problems;
+  check_concave(impl->options, problems);
+  problems.throw_if_any();
   const std::shared_ptr<ReadWorld> file = read_world(source, impl->options, problems);
   impl->world = file->world;
   impl->warnings = file->warnings;

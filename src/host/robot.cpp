@@ -119,7 +119,10 @@ bool Robot::follow(std::size_t actuator, Channel channel, std::vector<Knot> knot
 }
 
 bool Robot::follow(std::vector<Path> paths) {
-  const auto good = [this](const Path& p) { return p.actuator < size() && !p.knots.empty() && in_order(p.knots); };
+  const auto good = [this](const Path& p) {
+    const bool a_channel = p.channel == Channel::equilibrium || p.channel == Channel::preset;
+    return p.actuator < size() && a_channel && !p.knots.empty() && in_order(p.knots);
+  };
   if (!std::all_of(paths.begin(), paths.end(), good)) return false;
   std::vector<Order> orders;
   orders.reserve(paths.size());

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <sdf/Box.hh>
 #include <sdf/Capsule.hh>
@@ -192,11 +193,20 @@ std::optional<Geometry> read_any(Where& w, const sdf::Geometry& geometry) {
   }
 }
 
+/// libsdformat looks for one kind after another, and takes the first that is there.
+void tell_of_others(const Where& w, Geometry::Kind kind) {
+  const sdf::ElementPtr first = w.element ? w.element->GetFirstElement() : nullptr;
+  if (!first || !first->GetNextElement("")) return;
+  const auto* const counts = std::find_if(kShapes.begin(), kShapes.end(), [&](const auto& shape) { return shape.first == kind; });
+  w.c.notes.add(fmt::format("of several shapes in one <geometry> one counts, its {}", counts->second), w.key);
+}
+
 }  // namespace
 
 std::optional<Geometry> read_geometry(ReadContext& c, const sdf::Geometry& geometry, const std::string& key, bool collides) {
   Where w{c, geometry.Element(), key, collides};
   std::optional<Geometry> g = read_any(w, geometry);
+  if (g) tell_of_others(w, g->kind);
   if (!g || !collides || c.engine.takes(g->kind)) return g;
   const std::string name = w.element->GetFirstElement()->GetName();
   c.cannot(w.element, key + "/geometry/" + name, "", "collisions of this kind aren't", collidable(c.engine));

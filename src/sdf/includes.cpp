@@ -4,10 +4,12 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <memory>
 #include <set>
 
 #include "sdf/input_files.hpp"
 #include "sdf/newer_sdf.hpp"
+#include "sdf/xml_place.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::reader {
@@ -58,10 +60,11 @@ class Walk {
   }
 
   void file(const fs::path& path) {
-    tinyxml2::XMLDocument xml;
+    auto xml = std::make_unique<tinyxml2::XMLDocument>();
     c_.seen.reads(path);
-    if (xml.LoadFile(path.c_str()) != tinyxml2::XML_SUCCESS) return;  // what is broken, libsdformat reports
-    if (document(xml, path.string(), fs::absolute(path).parent_path())) c_.files.replace(path, printed(xml));
+    if (xml->LoadFile(path.c_str()) != tinyxml2::XML_SUCCESS) return;  // what is broken, libsdformat reports
+    if (document(*xml, path.string(), fs::absolute(path).parent_path())) c_.files.replace(path, printed(*xml));
+    c_.files.keep(path.string(), std::move(xml));
   }
 
   /// True where the document was changed.
@@ -138,11 +141,12 @@ fs::path model_file(const fs::path& found, SeenFiles& seen) {
 bool prepare_files(const SdfSource& source, ReadContext& context) {
   const std::size_t before = context.problems.list().size();
   Walk walk(context, source.path);
-  tinyxml2::XMLDocument xml;
-  const bool readable = source.path.empty() ? xml.Parse(source.text.data(), source.text.size()) == tinyxml2::XML_SUCCESS
-                                            : xml.LoadFile(source.path.c_str()) == tinyxml2::XML_SUCCESS;
-  if (readable && walk.document(xml, source.label(), context.base)) context.files.top = printed(xml);
-  context.files.top_is_urdf = readable && xml.RootElement() != nullptr && std::string_view(xml.RootElement()->Name()) == "robot";
+  auto xml = std::make_unique<tinyxml2::XMLDocument>();
+  const bool readable = source.path.empty() ? xml->Parse(source.text.data(), source.text.size()) == tinyxml2::XML_SUCCESS
+                                            : xml->LoadFile(source.path.c_str()) == tinyxml2::XML_SUCCESS;
+  if (readable && walk.document(*xml, source.label(), context.base)) context.files.top = printed(*xml);
+  context.files.top_is_urdf = readable && xml->RootElement() != nullptr && is(*xml->RootElement(), "robot");
+  if (readable) context.files.keep(source.label(), std::move(xml));
   return context.problems.list().size() == before;
 }
 

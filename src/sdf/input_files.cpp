@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "sdf/xml_place.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::reader {
@@ -31,6 +32,10 @@ void InputFiles::replace(const fs::path& file, const std::string& text) {
 }
 
 void InputFiles::call(const fs::path& file) { original_of_[fs::absolute(file).string()] = file.string(); }
+
+void InputFiles::keep(const std::string& file, std::unique_ptr<const tinyxml2::XMLDocument> xml) {
+  if (xml->RootElement() != nullptr && is(*xml->RootElement(), "sdf")) sdfs.push_back({file, std::move(xml)});
+}
 
 fs::path InputFiles::stand_in(const fs::path& file) const {
   const auto it = copy_of_.find(key_of(file));

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,12 @@
 #include "vsa/temporary_folder.hpp"
 
 namespace vsa::reader {
+
+/// An SDF file's elements as libsdformat gets them, with the lines that they have in the file.
+struct SdfText {
+  std::string file;
+  std::unique_ptr<const tinyxml2::XMLDocument> xml;
+};
 
 class InputFiles {
  public:
@@ -25,6 +32,8 @@ class InputFiles {
   void call(const std::filesystem::path& file);
   /// What libsdformat gets for a file: the file, or what stands in for it.
   [[nodiscard]] std::filesystem::path stand_in(const std::filesystem::path& file) const;
+  /// Keeps an SDF's elements; other files' go.
+  void keep(const std::string& file, std::unique_ptr<const tinyxml2::XMLDocument> xml);
   /// The file that a path told by libsdformat speaks of.
   [[nodiscard]] std::string original(const std::string& path) const;
   /// A text of libsdformat's with its copies' names replaced by those of the files.
@@ -32,7 +41,8 @@ class InputFiles {
 
   std::optional<std::string> top;  ///< stands in for the world's own file
   bool top_is_urdf = false;
-  std::vector<Urdf> urdfs;  ///< of all files; <vsa:urdf id="…"> of a model is an index into them
+  std::vector<Urdf> urdfs;    ///< of all files; <vsa:urdf id="…"> of a model is an index into them
+  std::vector<SdfText> sdfs;  ///< of all files
 
  private:
   std::optional<TemporaryFolder> directory_;

@@ -7,25 +7,13 @@
 #include <array>
 #include <string_view>
 
+#include "sdf/xml_place.hpp"
+
 namespace vsa::reader {
 namespace {
 
 using tinyxml2::XMLAttribute;
 using tinyxml2::XMLElement;
-
-bool is(const XMLElement& e, std::string_view name) { return e.Name() == name; }
-
-/// "m/link[a]/sensor[s]", as far as names go.
-std::string path_of(const XMLElement& e) {
-  std::string path;
-  for (const XMLElement* at = &e; at != nullptr && !is(*at, "sdf");
-       at = at->Parent() == nullptr ? nullptr : at->Parent()->ToElement()) {
-    const char* name = at->Attribute("name");
-    const std::string part = name == nullptr ? at->Name() : fmt::format("{}[{}]", at->Name(), name);
-    path = path.empty() ? part : part + "/" + path;
-  }
-  return path;
-}
 
 class Mender {
  public:

@@ -90,6 +90,7 @@ description::World read_sdf(const SdfSource& source, const ReadOptions& options,
   if (!prepare_files(source, context)) return out;
   sdf::Root root;
   parse_sdf(source, context, root);
+  check_sdfs(context, root.Element());
   read_root(context, root);
   check_urdfs_found(context);
   if (problems.empty()) finish_joints(context);

@@ -85,6 +85,8 @@ void read_joint(ReadContext& context, const sdf::Joint& joint, const ModelScope&
 /// Compares a model that came from a URDF with it; afterwards, that each URDF was.
 void check_urdf(ReadContext& context, const sdf::Model& model, const ModelScope& scope);
 void check_urdfs_found(ReadContext& context);
+/// What the files say twice, or not in numbers; `described`: the element <sdf>, with libsdformat's descriptions of all others.
+void check_sdfs(ReadContext& context, const sdf::ElementPtr& described);
 /// A world's <state>, once its models are read.
 void read_state(ReadContext& context, const sdf::World& world);
 /// Once all joints are known: welds those without room, finds where each starts, couples followers to leaders.

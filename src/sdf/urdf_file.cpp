@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sdf/urdf_elements.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::reader {
@@ -99,6 +100,7 @@ std::string Urdf::lumped_into(const std::string& link) const {
 Urdf mend_urdf(XMLElement& robot, const std::string& file, std::size_t id, Notes& notes, Problems& problems) {
   Urdf urdf;
   urdf.file = file;
+  check_urdf_elements(robot, file, notes);
   for (const XMLElement* e = robot.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) {
     urdf.links.push_back(attribute(e, "name"));
     if (urdf.links.back() == "world") continue;
@@ -110,6 +112,8 @@ Urdf mend_urdf(XMLElement& robot, const std::string& file, std::size_t id, Notes
     joint.lumped = joint.type == "fixed" && joint.parent != "world" && !stays(robot, joint.name);
     if (e->FirstChildElement("safety_controller") != nullptr)
       notes.add("<safety_controller> of joints is a controller's and left out", joint.name);
+    if (e->FirstChildElement("calibration") != nullptr)
+      notes.add("<calibration> of joints is for the machine's own encoders and left out", joint.name);
     urdf.joints.push_back(std::move(joint));
   }
   join_robot_elements(robot, id);

@@ -163,6 +163,8 @@ TEST(HostileRobot, NumbersThatAreNoneAreRefused) {
     EXPECT_THROW(r.set_faults(0, faults), InputError);
   }
   EXPECT_FALSE(r.follow(0, Robot::Channel::preset, {}));
+  EXPECT_FALSE(r.follow(0, static_cast<Robot::Channel>(7), {{0.0, 0.1}}));
+  EXPECT_FALSE(r.follow({{0, Robot::Channel::preset, {{0.0, 0.1}}}, {0, static_cast<Robot::Channel>(-1), {{0.0, 0.1}}}}));
   EXPECT_FALSE(r.follow(0, Robot::Channel::preset, {{-1.0, 0.0}}));
   EXPECT_FALSE(r.follow(0, Robot::Channel::preset, {{1e10, 0.0}}));
   EXPECT_TRUE(r.command(std::span<const Robot::Command>{}));

@@ -51,6 +51,18 @@ TEST(ConcaveMesh, TheFilesOwnOptimizationCounts) {
   EXPECT_EQ(World::load(kFiles / "mesh_concave_hull_asked.sdf").links().size(), 1u);
 }
 
+TEST(ConcaveMesh, AChoiceThatIsNoneIsRefused) {
+  for (const int choice : {-1, 3, 9}) {
+    try {
+      static_cast<void>(World::load(kFiles / "mesh_stl.sdf", with(static_cast<Concave>(choice))));
+      ADD_FAILURE() << choice << " loads";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.problems().front().key, "concave");
+      EXPECT_EQ(error.problems().front().allowed, "refuse, hull, decompose");
+    }
+  }
+}
+
 TEST(Collada, IsReadInMetres) {
   World w = World::load(kFiles / "mesh_dae.sdf");
   EXPECT_TRUE(w.warnings().empty());

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "engine/worlds.hpp"
 
@@ -63,6 +65,36 @@ TEST(BadInput, AVersionThatIsNotOneIsRefused) {
     EXPECT_TRUE(has(text, "sdf@version")) << version << ": " << text;
     EXPECT_TRUE(has(text, "1.6 … 1.12")) << version << ": " << text;
   }
+}
+
+TEST(BadInput, AValueThatIsMoreThanItsNumbersIsRefusedWithWhatItIs) {
+  const auto with = [](const std::string& axis, const std::string& more) {
+    return problems_of("<sdf version='1.9'><world name='w'><model name='m'>" + link("a", moments(1, 1, 1)) +
+                       link("b", "<pose>0 0 1 0 0 0</pose>" + moments(1, 1, 1) + more) +
+                       "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis>" + axis +
+                       "</axis></joint></model></world></sdf>");
+  };
+  const std::string z = "<xyz>0 0 1</xyz>";
+  for (const auto& [axis, said] : std::vector<std::pair<std::string, std::string>>{
+           {"<xyz>0 1 0 5</xyz>", "SDF text:1: world[w]/model[m]/joint[j]/axis/xyz = 0 1 0 5: isn't three numbers"},
+           {"<xyz>0 1 0x</xyz>", "axis/xyz = 0 1 0x: isn't three numbers"},
+           {z + "<dynamics><damping>0.1 x</damping></dynamics>",
+            "axis/dynamics/damping = 0.1 x: isn't a number (allowed: a number"},
+           {z + "<limit><lower>-1rad</lower><upper>1</upper></limit>", "axis/limit/lower = -1rad: isn't a number"},
+           {z + "<limit><lower>-1</lower><upper>0,5</upper></limit>", "axis/limit/upper = 0,5: isn't a number"},
+           {z + "<limit><lower>-1</lower><upper>0<!-- rad -->5</upper></limit>", "axis/limit/upper = 0 5: isn't a number"}}) {
+    const std::string text = with(axis, "");
+    EXPECT_TRUE(has(text, said)) << axis << ": " << text;
+  }
+  for (const char* number : {"1", " +1.0 ", "1.", "1e0", "inf", "0x1", "1e16"})
+    EXPECT_EQ(with(z + "<limit><lower>-1</lower><upper>" + number + "</upper></limit>", ""), "") << number;
+  const auto shape = [](const std::string& surface) {
+    return "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry><surface><contact>" + surface +
+           "</contact></surface></collision>";
+  };
+  EXPECT_TRUE(has(with(z, shape("<collide_bitmask>3.5</collide_bitmask>")), "collide_bitmask = 3.5: isn't a whole number"));
+  EXPECT_EQ(with(z, shape("<collide_bitmask>0xffff</collide_bitmask>")), "");
+  EXPECT_EQ(with(z, "<sensor name='s' type='imu'><update_rate>5 Hz</update_rate></sensor>"), "") << "it is left out whole";
 }
 
 TEST(BadInput, BrokenXmlIsRefusedAndNothingIsPrinted) {

@@ -54,6 +54,10 @@ std::vector<RobotFile> refused_files() {
       {"two_roots.urdf", "Two root links found"},
       {"xacro.urdf", ":3: <link>: isn't expanded"},
       {"xacro_elements.urdf", ":3: <xacro:include>: isn't expanded"},
+      {"model_beside_world.sdf", "model_beside_world.sdf:8: model[lost]: stands beside <world>"},
+      {"number_with_unit.sdf",
+       "number_with_unit.sdf:8: model[m]/joint[j1]/axis/limit/lower = -1 rad: isn't a number (allowed: a number"},
+      {"include_number_with_unit.sdf", "parts/number_with_unit.sdf:8: model[m]/joint[j1]/axis/limit/lower = -1 rad"},
       {"package.urdf", "package://robot_parts/box.stl: file not found"},
   };
 }

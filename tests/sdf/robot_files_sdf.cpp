@@ -7,6 +7,16 @@ namespace vsa::engine::testing {
 
 std::vector<RobotFile> sdf_files() {
   return {
+      {"repeated.sdf",
+       {},
+       {"m::base", "m::a", "m::inner::b"},
+       {{"m::j1", 0.3}},
+       {"of several <gravity> in one <world> the first counts: ", "of several <inertial> in one <link> the first counts: ",
+        "of several <pose> in one <link> the first counts: ", "of several <axis> in one <joint> the first counts: ",
+        "of several <initial_position> in one <axis> the first counts: ", "of several <gravity> in one <link> the first counts: ",
+        "of several shapes in one <geometry> one counts, its box: m::a/collision[c]", "text where a file has none is left out: "},
+       {},
+       {{"m::a", 0, 0, 0.1}}},
       {"plain_1_6.sdf",
        {},
        {"m::base", "m::a", "m::b"},
