@@ -70,6 +70,30 @@ cp "$root/scripts/setup.sh" "$tree/scripts"
 with sh "$tree/scripts/setup.sh" | grep -qw git || fail "setup.sh doesn't ask for git in a repository"
 rm "$tree/.git"
 
+# Missing libraries are told all at once, with what brings them.
+mkdir "$work/needs"
+cat >"$work/needs/CMakeLists.txt" <<EOF
+cmake_minimum_required(VERSION 3.18)
+project(needs LANGUAGES NONE)
+include("$root/cmake/required.cmake")
+set(old_DIR "$work/needs")
+vsa_need_package(old libold-dev 9.1)
+vsa_need_package(nosuch libnosuch-dev)
+find_path(NOSUCH_INCLUDE_DIR nosuch.h)
+vsa_need(nosuch.h libnosuch-dev NOSUCH_INCLUDE_DIR)
+set(THERE TRUE)
+vsa_need(there libthere-dev THERE)
+vsa_need_module(nosuch nosuch-module libnosuch2-dev)
+vsa_end_of_needs()
+EOF
+echo >"$work/needs/oldConfig.cmake"
+echo 'set(PACKAGE_VERSION 8.3)' >"$work/needs/oldConfigVersion.cmake"
+! cmake -S "$work/needs" -B "$work/needs/build" >"$work/out" 2>&1 || fail "configuring without libraries"
+for line in "old: libold-dev (found 8.3, needed 9.1)" "nosuch: libnosuch-dev" "nosuch.h: libnosuch-dev" "nosuch-module: libnosuch2-dev"; do
+  grep -qx "    $line" "$work/out" || fail "not told: $line: $(cat "$work/out")"
+done
+! grep -q "libthere-dev" "$work/out" || fail "told of a library that is there: $(cat "$work/out")"
+
 # make -f from elsewhere does its work where the Makefile stands.
 mkdir "$tree/out"
 (cd "$work" && make -s -f "$tree/Makefile" clean)
