@@ -16,7 +16,7 @@ import urllib.parse
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
-from docs import FENCE, LINK, write_file  # noqa: E402  (what Markdown is here, in one place)
+from docs import FENCE, LINK, copy_file, write_file  # noqa: E402  (what Markdown is here, in one place)
 
 PAGES = "usr/share/doc/vsasim-doc"
 # Beside the pages that are linked: what the package has anyway, and where other packages have the rest.
@@ -68,7 +68,9 @@ class Manual:
 
     def make(self):
         shutil.rmtree(self.into, ignore_errors=True)
-        shutil.copytree(ROOT / "docs", self.into / "docs")
+        for file in sorted(p.relative_to(ROOT) for p in (ROOT / "docs").rglob("*") if p.is_file() and p.suffix != ".md"):
+            (self.into / file).parent.mkdir(parents=True, exist_ok=True)
+            copy_file(ROOT / file, self.into / file)
         while self.pages - self.done:
             page = min(self.pages - self.done)
             self.done.add(page)
@@ -85,4 +87,4 @@ if __name__ == "__main__":
     try:
         main()
     except OSError as error:
-        sys.exit(f"manual.py: {error.filename2 or error.filename or ROOT}: {error.strerror}")
+        sys.exit(f"manual.py: {error.filename or ROOT}: {error.strerror}")

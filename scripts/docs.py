@@ -35,6 +35,14 @@ def write_file(path, text):
         raise OSError(error.errno, error.strerror, str(path)) from error
 
 
+def copy_file(source, path):
+    """As shutil.copyfile, and what goes wrong names the file that couldn't be written."""
+    try:
+        shutil.copyfile(source, path)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
 def run(*command, **options):
     """The command's output; ends the program where it fails."""
     done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
@@ -124,7 +132,7 @@ class Stage:
             self.done.add(place)
             target = self.extra / place
             target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(path, target)
+            copy_file(path, target)
         return place
 
     def write(self, place, text):
@@ -159,7 +167,7 @@ class Stage:
     def picture(self, path):
         place = self.place(path)
         place.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(path, place)
+        copy_file(path, place)
         return place
 
     def add(self, page):
@@ -244,7 +252,7 @@ def record_replay(build, stage):
     out = stage.into.parent / "recorded"
     run(build / "bin/vsa", "run", "snake_flat", "--gait", "sidewind", "--duration-s", "6", "--record", out, "--no-topics")
     (stage.extra / "replay").mkdir()
-    shutil.copyfile(out / "replay.html", stage.extra / "replay/snake.html")
+    copy_file(out / "replay.html", stage.extra / "replay/snake.html")
 
 
 def sphinx(build, stage, site, version):
@@ -278,7 +286,7 @@ def main(build):
     for page in sorted((ROOT / "docs").rglob("*.md")):
         stage.add(page)
     for page in sorted((ROOT / "scripts/site").glob("*.md")):
-        shutil.copyfile(page, stage.into / page.name)
+        copy_file(page, stage.into / page.name)
     record_replay(build, stage)
     wrong += stage.wrong + sphinx(build, stage, site, version) + dead_links(site)
     for line in wrong:
@@ -300,4 +308,4 @@ if __name__ == "__main__":
     try:
         sys.exit(program(sys.argv[1:]))
     except OSError as error:
-        sys.exit(f"docs.py: {error.filename2 or error.filename or ROOT}: {error.strerror}")
+        sys.exit(f"docs.py: {error.filename or ROOT}: {error.strerror}")

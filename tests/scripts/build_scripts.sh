@@ -70,6 +70,14 @@ cp "$root/scripts/setup.sh" "$tree/scripts"
 with sh "$tree/scripts/setup.sh" | grep -qw git || fail "setup.sh doesn't ask for git in a repository"
 rm "$tree/.git"
 
+# A file that can't be written, as on a full disk, is one line.
+version=$(sed -n 's/^project(vsasim VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
+cant() { (ulimit -f 0 && ! python3 -B "$@" 2>&1) || fail "$1 writes where nothing can be written"; }
+said=$(cant "$root/packaging/prepare.py" --version "$version" --release 1 --maintainer m --out "$work/packaging")
+[ "$said" = "prepare.py: $work/packaging/changelog.Debian.gz: File too large" ] || fail "prepare.py: $said"
+said=$(cant "$root/packaging/manual.py" --out "$work/manual")
+echo "$said" | grep -qx "manual.py: $work/manual/.*: File too large" || fail "manual.py: $said"
+
 # Missing libraries are told all at once, with what brings them.
 mkdir "$work/needs"
 cat >"$work/needs/CMakeLists.txt" <<EOF
@@ -97,4 +105,4 @@ done
 # make -f from elsewhere does its work where the Makefile stands.
 mkdir "$tree/out"
 (cd "$work" && make -s -f "$tree/Makefile" clean)
-[ ! -e "$tree/build" ] && [ -e "$tree/out" ] || fail "make -f PATH/Makefile clean"
+if [ -e "$tree/build" ] || [ ! -e "$tree/out" ]; then fail "make -f PATH/Makefile clean"; fi
