@@ -26,13 +26,22 @@
 # make dist   the source archive, built without npm and git; in build/dist; make check-dist   builds and runs it so
 # make check-reproducible   both made again in a clone elsewhere: the same bytes (REPRODUCIBLE_IN keeps the clone); make sign   signs SIGN/SHA256SUMS, with KEY
 # make clean   removes build/; what runs wrote into out/ stays
+ifneq ($(findstring /,$(MAKEFILE_LIST)),)
+# Called from elsewhere, make -f PATH/Makefile: recipes are for the folder in which it stands. The name may have blanks.
+.PHONY: elsewhere $(or $(MAKECMDGOALS),all)
+$(or $(MAKECMDGOALS),all): elsewhere ;
+elsewhere:
+	@$(MAKE) --no-print-directory -C "$$(dirname '$(strip $(MAKEFILE_LIST))')" $(MAKECMDGOALS)
+else
 JOBS ?= $(shell nproc)
 FUZZ_S ?= 300
 HOURS ?= 6
 BUILD := build/release
 SIGN ?= build/packages/packages
 VSA := $(BUILD)/bin/vsa
-CONFIGURE = cmake --preset release -DVSA_COMMANDS=all $(CMAKE_FLAGS) > /dev/null
+CONFIGURE = sh scripts/configure.sh release -DVSA_COMMANDS=all $(CMAKE_FLAGS)
+# Asked when it is needed, since setup.sh may have to install Ninja first.
+QUIET = $$(sh scripts/quiet.sh)
 
 .PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench bench-ratios record-ratios fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage check-coverage soak check-asan check-tsan tidy check-all format \
   check-format stiffness-uses snake-travel packages check-packages check-abi record-abi dist check-dist check-reproducible sign clean
@@ -44,29 +53,29 @@ setup:
 
 build: setup
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) $(QUIET)
 
 # A tree that was never configured gets the first commands, which is half of the compiler's work; `make` adds the others.
 demo: setup
-	@cmake --preset release $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DVSA_COMMANDS=first) $(CMAKE_FLAGS) > /dev/null
-	@cmake --build $(BUILD) -j $(JOBS) --target vsa -- --quiet
+	@sh scripts/configure.sh release $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DVSA_COMMANDS=first) $(CMAKE_FLAGS)
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa $(QUIET)
 	@$(VSA) run snake_rubble --duration-s 20 --gait climb --record out/demo --no-topics
 
 demo-python: setup
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) --target vsasim_python vsa_web -- --quiet
-	@cmake --build $(BUILD) --target demo-python -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) --target vsasim_python vsa_web $(QUIET)
+	@cmake --build $(BUILD) --target demo-python $(QUIET)
 
 test:
 	@sh scripts/setup.sh test
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) $(QUIET)
 	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -LE long
 
 test-long:
 	@sh scripts/setup.sh test
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) $(QUIET)
 	@ctest --test-dir $(BUILD) --output-on-failure -j 1 -L long
 	@sh scripts/test_gazebo.sh $(BUILD) long
 	@sh scripts/test_gz.sh $(BUILD) long
@@ -74,7 +83,7 @@ test-long:
 flakes:
 	@sh scripts/setup.sh test
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) $(QUIET)
 	@bash scripts/flakes.sh $(BUILD)
 
 mutants:
@@ -87,7 +96,7 @@ fuzz:
 test-gazebo:
 	@sh scripts/setup.sh classic
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) --target vsa-gazebo-bench -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa-gazebo-bench $(QUIET)
 	@sh scripts/test_gazebo.sh $(BUILD)
 
 test-gazebo-long:
@@ -99,50 +108,50 @@ bench-gazebo:
 
 test-gz: setup
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) --target vsa-gazebo-bench -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa-gazebo-bench $(QUIET)
 	@sh scripts/test_gz.sh $(BUILD)
 
 validate: setup
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) --target vsa -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa $(QUIET)
 	@$(VSA) validate --out out/validate
 
 docs:
 	@sh scripts/setup.sh test docs
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) --target vsa vsasim_python vsa_web -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa vsasim_python vsa_web $(QUIET)
 	@python3 scripts/docs.py $(BUILD)
 	@node tests/scripts/site.test.mjs $(BUILD)/docs/site $(BUILD)/web/npm || test $$? -eq 77
 
 bench: setup
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) $(QUIET)
 	@sh scripts/bench.sh $(BUILD)
 
 bench-ratios record-ratios: setup
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) --target bench_actuator bench_device bench_snake -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) --target bench_actuator bench_device bench_snake $(QUIET)
 	@python3 bench/measurements/ratios.py $(if $(filter record%,$@),record,compare) $(BUILD)/bin
 
 # The rooms that need no engine, in a debug build.
 check-asan:
 	@sh scripts/setup.sh test
-	@cmake --preset asan > /dev/null
-	@cmake --build build/asan -j $(JOBS) --target core-tests -- --quiet
+	@sh scripts/configure.sh asan
+	@cmake --build build/asan -j $(JOBS) --target core-tests $(QUIET)
 	@ctest --test-dir build/asan --output-on-failure -j 1 -L core
 
 check-tsan:
 	@sh scripts/setup.sh test
-	@cmake --preset tsan > /dev/null
-	@cmake --build build/tsan -j $(JOBS) --target thread-tests -- --quiet
+	@sh scripts/configure.sh tsan
+	@cmake --build build/tsan -j $(JOBS) --target thread-tests $(QUIET)
 	@TSAN_OPTIONS="suppressions='$(CURDIR)/tests/support/tsan.txt' halt_on_error=1" \
 	  ctest --test-dir build/tsan --output-on-failure -j 1 -L threads
 
 # The same of the rooms that need no engine, by their tests: minutes. What earlier runs counted goes.
 check-coverage:
 	@sh scripts/setup.sh test coverage
-	@cmake --preset coverage > /dev/null
-	@cmake --build build/coverage -j $(JOBS) --target core-tests -- --quiet
+	@sh scripts/configure.sh coverage
+	@cmake --build build/coverage -j $(JOBS) --target core-tests $(QUIET)
 	@find build/coverage -name '*.gcda' -delete
 	@ctest --test-dir build/coverage --output-on-failure -j 1 -L core
 	@python3 scripts/coverage.py build/coverage 90 core
@@ -150,8 +159,8 @@ check-coverage:
 # What of include and src the tests run, by rooms; fails below 90 % of the lines.
 coverage:
 	@sh scripts/setup.sh test coverage
-	@cmake --preset coverage > /dev/null
-	@cmake --build build/coverage -j $(JOBS) -- --quiet
+	@sh scripts/configure.sh coverage
+	@cmake --build build/coverage -j $(JOBS) $(QUIET)
 	@find build/coverage -name '*.gcda' -delete
 	@ctest --test-dir build/coverage --output-on-failure -j 1 -LE 'long|browser'
 	@python3 scripts/coverage.py build/coverage 90
@@ -159,33 +168,33 @@ coverage:
 soak:
 	@sh scripts/setup.sh test soak
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) --target vsa vsasim_python vsa_web -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa vsasim_python vsa_web $(QUIET)
 	@/usr/bin/python3 scripts/soak.py $(BUILD) $(HOURS) out/soak
 
 asan:
 	@sh scripts/setup.sh test
-	@cmake --preset asan > /dev/null
-	@cmake --build build/asan -j $(JOBS) -- --quiet
+	@sh scripts/configure.sh asan
+	@cmake --build build/asan -j $(JOBS) $(QUIET)
 	@ctest --test-dir build/asan --output-on-failure -j 1 -LE long
 
 # Sources one by one, as only a tree of its own knows them.
 tidy:
 	@sh scripts/setup.sh tidy
-	@cmake --preset release -B build/tidy -DVSA_COMMANDS=all -DVSA_UNITY=OFF $(CMAKE_FLAGS) > /dev/null
+	@sh scripts/configure.sh release -B build/tidy -DVSA_COMMANDS=all -DVSA_UNITY=OFF $(CMAKE_FLAGS)
 	@python3 scripts/tidy.py build/tidy
 
 check-all: check-format asan check-tsan tidy
 
 format:
-	@git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
+	@files=$$(sh scripts/sources.sh) && printf '%s\n' "$$files" | xargs -d '\n' clang-format -i
 
 check-format:
 	@sh scripts/setup.sh tidy
-	@git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror
+	@files=$$(sh scripts/sources.sh) && printf '%s\n' "$$files" | xargs -d '\n' clang-format --dry-run -Werror
 
 stiffness-uses: setup
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) -j $(JOBS) --target vsa-stiffness-uses -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa-stiffness-uses $(QUIET)
 	@$(BUILD)/bin/vsa-stiffness-uses impact
 	@$(BUILD)/bin/vsa-stiffness-uses gripper
 	@$(BUILD)/bin/vsa-stiffness-uses throw
@@ -203,12 +212,12 @@ packages:
 check-abi record-abi:
 	@sh scripts/setup.sh test
 	@$(CONFIGURE) -DVSA_SHARED=ON
-	@cmake --build $(BUILD) -j $(JOBS) --target vsa_shared -- --quiet
+	@cmake --build $(BUILD) -j $(JOBS) --target vsa_shared $(QUIET)
 	@python3 scripts/abi.py $(@:-abi=) $(BUILD)
 
 dist: setup
 	@$(CONFIGURE)
-	@cmake --build $(BUILD) --target vsa_web -- --quiet
+	@cmake --build $(BUILD) --target vsa_web $(QUIET)
 	@sh scripts/dist.sh $(BUILD)
 
 check-dist: dist
@@ -229,3 +238,4 @@ check-packages: packages
 
 clean:
 	@rm -rf build
+endif

@@ -121,6 +121,7 @@ if(VSA_SIMULATOR)
     DEPENDS "vsasim-data ${same}" ${library_needs} ${development_needs} SUGGESTS "vsasim-doc"
     TEXT ${what} "." "This package has headers, static libraries and a CMake package of the library," "from one actuator that needs the C++ standard library alone to whole worlds.")
   vsa_package(documentation vsasim-doc "simulator of variable stiffness actuators: manual and examples" ALL SECTION doc
+    SUGGESTS "vsasim-data" "libvsasim-dev"
     TEXT ${what} "." "This package has the manual, as Markdown, and examples in C++ and Python.")
 endif()
 vsa_package(doctor vsasim-doctor "checks what Gazebo needs to run vsasim's robots" SECTION science
@@ -151,9 +152,14 @@ if(VSA_GZ_SIM)
     TEXT ${what} "." "This package has the system plug-in for gz-sim ${VSA_GZ_SIM_FOUND}.")
 endif()
 
-install(DIRECTORY docs DESTINATION share/doc/vsasim-doc COMPONENT documentation EXCLUDE_FROM_ALL)
+# Pages whose links lead to what packages have, made anew whenever they are packed.
+install(CODE "execute_process(COMMAND \"${VSA_PYTHON3}\" \"${PROJECT_SOURCE_DIR}/packaging/manual.py\"
+    --out \"${PROJECT_BINARY_DIR}/packaging/manual\" RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR \"packaging/manual.py failed\")
+  endif()" COMPONENT documentation EXCLUDE_FROM_ALL)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/packaging/manual/ DESTINATION share/doc/vsasim-doc COMPONENT documentation EXCLUDE_FROM_ALL)
 install(DIRECTORY examples DESTINATION share/doc/vsasim-doc COMPONENT documentation EXCLUDE_FROM_ALL PATTERN "__pycache__" EXCLUDE)
-install(FILES README.md CONTRIBUTING.md DESTINATION share/doc/vsasim-doc COMPONENT documentation EXCLUDE_FROM_ALL)
 
 # Copyright file and change logs, from the repository's own.
 execute_process(COMMAND ${VSA_PYTHON3} ${PROJECT_SOURCE_DIR}/packaging/prepare.py --version ${PROJECT_VERSION} --release ${VSA_PACKAGE_RELEASE}

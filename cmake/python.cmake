@@ -1,9 +1,11 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #
 # What the Python module needs: an interpreter with headers and NumPy, and pybind11. The system's Python comes before others on the
-# PATH, which seldom have NumPy; -DPython3_EXECUTABLE=… chooses another. Sets VSA_WITH_PYTHON, and says why where it is left out.
+# PATH, which seldom have NumPy; -DPython3_EXECUTABLE=… chooses another. Sets VSA_WITH_PYTHON, and what cmake/found.cmake tells
+# of it: VSA_PYTHON_FOUND_AS, or in VSA_PYTHON_REMEDY why it is left out.
 set(VSA_WITH_PYTHON FALSE)
 set(missing "")
+set(VSA_PYTHON_FOUND_AS "")
 if(NOT VSA_PYTHON)
   set(missing "VSA_PYTHON is off")
 elseif(NOT VSA_SIMULATOR)
@@ -21,12 +23,10 @@ else()
     find_package(pybind11 2.10 CONFIG QUIET)
     if(pybind11_FOUND)
       set(VSA_WITH_PYTHON TRUE)
-      message(STATUS "Python module: for ${Python3_EXECUTABLE} ${Python3_VERSION}, NumPy ${Python3_NumPy_VERSION}, pybind11 ${pybind11_VERSION}")
+      set(VSA_PYTHON_FOUND_AS "Python ${Python3_VERSION}, NumPy ${Python3_NumPy_VERSION}, pybind11 ${pybind11_VERSION}")
     else()
       set(missing "no pybind11 2.10 or later (Debian: pybind11-dev)")
     endif()
   endif()
 endif()
-if(NOT VSA_WITH_PYTHON)
-  message(STATUS "Python module: left out: ${missing}")
-endif()
+set(VSA_PYTHON_REMEDY "${missing}")

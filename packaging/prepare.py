@@ -34,6 +34,14 @@ def newest():
     return match.group(1), int(given) if given else calendar.timegm(time.strptime(match.group(2), "%Y-%m-%d"))
 
 
+def write(path, data):
+    """As Path.write_bytes, and what goes wrong names the file: a full disk's error of Python's doesn't."""
+    try:
+        path.write_bytes(data)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
 def compressed(data):
     """As gzip -9n: neither time nor name within."""
     return gzip.compress(data, 9, mtime=0)
@@ -58,10 +66,13 @@ def main():
     # What changed is in the other log: this one is of the packaging, as Debian asks for it.
     entry = (f"vsasim ({version}-{given.release}) unstable; urgency=medium\n\n  * Version {version}; what changed: changelog.gz.\n\n"
              f" -- {given.maintainer}  {email.utils.formatdate(epoch, localtime=False).replace('-0000', '+0000')}\n")
-    (out / "changelog.Debian.gz").write_bytes(compressed(entry.encode()))
-    (out / "changelog.gz").write_bytes(compressed((ROOT / "CHANGELOG.md").read_bytes()))
-    (out / "copyright").write_bytes((ROOT / "packaging" / "copyright").read_bytes())
+    write(out / "changelog.Debian.gz", compressed(entry.encode()))
+    write(out / "changelog.gz", compressed((ROOT / "CHANGELOG.md").read_bytes()))
+    write(out / "copyright", (ROOT / "packaging" / "copyright").read_bytes())
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except OSError as error:
+        sys.exit(f"prepare.py: {error.filename or ROOT}: {error.strerror}")

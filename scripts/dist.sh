@@ -9,7 +9,12 @@ set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
 out=${2:-build/dist}
-git rev-parse --git-dir >/dev/null 2>&1 || { echo "dist.sh: this isn't a git work tree: an archive is made of a commit" >&2; exit 1; }
+# In git's words: there is no repository, it belongs to somebody else, there is no git.
+top=$(git rev-parse --show-toplevel 2>&1) || { echo "dist.sh: an archive is made of a commit of $PWD: ${top#fatal: }" >&2; exit 1; }
+if [ "$(realpath "$top")" != "$(realpath .)" ]; then
+  echo "dist.sh: an archive is made of a commit of $PWD, which has no repository of its own: it lies in that of $top" >&2
+  exit 1
+fi
 [ -z "$(git status --porcelain --untracked-files=no)" ] || { echo "dist.sh: commit first: the archive is of the last commit" >&2; exit 1; }
 for page in replay.html live.html report.html bundled.json; do
   [ -s "$build/share/vsa/web/$page" ] || { echo "dist.sh: $build has no $page: cmake --build $build --target vsa_web" >&2; exit 1; }

@@ -7,8 +7,8 @@ BUILD is a build tree with `vsa` and the Python module. Into BUILD/docs/site go 
 Doxygen, the Python names by autodoc; a replay page, made anew; sources and folders that pages link to. A page of the repository
 outside docs/ is there as repository/NAME.
 
-Ends with code 1, and a line each, where Sphinx or Doxygen has a complaint (a public C++ name without a docstring is one), or a link
-or picture of a page leads nowhere.
+Ends with code 1, and a line each, where Sphinx or Doxygen has a complaint (a public C++ name without a docstring is one), a link or
+picture of a page leads nowhere, or a file can't be written.
 """
 import html.parser
 import os
@@ -27,6 +27,22 @@ LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^)\s]+)\)")
 PAGE_DIRECTORIES = {".git", "build", "out", "node_modules"}
 
 
+def write_file(path, text):
+    """As Path.write_text, and what goes wrong names the file: a full disk's error of Python's doesn't."""
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+def copy_file(source, path):
+    """As shutil.copyfile, and what goes wrong names the file that couldn't be written."""
+    try:
+        shutil.copyfile(source, path)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
 def run(*command, **options):
     """The command's output; ends the program where it fails."""
     done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
@@ -38,6 +54,7 @@ def run(*command, **options):
 class Doxygen:
     """The C++ pages: where each header's is, and what Doxygen complains about."""
 
+    COMPLAINT = re.compile(r"(?:^|: )(?:warning|error): ")
     # What says nothing beyond its signature: operators, what is moved, copied or defaulted, and the walk over a state's fields
     # (vsa/state_walk.hpp), whose contract stands at state::Sink.
     SILENT = re.compile(r"Member (operator\W|~|(fields|impossible|decode_reply< .* >)\(|.*(&&|=default).*\(function\))"
@@ -52,7 +69,7 @@ class Doxygen:
                      f'OUTPUT_DIRECTORY = "{into}"\nPROJECT_NUMBER = {version}\nWARN_LOGFILE = "{self.log}"\nGENERATE_TAGFILE = "{self.tags}"\n')
         run("doxygen", "-", input=settings)
         self.pages = {}
-        compounds = list(xml.etree.ElementTree.parse(self.tags).getroot().iter("compound")) if self.tags.is_file() else []
+        compounds = list(self.read_tags().iter("compound")) if self.tags.is_file() else []
         # Who looked at no header has no complaint either; namespaces it has from namespaces.dox.
         if all(c.get("kind") == "namespace" for c in compounds):
             said = self.log.read_text(encoding="utf-8") if self.log.is_file() else ""
@@ -63,12 +80,21 @@ class Doxygen:
                 page = compound.findtext("filename", "")
                 self.pages["include/" + path] = page if page.endswith(".html") else page + ".html"
 
+    def read_tags(self):
+        """Doxygen ends with code 0 on a full disk, too, and leaves half a file."""
+        try:
+            return xml.etree.ElementTree.parse(self.tags).getroot()
+        except xml.etree.ElementTree.ParseError as error:
+            free_MB = shutil.disk_usage(self.tags).free >> 20
+            sys.exit(f"docs.py: {self.tags}: Doxygen didn't write all of it ({error}); {free_MB} MB are free on that disk")
+
     def warnings(self):
-        return [line for line in self.log.read_text(encoding="utf-8").splitlines() if ": warning: " in line]
+        """What it warns of, and its errors: those of programs that it calls among them."""
+        return [line for line in self.log.read_text(encoding="utf-8").splitlines() if self.COMPLAINT.search(line)]
 
     def complaints(self):
         """A public name without a docstring, and whatever else Doxygen finds wrong."""
-        return [line for line in self.warnings() if not self.SILENT.match(line.split(": warning: ", 1)[1])]
+        return [line for line in self.warnings() if not self.SILENT.match(self.COMPLAINT.split(line, 1)[-1])]
 
 
 class Stage:
@@ -106,13 +132,13 @@ class Stage:
             self.done.add(place)
             target = self.extra / place
             target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(path, target)
+            copy_file(path, target)
         return place
 
     def write(self, place, text):
         target = self.extra / place
         target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(text, encoding="utf-8")
+        write_file(target, text)
 
     @staticmethod
     def up(page, place):
@@ -141,7 +167,7 @@ class Stage:
     def picture(self, path):
         place = self.place(path)
         place.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(path, place)
+        copy_file(path, place)
         return place
 
     def add(self, page):
@@ -160,7 +186,7 @@ class Stage:
         elif not page.is_relative_to(ROOT / "docs"):
             out = "---\norphan: true\n---\n\n" + out
         place.parent.mkdir(parents=True, exist_ok=True)
-        place.write_text(out, encoding="utf-8")
+        write_file(place, out)
         while self.wanted:
             self.add(self.wanted.pop())
 
@@ -200,20 +226,23 @@ class Links(html.parser.HTMLParser):
 
 
 def dead_links(site):
-    """Of Sphinx's pages: links and pictures that lead nowhere, and whatever is loaded from the net."""
-    pages = {p: Links(p) for p in site.rglob("*.html") if not p.is_relative_to(site / "cpp") and not p.is_relative_to(site / "replay")}
+    """Of Sphinx's and Doxygen's pages: links and pictures that lead nowhere, and whatever is loaded from the net."""
+    files = {str(p) for p in site.rglob("*") if p.is_file()}
+    pages = {str(p): Links(p) for p in site.rglob("*.html") if not p.is_relative_to(site / "replay")}
+    doxygens = str(site / "cpp") + os.sep  # whose summaries lead to sections that a page may lack
     wrong = []
     for page, links in pages.items():
-        name = page.relative_to(site)
+        name = os.path.relpath(page, site)
         wrong += [f"{name}: loads {url}" for url in links.loads if re.match(r"(https?:)?//", url)]
         for url in links.targets + links.loads:
             if re.match(r"[a-z]+:|//", url):
                 continue
             target, _, anchor = url.partition("#")
-            path = (page.parent / urllib.parse.unquote(target.split("?")[0])).resolve() if target else page
-            if not path.is_file():
+            # By their names: to ask the disk about each of Doxygen's 65,000 takes long.
+            path = os.path.normpath(os.path.join(os.path.dirname(page), urllib.parse.unquote(target.split("?")[0]))) if target else page
+            if path not in files:
                 wrong.append(f"{name}: {url} leads nowhere")
-            elif anchor and path in pages and urllib.parse.unquote(anchor) not in pages[path].anchors:
+            elif anchor and not page.startswith(doxygens) and path in pages and urllib.parse.unquote(anchor) not in pages[path].anchors:
                 wrong.append(f"{name}: {url}: no such place on that page")
     return wrong
 
@@ -223,7 +252,7 @@ def record_replay(build, stage):
     out = stage.into.parent / "recorded"
     run(build / "bin/vsa", "run", "snake_flat", "--gait", "sidewind", "--duration-s", "6", "--record", out, "--no-topics")
     (stage.extra / "replay").mkdir()
-    shutil.copyfile(out / "replay.html", stage.extra / "replay/snake.html")
+    copy_file(out / "replay.html", stage.extra / "replay/snake.html")
 
 
 def sphinx(build, stage, site, version):
@@ -257,7 +286,7 @@ def main(build):
     for page in sorted((ROOT / "docs").rglob("*.md")):
         stage.add(page)
     for page in sorted((ROOT / "scripts/site").glob("*.md")):
-        shutil.copyfile(page, stage.into / page.name)
+        copy_file(page, stage.into / page.name)
     record_replay(build, stage)
     wrong += stage.wrong + sphinx(build, stage, site, version) + dead_links(site)
     for line in wrong:
@@ -266,10 +295,17 @@ def main(build):
     return 1 if wrong else 0
 
 
+def program(arguments):
+    if arguments == ["names"]:
+        return main_of_names()
+    if len(arguments) != 1 or not (pathlib.Path(arguments[0]) / "bin/vsa").is_file():
+        print(f"docs.py: {' '.join(arguments) or 'nothing'}: not a build tree with bin/vsa; usage: docs.py BUILD | docs.py names", file=sys.stderr)
+        return 2
+    return main(pathlib.Path(arguments[0]).resolve())
+
+
 if __name__ == "__main__":
-    if sys.argv[1:] == ["names"]:
-        sys.exit(main_of_names())
-    if len(sys.argv) != 2 or not (pathlib.Path(sys.argv[1]) / "bin/vsa").is_file():
-        print(f"docs.py: {' '.join(sys.argv[1:]) or 'nothing'}: not a build tree with bin/vsa; usage: docs.py BUILD | docs.py names", file=sys.stderr)
-        sys.exit(2)
-    sys.exit(main(pathlib.Path(sys.argv[1]).resolve()))
+    try:
+        sys.exit(program(sys.argv[1:]))
+    except OSError as error:
+        sys.exit(f"docs.py: {error.filename or ROOT}: {error.strerror}")

@@ -15,7 +15,8 @@ command -v $clang >/dev/null 2>&1 || clang=clang++-19
 
 cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DVSA_FUZZ=ON -DVSA_SIMULATOR=OFF -DVSA_BENCH=OFF -DVSA_TESTS=OFF \
   -DCMAKE_CXX_COMPILER=$clang -Wno-dev >/dev/null
-cmake --build build/fuzz --target fuzz_frame fuzz_unit -- --quiet
+# shellcheck disable=SC2046 # none or two words
+cmake --build build/fuzz --target fuzz_frame fuzz_unit $(sh scripts/quiet.sh)
 
 run() {
   mkdir -p "build/fuzz/corpus/$1"

@@ -89,7 +89,7 @@ def configure():
 def build(target):
     """None, or what the compiler said."""
     jobs = os.environ.get("MUTANTS_JOBS", "1")
-    command = ["cmake", "--build", str(BUILD), "-j", jobs, "--target", target, "--", "--quiet"]
+    command = ["cmake", "--build", str(BUILD), "-j", jobs, "--target", target]
     run = subprocess.run(command, cwd=TREE, capture_output=True, text=True)
     if run.returncode == 0:
         return None

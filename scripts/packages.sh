@@ -30,9 +30,10 @@ start=$(date +%s)
 if [ -f "$build/CMakeCache.txt" ]; then
   cmake "$build" -DCMAKE_INSTALL_PREFIX=/usr -DVSA_PACKAGES=ON -DVSA_SHARED=ON ${CMAKE_FLAGS:-} >/dev/null
 else
-  cmake --preset packages -B "$build" ${CMAKE_FLAGS:-} >/dev/null
+  sh scripts/configure.sh packages -B "$build" ${CMAKE_FLAGS:-}
 fi
-cmake --build "$build" -j "$jobs" -- --quiet
+# shellcheck disable=SC2046 # none or two words
+cmake --build "$build" -j "$jobs" $(sh scripts/quiet.sh)
 say "built after $(($(date +%s) - start)) s"
 rm -rf "$build/packages" "$build/_CPack_Packages"
 (cd "$build" && cpack -G DEB >cpack.log 2>&1) || { tail -n 20 "$build/cpack.log" >&2; exit 1; }

@@ -6,12 +6,14 @@ set -eu
 codename=$([ ! -r /etc/os-release ] || { . /etc/os-release && echo "${VERSION_CODENAME:-}"; })
 
 packages="
-  build-essential cmake ninja-build pkg-config git ca-certificates
+  build-essential cmake ninja-build pkg-config ca-certificates
   libqhull-dev libgl-dev libopengl-dev liblodepng-dev libzip-dev
   libtomlplusplus-dev libtinyxml2-dev libcli11-dev libfmt-dev nlohmann-json3-dev libboost-dev libceres-dev libeigen3-dev libnlopt-cxx-dev libhdf5-dev libpagmo-dev
   libgtest-dev libbenchmark-dev python3-yaml
   python3-dev python3-numpy pybind11-dev
 "
+# Only a repository has commits to ask about: an archive of the sources is built without it.
+[ ! -e "$(dirname "$0")/../.git" ] || packages="$packages git"
 browser=chromium
 tried=yes
 clang=14

@@ -34,7 +34,8 @@ if [ "$what" = test ]; then
 fi
 cmake -S . -B build/gz -G Ninja -DCMAKE_BUILD_TYPE=Release -DVSA_SIMULATOR=OFF -DVSA_TESTS=OFF -DVSA_BENCH=OFF -DVSA_GZ_SIM=ON \
   -DVSA_GAZEBO_TESTS=ON -DCMAKE_PREFIX_PATH="$prefix" -Wno-dev >/dev/null
-cmake --build build/gz -- --quiet
+# shellcheck disable=SC2046 # none or two words
+cmake --build build/gz $(sh scripts/quiet.sh)
 cd build/gz
 case "$what" in
   test) ctest --output-on-failure -LE long ;;

@@ -12,6 +12,7 @@
 #include "doctor/checks.hpp"
 #include "doctor/doctor.hpp"
 #include "terminal/exit_codes.hpp"
+#include "terminal/old_spellings.hpp"
 #include "vsa/config/plugin_xml.hpp"
 #include "vsa/errors.hpp"
 
@@ -68,6 +69,7 @@ int main(int argc, char** argv) {
       std::cerr << "usage: vsa-doctor [WORLD.sdf]\n";
       return first == "--help" && argc == 2 ? vsa::app::kDone : vsa::app::kBadInput;
     }
+    vsa::app::tell_old_spellings("vsa-doctor");
     vsa::app::DoctorOptions options;
     options.world = first;
     return vsa::app::run_doctor(options, vsa::app::read_elements);

@@ -22,6 +22,7 @@
 #include "sweep/optimize.hpp"
 #include "terminal/exit_codes.hpp"
 #include "terminal/interrupt.hpp"
+#include "terminal/old_spellings.hpp"
 #include "vsa/errors.hpp"
 
 namespace {
@@ -264,6 +265,7 @@ int main(int argc, char** argv) {
       if (job->rank() != 0) return error.get_exit_code() == 0 ? kDone : kBadInput;
       return app.exit(error) == 0 ? kDone : kBadInput;
     }
+    if (job->rank() == 0) tell_old_spellings("vsa-mpi");  // every rank reads the same
     if (!identifies->parsed()) return run(*job, searches->parsed() ? to_search : options);
     if (first_does(*job, check_mixture) != kDone) return kBadInput;
     check_mixture();

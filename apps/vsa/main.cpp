@@ -18,6 +18,7 @@
 #include "terminal/exit_codes.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/man_page.hpp"
+#include "terminal/old_spellings.hpp"
 #include "terminal/unknown_word.hpp"
 #include "unit/emulate.hpp"
 #include "unit/get.hpp"
@@ -111,6 +112,7 @@ int run_application(int argc, char** argv) {
   std::vector<std::string> arguments = with_names_of_now({argv + (argc > 0 ? 1 : 0), argv + argc});
   understand_help(arguments);
   if (tell_about(app, arguments)) return vsa::app::kDone;
+  vsa::app::tell_old_spellings("vsa");
   refuse_empty(argc, argv);
   vsa::app::refuse_unknown_command(app, arguments, vsa::app::commands_left_out());
   try {

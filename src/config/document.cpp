@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/met.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::config {
@@ -45,7 +46,7 @@ class DocumentReader {
     for (const auto& [key, node] : root) {
       std::string group(key.str());
       if (group == "preset" && !root.contains("type")) {
-        doc_.notices.push_back(doc_.place(line_of(node)) + ": " + renamed_text("[preset]", "[type]"));
+        met_old_spelling(doc_.place(line_of(node)) + ": " + renamed_text("[preset]", "[type]"), doc_.notices);
         group = "type";
       }
       const toml::table* table = node.as_table();

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "config/build.hpp"
+#include "config/met.hpp"
 #include "vsa/config/actuator_type.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/files.hpp"
@@ -93,12 +94,12 @@ void TypeLibrary::search_standard_directories() {
   add_path("VSA_ACTUATOR_PATH", directories_);
   const std::size_t of_now = directories_.size();
   add_path("VSA_PRESET_PATH", directories_);
-  if (directories_.size() > of_now) notices_.push_back(renamed_text("VSA_PRESET_PATH", "VSA_ACTUATOR_PATH"));
+  if (directories_.size() > of_now) met_old_spelling(renamed_text("VSA_PRESET_PATH", "VSA_ACTUATOR_PATH"), notices_);
   for (const fs::path& data : data_directories()) {
     directories_.push_back(data / "actuators");
     if (toml_files(data / "presets").empty()) continue;
     directories_.push_back(data / "presets");
-    notices_.push_back(renamed_text((data / "presets").string(), "actuators"));
+    met_old_spelling(renamed_text((data / "presets").string(), "actuators"), notices_);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/met.hpp"
 #include "config/older_plugins.hpp"
 #include "config/xml_reader.hpp"
 #include "vsa/config/plugin_draft.hpp"
@@ -104,7 +105,7 @@ class Parser {
     if (e.FirstChildElement("preset") == nullptr) return required_text(e, path, "type");
     if (e.FirstChildElement("type") != nullptr)
       xml_.add(path + "/preset", "", "is an old name of type, which is given too", "one <type>");
-    if (notices_.empty()) notices_.push_back(where_ + ": " + renamed_text("<preset>", "<type>"));
+    if (notices_.empty()) met_old_spelling(where_ + ": " + renamed_text("<preset>", "<type>"), notices_);
     return required_text(e, path, "preset");
   }
 

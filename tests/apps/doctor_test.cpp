@@ -58,8 +58,9 @@ void expect_none(const Result& result, const std::string& part) {
 TEST(Doctor, FindsNothingWrongWhereOnlyTheCommandIs) {
   const Result result = Machine().doctor();
   expect(result, 0,
-         {"ok: data directory: ", "ok: actuator types: ", "ok: built-in worlds: ", "ok: partition: ", "ok: address: ",
-          "ok: serial port: no ttyUSB", "ok: --low-latency: ", "0 problems"});
+         {"ok: embedded engine: by MuJoCo ", ": Python module: ", ": HDF5 tables: ", ": second search of vsa optimize: ",
+          ": vsa-mpi: ", "ok: data directory: ", "ok: actuator types: ", "ok: built-in worlds: ", "ok: partition: ",
+          "ok: address: ", "ok: serial port: no ttyUSB", "ok: --low-latency: ", "0 problems"});
   EXPECT_EQ(result.err, "");
   expect_none(result, "\033");
 }

@@ -115,6 +115,38 @@ TEST(Usage, AWordNobodyKnowsIsNamedWithTheNearestThatMeansSomething) {
   expect_bad_input(run_vsa({"actuators", "qbmove_maker_pro_6_1", "twice"}), {"vsa: actuators: twice: one word too many"});
 }
 
+/// By whichever command, once each, and by none that reads no type.
+TEST(Usage, OldSpellingsOfTypesAreToldByEveryCommandThatReadsOne) {
+  const Scratch scratch;
+  write_file(scratch / "old.toml", "[preset]\nname = \"old\"\ntitle = \"T\"\nbase = \"sea_example\"\n");
+  vsa::test::Surroundings with;
+  with.environment = {{"VSA_PRESET_PATH", (scratch / "old.toml").parent_path().string()}};
+  const auto expect_told = [](const std::string& what, const std::string& told) {
+    for (const char* part : {"VSA_PRESET_PATH is called VSA_ACTUATOR_PATH now", "old.toml:1: [preset] is called [type] now"}) {
+      const std::size_t at = told.find(part);
+      ASSERT_NE(at, std::string::npos) << what << " doesn't say '" << part << "':\n" << told;
+      EXPECT_EQ(told.find(part, at + 1), std::string::npos) << what << " says it twice:\n" << told;
+    }
+  };
+  const std::string out = scratch / "out";
+  const std::vector<std::vector<std::string>> commands{
+      {"actuators"},
+      {"actuators", "old"},
+      {"run", "bench_free", "--type", "old", "--duration-s", "0.01", "--no-topics"},
+      {"linearize", "old", "--out", out},
+      {"export", "--fmu", "old", "--out", scratch / "old.fmu"},
+      {"characterize", "old", "--experiment", "speed", "--out", out},
+      {"datasheet", "old", "--out", scratch / "old.html"},
+      {"emulate", "old", "--port", "/"}};
+  for (const auto& command : commands) {
+    const Result result = run_vsa(command, with);
+    EXPECT_EQ(result.out.find(" now: "), std::string::npos) << command[0] << ": " << result.out;
+    expect_told(command[0], result.err);
+  }
+  EXPECT_EQ(run_vsa({"actuators", "--help"}, with).err, "");
+  EXPECT_EQ(run_vsa({"--complete", "actuators", ""}, with).err, "");
+}
+
 TEST(Usage, AnEmptyArgumentIsRefusedAndNamed) {
   expect_bad_input(run_vsa({"run", "bench_free", "--duration-s", "0.01", "--record", ""}), {"--record", "empty"});
   expect_bad_input(run_vsa({"command", "10", "20", "--joint", ""}), {"--joint", "empty"});

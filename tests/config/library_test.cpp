@@ -11,6 +11,7 @@
 
 #include "support.hpp"
 #include "vsa/config/installed.hpp"
+#include "vsa/config/notices.hpp"
 #include "vsa/config/schema.hpp"
 #include "vsa/config/text.hpp"
 
@@ -201,6 +202,22 @@ TEST(TypeLibrary, OldSpellingsAreUnderstoodAndTold) {
   expect_pieces(type.notices[0], {"sea_example.toml:", "[preset] is called [type] now"});
   EXPECT_TRUE(shipped().load("sea_example").notices.empty());
   EXPECT_TRUE(shipped().notices().empty());
+}
+
+TEST(TypeLibrary, AListenerHearsOldSpellingsOfLibrariesTypesAndTheirBases) {
+  const Directory own("own");
+  own.write("base_of_old.toml", replaced(replaced(read(source_dir() / "actuators/sea_example.toml"), "[type]", "[preset]"),
+                                         "name = \"sea_example\"", "name = \"base_of_old\""));
+  own.write("made_of_it.toml", "[type]\nname = \"made_of_it\"\ntitle = \"T\"\nbase = \"base_of_old\"\n");
+  const Environment path("VSA_PRESET_PATH", own.path().string());
+  std::vector<std::string> heard;
+  config::listen_to_notices([&](const std::string& notice) { heard.push_back(notice); });
+  static_cast<void>(TypeLibrary().load("made_of_it"));
+  config::listen_to_notices({});
+  static_cast<void>(TypeLibrary().load("made_of_it"));
+  ASSERT_EQ(heard.size(), 2u);
+  expect_pieces(heard[0], {"VSA_PRESET_PATH is called VSA_ACTUATOR_PATH now"});
+  expect_pieces(heard[1], {"base_of_old.toml:", "[preset] is called [type] now"});
 }
 
 TEST(DataDirectory, IsFoundFromAnExecutableInTheBuildTree) {

@@ -31,7 +31,8 @@ sh scripts/setup.sh
 # shellcheck disable=SC2086 # CMAKE_FLAGS is words
 cmake --preset release ${CMAKE_FLAGS:-} >"$work/configured" || { cat "$work/configured"; fail "configuring"; }
 grep -q "pages: the source archive's" "$work/configured" || fail "the pages aren't the archive's"
-cmake --build build/release -j "${JOBS:-$(nproc)}" --target vsa -- --quiet
+# shellcheck disable=SC2046 # none or two words
+cmake --build build/release -j "${JOBS:-$(nproc)}" --target vsa $(sh scripts/quiet.sh)
 built=$(($(date +%s) - start))
 build/release/bin/vsa run snake_rubble --duration-s 2 --gait climb --record "$work/out" --no-topics >/dev/null
 grep -q 'id="licences"' "$work/out/replay.html" || fail "the run has no page"

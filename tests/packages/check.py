@@ -3,6 +3,7 @@
 
 contents      every package has its files where Debian wants them, owned by root, none in two packages, none elsewhere
 dependencies  ours on each other at the same version; each shared library that a program needs is of a package it depends on
+links         of the manual lead to what a package has
 paths         nothing names the tree or the folder that it was built in
 scripts       only the Python package has maintainer scripts
 use           unpacked into a folder, the command runs a shipped world, a C++ program is built with find_package, Python imports the module
@@ -25,6 +26,9 @@ import subprocess
 import sys
 import tarfile
 import tempfile
+
+sys.dont_write_bytecode = True
+import links  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ABI = ".".join(re.search(r"^project\(vsasim VERSION (\d+)\.(\d+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.M).groups())
@@ -119,6 +123,15 @@ def check_documents(p, version):
         head = f.read_bytes()[:10]
         if head[3] & 0x08 or head[4:8] != b"\0\0\0\0":
             wrong(f"{p.name}: {f.relative_to(p.tree)} holds a name or a time")
+
+
+def check_links(p, packages):
+    """Of the manual, to what any of the packages has."""
+    count, dead = links.dead_links(p.tree / links.PAGES, lambda path: any((q.tree / path).exists() for q in packages.values()))
+    for line in dead:
+        wrong(f"{p.name}: {line}")
+    if count < 300:
+        wrong(f"{p.name}: the manual has {count} links, which is too few to be all")
 
 
 @functools.lru_cache(maxsize=None)
@@ -326,6 +339,8 @@ def main():
         versions = {p.version for p in packages.values()}
         if len(versions) != 1:
             wrong(f"packages have different versions: {sorted(versions)}")
+        if "vsasim-doc" in packages:
+            check_links(packages["vsasim-doc"], packages)
         owner = {}
         secret = [str(p.resolve()).encode() for p in [ROOT, *given.built_in]]
         for p in packages.values():

@@ -122,7 +122,7 @@ int run_doctor(const DoctorOptions& options, LoadingCheck check_loading, const s
     if (feature.is_in()) {
       findings.ok(name, "by " + std::string(feature.found_as));
     } else {
-      findings.note(name, "left out of this build, which found no library", std::string(feature.remedy));
+      findings.note(name, "left out of this build", std::string(feature.remedy));
     }
   }
   check_data(findings);

@@ -30,7 +30,14 @@ void setup_doctor(CLI::App& app, int& exit_code) {
       ->check(CLI::ExistingDirectory);
   sub->footer(kDoctorNotes);
   sub->callback([options, &exit_code] {
-    exit_code = run_doctor(*options, load_world, {reader::sdf_feature(), topics::topics_feature()});
+    exit_code = run_doctor(*options, load_world,
+                           {{VSA_MUJOCO_NAME, VSA_MUJOCO_FOUND_AS, VSA_MUJOCO_REMEDY},
+                            reader::sdf_feature(),
+                            topics::topics_feature(),
+                            {VSA_PYTHON_NAME, VSA_PYTHON_FOUND_AS, VSA_PYTHON_REMEDY},
+                            {VSA_HDF5_NAME, VSA_HDF5_FOUND_AS, VSA_HDF5_REMEDY},
+                            {VSA_PAGMO_NAME, VSA_PAGMO_FOUND_AS, VSA_PAGMO_REMEDY},
+                            {VSA_MPI_NAME, VSA_MPI_FOUND_AS, VSA_MPI_REMEDY}});
   });
 }
 

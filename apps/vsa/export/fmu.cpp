@@ -9,6 +9,7 @@
 
 #include "terminal/exit_codes.hpp"
 #include "vsa/config/find_file.hpp"
+#include "vsa/config/notices.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/files.hpp"
@@ -58,6 +59,12 @@ fmu::PackagePlan unit_package(const FmuOptions& o, const config::ActuatorType& t
   return plan;
 }
 
+/// Old spellings in them were told of the files that they are copies of.
+void write_copies(const fmu::Resources& resources, const fs::path& folder) {
+  config::listen_to_notices({});
+  fmu::write_resources(resources, folder);
+}
+
 int export_unit(const FmuOptions& o, const config::TypeLibrary& library, const fs::path& file) {
   fmu::UnitPlan plan;
   plan.type = o.fmu;
@@ -70,7 +77,7 @@ int export_unit(const FmuOptions& o, const config::TypeLibrary& library, const f
   const fmu::Resources resources = fmu::unit_resources(library, plan);
   // The model that describes itself is made of what goes into the file, as its library will make it.
   const vsa::TemporaryFolder folder;
-  fmu::write_resources(resources, folder.path());
+  write_copies(resources, folder.path());
   const auto model = fmu::open_unit(folder.path());
   fmu::write_package(*model, resources, unit_package(o, model->type()), file);
   std::cout << fmt::format("written: {} (FMI {}.0, {} variables)\n", file.string(), o.fmi, model->variables().size());
@@ -82,7 +89,7 @@ int export_world(const FmuOptions& o, const config::TypeLibrary& library, const 
     throw InputError({"", "--names, --coupling, --load-inertia-kgm2", o.fmu, "are for one actuator: this is a world", ""});
   const fmu::Resources resources = fmu::world_resources(library, {o.fmu, config::parse_overrides(o.set, "--set")});
   const vsa::TemporaryFolder folder;
-  fmu::write_resources(resources, folder.path());
+  write_copies(resources, folder.path());
   const auto model = fmu::open_world(folder.path());
   fmu::PackagePlan plan;
   plan.name = fs::path(o.fmu).stem().string();

@@ -23,6 +23,15 @@ namespace {
 constexpr double kTravelRate_Hz = 100;
 constexpr std::chrono::milliseconds kIdleWait{100};
 
+/// Those were told when they were met (terminal/old_spellings.hpp).
+bool is_old_spelling(const std::string& warning, const engine::World& world) {
+  for (std::size_t i = 0; i < world.robot_count(); ++i) {
+    const std::vector<std::string>& notices = world.robot(i).config().notices;
+    if (std::find(notices.begin(), notices.end(), warning) != notices.end()) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 RunSession::RunSession(const RunOptions& options, Console& console)
@@ -36,7 +45,8 @@ RunSession::RunSession(const RunOptions& options, Console& console)
       control_(options.paused),
       travel_(travel_window_s_, std::max(1 / kTravelRate_Hz, world_.step_s())),
       travel_cadence_(kTravelRate_Hz) {
-  for (const auto& warning : world_.warnings()) console_.line("warning: " + warning);
+  for (const auto& warning : world_.warnings())
+    if (!is_old_spelling(warning, world_)) console_.line("warning: " + warning);
   if (world_.robot_count() == 0)
     console_.line("warning: the world has no actuator: no model that moves has a <plugin name=\"vsa::Robot\">");
   scenario::break_robots(world_, options_.faults);

@@ -1,0 +1,36 @@
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#
+# What the configure step and `vsa doctor` say of the other features, beside those of cmake/features.cmake:
+#   VSA_FOUND_FEATURES   their names in variables
+#   VSA_X_NAME, VSA_X_FOUND_AS, VSA_X_REMEDY   for people; FOUND_AS is empty where one is left out
+set(VSA_FOUND_FEATURES MUJOCO PYTHON HDF5 PAGMO MPI)
+set(VSA_MUJOCO_NAME "embedded engine")
+set(VSA_MUJOCO_FOUND_AS "MuJoCo ${mujoco_VERSION}")
+set(VSA_PYTHON_NAME "Python module")  # VSA_PYTHON_FOUND_AS and VSA_PYTHON_REMEDY are cmake/python.cmake's
+set(VSA_HDF5_NAME "HDF5 tables")
+set(VSA_HDF5_REMEDY "install libhdf5-dev and build again")
+set(VSA_HDF5_FOUND_AS "")
+if(hdf5_FOUND)
+  set(VSA_HDF5_FOUND_AS "HDF5 ${hdf5_VERSION}")
+endif()
+set(VSA_PAGMO_NAME "second search of vsa optimize")
+set(VSA_PAGMO_REMEDY "install libpagmo-dev and build again")
+set(VSA_PAGMO_FOUND_AS "")
+if(Pagmo_FOUND)
+  set(VSA_PAGMO_FOUND_AS "pagmo ${Pagmo_VERSION}")
+endif()
+set(VSA_MPI_NAME "vsa-mpi")
+set(VSA_MPI_REMEDY "install libopenmpi-dev and openmpi-bin, or sh scripts/setup.sh mpi, and build again")
+set(VSA_MPI_FOUND_AS "")
+if(MPI_CXX_FOUND)
+  set(VSA_MPI_FOUND_AS "MPI ${MPI_CXX_VERSION}")
+endif()
+if(VSA_SIMULATOR)
+  foreach(feature IN LISTS VSA_FOUND_FEATURES)
+    if(VSA_${feature}_FOUND_AS)
+      message(STATUS "${VSA_${feature}_NAME}: ${VSA_${feature}_FOUND_AS}")
+    else()
+      message(STATUS "${VSA_${feature}_NAME}: left out: ${VSA_${feature}_REMEDY}")
+    endif()
+  endforeach()
+endif()

@@ -1,0 +1,108 @@
+#!/bin/sh
+# Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
+#
+# build_scripts.sh ROOT: what make and the scripts say where a tool is old, a tree has no repository or not one of its own. Tools are
+# stand-ins here, and trees hold what is asked about only.
+set -eu
+root=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "build_scripts: $*" >&2; exit 1; }
+
+# stand_in NAME TEXT: a program that says TEXT.
+mkdir "$work/bin"
+stand_in() { printf '#!/bin/sh\nprintf "%%s\\n" "%s"\n' "$2" >"$work/bin/$1" && chmod +x "$work/bin/$1"; }
+with() { PATH="$work/bin:$PATH" "$@"; }
+
+# Ninja's option.
+for version in 1.10.1 1.8.2; do
+  stand_in ninja "$version"
+  [ -z "$(with sh "$root/scripts/quiet.sh")" ] || fail "Ninja $version gets --quiet"
+done
+for version in 1.11 1.11.1 1.12.1 2.0.git; do
+  stand_in ninja "$version"
+  [ "$(with sh "$root/scripts/quiet.sh")" = "-- --quiet" ] || fail "Ninja $version doesn't get --quiet"
+done
+
+# CMake's version, and what a build lacks.
+stand_in cmake "cmake version 3.18.4"
+! with sh "$root/scripts/configure.sh" release >"$work/out" 2>&1 || fail "CMake 3.18 is taken"
+grep -q "3.18.4, $work/bin/cmake (allowed: 3.21 or later)" "$work/out" || fail "CMake 3.18: $(cat "$work/out")"
+stand_in cmake "cmake version 3.25.1
+-- topics: left out: no library found
+-- Found PkgConfig: yes"
+[ "$(with sh "$root/scripts/configure.sh" release 2>&1)" = "configure: topics: left out: no library found" ] ||
+  fail "configuring says: $(with sh "$root/scripts/configure.sh" release 2>&1)"
+
+# A tree without a repository, below another's: its sources are found, and no archive is made of it.
+tree="$work/a tree"
+mkdir -p "$tree/scripts" "$tree/src/build" "$tree/build" "$tree/.hidden" "$tree/web/node_modules"
+cp "$root/scripts/sources.sh" "$root/scripts/dist.sh" "$tree/scripts"
+cp "$root/Makefile" "$tree"
+! sh "$tree/scripts/sources.sh" >"$work/out" 2>&1 || fail "a tree without a source is fine"
+for file in src/a.cpp src/b.hpp build/c.cpp .hidden/d.cpp web/node_modules/e.hpp src/f.txt; do : >"$tree/$file"; done
+[ "$(sh "$tree/scripts/sources.sh" | tr '\n' ' ')" = "src/a.cpp src/b.hpp " ] || fail "sources: $(sh "$tree/scripts/sources.sh")"
+! sh "$tree/scripts/dist.sh" >"$work/out" 2>&1 || fail "an archive without a repository"
+! grep -q "File exists" "$work/out" || fail "$(cat "$work/out")"
+if command -v git >/dev/null; then
+  git -c init.defaultBranch=main init -q "$work"
+  ! sh "$tree/scripts/dist.sh" >"$work/out" 2>&1 || fail "an archive of another's repository"
+  grep -q "it lies in that of $work" "$work/out" || fail "an archive of another's repository: $(cat "$work/out")"
+  # git refuses: nothing is looked at, and that isn't fine.
+  : >"$tree/.git"
+  ! sh "$tree/scripts/sources.sh" >/dev/null 2>&1 || fail "sources where git fails"
+  ! make -s -C "$tree" format >/dev/null 2>&1 || fail "make format where git fails"
+  rm "$tree/.git"
+  if [ "$(id -u)" -eq 0 ]; then
+    git -c init.defaultBranch=main init -q "$tree"
+    chown -R 12345 "$tree"
+    ! sh "$tree/scripts/dist.sh" >"$work/out" 2>&1 || fail "an archive of a repository that git doesn't trust"
+    grep -q "dubious ownership" "$work/out" || fail "a repository that git doesn't trust: $(cat "$work/out")"
+    chown -R 0 "$tree" && rm -rf "$tree/.git"
+  fi
+fi
+
+# Only a repository needs git: the sources' archive is built without. Nothing is installed, and nothing is what would be.
+for tool in dpkg-query apt-get sudo; do stand_in "$tool" ""; done
+cp "$root/scripts/setup.sh" "$tree/scripts"
+! with sh "$tree/scripts/setup.sh" 2>&1 | grep -w git || fail "setup.sh asks for git where there is no repository"
+: >"$tree/.git"
+with sh "$tree/scripts/setup.sh" | grep -qw git || fail "setup.sh doesn't ask for git in a repository"
+rm "$tree/.git"
+
+# A file that can't be written, as on a full disk, is one line.
+version=$(sed -n 's/^project(vsasim VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
+cant() { (ulimit -f 0 && ! python3 -B "$@" 2>&1) || fail "$1 writes where nothing can be written"; }
+said=$(cant "$root/packaging/prepare.py" --version "$version" --release 1 --maintainer m --out "$work/packaging")
+[ "$said" = "prepare.py: $work/packaging/changelog.Debian.gz: File too large" ] || fail "prepare.py: $said"
+said=$(cant "$root/packaging/manual.py" --out "$work/manual")
+echo "$said" | grep -qx "manual.py: $work/manual/.*: File too large" || fail "manual.py: $said"
+
+# Missing libraries are told all at once, with what brings them.
+mkdir "$work/needs"
+cat >"$work/needs/CMakeLists.txt" <<EOF
+cmake_minimum_required(VERSION 3.18)
+project(needs LANGUAGES NONE)
+include("$root/cmake/required.cmake")
+set(old_DIR "$work/needs")
+vsa_need_package(old libold-dev 9.1)
+vsa_need_package(nosuch libnosuch-dev)
+find_path(NOSUCH_INCLUDE_DIR nosuch.h)
+vsa_need(nosuch.h libnosuch-dev NOSUCH_INCLUDE_DIR)
+set(THERE TRUE)
+vsa_need(there libthere-dev THERE)
+vsa_need_module(nosuch nosuch-module libnosuch2-dev)
+vsa_end_of_needs()
+EOF
+echo >"$work/needs/oldConfig.cmake"
+echo 'set(PACKAGE_VERSION 8.3)' >"$work/needs/oldConfigVersion.cmake"
+! cmake -S "$work/needs" -B "$work/needs/build" >"$work/out" 2>&1 || fail "configuring without libraries"
+for line in "old: libold-dev (found 8.3, needed 9.1)" "nosuch: libnosuch-dev" "nosuch.h: libnosuch-dev" "nosuch-module: libnosuch2-dev"; do
+  grep -qx "    $line" "$work/out" || fail "not told: $line: $(cat "$work/out")"
+done
+! grep -q "libthere-dev" "$work/out" || fail "told of a library that is there: $(cat "$work/out")"
+
+# make -f from elsewhere does its work where the Makefile stands.
+mkdir "$tree/out"
+(cd "$work" && make -s -f "$tree/Makefile" clean)
+if [ -e "$tree/build" ] || [ ! -e "$tree/out" ]; then fail "make -f PATH/Makefile clean"; fi
