@@ -8,7 +8,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -38,22 +37,5 @@ void bind_identify(py::module_& m);
 
 /// The ledger's entries by their C++ names with _J behind.
 [[nodiscard]] py::dict ledger_dict(const actuator::Ledger& ledger);
-
-/// Looked at in a loop that runs without the GIL: about 20 times a second Python's signal handlers run, and what they raise
-/// (KeyboardInterrupt) is thrown.
-class Signals {
- public:
-  void look() {
-    const auto now = Clock::now();
-    if (now >= next_) handle(now);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::milliseconds kEvery{50};
-  void handle(Clock::time_point now);
-
-  Clock::time_point next_ = Clock::now() + kEvery;
-};
 
 }  // namespace vsa::python

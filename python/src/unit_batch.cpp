@@ -10,6 +10,7 @@
 
 #include "actuator_type.hpp"
 #include "arrays.hpp"
+#include "gil.hpp"
 #include "vsa/device/lever_batch.hpp"
 #include "vsa/errors.hpp"
 
@@ -54,8 +55,13 @@ Shared make(const PyActuatorType& type, py::ssize_t units, const py::object& ine
   constexpr py::ssize_t kMost = 10'000'000;
   if (units < 1 || units > kMost)
     throw InputError({"", "units", std::to_string(units), "out of range", "1 … " + std::to_string(kMost)});
-  auto made = std::make_shared<PyUnitBatch>(
-      PyUnitBatch{LeverBatch(type.type.unit, static_cast<std::size_t>(units), Lever{}, instructions)});
+  const device::UnitConfig config = type.type.unit;  // another thread may set the type's meanwhile
+  Shared made;
+  {
+    const OthersRun others_run;
+    made = std::make_shared<PyUnitBatch>(
+        PyUnitBatch{LeverBatch(config, static_cast<std::size_t>(units), Lever{}, instructions)});
+  }
   set_levers(made->levers, inertia, damping, gravity);
   return made;
 }
@@ -64,14 +70,9 @@ void step(PyUnitBatch& b, py::ssize_t n, double dt_s) {
   LeverBatch& levers = b.get();
   if (n < 1 || n > 1'000'000'000) throw InputError({"", "n", std::to_string(n), "out of range", "1 … 1000000000 steps"});
   if (!(dt_s > 0) || dt_s > 0.016) throw InputError({"", "dt_s", text(py::float_(dt_s)), "out of range", "above 0 … 0.016 s"});
-  struct Stepping {
-    bool& flag;
-    explicit Stepping(bool& f) : flag(f) { flag = true; }
-    ~Stepping() { flag = false; }
-  } stepping(b.stepping);
-  Signals signals;
-  const py::gil_scoped_release others_run;
-  levers.step(static_cast<int>(n), std::llround(dt_s * 1e9), [&] { signals.look(); });
+  const Mark stepping(b.stepping);
+  OthersRun others;
+  levers.step(static_cast<int>(n), std::llround(dt_s * 1e9), [&] { others.look(); });
 }
 
 void reset(PyUnitBatch& b, const py::object& which, const py::object& equilibrium, const py::object& preset,
