@@ -104,6 +104,15 @@ py::array_t<double> state_numbers(const py::handle& given, std::size_t n) {
   return RealArray(any);
 }
 
+py::list layout_list(const StateLayout& layout) {
+  py::list out;
+  for (const StateEntry& e : layout.entries()) {
+    out.append(py::dict(py::arg("name") = e.name, py::arg("unit") = e.unit, py::arg("kind") = std::string(name_of(e.kind)),
+                        py::arg("offset") = e.offset, py::arg("count") = e.count));
+  }
+  return out;
+}
+
 py::array_t<double> copied(const std::vector<double>& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bind.hpp"
+#include "vsa/state.hpp"
 
 namespace vsa::python {
 
@@ -39,6 +40,8 @@ template <std::size_t N>
 /// (n,) of float64 bit by bit, NaN and −0 included: numbers of a state, which would mean something else if they were rounded.
 /// TypeError for another dtype, InputError for another shape.
 [[nodiscard]] py::array_t<double> state_numbers(const py::handle& given, std::size_t n);
+/// What those numbers are: list of dicts.
+[[nodiscard]] py::list layout_list(const StateLayout& layout);
 /// A copy, (n,).
 [[nodiscard]] py::array_t<double> copied(const std::vector<double>& values);
 

@@ -35,6 +35,9 @@ void bind_identify(py::module_& m);
 [[nodiscard]] std::vector<config::Override> settings(const py::object& set);
 [[nodiscard]] std::string setting_text(const py::handle& value, const std::string& key);
 
+/// A property of the class and its objects, with its text: pybind11's own loses that before Python 3.12.
+void def_static_property(py::handle of, const char* name, const py::cpp_function& get, const char* doc);
+
 /// The ledger's entries by their C++ names with _J behind.
 [[nodiscard]] py::dict ledger_dict(const actuator::Ledger& ledger);
 

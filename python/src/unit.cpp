@@ -10,6 +10,7 @@
 #include "actuator_type.hpp"
 #include "arrays.hpp"
 #include "gil.hpp"
+#include "unit_state.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/device/reading.hpp"
 #include "vsa/errors.hpp"
@@ -162,6 +163,15 @@ void restore(PyUnit& u, const UnitSnapshot& s) {
   u.time_ns = s.time_ns;
 }
 
+constexpr const char* kState =
+    "The whole state with the unit's time as numbers: ndarray (n,) of float64, good for this unit and others with the same "
+    "parameters.\n"
+    "out: such an array, which is filled and returned. A copy either way.";
+constexpr const char* kRestoreState =
+    "Back to the numbers of state(), or of UnitBatch.state(), of a unit with these parameters, bit by bit: (n,) of float64.\n"
+    "InputError: another shape, or numbers that no state has, with the name of the first one. TypeError: another dtype. Then\n"
+    "nothing has changed.";
+
 void bind_step(Class& c) {
   c.def("command", &command, py::arg("equilibrium_rad"), py::arg("preset") = 0.0,
         "References for equilibrium (rad) and stiffness preset (clamped to preset_max), as if SET_INPUTS had just arrived;\n"
@@ -203,6 +213,20 @@ void bind_state(Class& c) {
           "The whole state, as a value: UnitSnapshot.")
       .def("restore", &restore, py::arg("snapshot"),
            "Back to a snapshot of this unit or one with the same parameters, bit by bit. InputError for another's.")
+      .def(
+          "state",
+          [](const PyUnit& u, const py::object& out) {
+            u.refuse_others();
+            return unit_state(u.state, u.time_ns, out);
+          },
+          py::arg("out") = py::none(), kState)
+      .def(
+          "restore_state",
+          [](PyUnit& u, const py::object& state) {
+            u.refuse_others();
+            restore_unit_state(u.state, u.time_ns, state);
+          },
+          py::arg("state"), kRestoreState)
       .def_property_readonly(
           "time_s",
           [](const PyUnit& u) {
@@ -232,6 +256,8 @@ void bind_unit(py::module_& m) {
         "at shaft_rad (default: the equilibrium). powered=False: just switched on, motors off, pulleys at 0.");
   bind_step(c);
   bind_state(c);
+  def_static_property(
+      c, "state_layout", [](const py::object&) { return unit_state_layout(); }, kUnitLayout);
 }
 
 }  // namespace vsa::python
