@@ -16,6 +16,9 @@
 
 namespace vsa::python {
 
+/// What NumPy makes of it; empty: nothing. TypeError for a masked array, or a list of such: the mask would be lost.
+[[nodiscard]] py::array array_of(const py::handle& given, const char* name);
+
 using RealArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// Of any shape, from anything that NumPy takes for real numbers. TypeError for what it doesn't: None, texts, bool.
 [[nodiscard]] RealArray real_array(const py::handle& given, const char* name);

@@ -34,8 +34,7 @@ std::vector<std::size_t> copies_of(const PyBatch& b, const py::object& which) {
 
 /// (copies, owners) by rows.
 std::vector<double> spread_out(const py::object& value, std::size_t copies, std::size_t owners, bool one) {
-  const auto given = py::array::ensure(value);
-  if (!given) PyErr_Clear();
+  const py::array given = array_of(value, "value");
   const char kind = given ? given.dtype().kind() : 'O';
   if (kind != 'f' && kind != 'i' && kind != 'u')
     throw py::type_error("value: " + std::string(py::str(py::type::of(value))) + " (allowed: numbers, one text, one bool)");
