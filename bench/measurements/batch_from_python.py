@@ -19,7 +19,7 @@ ROUNDS, CALLS = 31, 15
 
 def cpp_s(bench, copies):
     told = subprocess.run(
-        [bench, f"--benchmark_filter=copies:{copies}/threads:1/", "--benchmark_min_time=0.3", "--benchmark_format=json"],
+        [bench, f"--benchmark_filter=^ten_steps/copies:{copies}/threads:1/", "--benchmark_min_time=0.3", "--benchmark_format=json"],
         capture_output=True, text=True, check=True,
     )  # fmt: skip
     (one,) = json.loads(told.stdout)["benchmarks"]

@@ -39,14 +39,30 @@ std::vector<std::size_t> masked(const py::array& mask, std::size_t count, const 
   return out;
 }
 
+bool is_masked(const py::handle& given) {
+  if (!py::isinstance<py::array>(given) || Py_TYPE(given.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;
+  return py::isinstance(given, py::module_::import("numpy.ma").attr("MaskedArray"));
+}
+
+void refuse_masked(const py::handle& given, const char* name) {
+  bool found = is_masked(given);
+  if (py::isinstance<py::list>(given) || py::isinstance<py::tuple>(given))
+    for (const py::handle one : given) found = found || is_masked(one);
+  if (found) throw py::type_error(std::string(name) + ": is masked, and the mask would be lost (allowed: an array without a mask)");
+}
+
 }  // namespace
 
+py::array array_of(const py::handle& given, const char* name) {
+  refuse_masked(given, name);
+  auto out = py::array::ensure(given);
+  if (!out) PyErr_Clear();
+  return out;
+}
+
 RealArray real_array(const py::handle& given, const char* name) {
-  const auto any = py::array::ensure(given);
-  if (!any) {
-    PyErr_Clear();
-    refuse_type(name, "isn't an array of numbers");
-  }
+  const py::array any = array_of(given, name);
+  if (!any) refuse_type(name, "isn't an array of numbers");
   const char kind = any.dtype().kind();
   if (any.size() > 0 && kind != 'f' && kind != 'i' && kind != 'u') refuse_type(name, "has dtype " + text(any.dtype()));
   return RealArray(any);
@@ -80,6 +96,7 @@ std::vector<double> numbers(const py::handle& given, const char* name) {
 py::array into(const py::object& out, const py::dtype& dtype, const std::vector<py::ssize_t>& shape) {
   if (out.is_none()) return py::array(dtype, shape);
   if (!py::isinstance<py::array>(out)) throw py::type_error("out: isn't a numpy.ndarray");
+  refuse_masked(out, "out");
   auto a = py::reinterpret_borrow<py::array>(out);
   if (!a.dtype().equal(dtype)) throw py::type_error("out: has dtype " + text(a.dtype()) + " (allowed: " + text(dtype) + ")");
   const py::tuple wanted = py::cast(shape);
@@ -93,15 +110,21 @@ py::array into(const py::object& out, const py::dtype& dtype, const std::vector<
 py::dtype float64() { return py::dtype::of<double>(); }
 
 py::array_t<double> state_numbers(const py::handle& given, std::size_t n) {
-  const auto any = py::array::ensure(given);
-  if (!any) {
-    PyErr_Clear();
-    refuse_type("state", "isn't an array of numbers");
-  }
+  const py::array any = array_of(given, "state");
+  if (!any) refuse_type("state", "isn't an array of numbers");
   if (!any.dtype().equal(float64())) throw py::type_error("state: has dtype " + text(any.dtype()) + " (allowed: float64)");
   if (any.ndim() != 1 || any.shape(0) != static_cast<py::ssize_t>(n))
     throw InputError({"", "state", "shape " + shape_text(any), "has another shape", "(" + std::to_string(n) + ",)"});
   return RealArray(any);
+}
+
+py::list layout_list(const StateLayout& layout) {
+  py::list out;
+  for (const StateEntry& e : layout.entries()) {
+    out.append(py::dict(py::arg("name") = e.name, py::arg("unit") = e.unit, py::arg("kind") = std::string(name_of(e.kind)),
+                        py::arg("offset") = e.offset, py::arg("count") = e.count));
+  }
+  return out;
 }
 
 py::array_t<double> copied(const std::vector<double>& values) {
@@ -109,8 +132,7 @@ py::array_t<double> copied(const std::vector<double>& values) {
 }
 
 void fill(const py::array& to, const py::object& value, const char* name) {
-  const auto given = py::array::ensure(value);
-  if (!given) PyErr_Clear();
+  const py::array given = array_of(value, name);
   const char kind = given ? given.dtype().kind() : 'O';
   if (kind != 'f' && kind != 'i' && kind != 'u') throw py::type_error(std::string(name) + ": isn't real numbers");
   try {
@@ -137,12 +159,9 @@ std::vector<std::size_t> chosen(const py::object& which, std::size_t count, cons
     std::iota(out.begin(), out.end(), std::size_t{0});
     return out;
   }
-  const auto any = py::array::ensure(which);
+  const py::array any = array_of(which, "which");
   const std::string allowed = "integers (k,), or a mask of bool with one for each " + one;
-  if (!any) {
-    PyErr_Clear();
-    throw InputError({"", "which", text(py::type::of(which)), "isn't an array", allowed});
-  }
+  if (!any) throw InputError({"", "which", text(py::type::of(which)), "isn't an array", allowed});
   if (any.ndim() != 1) throw InputError({"", "which", "shape " + text(any.attr("shape")), "has another shape", allowed});
   const char kind = any.dtype().kind();
   if (kind == 'b') return masked(any, count, one);

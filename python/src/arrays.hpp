@@ -12,8 +12,12 @@
 #include <vector>
 
 #include "bind.hpp"
+#include "vsa/state.hpp"
 
 namespace vsa::python {
+
+/// What NumPy makes of it; empty: nothing. TypeError for a masked array, or a list of such: the mask would be lost.
+[[nodiscard]] py::array array_of(const py::handle& given, const char* name);
 
 using RealArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// Of any shape, from anything that NumPy takes for real numbers. TypeError for what it doesn't: None, texts, bool.
@@ -39,6 +43,8 @@ template <std::size_t N>
 /// (n,) of float64 bit by bit, NaN and −0 included: numbers of a state, which would mean something else if they were rounded.
 /// TypeError for another dtype, InputError for another shape.
 [[nodiscard]] py::array_t<double> state_numbers(const py::handle& given, std::size_t n);
+/// What those numbers are: list of dicts.
+[[nodiscard]] py::list layout_list(const StateLayout& layout);
 /// A copy, (n,).
 [[nodiscard]] py::array_t<double> copied(const std::vector<double>& values);
 

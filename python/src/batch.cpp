@@ -23,7 +23,9 @@ std::unique_ptr<Batch> make(PyWorld& world, py::ssize_t copies, py::ssize_t thre
   if (threads < 0 || threads > most)
     throw InputError({"", "threads", std::to_string(threads), "out of range", "0 … " + std::to_string(most)});
   try {
-    return std::make_unique<Batch>(world.get(), static_cast<std::size_t>(copies), static_cast<std::size_t>(threads));
+    return world.alone([&](const engine::World& of, OthersRun&) {
+      return std::make_unique<Batch>(of, static_cast<std::size_t>(copies), static_cast<std::size_t>(threads));
+    });
   } catch (const std::length_error&) {
     throw std::bad_alloc();  // Python's MemoryError: so many numbers no machine has room for
   }
@@ -44,8 +46,7 @@ Batch& PyBatch::get() {
 void PyBatch::step(py::ssize_t n, const py::object& which) {
   if (n < 1 || n > 1'000'000'000) throw InputError({"", "n", std::to_string(n), "out of range", "1 … 1000000000 steps"});
   const std::vector<std::size_t> those = chosen(which);
-  Signals signals;
-  alone([&](Batch& batch) { batch.step(static_cast<int>(n), those, [&] { signals.look(); }); });
+  alone([&](Batch& batch, OthersRun& others) { batch.step(static_cast<int>(n), those, [&] { others.look(); }); });
 }
 
 std::vector<std::size_t> PyBatch::chosen(const py::object& which) const { return python::chosen(which, batch_->size(), "copy"); }

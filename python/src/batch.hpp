@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gil.hpp"
 #include "vsa/batch/batch.hpp"
 #include "world.hpp"
 
@@ -20,13 +21,13 @@ class PyBatch {
   [[nodiscard]] batch::Batch& get();
   [[nodiscard]] const batch::Batch& any_thread() const noexcept { return *batch_; }
   void step(py::ssize_t n, const py::object& which);
-  /// Runs without the GIL; all else is refused meanwhile.
+  /// work(Batch&, OthersRun&) without the GIL; all else is refused meanwhile.
   template <class Work>
   void alone(Work&& work) {
     (void)get();
-    const Stepping stepping(stepping_);
-    const py::gil_scoped_release others_run;
-    work(*batch_);
+    const Mark stepping(stepping_);
+    OthersRun others;
+    work(*batch_, others);
   }
 
   /// None: all; integers; a mask.
@@ -34,17 +35,6 @@ class PyBatch {
   [[nodiscard]] std::size_t copy(const py::handle& which) const;
 
  private:
-  class Stepping {
-   public:
-    explicit Stepping(bool& flag) : flag_(flag) { flag_ = true; }
-    ~Stepping() { flag_ = false; }
-    Stepping(const Stepping&) = delete;
-    Stepping& operator=(const Stepping&) = delete;
-
-   private:
-    bool& flag_;
-  };
-
   std::unique_ptr<batch::Batch> batch_;
   bool stepping_ = false;  // read and written with the GIL
 

@@ -34,8 +34,7 @@ std::vector<std::size_t> copies_of(const PyBatch& b, const py::object& which) {
 
 /// (copies, owners) by rows.
 std::vector<double> spread_out(const py::object& value, std::size_t copies, std::size_t owners, bool one) {
-  const auto given = py::array::ensure(value);
-  if (!given) PyErr_Clear();
+  const py::array given = array_of(value, "value");
   const char kind = given ? given.dtype().kind() : 'O';
   if (kind != 'f' && kind != 'i' && kind != 'u')
     throw py::type_error("value: " + std::string(py::str(py::type::of(value))) + " (allowed: numbers, one text, one bool)");
@@ -73,7 +72,7 @@ void set(PyBatch& b, const py::object& which, const py::object& who, const std::
       for (std::size_t o = 0; o < owners.size(); ++o)
         settings.push_back({copies[k], name.empty() ? owners[o] : name, key, all[k * owners.size() + o]});
   }
-  b.alone([&](Batch& batch) { batch.set(settings); });
+  b.alone([&](Batch& batch, OthersRun&) { batch.set(settings); });
 }
 
 py::array values(PyBatch& b, const std::string& key, const py::object& who) {
@@ -107,12 +106,12 @@ void randomize(PyBatch& b, std::uint64_t seed, const py::dict& what, const py::o
   std::vector<batch::Spread> spreads;
   for (const auto& [key, draw] : what) spreads.push_back(spread_of(b, key, draw));
   const std::vector<std::size_t> copies = b.chosen(which);
-  b.alone([&](Batch& batch) { batch.randomize(seed, spreads, copies); });
+  b.alone([&](Batch& batch, OthersRun&) { batch.randomize(seed, spreads, copies); });
 }
 
 void reset(PyBatch& b, const py::object& which, bool parameters) {
   const std::vector<std::size_t> copies = b.chosen(which);
-  b.alone([&](Batch& batch) {
+  b.alone([&](Batch& batch, OthersRun&) {
     if (parameters) batch.reset_parameters(copies);
     batch.reset(copies);
   });

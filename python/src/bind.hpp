@@ -8,7 +8,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -36,24 +35,10 @@ void bind_identify(py::module_& m);
 [[nodiscard]] std::vector<config::Override> settings(const py::object& set);
 [[nodiscard]] std::string setting_text(const py::handle& value, const std::string& key);
 
+/// A property of the class and its objects, with its text: pybind11's own loses that before Python 3.12.
+void def_static_property(py::handle of, const char* name, const py::cpp_function& get, const char* doc);
+
 /// The ledger's entries by their C++ names with _J behind.
 [[nodiscard]] py::dict ledger_dict(const actuator::Ledger& ledger);
-
-/// Looked at in a loop that runs without the GIL: about 20 times a second Python's signal handlers run, and what they raise
-/// (KeyboardInterrupt) is thrown.
-class Signals {
- public:
-  void look() {
-    const auto now = Clock::now();
-    if (now >= next_) handle(now);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::milliseconds kEvery{50};
-  void handle(Clock::time_point now);
-
-  Clock::time_point next_ = Clock::now() + kEvery;
-};
 
 }  // namespace vsa::python

@@ -66,10 +66,4 @@ void bind_errors(py::module_& m) {
   });
 }
 
-void Signals::handle(Clock::time_point now) {
-  next_ = now + kEvery;
-  const py::gil_scoped_acquire gil;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
-
 }  // namespace vsa::python

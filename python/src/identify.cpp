@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "arrays.hpp"
+#include "gil.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/identify/bench_model.hpp"
@@ -75,18 +76,16 @@ Outcome solve(id::Task& task, const Options& o) {
 
 /// In another thread, so that signals can end it: Watch::stop does.
 template <class Work>
-auto interruptible(experiment::Watch& watch, const Work& work) {
+auto interruptible(experiment::Watch& watch, OthersRun& others, const Work& work) {
   auto result = std::async(std::launch::async, work);
   while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-    const py::gil_scoped_acquire gil;
-    if (PyErr_CheckSignals() == 0) continue;
-    const py::error_already_set raised;
-    watch.stop = true;
-    {
-      const py::gil_scoped_release ended;
+    try {
+      others.look();
+    } catch (...) {
+      watch.stop = true;
       result.wait();
+      throw;
     }
-    throw raised;
   }
   return result.get();
 }
@@ -142,8 +141,8 @@ py::dict fit(const std::vector<std::string>& recordings, const std::string& type
   id::Task task;
   std::optional<Outcome> outcome;
   {
-    const py::gil_scoped_release others_run;
-    outcome = interruptible(watch, [&] {
+    OthersRun others;
+    outcome = interruptible(watch, others, [&] {
       task = read_task(recordings, specimen.library.load(type, specimen.overrides), parameters, o.weights, o.sweep.load_share);
       id::use_bench(task, specimen, o.sweep, &watch, o.threads);
       if (o.model == "quasi-static") use_surrogate(task);

@@ -56,4 +56,13 @@ py::dict ledger_dict(const actuator::Ledger& l) {
   return out;
 }
 
+void def_static_property(py::handle of, const char* name, const py::cpp_function& get, const char* doc) {
+  const py::handle base(reinterpret_cast<PyObject*>(py::detail::get_internals().static_property_type));
+  const py::handle type(reinterpret_cast<PyObject*>(&PyType_Type));
+  // Made by Python, so that its objects have a dict for the text; the type's own text, None, would hide one given to a property.
+  py::object made = type("static_property", py::make_tuple(base), py::dict())(get);
+  made.attr("__doc__") = doc;
+  py::setattr(of, name, made);
+}
+
 }  // namespace vsa::python

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "arrays.hpp"
+#include "gil.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/study/characterization.hpp"
@@ -48,12 +49,15 @@ study::Experiment experiment_named(const std::string& name) {
 }
 
 /// Python's function is asked, if there is one, and its signal handlers run: what they raise ends the study.
-study::OnProgress asking(const py::object& progress) {
-  return [&progress](const study::Progress& p) {
-    const py::gil_scoped_acquire gil;
+study::OnProgress asking(const py::object& progress, OthersRun& others) {
+  return [&progress, &others](const study::Progress& p) {
+    const OthersRun::Pause others_wait(others);
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (progress.is_none()) return true;
-    const py::object answer = progress(p.simulated_s, p.total_s, p.wall_s);
+    const py::tuple told = py::make_tuple(p.simulated_s, p.total_s, p.wall_s);
+    PyObject* answered = or_stay([&] { return PyObject_CallObject(progress.ptr(), told.ptr()); });
+    if (answered == nullptr) throw py::error_already_set();
+    const auto answer = py::reinterpret_steal<py::object>(answered);
     return answer.is_none() || py::cast<bool>(answer);
   };
 }
@@ -88,11 +92,10 @@ py::object characterize(const std::string& type, const std::vector<std::string>&
   options.period_s = period_s;
   options.amplitude_rad = amplitude_rad;
   options.cycles = cycles;
-  const study::OnProgress asked = asking(progress);
   std::shared_ptr<Characterization> done;
   {
-    const py::gil_scoped_release others_run;
-    auto found = study::run(study::plan_characterization(options), asked, threads);
+    OthersRun others;
+    auto found = study::run(study::plan_characterization(options), asking(progress, others), threads);
     if (found) done = std::make_shared<Characterization>(std::move(*found));
   }
   return done ? result_dict(done) : py::none();

@@ -5,9 +5,12 @@
 
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 
 #include "actuator_type.hpp"
 #include "arrays.hpp"
+#include "gil.hpp"
+#include "unit_state.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/device/reading.hpp"
 #include "vsa/errors.hpp"
@@ -27,7 +30,11 @@ struct PyUnit {
   device::Unit unit;
   device::UnitState state;
   std::int64_t time_ns = 0;
+  bool stepping = false;  ///< read and written with the GIL
 
+  void refuse_others() const {
+    if (stepping) throw std::runtime_error("the unit is being stepped in another thread: wait for that");
+  }
   double step(std::int64_t dt_ns, const device::ShaftIn& in) {
     const double torque = unit.step(state, time_ns, dt_ns, in);
     time_ns += dt_ns;
@@ -64,6 +71,7 @@ PyUnit make(const PyActuatorType& type, double equilibrium, double preset, const
 }
 
 double step(PyUnit& u, double dt_s, double q, double v, double inverse_inertia) {
+  u.refuse_others();
   Problems problems;
   const std::int64_t dt_ns = step_ns(dt_s, problems);
   check(problems, "shaft_rad", q, -kFar, kFar, " rad");
@@ -75,6 +83,7 @@ double step(PyUnit& u, double dt_s, double q, double v, double inverse_inertia) 
 
 /// One step an entry; Ctrl-C ends it between two.
 py::array_t<double> follow(PyUnit& u, double dt_s, const py::object& shaft, const py::object& speed) {
+  u.refuse_others();
   Problems problems;
   const std::int64_t dt_ns = step_ns(dt_s, problems);
   problems.throw_if_any();
@@ -86,10 +95,13 @@ py::array_t<double> follow(PyUnit& u, double dt_s, const py::object& shaft, cons
   }
   problems.throw_if_any();
   std::vector<double> torque(q.size());
-  Signals signals;
-  for (std::size_t i = 0; i < q.size(); ++i) {
-    torque[i] = u.step(dt_ns, {q[i], v[i], 0});
-    signals.look();
+  {
+    const Mark stepping(u.stepping);
+    OthersRun others;
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      torque[i] = u.step(dt_ns, {q[i], v[i], 0});
+      others.look();
+    }
   }
   return copied(torque);
 }
@@ -97,6 +109,7 @@ py::array_t<double> follow(PyUnit& u, double dt_s, const py::object& shaft, cons
 py::array pair(const std::array<double, 2>& values) { return py::array(py::cast(values)); }
 
 py::dict readings(const PyUnit& u) {
+  u.refuse_others();
   const device::UnitReading r = device::read(u.unit, u.state);
   py::dict out;
   out["equilibrium_rad"] = r.equilibrium_rad;
@@ -126,6 +139,7 @@ std::array<int, 2> inputs_for(const PyUnit& u, double equilibrium, double preset
 }
 
 void set_inputs(PyUnit& u, const std::array<int, 2>& ticks) {
+  u.refuse_others();
   Problems problems;
   for (const int t : ticks) check(problems, "ticks", t, INT16_MIN, INT16_MAX, "");
   if (u.unit.servo() != nullptr)
@@ -136,16 +150,27 @@ void set_inputs(PyUnit& u, const std::array<int, 2>& ticks) {
 }
 
 void command(PyUnit& u, double equilibrium, double preset) {
+  u.refuse_others();
   static_cast<void>(inputs_for(u, equilibrium, preset));  // which checks them
   u.unit.command(u.state, equilibrium, preset);
 }
 
 void restore(PyUnit& u, const UnitSnapshot& s) {
+  u.refuse_others();
   if (!device::alike(u.unit.config(), s.config))
     throw InputError({"", "snapshot", "", "is of a unit with other parameters", "one of this unit or of one alike"});
   u.state = s.state;
   u.time_ns = s.time_ns;
 }
+
+constexpr const char* kState =
+    "The whole state with the unit's time as numbers: ndarray (n,) of float64, good for this unit and others with the same "
+    "parameters.\n"
+    "out: such an array, which is filled and returned. A copy either way.";
+constexpr const char* kRestoreState =
+    "Back to the numbers of state(), or of UnitBatch.state(), of a unit with these parameters, bit by bit: (n,) of float64.\n"
+    "InputError: another shape, or numbers that no state has, with the name of the first one. TypeError: another dtype. Then\n"
+    "nothing has changed.";
 
 void bind_step(Class& c) {
   c.def("command", &command, py::arg("equilibrium_rad"), py::arg("preset") = 0.0,
@@ -163,7 +188,8 @@ void bind_step(Class& c) {
       .def("follow", &follow, py::arg("dt_s"), py::arg("shaft_rad"), py::arg("shaft_speed_rad_per_s") = 0.0,
            "Steps of dt_s along a prescribed motion: shaft_rad (n,) and its speed, (n,) or one number, at the start of each. "
            "Returns\n"
-           "the mean torques on the shaft, N·m: ndarray (n,).");
+           "the mean torques on the shaft, N·m: ndarray (n,). Other threads of Python run meanwhile; Ctrl-C ends it between two "
+           "steps.");
 }
 
 void bind_state(Class& c) {
@@ -172,20 +198,46 @@ void bind_state(Class& c) {
         "speeds (rad/s), torques by their springs (N·m) and currents (A); measured_ticks (3,) int16 is what it would tell on its\n"
         "bus. Copies.")
       .def(
-          "ledger", [](const PyUnit& u) { return ledger_dict(u.state.actuator.ledger); },
+          "ledger",
+          [](const PyUnit& u) {
+            u.refuse_others();
+            return ledger_dict(u.state.actuator.ledger);
+          },
           "Energy ledger since the start, J: dict, see World.ledger.")
       .def(
           "snapshot",
           [](const PyUnit& u) {
+            u.refuse_others();
             return UnitSnapshot{u.unit.config(), u.state, u.time_ns};
           },
           "The whole state, as a value: UnitSnapshot.")
       .def("restore", &restore, py::arg("snapshot"),
            "Back to a snapshot of this unit or one with the same parameters, bit by bit. InputError for another's.")
+      .def(
+          "state",
+          [](const PyUnit& u, const py::object& out) {
+            u.refuse_others();
+            return unit_state(u.state, u.time_ns, out);
+          },
+          py::arg("out") = py::none(), kState)
+      .def(
+          "restore_state",
+          [](PyUnit& u, const py::object& state) {
+            u.refuse_others();
+            restore_unit_state(u.state, u.time_ns, state);
+          },
+          py::arg("state"), kRestoreState)
       .def_property_readonly(
-          "time_s", [](const PyUnit& u) { return static_cast<double>(u.time_ns) * 1e-9; }, "Its own time, s: the steps' sum.")
-      .def("__repr__",
-           [](const PyUnit& u) { return "<vsasim.Unit at " + config::number_text(static_cast<double>(u.time_ns) * 1e-9) + " s>"; });
+          "time_s",
+          [](const PyUnit& u) {
+            u.refuse_others();
+            return static_cast<double>(u.time_ns) * 1e-9;
+          },
+          "Its own time, s: the steps' sum.")
+      .def("__repr__", [](const PyUnit& u) {
+        return u.stepping ? std::string("<vsasim.Unit, being stepped>")
+                          : "<vsasim.Unit at " + config::number_text(static_cast<double>(u.time_ns) * 1e-9) + " s>";
+      });
 }
 
 }  // namespace
@@ -195,7 +247,8 @@ void bind_unit(py::module_& m) {
   Class c(
       m, "Unit",
       "One actuator with its firmware, without a bus and without a world (device::Unit in C++): the host's side is yours. It has\n"
-      "a clock of its own, which each step moves on. A Unit belongs to one thread at a time.");
+      "a clock of its own, which each step moves on. A Unit belongs to one thread at a time: while one is in follow(), others get\n"
+      "RuntimeError.");
   c.def(py::init(&make), py::arg("type"), py::arg("equilibrium_rad") = 0.0, py::arg("preset") = 0.0,
         py::arg("shaft_rad") = py::none(), py::arg("powered") = true,
         "type: ActuatorType. At rest on its references for equilibrium (rad) and preset, on for long, motors enabled, with the "
@@ -203,6 +256,8 @@ void bind_unit(py::module_& m) {
         "at shaft_rad (default: the equilibrium). powered=False: just switched on, motors off, pulleys at 0.");
   bind_step(c);
   bind_state(c);
+  def_static_property(
+      c, "state_layout", [](const py::object&) { return unit_state_layout(); }, kUnitLayout);
 }
 
 }  // namespace vsa::python

@@ -1,7 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // vsasim.UnitBatch: units with a lever on each shaft (device::LeverBatch), as NumPy's views of the C++ memory.
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -10,7 +12,10 @@
 
 #include "actuator_type.hpp"
 #include "arrays.hpp"
+#include "gil.hpp"
+#include "unit_state.hpp"
 #include "vsa/device/lever_batch.hpp"
+#include "vsa/device/reading.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::python {
@@ -21,6 +26,7 @@ using device::LeverBatch;
 
 struct PyUnitBatch {
   LeverBatch levers;
+  device::Unit unit;      // reads states
   bool stepping = false;  // read and written with the GIL
 
   [[nodiscard]] LeverBatch& get() {
@@ -54,8 +60,13 @@ Shared make(const PyActuatorType& type, py::ssize_t units, const py::object& ine
   constexpr py::ssize_t kMost = 10'000'000;
   if (units < 1 || units > kMost)
     throw InputError({"", "units", std::to_string(units), "out of range", "1 … " + std::to_string(kMost)});
-  auto made = std::make_shared<PyUnitBatch>(
-      PyUnitBatch{LeverBatch(type.type.unit, static_cast<std::size_t>(units), Lever{}, instructions)});
+  const device::UnitConfig config = type.type.unit;  // another thread may set the type's meanwhile
+  Shared made;
+  {
+    const OthersRun others_run;
+    made = std::make_shared<PyUnitBatch>(
+        PyUnitBatch{LeverBatch(config, static_cast<std::size_t>(units), Lever{}, instructions), device::Unit(config)});
+  }
   set_levers(made->levers, inertia, damping, gravity);
   return made;
 }
@@ -64,14 +75,9 @@ void step(PyUnitBatch& b, py::ssize_t n, double dt_s) {
   LeverBatch& levers = b.get();
   if (n < 1 || n > 1'000'000'000) throw InputError({"", "n", std::to_string(n), "out of range", "1 … 1000000000 steps"});
   if (!(dt_s > 0) || dt_s > 0.016) throw InputError({"", "dt_s", text(py::float_(dt_s)), "out of range", "above 0 … 0.016 s"});
-  struct Stepping {
-    bool& flag;
-    explicit Stepping(bool& f) : flag(f) { flag = true; }
-    ~Stepping() { flag = false; }
-  } stepping(b.stepping);
-  Signals signals;
-  const py::gil_scoped_release others_run;
-  levers.step(static_cast<int>(n), std::llround(dt_s * 1e9), [&] { signals.look(); });
+  const Mark stepping(b.stepping);
+  OthersRun others;
+  levers.step(static_cast<int>(n), std::llround(dt_s * 1e9), [&] { others.look(); });
 }
 
 void reset(PyUnitBatch& b, const py::object& which, const py::object& equilibrium, const py::object& preset,
@@ -87,6 +93,52 @@ void reset(PyUnitBatch& b, const py::object& which, const py::object& equilibriu
   const auto at = shaft.is_none() ? q : numbers(shaft, those.size(), "shaft_rad", true);
   const auto v = numbers(speed, those.size(), "shaft_speed_rad_per_s", true);
   for (std::size_t k = 0; k < those.size(); ++k) levers.reset(those[k], q[k], p[k], at[k], v[k]);
+}
+
+/// Of read(): what device::read() tells, and what Unit.readings() adds to that.
+struct Row {
+  device::UnitReading now;
+  double deflection_rad = 0;
+  std::array<std::int16_t, 3> measured{};
+  std::int16_t padding = 0;  // so that equal rows are equal bytes
+};
+
+py::dtype reading_dtype() {
+  using device::UnitReading;
+#define FIELD(name) \
+  { #name, offsetof(UnitReading, name) }
+#define PAIR(name) \
+  { #name, offsetof(UnitReading, name), 2 }
+  return record_dtype({FIELD(equilibrium_rad),
+                       FIELD(preset),
+                       FIELD(shaft_rad),
+                       FIELD(shaft_speed_rad_per_s),
+                       {"deflection_rad", offsetof(Row, deflection_rad)},
+                       FIELD(stiffness_Nm_per_rad),
+                       FIELD(torque_Nm),
+                       FIELD(mean_torque_Nm),
+                       PAIR(motor_rad),
+                       PAIR(motor_speed_rad_per_s),
+                       PAIR(motor_torque_Nm),
+                       PAIR(current_A),
+                       {"measured_ticks", offsetof(Row, measured), 3, "i2"}},
+                      sizeof(Row));
+#undef FIELD
+#undef PAIR
+}
+static_assert(offsetof(Row, now) == 0 && sizeof(Row) == sizeof(device::UnitReading) + 16, "offsets of `now` are the row's");
+
+py::array read(PyUnitBatch& b, const py::object& out) {
+  const device::UnitBatch& units = b.get().units();
+  py::array rows = into(out, reading_dtype(), {static_cast<py::ssize_t>(units.size())});
+  auto* to = static_cast<Row*>(rows.mutable_data());
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const device::UnitState state = units.state(i);
+    const device::UnitReading now = device::read(b.unit, state);
+    const auto ticks = device::measured(b.unit, state);
+    to[i] = {now, now.shaft_rad - now.equilibrium_rad, {ticks[0].value, ticks[1].value, ticks[2].value}};
+  }
+  return rows;
 }
 
 template <class Get>
@@ -130,6 +182,16 @@ constexpr const char* kReset =
     "`preset`\n"
     "is commanded with the next step as ever.";
 
+constexpr const char* kRead =
+    "What the units are doing at the end of the last step, as Unit.readings() tells of one: structured ndarray (units,), with two\n"
+    "numbers for each motor's angles (rad), speeds (rad/s), torques by their springs (N·m) and currents (A): read()[\"current_A\"] "
+    "is\n"
+    "(units, 2). Its dtype is UnitBatch.reading_dtype. out: such an array, which is filled and returned. A copy.";
+constexpr const char* kState =
+    "A unit's state, with the batch's time, as numbers: ndarray (n,) of float64, which Unit.restore_state() takes. out: such an "
+    "array,\n"
+    "which is filled and returned. A copy. Not in it: the lever, and commands that no step has taken. IndexError: no such unit.";
+
 }  // namespace
 
 void bind_unit_batch(py::module_& m) {
@@ -148,6 +210,14 @@ void bind_unit_batch(py::module_& m) {
           [](PyUnitBatch& b, const py::object& j, const py::object& d, const py::object& g) { set_levers(b.get(), j, d, g); },
           py::arg("inertia_kgm2"), py::arg("damping_Nms_per_rad") = 0.0, py::arg("gravity_Nm") = 0.0,
           "Other levers from the next step on: (units,) or one number each.")
+      .def("read", &read, py::arg("out") = py::none(), kRead)
+      .def(
+          "state",
+          [](PyUnitBatch& b, const py::object& unit, const py::object& out) {
+            const device::UnitBatch& units = b.get().units();
+            return unit_state(units.state(index_of(unit, units.size(), "unit")), units.time_ns(), out);
+          },
+          py::arg("unit"), py::arg("out") = py::none(), kState)
       .def("__len__", [](const PyUnitBatch& b) { return b.levers.size(); })
       .def_property_readonly(
           "instructions", [](const PyUnitBatch& b) { return b.levers.units().instructions(); }, "The instruction set in use: str.")
@@ -157,6 +227,10 @@ void bind_unit_batch(py::module_& m) {
       .def_property_readonly(
           "time_s", [](PyUnitBatch& b) { return b.get().time_s(); }, "Simulated time, s.")
       .def_static("instruction_sets", &device::UnitBatch::instruction_sets, "Those that this machine has: list of str.");
+  def_static_property(
+      c, "reading_dtype", [](const py::object&) { return reading_dtype(); }, "The dtype of read(): numpy.dtype.");
+  def_static_property(
+      c, "state_layout", [](const py::object&) { return unit_state_layout(); }, kUnitLayout);
   bind_commands(c, "equilibrium", &LeverBatch::equilibrium,
                 "Equilibria that step() commands, rad: (units,), writeable. NaN, as at first: what was commanded before stays.");
   bind_commands(c, "preset", &LeverBatch::preset, "Presets, in the law's unit: as `equilibrium`.");

@@ -14,29 +14,6 @@
 
 namespace vsa::python {
 
-/// Marks the world as stepping and lets other threads of Python run; `recorders` are those of the step's beginning, which live as
-/// long as it.
-class PyWorld::Stepping {
- public:
-  explicit Stepping(PyWorld& world) : world_(world), recorders_(world.recorders_) {
-    (void)world.get();
-    world.stepping_ = true;
-  }
-  ~Stepping() { world_.stepping_ = false; }
-  Stepping(const Stepping&) = delete;
-  Stepping& operator=(const Stepping&) = delete;
-
-  void stepped() {
-    for (const Recorder& recorder : recorders_) recorder->sample(world_.world_);
-    signals_.look();
-  }
-
- private:
-  PyWorld& world_;
-  std::vector<Recorder> recorders_;
-  Signals signals_;
-};
-
 PyWorld::PyWorld(engine::World world) : world_(std::move(world)) {
   for (const engine::ActuatorRef& a : world_.actuators()) actuator_names_.push_back(world_.name_of(a));
   for (const engine::JointInfo& j : world_.joints()) {
@@ -52,20 +29,24 @@ engine::World& PyWorld::get() {
 }
 
 void PyWorld::step(std::size_t n) {
-  Stepping stepping(*this);
-  const py::gil_scoped_release others_run;
-  for (std::size_t i = 0; i < n; ++i) {
-    world_.step();
-    stepping.stepped();
-  }
+  const std::vector<Recorder> recorders = recorders_;  // those of its beginning, which live as long as it
+  alone([&](engine::World& world, OthersRun& others) {
+    for (std::size_t i = 0; i < n; ++i) {
+      world.step();
+      for (const Recorder& recorder : recorders) recorder->sample(world);
+      others.look();
+    }
+  });
 }
 
 void PyWorld::run(double duration_s) {
-  Stepping stepping(*this);
-  const py::gil_scoped_release others_run;
-  (void)engine::run(world_, duration_s, [&] {
-    stepping.stepped();
-    return true;
+  const std::vector<Recorder> recorders = recorders_;
+  alone([&](engine::World& world, OthersRun& others) {
+    (void)engine::run(world, duration_s, [&] {
+      for (const Recorder& recorder : recorders) recorder->sample(world);
+      others.look();
+      return true;
+    });
   });
 }
 
@@ -118,7 +99,7 @@ template <class Source, class Load>
 std::shared_ptr<PyWorld> load(const Source& source, engine::WorldOptions options, const Load& how) {
   std::optional<engine::World> world;
   {
-    const py::gil_scoped_release others_run;
+    const OthersRun others_run;
     world.emplace(how(source, std::move(options)));
   }
   return std::make_shared<PyWorld>(std::move(*world));

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bind.hpp"
+#include "gil.hpp"
 #include "vsa/engine/world.hpp"
 #include "vsa/record/recorder.hpp"
 
@@ -19,6 +19,14 @@ class PyWorld {
 
   /// Throws Python's RuntimeError while another thread steps.
   [[nodiscard]] engine::World& get();
+  /// work(World&, OthersRun&) without the GIL; all but commands is refused meanwhile.
+  template <class Work>
+  auto alone(Work&& work) {
+    engine::World& world = get();
+    const Mark stepping(stepping_);
+    OthersRun others;
+    return work(world, others);
+  }
   /// For what C++ allows from any thread.
   [[nodiscard]] engine::World& any_thread() noexcept { return world_; }
 
@@ -40,8 +48,6 @@ class PyWorld {
   [[nodiscard]] const std::vector<engine::JointHandle>& joints() const noexcept { return joints_; }
 
  private:
-  class Stepping;
-
   engine::World world_;
   bool stepping_ = false;  // read and written with the GIL
   std::vector<Recorder> recorders_;

@@ -164,8 +164,6 @@ void bind_world_actuators(WorldClass& c) {
            "tells.")
       .def("command_all", &command_all, py::arg("equilibrium_rad") = py::none(), py::arg("preset") = py::none(), kCommandAll)
       .def("read", &read, py::arg("actuator") = py::none(), py::arg("out") = py::none(), kRead)
-      .def_property_readonly_static(
-          "reading_dtype", [](const py::object&) { return reading_dtype(); }, "The dtype of read(): numpy.dtype.")
       .def("place", &place, py::arg("actuator"), py::arg("angle_rad"), py::arg("preset"), py::arg("speed_rad_per_s") = 0.0,
            py::arg("equilibrium_rad") = py::none(), kPlace)
       .def(
@@ -174,6 +172,9 @@ void bind_world_actuators(WorldClass& c) {
       .def("ledger", &ledger, py::arg("actuator") = py::none(),
            "Where the energy went since the start or the last reset, J: dict, of one actuator or summed over all.")
       .def("take_notices", &take_notices, "What was clamped or couldn't be resolved since the last call: list of str.");
+  def_static_property(
+      c, "reading_dtype", [](const py::object&) { return reading_dtype(); },
+      "The dtype of read(): numpy.dtype, whose names carry the units. What each is, read() tells.");
 }
 
 }  // namespace vsa::python

@@ -4,7 +4,6 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"
-#include "vsa/state.hpp"
 #include "world.hpp"
 
 namespace vsa::python {
@@ -27,15 +26,7 @@ void restore_state(PyWorld& w, const py::object& given) {
   w.sample();
 }
 
-py::list state_layout(PyWorld& w) {
-  py::list out;
-  const StateLayout layout = w.get().state_layout();
-  for (const StateEntry& e : layout.entries()) {
-    out.append(py::dict(py::arg("name") = e.name, py::arg("unit") = e.unit, py::arg("kind") = std::string(name_of(e.kind)),
-                        py::arg("offset") = e.offset, py::arg("count") = e.count));
-  }
-  return out;
-}
+py::list state_layout(PyWorld& w) { return layout_list(w.get().state_layout()); }
 
 constexpr const char* kState =
     "The whole state as numbers: ndarray (n,) of float64, good for this world and others of the same file. out: such an array, "

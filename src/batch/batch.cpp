@@ -249,7 +249,7 @@ void Batch::randomize(std::uint64_t seed, std::span<const Spread> what, std::spa
 void Batch::reset_parameters() { reset_parameters(impl_->all); }
 void Batch::reset_parameters(std::span<const std::size_t> which) {
   impl_->check(which);
-  impl_->use(which, std::vector(which.size(), impl_->book.first()));
+  impl_->use(which, [this](std::size_t, std::size_t) { return impl_->book.first(); });
 }
 std::vector<std::string> Batch::owners(const std::string& who, const std::string& key) const {
   std::vector<std::string> out;

@@ -3,6 +3,7 @@
 // A Batch's insides: the copies as numbers and parameters, and a World for each thread.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,8 @@ struct Batch::Impl {
   void set(std::span<const Setting> settings);
   void randomize(std::uint64_t seed, std::span<const Spread> what, std::span<const std::size_t> which);
   void change(const std::vector<CopyChanges>& all);
-  void use(std::span<const std::size_t> which, std::vector<CopyParameters> next);
+  using NextParameters = std::function<CopyParameters(std::size_t worker, std::size_t item)>;
+  void use(std::span<const std::size_t> which, const NextParameters& next);
 
   Crew crew;
   ParameterBook book;

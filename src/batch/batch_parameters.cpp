@@ -12,6 +12,9 @@
 namespace vsa::batch {
 namespace {
 
+/// What is made for copies that have parameters of their own is kept for one in so many, and the rest made again when its turn comes:
+/// all of it beside what they still have would be its memory twice, and the allocator wouldn't give that back.
+constexpr std::size_t kKeptShare = 8;
 constexpr std::size_t kMostProblems = 10;  ///< of many copies the same is wrong
 
 std::string who_text(const std::string& who) { return who.empty() ? "" : who + ": "; }
@@ -88,11 +91,16 @@ void Batch::Impl::randomize(std::uint64_t seed, std::span<const Spread> what, st
 }
 
 void Batch::Impl::change(const std::vector<CopyChanges>& changes) {
+  const auto made = [&](std::size_t worker, std::size_t item) {
+    return book.with(worlds[worker], parameters[changes[item].copy], changes[item].changes);
+  };
+  const std::size_t kept = copies() / kKeptShare + 1;
   std::vector<CopyParameters> next(changes.size());
   std::vector<std::vector<Problem>> problems(changes.size());
   crew.run(changes.size(), [&](std::size_t worker, std::size_t item) {
     try {
-      next[item] = book.with(worlds[worker], parameters[changes[item].copy], changes[item].changes);
+      CopyParameters checked = made(worker, item);
+      if (item < kept || !has_own_parameters(changes[item].copy)) next[item] = std::move(checked);
     } catch (const InputError& error) {
       problems[item] = error.problems();
     }
@@ -103,19 +111,20 @@ void Batch::Impl::change(const std::vector<CopyChanges>& changes) {
   if (!by_copy.empty()) refuse(by_copy);
   std::vector<std::size_t> which;
   for (const CopyChanges& c : changes) which.push_back(c.copy);
-  use(which, std::move(next));
+  use(which, [&](std::size_t worker, std::size_t item) { return next[item].of ? std::move(next[item]) : made(worker, item); });
 }
 
 /// As World::set_parameters does with a World by itself.
-void Batch::Impl::use(std::span<const std::size_t> which, std::vector<CopyParameters> next) {
+void Batch::Impl::use(std::span<const std::size_t> which, const NextParameters& next) {
   parameters_differ = true;
   crew.run(which.size(), [&](std::size_t worker, std::size_t item) {
     const std::size_t copy = which[item];
     engine::World& world = worlds[worker];
     take(world, copy);
-    world.set_parameters(*next[item].of);
+    CopyParameters to = next(worker, item);
+    world.set_parameters(*to.of);
     put(worker, copy);
-    parameters[copy] = std::move(next[item]);
+    parameters[copy] = std::move(to);
   });
 }
 

@@ -147,6 +147,49 @@ class Alone(unittest.TestCase):
         with self.assertRaisesRegex(vsasim.InputError, "other parameters"):
             vsasim.Unit(vsasim.ActuatorType.load("qbmove_maker_pro")).restore(then)
 
+    def test_a_units_state_as_numbers_goes_on_bit_by_bit_in_another(self):
+        unit, other = vsasim.Unit(self.KIND), vsasim.Unit(self.KIND, 0.3)
+        unit.command(0.5, 0.2)
+        unit.follow(1e-3, np.zeros(100))
+        then = unit.state()
+        first = unit.follow(1e-3, np.full(50, 0.1))
+        other.restore_state(then)
+        self.assertEqual(round(other.time_s, 9), 0.1)
+        np.testing.assert_array_equal(other.follow(1e-3, np.full(50, 0.1)), first)
+        given = np.empty_like(then)
+        self.assertIs(other.state(out=given), given)
+        self.assertEqual(given.tobytes(), unit.state().tobytes())
+
+    def test_a_units_layout_names_every_number(self):
+        at, unit = 0, vsasim.Unit(self.KIND)
+        for entry in unit.state_layout:
+            self.assertEqual(set(entry), {"name", "unit", "kind", "offset", "count"})
+            self.assertEqual(entry["offset"], at)
+            at += entry["count"]
+        self.assertEqual(unit.state().shape, (at,))
+        self.assertEqual(vsasim.Unit.state_layout, unit.state_layout)
+        names = {e["name"]: e for e in unit.state_layout}
+        self.assertEqual((names["time"]["unit"], names["time"]["offset"]), ("ns", 0))
+        unit.step(1e-3, 0.0)
+        np.testing.assert_array_equal(unit.state()[:2], [0, 1_000_000])
+        self.assertTrue(any(name.startswith("unit.") for name in names))
+
+    def test_numbers_that_are_no_state_of_a_unit_change_nothing(self):
+        unit = vsasim.Unit(self.KIND)
+        unit.follow(1e-3, np.zeros(10))
+        then = unit.state()
+        early, infinite = then.copy(), then.copy()
+        early[0], infinite[2:] = -1, np.inf
+        for wrong, error, text in (
+            (then[:-1], vsasim.InputError, "shape"),
+            (then.astype(np.float32), TypeError, "float32"),
+            (early, vsasim.InputError, "time"),
+            (infinite, vsasim.InputError, "inf"),
+        ):
+            with self.assertRaisesRegex(error, text):
+                unit.restore_state(wrong)
+            self.assertEqual(unit.state().tobytes(), then.tobytes())
+
     def test_a_unit_that_is_just_switched_on_gives_no_current(self):
         unit = vsasim.Unit(self.KIND, 0.5, powered=False)
         unit.follow(1e-3, np.zeros(50))

@@ -4,6 +4,8 @@ import gc
 import os
 import pathlib
 import signal
+import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -228,6 +230,33 @@ class Parameters(unittest.TestCase):
         with self.assertRaisesRegex(vsasim.InputError, "mass_kg"):
             world.set_link_parameters("qbmove_bench_load::flange", mass_kg=-1.0)
         self.assertIsNone(world.link_parameters("qbmove_bench_load::flange")["friction"])
+
+
+class Memory(unittest.TestCase):
+    def test_parameters_given_again_take_no_more_than_given_once(self):
+        script = """
+import vsasim
+from support import resident_bytes
+world = vsasim.World.load("snake_flat")
+kind = vsasim.ActuatorType.load("qbmove_maker_pro_6_1")
+keys = [k for k in kind.keys() if isinstance(kind.get(k), float) and kind.get(k) > 0 and k != "physics.substep_max_s"]
+draws = {k: vsasim.uniform(0.95, 1.0, times_nominal=True) for k in [*keys, "link.mass_kg"]}
+small = vsasim.Batch(world, 2, threads=1)
+for seed in range(2):
+    small.randomize(seed, draws)
+    small.step()
+before = resident_bytes()
+batch = vsasim.Batch(world, 96, threads=1)
+for seed in range(3):
+    batch.randomize(seed, draws)
+    batch.step()
+    print((resident_bytes() - before) / 96 / batch.state(0).nbytes)
+"""
+        told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=pathlib.Path(__file__).parent)
+        self.assertEqual(told.stderr, "")
+        once, again, thrice = map(float, told.stdout.split())
+        self.assertLess(max(again, thrice), 3.0)  # times a state's numbers
+        self.assertLess(max(again, thrice), 1.3 * once)
 
 
 class Failures(unittest.TestCase):

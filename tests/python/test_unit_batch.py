@@ -56,6 +56,28 @@ class UnitBatch(unittest.TestCase):
         units.step(50)
         self.assertLess(abs(units.shaft_rad[3] + 0.1), 0.01)
 
+    def test_readings_are_those_of_units_that_go_on_from_its_states(self):
+        units = vsasim.UnitBatch(maker_pro(), 5)
+        units.equilibrium, units.preset = np.linspace(-0.5, 0.5, 5), 0.2
+        units.step(37)
+        now, given = units.read(), np.zeros(5, vsasim.UnitBatch.reading_dtype)
+        self.assertIs(units.read(out=given), given)
+        self.assertEqual(now.tobytes(), given.tobytes())
+        self.assertEqual(now["current_A"].shape, (5, 2))
+        self.assertGreater(np.abs(now["current_A"]).max(), 0.01)
+        np.testing.assert_array_equal(now["mean_torque_Nm"], units.torque_Nm)
+        self.assertEqual(units.state_layout, vsasim.Unit.state_layout)
+        for i in (0, 3, 4):
+            unit = vsasim.Unit(maker_pro())
+            unit.restore_state(units.state(i))
+            self.assertAlmostEqual(unit.time_s, 0.037)
+            told = unit.readings()
+            self.assertEqual(set(told), set(now.dtype.names))
+            for name, value in told.items():
+                np.testing.assert_array_equal(now[name][i], value, name)
+        with self.assertRaisesRegex(IndexError, "unit 5"):
+            units.state(5)
+
     def test_views_outlive_the_batch(self):
         units = vsasim.UnitBatch(maker_pro(), 3)
         shaft = units.shaft_rad

@@ -217,6 +217,8 @@ class VectorEnv(VectorEnvBase):
 
     def _checked(self, actions: Any) -> np.ndarray:
         allowed = f"{self.action_space.shape}"
+        if isinstance(actions, np.ma.MaskedArray):
+            raise TypeError("actions: is masked, and the mask would be lost (allowed: an array without a mask)")
         try:
             given = np.asarray(actions)
         except ValueError:
