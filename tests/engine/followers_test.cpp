@@ -50,14 +50,12 @@ double lost(const std::vector<double>& moments, double multiplier, double step_s
 }
 
 TEST(Followers, OfALightLeaderGiveItHardlyAnyEnergyOutOfNothing) {
-  // Without the followers in B it would be 0.7, 2.4, 11 and 47 % at least.
-  struct Bound {
-    double step_s, part;
-  };
-  for (const auto& [step_s, part] : {Bound{0.5e-3, 0.002}, Bound{1e-3, 0.005}, Bound{2e-3, 0.02}, Bound{4e-3, 0.15}}) {
-    EXPECT_GE(lost({1e-4, 0.1}, 1, step_s), -part) << step_s;
-    EXPECT_GE(lost({1e-4, 0.01}, -2, step_s), -part) << step_s;
-    EXPECT_GE(lost({1e-4, 0.01, 0.1}, 0.5, step_s), -part) << step_s;
+  // Without the followers in B it would be 0.7, 2.4, 11 and 47 % at least; with their constraint's pull of the last step instead of
+  // this one's 0.1, 0.4, 1.4 and 11 %.
+  for (const double step_s : {0.5e-3, 1e-3, 2e-3, 4e-3}) {
+    EXPECT_GE(lost({1e-4, 0.1}, 1, step_s), -1e-3) << step_s;
+    EXPECT_GE(lost({1e-4, 0.01}, -2, step_s), -1e-3) << step_s;
+    EXPECT_GE(lost({1e-4, 0.01, 0.1}, 0.5, step_s), -1e-3) << step_s;
   }
 }
 

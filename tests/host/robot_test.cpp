@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -26,6 +27,8 @@ using vsa::host::RobotConfig;
 using vsa::test::chain;
 using Bench = vsa::test::Flanges;
 
+constexpr double kAside_rad = 0.02;
+
 TEST(Robot, WhatIsTheWholeRobotsIsToldOfNoActuator) {
   // The host throws its flanges to and fro without telling, each step against what was foreseen.
   Bench bench(chain(2));
@@ -40,6 +43,26 @@ TEST(Robot, WhatIsTheWholeRobotsIsToldOfNoActuator) {
     EXPECT_FALSE(n.actuator.has_value()) << n.text;
   }
   EXPECT_TRUE(told);
+}
+
+TEST(Robot, EnergyOutOfNothingIsToldThoughMotorsThatHoldBurnAHundredTimesAsMuch) {
+  RobotConfig config = chain(1);
+  config.actuators[0].initial_preset = 0.785;
+  Bench bench(config);
+  for (JointIn& joint : bench.in) joint.inverse_inertia = 3e3;
+  for (int n = 0; n < 4000; ++n) {
+    const double to = n >= 3 ? 0.0 : n % 2 == 0 ? kAside_rad : -kAside_rad;  // thrown three times, then left where it is
+    for (JointIn& joint : bench.in) joint.angle_rad = to, joint.speed_rad_per_s = 0;
+    bench.robot.advance(bench.t_ns, bench.dt_ns, bench.in, bench.out);
+    bench.t_ns += bench.dt_ns;
+  }
+  const vsa::actuator::Ledger sum = bench.robot.ledger();
+  ASSERT_LT(sum.coupling, -0.01);
+  ASSERT_GT(sum.coupling, -0.005 * sum.moved()) << "it would be told anyway";
+  const auto notices = bench.robot.take_notices();
+  EXPECT_TRUE(std::any_of(notices.begin(), notices.end(), [](const vsa::host::Notice& n) {
+    return n.text.find("out of nothing") != std::string::npos;
+  })) << sum.coupling << " J of " << sum.delivered_moved << " at the shaft, " << sum.moved() << " in all";
 }
 
 TEST(Robot, UnitTwelveMovesLaterThanUnitOneByTheTimeTheFramesTake) {
