@@ -125,7 +125,7 @@ class Robot {
 
   /// Which actuators' joints move each other: those of one kinematic tree. An actuator that is in none moves its own joint only.
   /// `shared`: on trees that other robots drive, too, and in none of `trees`; such a robot steps in a RobotGroup (host/robot_group.hpp).
-  /// Before the first step; throws InputError for an index twice or out of range.
+  /// Between steps, by the stepping thread: units go on. Throws InputError for an index twice or out of range.
   void join(std::vector<std::vector<std::size_t>> trees, std::vector<std::size_t> shared = {});
   /// How many numbers `mobility` has: Σ n² over the trees.
   [[nodiscard]] std::size_t mobility_size() const;
