@@ -9,6 +9,7 @@
 #include <gazebo/physics/Model.hh>
 #include <gazebo/physics/PhysicsEngine.hh>
 #include <gazebo/physics/World.hh>
+#include <gazebo/physics/ode/ODEJoint.hh>
 #include <utility>
 
 #include "model_links.hpp"
@@ -30,6 +31,13 @@ std::optional<TreeBody::Joint> kind(const JointPtr& joint) {
   if (joint->HasType(Base::HINGE_JOINT)) return TreeBody::Joint::revolute;
   if (joint->HasType(Base::SLIDER_JOINT)) return TreeBody::Joint::prismatic;
   return std::nullopt;
+}
+
+/// DART takes every damper so, ODE those joints that say <implicit_spring_damper>. Any other is of the speed at a step's start, a
+/// torque like gravity's, and isn't in B.
+bool takes_damper_implicitly(const JointPtr& joint) {
+  if (const auto ode = boost::dynamic_pointer_cast<gazebo::physics::ODEJoint>(joint)) return ode->UsesImplicitSpringDamper();
+  return joint->GetWorld()->Physics()->GetType() == "dart";
 }
 
 }  // namespace
@@ -69,7 +77,7 @@ bool ModelTree::build(const std::vector<LinkPtr>& links, std::vector<TreeBody>& 
         }
         body.parent = static_cast<std::size_t>(at - items_.begin());
       }
-      items_.push_back({*it, joint, {}, {}, {}, {}});
+      items_.push_back({*it, joint, {}, {}, {}, {}, 0});
       bodies.push_back(body);
       it = waiting.erase(it);
     }
@@ -79,12 +87,12 @@ bool ModelTree::build(const std::vector<LinkPtr>& links, std::vector<TreeBody>& 
 }
 
 /// An axis keeps its place in its link, so what it is there is asked for once, when the model stands.
-void ModelTree::read_joint(Item& item, TreeBody& body) {
+void ModelTree::read_joint(Item& item, const TreeBody& body) {
   if (body.joint != TreeBody::Joint::revolute && body.joint != TreeBody::Joint::prismatic) return;
   const auto& pose = item.link->WorldPose();
   item.axis = pose.Rot().RotateVectorReverse(item.joint->GlobalAxis(0));
   item.anchor = pose.Rot().RotateVectorReverse(item.joint->WorldPose().Pos() - pose.Pos());
-  body.damping_dt = item.joint->GetDamping(0) * item.link->GetWorld()->Physics()->GetMaxStepSize();
+  if (takes_damper_implicitly(item.joint)) item.implicit_damping = std::abs(item.joint->GetDamping(0));
 }
 
 void ModelTree::read_inertia(Item& item, TreeBody& body) {
@@ -119,6 +127,7 @@ void ModelTree::look() {
     if (body.joint != TreeBody::Joint::revolute && body.joint != TreeBody::Joint::prismatic) continue;
     body.axis = array(turned * item.axis);
     body.anchor = array(pose.Pos() + turned * item.anchor);
+    body.damping_dt = item.implicit_damping * item.link->GetWorld()->Physics()->GetMaxStepSize();
   }
   tree_.update();
 }

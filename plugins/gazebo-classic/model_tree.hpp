@@ -27,9 +27,10 @@ class ModelTree final : public LinkTrees {
     // in the link's own frame
     ignition::math::Vector3d center, axis, anchor;
     ignition::math::Matrix3d inertia;
+    double implicit_damping = 0;  ///< of the engine's damper, where it takes it implicitly
   };
 
-  void read_joint(Item& item, host::TreeBody& body);
+  void read_joint(Item& item, const host::TreeBody& body);
   void read_inertia(Item& item, host::TreeBody& body);
 
   bool build(const std::vector<gazebo::physics::LinkPtr>& links, std::vector<host::TreeBody>& bodies);

@@ -81,7 +81,7 @@ void ClassicRobot::attach(const sdf::ElementPtr& element) {
                             {},
                             {},
                             k.joint->HasType(Base::SLIDER_JOINT),
-                            k.joint->GetDamping(0)});
+                            std::abs(k.joint->GetDamping(0))});  // ODE takes its size, a sign only asks for more of it
   seat::Options options;
   options.report = [](const std::string& line) { gzwarn << "vsa::Robot: " << line << std::endl; };
   seat_ = std::make_unique<seat::Seat>(model, options);

@@ -74,8 +74,8 @@ bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<
     at->item.joint = joint;
     at->item.joint_pose = ecm_.ComponentData<components::Pose>(joint).value_or(math::Pose3d::Zero);
     at->item.axis = ecm_.ComponentData<components::JointAxis>(joint).value_or(sdf::JointAxis()).Xyz();
+    at->item.damping = damping(joint, ecm_);
     at->body.joint = *kind(*type);
-    at->body.damping_dt = damping(joint, ecm_) * world_step_s(ecm_);  // DART takes dampers implicitly
     at->parent = *parent == "world" ? sim::kNullEntity : named_link(joint, *parent, ecm_);
     if (*parent != "world" && at->parent == sim::kNullEntity) return false;
   }
@@ -95,6 +95,7 @@ bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<
 }
 
 void EntityTree::look() {
+  const double dt_s = world_step_s(ecm_);
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const auto* inertial = ecm_.Component<components::Inertial>(items_[i].link);
     if (inertial == nullptr) continue;
@@ -111,6 +112,7 @@ void EntityTree::look() {
     const math::Pose3d joint = link * items_[i].joint_pose;
     body.axis = array(joint.Rot().RotateVector(items_[i].axis));
     body.anchor = array(joint.Pos());
+    body.damping_dt = dt_s * items_[i].damping;  // DART takes dampers implicitly
   }
   tree_.update();
 }

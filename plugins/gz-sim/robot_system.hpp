@@ -39,6 +39,7 @@ class EntityTree final : public LinkTrees {
     sim::Entity link = sim::kNullEntity, joint = sim::kNullEntity;
     math::Pose3d joint_pose;  ///< in the link
     math::Vector3d axis;      ///< in the joint
+    double damping = 0;       ///< N·m·s/rad or N·s/m
   };
 
   bool build(const std::vector<sim::Entity>& links, const std::vector<sim::Entity>& joints, std::vector<host::TreeBody>& bodies);

@@ -24,6 +24,7 @@ struct Rest {
   double scatter = 0;        ///< the largest standard deviation of a torque over it, per the largest torque of that joint, of those
                              ///< that scatter by more than kScatterLeast_Nm
   double torque_sd_Nm = 0;   ///< the largest deviation itself
+  double coupling_J = 0;     ///< the summed `coupling`
   double coupling_part = 0;  ///< the summed `coupling` over what moved
   double integrator_part = 0;  ///< likewise `integrator`
 
@@ -62,6 +63,7 @@ class RestMeter {
       if (sd > kScatterLeast_Nm) rest.scatter = std::max(rest.scatter, sd / s.largest);
     }
     rest.rms_speed = std::sqrt(vv / n);
+    rest.coupling_J = ledger.coupling;
     if (ledger.moved() > kNothing_J) {
       rest.coupling_part = ledger.coupling / ledger.moved();
       rest.integrator_part = ledger.integrator / ledger.moved();

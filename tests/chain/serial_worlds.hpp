@@ -3,6 +3,7 @@
 // Chains of modules in series that hang from the world.
 #pragma once
 
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -21,8 +22,13 @@ struct SerialWorld {
   bool alternating = false;  ///< axes y, x, y, x …; else all y
   double mass_kg = 0.45, inertia_kgm2 = 3.3e-4, length_m = 0.08;
   double last_mass_kg = 0, last_inertia_kgm2 = 0;  ///< of the last link, where they differ
+  double damping = 0;                              ///< of the host's own damper at every joint, N·m·s/rad
+  double last_damping = 0;                         ///< of the last joint's, where it differs
+  bool implicit_damper = false;                    ///< asks ODE in Gazebo Classic to take it implicitly
   std::string overrides;                           ///< <override …/> elements for every actuator
-  std::vector<int> robots;                         ///< how many joints each drives; empty: one drives all
+  std::vector<int> robots;                         ///< how many joints each drives; empty: one drives all. What is left is passive
+
+  [[nodiscard]] int driven() const { return robots.empty() ? joints : std::accumulate(robots.begin(), robots.end(), 0); }
 };
 
 /// <model name='m'> with links l0, l1 … and joints j1, j2 …, and its robots. Joints slide where the type does; one that has no preset
@@ -41,7 +47,12 @@ inline std::string serial_model(const SerialWorld& w) {
       << " 0 0 0</pose><mass>" << mass << "</mass><inertia><ixx>" << inertia << "</ixx><iyy>" << inertia << "</iyy><izz>" << inertia
       << "</izz></inertia></inertial></link><joint name='j" << i << "' type='"
       << (unit.actuator.linear() ? "prismatic" : "revolute") << "'><parent>l" << i - 1 << "</parent><child>l" << i
-      << "</child><axis><xyz>" << (w.alternating && i % 2 == 0 ? "1 0 0" : "0 1 0") << "</xyz></axis></joint>";
+      << "</child><axis><xyz>" << (w.alternating && i % 2 == 0 ? "1 0 0" : "0 1 0") << "</xyz>";
+    const double damping = last && w.last_damping > 0 ? w.last_damping : w.damping;
+    if (damping > 0) s << "<dynamics><damping>" << damping << "</damping></dynamics>";
+    s << "</axis>";
+    if (w.implicit_damper) s << "<physics><ode><implicit_spring_damper>1</implicit_spring_damper></ode></physics>";
+    s << "</joint>";
   }
   int i = 0;
   for (const int count : w.robots.empty() ? std::vector{w.joints} : w.robots) {

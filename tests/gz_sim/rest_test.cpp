@@ -20,7 +20,7 @@ Rest left_alone(const RestCase& c, double seconds) {
   SimWorld w(sdf_text(world_text(model, {.step_s = c.chain.step_s, .gravity = c.chain.gravity})));
   w.probes[0]->before = [&](const sim::UpdateInfo& info, sim::EntityComponentManager& ecm) { own.before_step(info, ecm); };
   std::vector<sim::Entity> joints;
-  for (int i = 1; i <= c.chain.joints; ++i) {
+  for (int i = 1; i <= c.chain.driven(); ++i) {
     const auto found = sim::entitiesFromScopedName("m::j" + std::to_string(i), w.ecm());
     if (found.empty()) throw std::runtime_error("no joint j" + std::to_string(i));
     joints.push_back(*found.begin());
@@ -45,6 +45,25 @@ Rest left_alone(const RestCase& c, double seconds) {
 
 TEST(GzSimRestMatrix, ChainsOfModulesAreQuiet) {
   expect_gazebo_quiet(left_alone, std::getenv("VSA_TEST_LONG") != nullptr, "gz-sim");
+}
+
+TEST(GzSimRestMatrix, ChainsWithDampersAtTheirJointsAreQuiet) {
+  expect_gazebo_quiet_with_dampers(left_alone, "gz-sim", {0.03, 0.1, 1.0});
+}
+
+TEST(GzSimRestMatrix, AnActuatedJointBeforeAPassiveDamper) { expect_quiet_before_a_passive_damper(left_alone, "gz-sim"); }
+
+TEST(GzSimRestMatrix, ADamperIsImplicitAsBSays) {
+  const auto speed_after_a_step = [](const SerialWorld& chain) {
+    SimWorld w(sdf_text(world_text(without_plugin(serial_model(chain)), {.step_s = chain.step_s, .gravity = false})));
+    w.run(1);
+    w.set_speed("m", 1, "j1");
+    // Its component is filled only where somebody asks for it.
+    w.ecm().CreateComponent(*sim::entitiesFromScopedName("m::j1", w.ecm()).begin(), components::JointVelocity());
+    w.run(1);
+    return w.speed("m", "j1");
+  };
+  expect_left_by_damper(speed_after_a_step, true);
 }
 
 }  // namespace
