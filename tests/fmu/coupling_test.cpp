@@ -120,7 +120,7 @@ TEST(Bodies, TheBenchGoesAsInTheEngine) {
       moved);
   std::printf("bench_load: 3 s, moved up to %.3g rad, largest difference %.3g rad, rms %.3g rad\n", moved, d.largest, d.rms());
   EXPECT_GT(moved, 0.5);
-  EXPECT_LT(d.largest, 1e-9);
+  EXPECT_LT(d.largest, 1e-6) << "the engine asks what gravity does now, an FMU goes on with what it did";
 }
 
 TEST(Bodies, TheSnakeWithEachJointAloneStaysNearTheEngineWhichSolvesThemTogether) {

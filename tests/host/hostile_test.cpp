@@ -13,6 +13,7 @@
 #include "support/servos.hpp"
 #include "vsa/elastic/series_spring.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/host/joint_dampers.hpp"
 #include "vsa/host/mobility_watch.hpp"
 #include "vsa/host/resolution.hpp"
 #include "vsa/host/robot_group.hpp"
@@ -421,6 +422,36 @@ TEST(HostileTree, AWatchOverOtherJointsEndsTheProgramInWords) {
   EXPECT_TRUE(none.due({}));
   joints[0].angle_rad = kNan;
   EXPECT_TRUE(watch.due(std::span<const JointIn>(joints).first(2)));
+}
+
+TEST(HostileTree, DampersOfOtherJointsOrWithoutNumbersTellNothingWrong) {
+  using vsa::host::JointDampers;
+  EXPECT_THROW(JointDampers({0.1, -1}, {}), vsa::InputError);
+  EXPECT_THROW(JointDampers({kNan}, {{0}}), vsa::InputError);
+  EXPECT_THROW(JointDampers({0.1}, {{1}}), vsa::InputError);
+  EXPECT_THROW(JointDampers({}, {{0}}), vsa::InputError);
+  const JointDampers two({0.1, 0.2}, {{0, 1}}), none;
+  JointDampers::Memory memory = two.begin(), others;
+  std::vector<JointIn> joints(2);
+  const std::vector<double> mobility(4, 1e3);
+  EXPECT_DEATH(two.tell(std::span(joints).first(1), mobility, 1e-3, memory), "one entry a driven joint");
+  EXPECT_DEATH(two.tell(joints, mobility, 1e-3, others), "begin");
+  EXPECT_DEATH(two.tell(joints, std::span(mobility).first(3), 1e-3, memory), "n² numbers a tree");
+  none.tell(joints, {}, 1e-3, others);
+  two.tell(joints, mobility, 1e-3, memory);
+  EXPECT_FALSE(joints[0].free_acceleration_rad_per_s2.has_value()) << "nothing is known of a step before";
+  for (const double x : {kNan, kInfinity}) {
+    joints[0].speed_rad_per_s = x;
+    two.tell(joints, mobility, 1e-3, memory);
+    EXPECT_FALSE(joints[1].free_acceleration_rad_per_s2.has_value()) << x;
+    joints[0].speed_rad_per_s = 0;
+    two.tell(joints, mobility, x, memory);
+    two.tell(joints, mobility, 1e-3, memory);
+    for (const JointIn& joint : joints) EXPECT_TRUE(std::isfinite(joint.free_acceleration_rad_per_s2.value_or(0.0))) << x;
+  }
+  memory.forget();
+  two.tell(joints, mobility, 1e-3, memory);
+  EXPECT_FALSE(joints[0].free_acceleration_rad_per_s2.has_value());
 }
 
 TEST(HostileTree, AStepThatIsNoNumberResolvesNothingWrong) {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -60,9 +60,9 @@ TEST(Robot, EnergyOutOfNothingIsToldThoughMotorsThatHoldBurnAHundredTimesAsMuch)
   ASSERT_LT(sum.coupling, -0.01);
   ASSERT_GT(sum.coupling, -0.005 * sum.moved()) << "it would be told anyway";
   const auto notices = bench.robot.take_notices();
-  EXPECT_TRUE(std::any_of(notices.begin(), notices.end(), [](const vsa::host::Notice& n) {
-    return n.text.find("out of nothing") != std::string::npos;
-  })) << sum.coupling << " J of " << sum.delivered_moved << " at the shaft, " << sum.moved() << " in all";
+  EXPECT_TRUE(std::any_of(notices.begin(), notices.end(),
+                          [](const vsa::host::Notice& n) { return n.text.find("out of nothing") != std::string::npos; }))
+      << sum.coupling << " J of " << sum.delivered_moved << " at the shaft, " << sum.moved() << " in all";
 }
 
 TEST(Robot, UnitTwelveMovesLaterThanUnitOneByTheTimeTheFramesTake) {

@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The engine's own dampers at driven joints, for hosts that can't work out JointIn::free_acceleration. What a damper did in the last
-// step is of that step's speeds; to go on with it makes a joint shake where dt·d is of its inertia's size. With what it does now,
+// The engine's own dampers at driven joints, for hosts that can't work out JointIn::free_acceleration. What a damper did in the
+// last step is of that step's speeds; to go on with it makes a joint shake where dt·d is of its inertia's size. With what it does now,
 //     free_acceleration = (v − v_before)/dt − B D (v − v_before)
 // D of the driven joints, diagonal; all else goes on as in the last step.
 #pragma once
@@ -46,7 +46,7 @@ class JointDampers {
     for (const auto& tree : trees_)
       for (const std::size_t i : tree)
         if (i >= damping_.size())
-          problems.add({"", "tree", std::to_string(i), "no such joint", "0 … " + std::to_string(damping_.size() - 1)});
+          problems.add({"", "tree", std::to_string(i), "no such joint", "below " + std::to_string(damping_.size())});
     problems.throw_if_any();
     if (std::all_of(damping_.begin(), damping_.end(), [](double d) { return d == 0; })) trees_.clear();
   }
@@ -54,9 +54,9 @@ class JointDampers {
   /// Before the first step.
   [[nodiscard]] Memory begin() const { return {0, std::vector<double>(trees_.empty() ? 0 : damping_.size())}; }
 
-  /// Once before each step, with begin()'s memory. `mobility`: B of the trees, as Robot::advance() gets it, those dampers in it where the engine takes them
-  /// implicitly; dt in s. In the first step, and of a joint that was placed, nothing is told. Other sizes: one line on stderr, and
-  /// abort.
+  /// Once before each step, with begin()'s memory. `mobility`: B of the trees, as Robot::advance() gets it, those dampers in it where
+  /// the engine takes them implicitly; dt in s. In the first step, and of a joint that was placed, nothing is told. Other sizes: one
+  /// line on stderr, and abort.
   void tell(std::span<JointIn> joints, std::span<const double> mobility, double dt_s, Memory& memory) const noexcept {
     if (trees_.empty()) return;
     require(joints.size() == damping_.size() && joints.size() == memory.speeds.size(), "vsa::host::JointDampers::tell",
