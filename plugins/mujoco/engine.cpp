@@ -14,7 +14,7 @@ namespace {
 struct Called {
   decltype(&::mj_id2name) id2name = nullptr;
   decltype(&::mj_solveM) solve_m = nullptr;
-  decltype(&::mj_fullM) full_m = nullptr;
+  decltype(&::mj_factorM) factor_m = nullptr;
   decltype(&::mj_mulJacVec) mul_jac_vec = nullptr;
   decltype(&::mj_mulJacTVec) mul_jac_t_vec = nullptr;
   decltype(&::mju_cholFactor) chol_factor = nullptr;
@@ -33,11 +33,7 @@ constinit vsa::mujoco::Engine of_program;
 extern "C" {
 const char* mj_id2name(const mjModel* m, int type, int id) { return called.id2name(m, type, id); }
 void mj_solveM(const mjModel* m, mjData* d, mjtNum* x, const mjtNum* y, int n) { called.solve_m(m, d, x, y, n); }
-#if mjVERSION_HEADER >= 3010000
-void mj_fullM(const mjModel* m, const mjData* d, mjtNum* dst) { called.full_m(m, d, dst); }
-#else
-void mj_fullM(const mjModel* m, mjtNum* dst, const mjtNum* M) { called.full_m(m, dst, M); }
-#endif
+void mj_factorM(const mjModel* m, mjData* d) { called.factor_m(m, d); }
 void mj_mulJacVec(const mjModel* m, const mjData* d, mjtNum* res, const mjtNum* vec) { called.mul_jac_vec(m, d, res, vec); }
 void mj_mulJacTVec(const mjModel* m, const mjData* d, mjtNum* res, const mjtNum* vec) { called.mul_jac_t_vec(m, d, res, vec); }
 int mju_cholFactor(mjtNum* mat, int n, mjtNum mindiag) { return called.chol_factor(mat, n, mindiag); }
@@ -80,7 +76,7 @@ bool take(void* library) {
   bool all = find(library, "mjp_registerPlugin", e.mjp_registerPlugin) && find(library, "mjp_getPlugin", e.mjp_getPlugin) &&
              find(library, "mj_getPluginConfig", e.mj_getPluginConfig) && find(library, "mju_warning", e.mju_warning) &&
              find(library, "mj_id2name", called.id2name) && find(library, "mj_solveM", called.solve_m) &&
-             find(library, "mj_fullM", called.full_m) && find(library, "mj_mulJacVec", called.mul_jac_vec) &&
+             find(library, "mj_factorM", called.factor_m) && find(library, "mj_mulJacVec", called.mul_jac_vec) &&
              find(library, "mj_mulJacTVec", called.mul_jac_t_vec) && find(library, "mju_cholFactor", called.chol_factor) &&
              find(library, "mju_cholSolve", called.chol_solve);
 #if mjVERSION_HEADER >= 3005000

@@ -8,37 +8,36 @@
 
 namespace vsa::mujoco {
 
+/// MuJoCo steps v' = v + dt·(M + dt·D)⁻¹ f with the joints' damping D: works where mj_solveM() solves with that matrix.
+template <class Work>
+void Mobility::with_dampers(const mjModel& m, mjData& d, Work&& work) {
+  if (!damps_implicitly(m)) return work();
+  const std::span<mjtNum> mass = mass_numbers(m, d);
+  mass_.assign(mass.begin(), mass.end());
+  for (int i = 0; i < static_cast<int>(m.nv); ++i) mass_of_dof(m, d, i) += m.opt.timestep * m.dof_damping[i];
+  mj_factorM(&m, &d);
+  work();
+  std::copy(mass_.begin(), mass_.end(), mass.begin());
+  mj_factorM(&m, &d);
+}
+
 void Mobility::of(const mjModel& m, mjData& d, std::span<const int> dofs, std::span<double> out) {
-  const auto nv = static_cast<std::size_t>(m.nv);
-  unit_.assign(nv, 0);
-  column_.resize(nv);
-  damped_ = damps_implicitly(m);
-  if (damped_) factor_damped(m, d);
-  const std::size_t n = dofs.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    unit_[static_cast<std::size_t>(dofs[i])] = 1;
-    solve(m, d);
-    unit_[static_cast<std::size_t>(dofs[i])] = 0;
-    for (std::size_t k = 0; k < n; ++k) out[i * n + k] = column_[static_cast<std::size_t>(dofs[k])];
-  }
-  tie(m, d, dofs, out);
+  with_dampers(m, d, [&] {
+    const auto nv = static_cast<std::size_t>(m.nv);
+    unit_.assign(nv, 0);
+    column_.resize(nv);
+    const std::size_t n = dofs.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      unit_[static_cast<std::size_t>(dofs[i])] = 1;
+      solve(m, d);
+      unit_[static_cast<std::size_t>(dofs[i])] = 0;
+      for (std::size_t k = 0; k < n; ++k) out[i * n + k] = column_[static_cast<std::size_t>(dofs[k])];
+    }
+    tie(m, d, dofs, out);
+  });
 }
 
-void Mobility::factor_damped(const mjModel& m, const mjData& d) {
-  const auto nv = static_cast<std::size_t>(m.nv);
-  factor_.resize(nv * nv);
-  mass_matrix(m, d, factor_);
-  for (std::size_t i = 0; i < nv; ++i) factor_[i * nv + i] += m.opt.timestep * m.dof_damping[i];
-  mju_cholFactor(factor_.data(), static_cast<int>(nv), mjMINVAL);
-}
-
-void Mobility::solve(const mjModel& m, mjData& d) {
-  if (damped_) {
-    mju_cholSolve(column_.data(), factor_.data(), unit_.data(), static_cast<int>(m.nv));
-  } else {
-    mj_solveM(&m, &d, column_.data(), unit_.data(), 1);
-  }
-}
+void Mobility::solve(const mjModel& m, mjData& d) { mj_solveM(&m, &d, column_.data(), unit_.data(), 1); }
 
 /// tied_ := M⁻¹ Jᵀ by rows, ties_ := the factor of J M⁻¹ Jᵀ + R; M as solve() has it.
 void Mobility::factor_ties(const mjModel& m, mjData& d) {
@@ -85,7 +84,6 @@ std::span<const double> Mobility::foresee(const mjModel& m, mjData& d, std::span
   force_.resize(nv);
   for (std::size_t i = 0; i < nv; ++i) force_[i] = d.qfrc_passive[i] - d.qfrc_bias[i] + pushed[i];
   if (rows > 0) {  // MuJoCo works constraints out with M, and takes dampers implicitly after that
-    damped_ = false;
     factor_ties(m, d);
     unit_ = force_;
     solve(m, d);
@@ -97,10 +95,8 @@ std::span<const double> Mobility::foresee(const mjModel& m, mjData& d, std::span
     mj_mulJacTVec(&m, &d, unit_.data(), row_.data());
     std::transform(force_.begin(), force_.end(), unit_.begin(), force_.begin(), std::plus<>());
   }
-  damped_ = damps_implicitly(m);
-  if (damped_) factor_damped(m, d);
   unit_ = force_;
-  solve(m, d);
+  with_dampers(m, d, [&] { solve(m, d); });
   return column_;
 }
 

@@ -29,11 +29,11 @@ class Mobility {
  private:
   void solve(const mjModel& m, mjData& d);  ///< unit_ → column_
   void factor_ties(const mjModel& m, mjData& d);
-  void factor_damped(const mjModel& m, const mjData& d);
+  template <class Work>
+  void with_dampers(const mjModel& m, mjData& d, Work&& work);
   void tie(const mjModel& m, mjData& d, std::span<const int> dofs, std::span<double> out);
 
-  bool damped_ = false;
-  std::vector<double> unit_, column_, factor_, force_;
+  std::vector<double> unit_, column_, force_, mass_;
   std::vector<double> row_, moved_, tied_, ties_, of_joint_;
 };
 

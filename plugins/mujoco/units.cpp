@@ -36,8 +36,8 @@ device::Faults faults_of(const UnitSpec& spec) { return config::read_faults(spec
 bool is_broken(const UnitSpec& spec) { return !spec.get("faults").empty(); }
 
 // In a state.
-constexpr std::size_t kCount = 0, kBegun = 1,
-                      kTaken = 2;  // then what is taken of controls, then what pushed each degree of freedom
+constexpr std::size_t kCount = 0, kBegun = 1, kTaken = 2;
+/// Behind kTaken two numbers a unit, then one a degree of freedom: what pushed it.
 std::size_t head(std::size_t units, std::size_t dofs) { return kTaken + 2 * units + dofs; }
 
 /// What a state has at most.

@@ -52,12 +52,21 @@ inline double control(const mjModel& m, const mjData& d, int actuator) {
   return u;
 }
 
-/// M, nv × nv.
-inline void mass_matrix(const mjModel& m, const mjData& d, std::span<double> out) {
-#if mjVERSION_HEADER >= 3010000
-  mj_fullM(&m, &d, out.data());
+/// What mj_factorM() takes: M by the tree's chains, from 3.3.3 on by rows.
+inline std::span<mjtNum> mass_numbers(const mjModel& m, mjData& d) {
+#if mjVERSION_HEADER >= 333
+  return {d.M, static_cast<std::size_t>(m.nC)};
 #else
-  mj_fullM(&m, out.data(), d.qM);
+  return {d.qM, static_cast<std::size_t>(m.nM)};
+#endif
+}
+
+/// Of it, the number on the diagonal.
+inline mjtNum& mass_of_dof(const mjModel& m, mjData& d, int dof) {
+#if mjVERSION_HEADER >= 333
+  return d.M[m.M_rowadr[dof] + m.M_rownnz[dof] - 1];
+#else
+  return d.qM[m.dof_Madr[dof]];
 #endif
 }
 

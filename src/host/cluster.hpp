@@ -88,6 +88,7 @@ class Cluster {
 [[nodiscard]] bool has_ticks_inside(std::int64_t t_ns, std::int64_t dt_ns) noexcept;
 /// 1/(kg·m²): what is lighter than 1e-12 has no numbers left where its torque is worked out.
 inline constexpr double kMostMobility = 1e12;
+inline constexpr double kMostAcceleration = 1e12;  ///< rad/s², likewise
 /// Whether a host's matrix can be used at all: bodies without mass have none.
 [[nodiscard]] bool is_usable(std::span<const double> matrix, std::size_t n) noexcept;
 /// Where the host has no matrix for a joint.

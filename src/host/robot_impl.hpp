@@ -29,7 +29,7 @@ inline constexpr double kCreatedLeast_J = 1e-3, kCreatedAtShafts_J = 1e-2;  ///<
 [[nodiscard]] inline bool is_told(const JointIn& joint) noexcept {
   const double a = joint.inverse_inertia.value_or(0.0);
   return std::isfinite(joint.angle_rad) && std::isfinite(joint.speed_rad_per_s) && a >= 0 && a <= kMostMobility &&
-         std::isfinite(joint.free_acceleration_rad_per_s2.value_or(0.0));
+         std::abs(joint.free_acceleration_rad_per_s2.value_or(0.0)) <= kMostAcceleration;
 }
 
 /// Adds what a unit's state can't cross.
@@ -202,10 +202,11 @@ struct Robot::Impl {
     }
     for (const auto& bus : buses) look_at_client(*bus);
     notice(0, state.noted_unsettled, state.unsettled > 0, NoticeKind::unsettled, static_cast<double>(state.unsettled));
-    // A motor that holds turns 15 W into heat, beside which a joint that shakes for ever is nothing: so by what its shafts exchange, too.
+    // A motor that holds turns 15 W into heat, beside which a joint that shakes for ever is nothing: so by what shafts exchange, too.
     const bool created = sum.coupling < -std::max(kCreated * sum.moved(), kCreatedLeast_J) ||
                          sum.coupling < -std::max(kCreated * sum.delivered_moved, kCreatedAtShafts_J);
-    notice(0, state.noted_energy, created, NoticeKind::energy, -sum.coupling / sum.delivered_moved);
+    notice(0, state.noted_energy, created, NoticeKind::energy,
+           -sum.coupling / std::max(sum.delivered_moved, -sum.coupling));  // no more than all
   }
 
   void expect(std::int64_t t_ns) noexcept {

@@ -111,6 +111,31 @@ TEST(HostileRobot, AJointThatIsNoNumberGivesNoneAndChangesNothing) {
   }
 }
 
+TEST(HostileRobot, WhatNoShaftCouldHaveLeavesItAsItWas) {
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1e13, 1e300}) {
+    for (const bool acceleration : {false, true}) {
+      Bench bench(chain(2)), untouched(chain(2));
+      for (Bench* b : {&bench, &untouched}) b->run(5);
+      std::vector<JointIn> in = bench.in;
+      (acceleration ? in[1].free_acceleration_rad_per_s2 : in[1].inverse_inertia) = bad;
+      bench.robot.advance(bench.t_ns, bench.dt_ns, in, bench.out);
+      EXPECT_TRUE(std::isnan(bench.out[0]) && std::isnan(bench.out[1])) << bad;
+      for (Bench* b : {&bench, &untouched}) b->run(10);
+      EXPECT_EQ(bench.in[1].angle_rad, untouched.in[1].angle_rad) << bad;
+    }
+  }
+  // 5 rad in one step; this law has no numbers beyond some tens.
+  for (const double most : {1e7, -1e7}) {
+    Bench bench(chain(1));
+    bench.run(5);
+    bench.in[0].free_acceleration_rad_per_s2 = most;
+    bench.step();
+    bench.in[0] = {0, 0, 1e3};
+    bench.run(50);
+    EXPECT_TRUE(std::isfinite(bench.in[0].angle_rad) && std::isfinite(bench.out[0])) << most << " for a step";
+  }
+}
+
 TEST(HostileRobot, HugeNumbersEndInNumbersOrNone) {
   for (const double huge : {1e6, 1e20, 1e300}) {
     Bench bench(chain(1));

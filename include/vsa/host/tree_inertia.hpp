@@ -5,11 +5,11 @@
 //
 // With S the joint's axis as a spatial vector and I the articulated inertia of a body and all that hangs on it (6×6; all in world
 // axes about one point, so that nothing needs to be transformed), at rest and without gravity:
-//     U = I S,   D = Sᵀ U + dt·d,   I_parent += I − U Uᵀ/D                                          from the leaves to the roots, once
+//     U = I S,   D = Sᵀ U + dt·d,   I_parent += I − U Uᵀ/D                                   from the leaves to the roots, once
 //     u = τ − Sᵀ p,   p_parent += p + U u/D                                                  from joint j to its root
 //     q̈ = (u − Uᵀ a_parent)/D,   a = a_parent + S q̈                                         from the roots to the leaves
-// With d of a damper that the engine takes implicitly, a = 0 for the ground and a = −I⁻¹ p for a body that flies free. Four columns at a time, and only as far out as their joints:
-// B is symmetric. Contacts aren't in it. Reference: R. Featherstone, Rigid Body Dynamics Algorithms, ch. 7.
+// With d of a damper that the engine takes implicitly, a = 0 for the ground and a = −I⁻¹ p for a body that flies free. Four columns at
+// a time, and only as far out as their joints: B is symmetric. Contacts aren't in it. Reference: R. Featherstone, Rigid Body Dynamics Algorithms, ch. 7.
 #pragma once
 
 #include <array>
