@@ -15,7 +15,6 @@ constexpr double kQuiet_rad_per_s = 0.02;
 constexpr double kScatter = 0.01;          // of the joint's largest torque …
 constexpr double kScatterLeast_Nm = 2e-3;  // … or as much as that, where hardly any torque is asked for
 constexpr double kCreated = -1e-3;         // summed coupling over what moved
-constexpr double kTold = -1e-2;            // where a user is told of it
 constexpr double kNothing_J = 1e-9;        // moves nothing: rounding has no sign
 
 struct Rest {
