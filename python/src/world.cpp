@@ -80,17 +80,22 @@ struct PySnapshot {
   double time_s = 0;
 };
 
+std::ptrdiff_t word_of(const char* key, const std::string& given, const std::vector<std::string>& words) {
+  const auto word = std::find(words.begin(), words.end(), given);
+  if (word == words.end()) throw InputError({"", key, given, "unknown", config::join(words)});
+  return word - words.begin();
+}
+
 engine::WorldOptions options_of(const std::optional<double>& step_s, const std::optional<std::string>& type, const py::object& set,
-                                const std::string& concave) {
+                                const std::string& concave, const std::string& impossible_inertia) {
   engine::WorldOptions out;
   out.step_s = step_s;
   out.actuator.type = type;
   out.actuator.overrides = settings(set);
   out.actuator.flag = "set";
-  const std::vector<std::string> words{"refuse", "hull", "decompose"};
-  const auto word = std::find(words.begin(), words.end(), concave);
-  if (word == words.end()) throw InputError({"", "concave", concave, "unknown", config::join(words)});
-  out.concave = static_cast<engine::Concave>(word - words.begin());
+  out.concave = static_cast<engine::Concave>(word_of("concave", concave, {"refuse", "hull", "decompose"}));
+  out.impossible_inertia =
+      static_cast<engine::ImpossibleInertia>(word_of("impossible_inertia", impossible_inertia, {"refuse", "lower"}));
   if (type) (void)out.types.load(*type, out.actuator.overrides);  // its problems, once and by their own names
   return out;
 }
@@ -110,23 +115,24 @@ constexpr const char* kLoad =
     "step_s: length of a step, s; default: the file's. type: puts this actuator type on every actuator. set: dict of parameters "
     "to\n"
     "replace (\"drive.friction_Nm\": 0.7), checked as `vsa run --set` does. concave: what to do with collision meshes that aren't\n"
-    "convex: \"refuse\", \"hull\" or \"decompose\". InputError with every problem at once.";
+    "convex: \"refuse\", \"hull\" or \"decompose\". impossible_inertia: what to do with inertias whose largest principal moment is "
+    "more\nthan the sum of the others: \"refuse\" or \"lower\" it. InputError with every problem at once.";
+
+template <class Source, class Load>
+auto loader(const Load& how) {
+  return [how](const Source& source, const std::optional<double>& step_s, const std::optional<std::string>& type,
+               const py::object& set, const std::string& concave, const std::string& impossible_inertia) {
+    return load(source, options_of(step_s, type, set, concave, impossible_inertia), how);
+  };
+}
 
 void bind_load(WorldClass& c) {
-  c.def_static(
-       "load",
-       [](const std::filesystem::path& file, const std::optional<double>& step_s, const std::optional<std::string>& type,
-          const py::object& set,
-          const std::string& concave) { return load(file, options_of(step_s, type, set, concave), engine::World::load); },
-       py::arg("file"), py::kw_only(), py::arg("step_s") = py::none(), py::arg("type") = py::none(), py::arg("set") = py::none(),
-       py::arg("concave") = "refuse", kLoad)
-      .def_static(
-          "load_string",
-          [](const std::string& sdf, const std::optional<double>& step_s, const std::optional<std::string>& type,
-             const py::object& set,
-             const std::string& concave) { return load(sdf, options_of(step_s, type, set, concave), engine::World::load_string); },
-          py::arg("sdf"), py::kw_only(), py::arg("step_s") = py::none(), py::arg("type") = py::none(), py::arg("set") = py::none(),
-          py::arg("concave") = "refuse", "The same from the text of an SDF or URDF.");
+  const auto with = [&](const char* name, auto loads, const char* source, const char* doc) {
+    c.def_static(name, loads, py::arg(source), py::kw_only(), py::arg("step_s") = py::none(), py::arg("type") = py::none(),
+                 py::arg("set") = py::none(), py::arg("concave") = "refuse", py::arg("impossible_inertia") = "refuse", doc);
+  };
+  with("load", loader<std::filesystem::path>(engine::World::load), "file", kLoad);
+  with("load_string", loader<std::string>(engine::World::load_string), "sdf", "The same from the text of an SDF or URDF.");
 }
 
 void bind_time(WorldClass& c) {

@@ -212,6 +212,7 @@ class World:
         type: Optional[str] = None,
         set: Optional[Mapping[str, _Value]] = None,
         concave: str = "refuse",
+        impossible_inertia: str = "refuse",
     ) -> World: ...
     @staticmethod
     def load_string(
@@ -221,6 +222,7 @@ class World:
         type: Optional[str] = None,
         set: Optional[Mapping[str, _Value]] = None,
         concave: str = "refuse",
+        impossible_inertia: str = "refuse",
     ) -> World: ...
     def step(self, n: int = 1) -> None: ...
     def run(self, duration_s: float) -> None: ...

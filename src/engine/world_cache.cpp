@@ -22,6 +22,7 @@ struct Key {
   std::string text;
   reader::SearchPath search;
   Concave concave;
+  ImpossibleInertia impossible_inertia;
   std::shared_ptr<const physics::Engine> engine;
   [[nodiscard]] bool operator==(const Key&) const = default;
 };
@@ -41,6 +42,7 @@ Key key_of(const reader::SdfSource& source, const WorldOptions& options) {
           std::string(source.text),
           reader::SearchPath(options.model_path),
           options.concave,
+          options.impossible_inertia,
           options.physics ? options.physics : default_engine};
 }
 
@@ -83,8 +85,8 @@ description::World read_description(const reader::SdfSource& source, const World
   ReadWorld& file = *entry.file;
   const std::filesystem::path mjcf = mjcf_of(source.path);
   if (mjcf.empty() && !physics::is_mjcf({}, source.text)) {
-    return reader::read_sdf(source, {file.engine->capabilities(), options.concave}, reader::Finder(entry.key.search, entry.seen),
-                            entry.seen, file.warnings, problems);
+    return reader::read_sdf(source, {file.engine->capabilities(), options.concave, options.impossible_inertia},
+                            reader::Finder(entry.key.search, entry.seen), entry.seen, file.warnings, problems);
   }
   for (const std::filesystem::path& read : physics::files_of_mjcf(mjcf)) entry.seen.reads(read);
   physics::MjcfRead read = physics::read_mjcf(mjcf, source.text, file.warnings, problems);

@@ -28,9 +28,13 @@ std::int64_t step_ns(const WorldOptions& options, const description::World& worl
   return std::llround(step_s * 1e9);
 }
 
-void check_concave(const WorldOptions& options, Problems& problems) {
-  if (options.concave == Concave::refuse || options.concave == Concave::hull || options.concave == Concave::decompose) return;
-  problems.add({"", "concave", fmt::format("{}", static_cast<int>(options.concave)), "no such choice", "refuse, hull, decompose"});
+void check_choices(const WorldOptions& options, Problems& problems) {
+  if (options.concave != Concave::refuse && options.concave != Concave::hull && options.concave != Concave::decompose)
+    problems.add(
+        {"", "concave", fmt::format("{}", static_cast<int>(options.concave)), "no such choice", "refuse, hull, decompose"});
+  if (options.impossible_inertia != ImpossibleInertia::refuse && options.impossible_inertia != ImpossibleInertia::lower)
+    problems.add({"", "impossible_inertia", fmt::format("{}", static_cast<int>(options.impossible_inertia)), "no such choice",
+                  "refuse, lower"});
 }
 
 /// Empty: an actuator can drive it.
@@ -118,7 +122,7 @@ std::unique_ptr<World::Impl> World::Impl::load(const reader::SdfSource& source, 
   auto impl = std::make_unique<World::Impl>();
   impl->options = std::move(options);
   Problems problems;
-  check_concave(impl->options, problems);
+  check_choices(impl->options, problems);
   problems.throw_if_any();
   const std::shared_ptr<ReadWorld> file = read_world(source, impl->options, problems);
   impl->world = file->world;

@@ -29,6 +29,10 @@ engine::Concave concave_of(const std::string& text) {
   return text == "hull" ? engine::Concave::hull : text == "decompose" ? engine::Concave::decompose : engine::Concave::refuse;
 }
 
+engine::ImpossibleInertia impossible_inertia_of(const std::string& text) {
+  return text == "lower" ? engine::ImpossibleInertia::lower : engine::ImpossibleInertia::refuse;
+}
+
 /// Flags come behind the scenario's own, and of a key the last said counts.
 std::vector<config::Override> last_of_each(const std::vector<config::Override>& all) {
   std::vector<config::Override> out;
@@ -52,6 +56,8 @@ void validate(const Scenario& s, std::string_view where, Problems& problems) {
   if (s.seed) check.within("seed", static_cast<double>(*s.seed), 0, kLargestSeed);
   if (concave_of(s.concave) == engine::Concave::refuse && s.concave != "refuse")
     check.refuse("concave", s.concave, "is not one of the words", "refuse, hull, decompose");
+  if (impossible_inertia_of(s.impossible_inertia) == engine::ImpossibleInertia::refuse && s.impossible_inertia != "refuse")
+    check.refuse("impossible_inertia", s.impossible_inertia, "is not one of the words", "refuse, lower");
   double before = 0;
   for (const Command& c : s.commands) {
     check.within("command.time_s", c.time_s, 0, kLongest_s);
@@ -71,6 +77,7 @@ engine::World load_world(const Scenario& scenario) {
   engine::WorldOptions with;
   with.step_s = scenario.step_s;
   with.concave = concave_of(scenario.concave);
+  with.impossible_inertia = impossible_inertia_of(scenario.impossible_inertia);
   with.actuator.flag = scenario.scenario.empty() ? "--set" : "--set or [set]";
   with.actuator.overrides = last_of_each(config::parse_overrides(scenario.set, with.actuator.flag));
   if (!scenario.type.empty()) {

@@ -36,6 +36,7 @@ void read_run(TomlSection& s, const fs::path& file, Scenario& out) {
   out.step_s = s.number("step_s", kShortest_s, 1);
   out.type = s.text("type").value_or("");
   out.concave = s.word("concave", {"refuse", "hull", "decompose"}).value_or(out.concave);
+  out.impossible_inertia = s.word("impossible_inertia", {"refuse", "lower"}).value_or(out.impossible_inertia);
   if (const auto seed = s.whole("seed", 0, kLargestSeed)) out.seed = static_cast<std::uint64_t>(*seed);
   out.faults = s.texts("faults");
 }
@@ -106,6 +107,7 @@ toml::table run_table(const Scenario& o, double duration_s) {
   if (o.step_s) out.insert("step_s", *o.step_s);
   if (!o.type.empty()) out.insert("type", o.type);
   if (o.concave != Scenario{}.concave) out.insert("concave", o.concave);
+  if (o.impossible_inertia != Scenario{}.impossible_inertia) out.insert("impossible_inertia", o.impossible_inertia);
   if (o.seed) out.insert("seed", static_cast<std::int64_t>(*o.seed));
   toml::array faults;
   for (const std::string& fault : o.faults) faults.push_back(fault);

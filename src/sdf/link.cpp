@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sdf/Collision.hh>
 #include <sdf/Geometry.hh>
@@ -21,7 +22,17 @@ using SdfMass = std::decay_t<decltype(std::declval<sdf::Link>().Inertial().MassM
 
 constexpr double kLight_kg = 1e-5, kLight_kgm2 = 1e-9;  // told, for a gram weighed in tonnes
 
-void check_inertia(ReadContext& c, const sdf::ElementPtr& element, const SdfMass& mass, const std::string& key) {
+/// I − excess·v vᵀ with v the axis of the largest principal moment: that moment less `excess`, about the same axes.
+Mat3 lowered(const Mat3& inertia, const SdfMass& mass, double excess) {
+  const SdfVec3 p = mass.PrincipalMoments();
+  const Vec3 largest = p.Z() >= p.X() && p.Z() >= p.Y() ? Vec3(0, 0, 1) : p.Y() >= p.X() ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
+  const Vec3 v = Quat(mass.PrincipalAxesOffset()) * largest;
+  std::array<double, 9> m{};
+  for (std::size_t i = 0; i < 9; ++i) m[i] = inertia(i / 3, i % 3) - excess * v[i / 3] * v[i % 3];
+  return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]};
+}
+
+void check_inertia(ReadContext& c, const sdf::ElementPtr& element, const SdfMass& mass, const std::string& key, Mat3& inertia) {
   if (!std::isfinite(mass.Mass()) || mass.Mass() <= 0) {
     c.problem(element, key + "/inertial/mass", fmt::format("{}", mass.Mass()), "isn't a positive mass", "> 0 kg, finite");
   }
@@ -32,9 +43,16 @@ void check_inertia(ReadContext& c, const sdf::ElementPtr& element, const SdfMass
   if (!(low > 0)) {
     c.problem(element, key + "/inertial/inertia", shown, "isn't positive definite", "principal moments > 0, finite");
   } else if (low + middle < high * (1 - kTriangleTolerance)) {
-    c.problem(element, key + "/inertial/inertia", shown,
-              fmt::format("violates the triangle inequality: principal moments {:.6g} + {:.6g} < {:.6g}", low, middle, high),
-              "the sum of two principal moments ≥ the third");
+    const std::string moments = fmt::format("principal moments {:.6g} + {:.6g} < {:.6g}", low, middle, high);
+    if (c.impossible_inertia == ImpossibleInertia::lower) {
+      inertia = lowered(inertia, mass, high - low - middle);
+      c.notes.add("inertias that no body can have are lowered to the sum of the two smaller principal moments",
+                  fmt::format("{} ({})", key, moments));
+    } else {
+      c.problem(element, key + "/inertial/inertia", shown, "violates the triangle inequality: " + moments,
+                "the sum of two principal moments ≥ the third; or ask for the nearest such: vsa run --impossible-inertia lower, "
+                "WorldOptions::impossible_inertia");
+    }
   }
 }
 
@@ -46,7 +64,7 @@ void read_inertia(ReadContext& c, const sdf::Link& link, const std::string& key,
   if (out.is_static) return;
   if (!child(link.Element(), "inertial")) c.notes.add("links without <inertial> have SDF's defaults, 1 kg and 1 kg·m²", key);
   if (!inertial.Pose().IsFinite()) c.problem(link.Element(), key + "/inertial/pose", "", "isn't finite", "finite numbers");
-  check_inertia(c, link.Element(), inertial.MassMatrix(), key);
+  check_inertia(c, link.Element(), inertial.MassMatrix(), key, out.inertia);
   const double least = inertial.MassMatrix().PrincipalMoments().Min();
   if (out.mass > 0 && (out.mass < kLight_kg || (least > 0 && least < kLight_kgm2)))
     c.notes.add(

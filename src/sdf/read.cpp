@@ -86,7 +86,8 @@ description::World read_sdf(const SdfSource& source, const ReadOptions& options,
     files.call(source.path);
     seen.reads(source.path);
   }
-  ReadContext context{out, problems, notes, finder, files, seen, source.label(), base, options.engine, options.concave};
+  ReadContext context{
+      out, problems, notes, finder, files, seen, source.label(), base, options.engine, options.concave, options.impossible_inertia};
   if (!prepare_files(source, context)) return out;
   sdf::Root root;
   parse_sdf(source, context, root);

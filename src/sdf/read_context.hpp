@@ -52,6 +52,7 @@ struct ReadContext {
   std::filesystem::path base;  ///< directory for relative paths of elements that don't know their file
   const Capabilities& engine;
   Concave concave = Concave::refuse;
+  ImpossibleInertia impossible_inertia = ImpossibleInertia::refuse;
   bool parsed_clean = true;  ///< false: poses may not resolve for reasons already reported
   std::vector<Mimic> mimics{};
   std::map<std::string, Pose3> model_poses{};  ///< scoped name → its frame in the world

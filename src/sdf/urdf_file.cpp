@@ -2,6 +2,7 @@
 #include "sdf/urdf_file.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include "sdf/urdf_elements.hpp"
 #include "vsa/config/text.hpp"
@@ -25,7 +26,7 @@ double mimic_number(const XMLElement& mimic, const char* name, double fallback, 
   return value.value_or(fallback);
 }
 
-UrdfJoint read_joint(const XMLElement& e, const Urdf& urdf, Problems& problems) {
+UrdfJoint read_joint(const XMLElement& e, const Urdf& urdf, Notes& notes, Problems& problems) {
   UrdfJoint joint{attribute(&e, "name"),
                   attribute(&e, "type"),
                   attribute(e.FirstChildElement("parent"), "link"),
@@ -34,13 +35,17 @@ UrdfJoint read_joint(const XMLElement& e, const Urdf& urdf, Problems& problems) 
                   {}};
   if (joint.type == "planar" || joint.type == "floating") {
     const bool free = joint.type == "floating";
-    problems.add(
-        {urdf.file, "joint[" + joint.name + "]@type", joint.type, "joint type isn't supported",
-         std::string("fixed, revolute, continuous, prismatic") +
-             (free ? "; a robot without a link \"world\" floats freely" : "; a plane is two prismatic joints and a revolute")});
+    problems.add({urdf.file, "joint[" + joint.name + "]@type", joint.type, "joint type isn't supported",
+                  std::string("fixed, revolute, continuous, prismatic") +
+                      (free ? "; floating between a link \"world\" that has no other joint and the root, without an <origin>"
+                            : "; a plane is two prismatic joints and a revolute")});
   }
   const XMLElement* mimic = e.FirstChildElement("mimic");
   if (mimic == nullptr) return joint;
+  if (joint.type == "fixed") {
+    notes.add("<mimic> of fixed joints is left out", joint.name);
+    return joint;
+  }
   joint.mimic = UrdfMimic{attribute(mimic, "joint"), mimic_number(*mimic, "multiplier", 1, urdf, joint.name, problems),
                           mimic_number(*mimic, "offset", 0, urdf, joint.name, problems)};
   return joint;
@@ -49,6 +54,32 @@ UrdfJoint read_joint(const XMLElement& e, const Urdf& urdf, Problems& problems) 
 bool is_true(const char* text) {
   const std::string word(config::trim(text == nullptr ? "" : text));
   return word == "true" || word == "True" || word == "TRUE" || word == "yes" || word == "1";
+}
+
+bool is_zero(const char* numbers) {
+  std::istringstream in(numbers == nullptr ? "" : numbers);
+  double number = 0;
+  while (in >> number)
+    if (number != 0) return false;
+  return in.eof();
+}
+
+/// MuJoCo's way of saying that a robot floats: a floating joint between a link "world" that is nothing else and the root. Without both
+/// it does.
+void let_float(XMLElement& robot) {
+  XMLElement *floating = nullptr, *world = nullptr;
+  for (XMLElement* e = robot.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint")) {
+    if (attribute(e->FirstChildElement("parent"), "link") != "world") continue;
+    if (floating != nullptr || attribute(e, "type") != "floating") return;
+    floating = e;
+  }
+  for (XMLElement* e = robot.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link"))
+    if (attribute(e, "name") == "world") world = e;
+  if (floating == nullptr || world == nullptr || !world->NoChildren()) return;
+  const XMLElement* origin = floating->FirstChildElement("origin");
+  if (origin != nullptr && !(is_zero(origin->Attribute("xyz")) && is_zero(origin->Attribute("rpy")))) return;
+  robot.DeleteChild(floating);
+  robot.DeleteChild(world);
 }
 
 /// libsdformat's two ways of keeping a fixed joint.
@@ -101,6 +132,7 @@ Urdf mend_urdf(XMLElement& robot, const std::string& file, std::size_t id, Notes
   Urdf urdf;
   urdf.file = file;
   check_urdf_elements(robot, file, notes);
+  let_float(robot);
   for (const XMLElement* e = robot.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) {
     urdf.links.push_back(attribute(e, "name"));
     if (urdf.links.back() == "world") continue;
@@ -108,7 +140,7 @@ Urdf mend_urdf(XMLElement& robot, const std::string& file, std::size_t id, Notes
       ++urdf.collisions;
   }
   for (const XMLElement* e = robot.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint")) {
-    UrdfJoint joint = read_joint(*e, urdf, problems);
+    UrdfJoint joint = read_joint(*e, urdf, notes, problems);
     joint.lumped = joint.type == "fixed" && joint.parent != "world" && !stays(robot, joint.name);
     if (e->FirstChildElement("safety_controller") != nullptr)
       notes.add("<safety_controller> of joints is a controller's and left out", joint.name);

@@ -21,15 +21,18 @@ struct LeftOut {
 };
 
 constexpr const char* kSolver = "ODE's settings of joints are left out";
-constexpr std::array<LeftOut, 9> kLeftOut{{{"provideFeedback", "force sensors of joints (provideFeedback) are left out"},
-                                           {"implicitSpringDamper", kSolver},
-                                           {"cfmDamping", kSolver},
-                                           {"fudgeFactor", kSolver},
-                                           {"stopCfm", kSolver},
-                                           {"stopErp", kSolver},
-                                           {"sensor", "sensors are left out"},
-                                           {"material", nullptr},
-                                           {"canonicalBody", nullptr}}};
+constexpr std::array<LeftOut, 12> kLeftOut{{{"provideFeedback", "force sensors of joints (provideFeedback) are left out"},
+                                            {"implicitSpringDamper", kSolver},
+                                            {"cfmDamping", kSolver},
+                                            {"fudgeFactor", kSolver},
+                                            {"stopCfm", kSolver},
+                                            {"stopErp", kSolver},
+                                            {"stopKd", kSolver},
+                                            {"stopKp", kSolver},
+                                            {"initial_joint_position", "<initial_joint_position> of joints is left out"},
+                                            {"sensor", "sensors are left out"},
+                                            {"material", nullptr},
+                                            {"canonicalBody", nullptr}}};
 
 constexpr std::array<std::string_view, 11> kNumbers{"kp",
                                                     "kd",

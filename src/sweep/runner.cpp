@@ -36,7 +36,8 @@ std::runtime_error beyond(double limit_s) {
 
 /// What a world is made of, as a key to those that were read.
 std::string ingredients(const scenario::Scenario& s) {
-  std::string out = s.world + '\n' + s.type + '\n' + s.concave + '\n' + (s.step_s ? config::number_text(*s.step_s) : "");
+  std::string out = s.world + '\n' + s.type + '\n' + s.concave + '\n' + s.impossible_inertia + '\n' +
+                    (s.step_s ? config::number_text(*s.step_s) : "");
   for (const std::string& set : s.set) out += '\n' + set;
   return out;
 }

@@ -28,11 +28,12 @@ enum class Kind { actuated, hinge, slide, follower };
 struct Link {
   Kind kind = Kind::actuated;
   double mass_kg = 0.3, length_m = 0.08, damping = 0, spring = 0, multiplier = 1;  ///< the last: of a follower of the first joint
+  bool beside = false;  ///< hangs on the fixed link, not on the one before
 };
 
 struct Chain {
   std::vector<Link> links;
-  double step_s = 1e-3, preset = 0.785;
+  double step_s = 1e-3, preset = 0.785;  ///< preset: 0 is the type's own
   bool gravity = false;
   std::string type = "qbmove_maker_pro_6_1";
   double command_rad = 0;  ///< of every actuator, at once
@@ -49,18 +50,20 @@ std::string world_of(const Chain& c) {
   double z = 0;
   for (std::size_t i = 1; i <= c.links.size(); ++i) {
     const Link& l = c.links[i - 1];
+    if (l.beside) z = 0;
     const double inertia = l.mass_kg * l.length_m * l.length_m / 12;
     const bool slides = l.kind == Kind::slide;
     s << "<link name='l" << i << "'><pose>0 0 " << z << " 0 0 0</pose><inertial><pose>0 0 " << -l.length_m / 2
       << " 0 0 0</pose><mass>" << l.mass_kg << "</mass><inertia><ixx>" << inertia << "</ixx><iyy>" << inertia << "</iyy><izz>"
       << inertia << "</izz></inertia></inertial></link><joint name='j" << i << "' type='" << (slides ? "prismatic" : "revolute")
-      << "'><parent>l" << i - 1 << "</parent><child>l" << i << "</child><axis><xyz>" << (slides ? "1 0 0" : "0 1 0") << "</xyz>";
+      << "'><parent>l" << (l.beside ? 0 : i - 1) << "</parent><child>l" << i << "</child><axis><xyz>"
+      << (slides ? "1 0 0" : "0 1 0") << "</xyz>";
     if (l.kind == Kind::follower) s << "<mimic joint='j1'><multiplier>" << l.multiplier << "</multiplier></mimic>";
     s << "<dynamics><damping>" << l.damping << "</damping><spring_stiffness>" << l.spring
       << "</spring_stiffness></dynamics></axis></joint>";
     if (l.kind == Kind::actuated)
       actuators += "<actuator><joint>j" + std::to_string(i) + "</joint><type>" + c.type + "</type><bus id='" + std::to_string(i) +
-                   "'>b</bus><initial preset_rad='" + std::to_string(c.preset) + "'/></actuator>";
+                   "'>b</bus>" + (c.preset > 0 ? "<initial preset_rad='" + std::to_string(c.preset) + "'/>" : "") + "</actuator>";
     z -= l.length_m;
   }
   s << "<plugin name='vsa::Robot' filename='libvsa-robot.so'>" << actuators << "<bus name='b'/></plugin></model></world></sdf>";
@@ -150,6 +153,27 @@ TEST(RestBeside, FollowersWithAnotherActuatorBehindThem) {
             {{{Kind::actuated, leader, 0.06}, {Kind::follower, follower, 0.06, 0, 0, multiplier}, {Kind::actuated, leader, 0.06}},
              step_s},
             named.str());
+      }
+    }
+  }
+}
+
+/// As parallel grippers are: fingers of two light links follow a damped joint.
+TEST(RestBeside, ADampedLeaderWithTwoFingersThatFollowIt) {
+  for (const double damping : {0.0, 0.003, 0.03, 0.3}) {
+    for (const double step_s : {0.5e-3, 1e-3, 2e-3}) {
+      for (const char* type : {"anydrive_ad119e20", "qbmove_maker_pro_6_1"}) {
+        Chain c{{{Kind::actuated, 0.016, 0.04, damping},
+                 {Kind::follower, 0.02, 0.04, 0, 0, 1, true},
+                 {Kind::follower, 0.03, 0.03, 0, 0, -1},
+                 {Kind::follower, 0.02, 0.04, 0, 0, -1, true},
+                 {Kind::follower, 0.03, 0.03, 0, 0, 1}},
+                step_s,
+                0,
+                true,
+                type};
+        c.command_rad = 0.1;
+        expect_quiet(c, std::string(type) + ", " + std::to_string(damping) + ", " + std::to_string(step_s));
       }
     }
   }

@@ -79,6 +79,7 @@ TEST(Scenario, MadeInCppIsCheckedAsAFileIs) {
   refused("step_s", [](Scenario& s) { s.step_s = 2; });
   refused("seed", [](Scenario& s) { s.seed = std::uint64_t{1} << 60; });
   refused("concave", [](Scenario& s) { s.concave = "fill"; });
+  refused("impossible_inertia", [](Scenario& s) { s.impossible_inertia = "raise"; });
   refused("command.time_s", [](Scenario& s) { s.commands[0].time_s = kNan; });
   refused("command.equilibrium_rad", [](Scenario& s) { s.commands[0].equilibrium_rad = kNan; });
   refused("command.preset_rad", [](Scenario& s) { s.commands[0].preset_rad = kNan; });

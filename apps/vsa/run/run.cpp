@@ -159,6 +159,10 @@ void add_world(Flags& flags) {
   flags
       .value("--concave", &RunOptions::concave, "Concave collision meshes: refuse (default), hull (fill), decompose (convex parts)")
       ->check(CLI::IsMember({"refuse", "hull", "decompose"}));
+  flags
+      .value("--impossible-inertia", &RunOptions::impossible_inertia,
+             "Inertias that no body can have: refuse (default), lower (the largest moment, to the sum of the others)")
+      ->check(CLI::IsMember({"refuse", "lower"}));
 }
 
 }  // namespace

@@ -30,6 +30,7 @@
 #include "vsa/physics/error.hpp"
 #include "vsa/scene/link_parameters.hpp"
 #include "vsa/sdf/concave.hpp"
+#include "vsa/sdf/impossible_inertia.hpp"
 
 namespace vsa::physics {
 class Engine;
@@ -42,6 +43,7 @@ namespace vsa::engine {
 
 using physics::SimulationError;
 using reader::Concave;
+using reader::ImpossibleInertia;
 
 /// How a world is to be loaded, beside its file: World::load().
 struct WorldOptions {
@@ -50,6 +52,7 @@ struct WorldOptions {
   config::Replacement actuator{};                 ///< puts another actuator on the world's robots
   std::vector<std::filesystem::path> model_path;  ///< searched for model:// URIs after Gazebo's variables and the built-in models
   Concave concave = Concave::refuse;              ///< what becomes of a mesh that collides and isn't convex
+  ImpossibleInertia impossible_inertia = ImpossibleInertia::refuse;  ///< what becomes of an inertia that no body can have
   bool actuators = true;  ///< false: no robots, so no torques and no substeps; for measuring the engine alone
   std::shared_ptr<const physics::Engine> physics{};  ///< that moves the bodies (vsa/physics/physics.hpp); none: MuJoCo
 };

@@ -31,18 +31,19 @@ struct Command {
 /// What shapes a run's numbers: world, parameters, faults, motion, and commands in simulated time. As a file:
 /// docs/reference/scenario-files.md.
 struct Scenario {
-  std::string scenario;               ///< the file that said so; empty: none did
-  std::string world;                  ///< a file, or a built-in world's name
-  std::optional<double> duration_s;   ///< none: the caller's own
-  std::optional<double> step_s;       ///< none: what the world says
-  std::optional<std::uint64_t> seed;  ///< of faults that draw and name none themselves; the next one's is 1000 more
-  std::string concave = "refuse";     ///< collision meshes that aren't convex: refuse, hull, decompose
-  std::string type;                   ///< put on every actuator; empty: what the world says
-  std::vector<std::string> set;       ///< override its parameters: "drive.friction_Nm=0.7"
-  std::vector<std::string> faults;    ///< "joint_6 unplugged=1", vsa/config/faults_text.hpp
-  std::string gait;                   ///< a file, or a built-in gait's name; empty: none
-  std::string motion;                 ///< TOML: what a scenario replaces in it, or all of it
-  std::vector<Command> commands;      ///< in order of time
+  std::string scenario;                       ///< the file that said so; empty: none did
+  std::string world;                          ///< a file, or a built-in world's name
+  std::optional<double> duration_s;           ///< none: the caller's own
+  std::optional<double> step_s;               ///< none: what the world says
+  std::optional<std::uint64_t> seed;          ///< of faults that draw and name none themselves; the next one's is 1000 more
+  std::string concave = "refuse";             ///< collision meshes that aren't convex: refuse, hull, decompose
+  std::string impossible_inertia = "refuse";  ///< inertias that no body can have: refuse, lower
+  std::string type;                           ///< put on every actuator; empty: what the world says
+  std::vector<std::string> set;               ///< override its parameters: "drive.friction_Nm=0.7"
+  std::vector<std::string> faults;            ///< "joint_6 unplugged=1", vsa/config/faults_text.hpp
+  std::string gait;                           ///< a file, or a built-in gait's name; empty: none
+  std::string motion;                         ///< TOML: what a scenario replaces in it, or all of it
+  std::vector<Command> commands;              ///< in order of time
 };
 
 /// Adds what no run could have, by the keys of a file. Names of files, types and gaits are looked up where they are used.

@@ -17,13 +17,15 @@
 #include "vsa/errors.hpp"
 #include "vsa/sdf/concave.hpp"
 #include "vsa/sdf/finder.hpp"
+#include "vsa/sdf/impossible_inertia.hpp"
 
 namespace vsa::reader {
 
-/// For which engine a file is read, and what becomes of meshes that it would fill.
+/// For which engine a file is read, and what becomes of what it would take for something else.
 struct ReadOptions {
-  description::Capabilities engine;   ///< that the description is for
-  Concave concave = Concave::refuse;  ///< what becomes of meshes that aren't convex
+  description::Capabilities engine;                                  ///< that the description is for
+  Concave concave = Concave::refuse;                                 ///< what becomes of meshes that aren't convex
+  ImpossibleInertia impossible_inertia = ImpossibleInertia::refuse;  ///< what becomes of inertias that no body can have
 };
 
 /// A file, or a text of one.

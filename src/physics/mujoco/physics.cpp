@@ -102,8 +102,27 @@ void MujocoPhysics::prepare() {
     if (!full || !grow()) break;
     m = model_.get();  // another
   }
+  take_dampers();
   mj_fwdVelocity(m, data_.get());
   mju_zero(data_->qfrc_applied, m->nv);
+}
+
+/// mj_Euler steps v' = v + dt·(M + dt·D)⁻¹ f with the joints' damping D, but MuJoCo's constraints are solved for accelerations M⁻¹ f:
+/// beside a strong damper they push too much or too little, and what ties light followers to a damped leader gains energy. So from
+/// here until mj_Euler the mass matrix is M + dt·D for all that is solved with it.
+void MujocoPhysics::take_dampers() {
+  if (!damped_) return;
+  const mjModel* m = model_.get();
+  const std::span<mjtNum> mass = mass_numbers(*m, *data_);
+  std::copy(mass.begin(), mass.end(), mass_matrix_.begin());
+  for (int i = 0; i < m->nv; ++i) mass_of_dof(*m, *data_, i) += m->opt.timestep * m->dof_damping[i];
+  mj_factorM(m, data_.get());
+  mj_projectConstraint(m, data_.get());
+}
+
+/// mj_Euler adds them by itself.
+void MujocoPhysics::give_dampers_back() {
+  if (damped_) std::copy(mass_matrix_.begin(), mass_matrix_.end(), mass_numbers(*model_, *data_).begin());
 }
 
 std::vector<std::vector<std::size_t>> MujocoPhysics::trees(std::span<const std::size_t> joints) const {
@@ -149,25 +168,7 @@ void MujocoPhysics::tie(std::span<const std::size_t> joints, std::span<double> o
   }
 }
 
-/// mj_Euler steps v' = v + dt·(M + dt·D)⁻¹ f with the joints' damping D: works where mj_solveM() solves with that matrix.
-template <class Work>
-void MujocoPhysics::with_dampers(Work&& work) {
-  if (!damped_) return work();
-  const mjModel* m = model_.get();
-  const std::span<mjtNum> mass = mass_numbers(*m, *data_);
-  std::copy(mass.begin(), mass.end(), mass_matrix_.begin());
-  for (int i = 0; i < m->nv; ++i) mass_of_dof(*m, *data_, i) += m->opt.timestep * m->dof_damping[i];
-  mj_factorM(m, data_.get());
-  work();
-  std::copy(mass_matrix_.begin(), mass_matrix_.end(), mass.begin());
-  mj_factorM(m, data_.get());
-}
-
 void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<double> out) {
-  with_dampers([&] { solve_mobility(joints, out); });
-}
-
-void MujocoPhysics::solve_mobility(std::span<const std::size_t> joints, std::span<double> out) {
   const mjModel* m = model_.get();
   const std::size_t n = joints.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -190,14 +191,14 @@ void MujocoPhysics::foresee(std::span<const std::size_t> joints, std::span<doubl
     mj_fwdAcceleration(m, d);
     mj_fwdConstraint(m, d);
     mju_zero(d->qfrc_applied, m->nv);
-    mju_add(unit_.data(), d->qfrc_smooth, d->qfrc_constraint, m->nv);
+    mju_copy(column_.data(), d->qacc, m->nv);
   } else {
     mju_sub(unit_.data(), d->qfrc_passive, d->qfrc_bias, m->nv);
     mju_addTo(unit_.data(), d->qfrc_actuator, m->nv);
     mju_addTo(unit_.data(), pushed_.data(), m->nv);
+    mj_solveM(m, d, column_.data(), unit_.data(), 1);
+    mju_zero(unit_.data(), m->nv);
   }
-  with_dampers([&] { mj_solveM(m, d, column_.data(), unit_.data(), 1); });
-  mju_zero(unit_.data(), m->nv);
   std::transform(joints.begin(), joints.end(), out.begin(),
                  [&](std::size_t joint) { return column_[static_cast<std::size_t>(joint_[joint].v)]; });
 }
@@ -241,6 +242,7 @@ std::optional<Refusal> MujocoPhysics::advance() {
   }
   if (!fault) fault = find_fault();
   if (!fault) {
+    give_dampers_back();
     mj_Euler(m, d);
     mju_copy(pushed_.data(), d->qfrc_applied, m->nv);
     if (d->ne == 0) mju_addTo(pushed_.data(), d->qfrc_constraint, m->nv);

@@ -72,9 +72,8 @@ class MujocoPhysics final : public Physics {
   std::optional<Refusal> find_fault() const;
   std::optional<Refusal> check(const mjtNum* values, int n, bool positions, const char* quantity) const;
 
-  template <class Work>
-  void with_dampers(Work&& work);
-  void solve_mobility(std::span<const std::size_t> joints, std::span<double> out);
+  void take_dampers();
+  void give_dampers_back();
   void tie(std::span<const std::size_t> joints, std::span<double> out);
   mjModel& own_model();
 
@@ -92,7 +91,7 @@ class MujocoPhysics final : public Physics {
   std::vector<mjtNum> pushed_;  // in the last step, by degree of freedom: applied and, without equalities, by constraints
   std::vector<mjtNum> unit_, column_, jacobian_, mobility_, mass_matrix_;
   std::vector<mjtNum> row_, tied_, ties_, of_joint_;  // of equalities; row_ is 0
-  bool damped_ = false;                               // some joint has damping, which MuJoCo's Euler takes implicitly
+  bool damped_ = false;                               // some joint has damping
   bool stepped_ = false;                              // data_ holds the contacts of the last step
 };
 
