@@ -7,10 +7,12 @@
 
 #include "vsa/description/capabilities.hpp"
 #include "vsa/engine/mjcf.hpp"
+#include "vsa/files.hpp"
 #include "vsa/physics/mjcf.hpp"
 #include "vsa/physics/mujoco.hpp"
 #include "vsa/sdf/feature.hpp"
 #include "vsa/sdf/finder.hpp"
+#include "vsa/sdf/source_mark.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -78,17 +80,39 @@ Cache cache;
 // libsdformat keeps global state while it reads: two threads in sdf::Root::Load crash.
 std::mutex reading;
 
+/// An MJCF beside an SDF stands for it where no SDF can be read, so both should say the same.
+void compare_with_mjcf(const std::filesystem::path& sdf, Entry& entry) {
+  std::filesystem::path mjcf = sdf;
+  mjcf.replace_extension(".xml");
+  if (sdf.extension() != ".sdf" || !entry.seen.asks(mjcf)) return;
+  entry.seen.reads(mjcf);
+  const auto written_of = reader::source_mark_in(read_file(mjcf).value_or(""));
+  if (!written_of) return;
+  const auto now = reader::source_mark(sdf, reader::Finder(entry.key.search, entry.seen), entry.seen);
+  if (!now || *now == *written_of) return;
+  const std::string name = mjcf.filename().string();
+  entry.file->warnings.push_back(
+      (reader::sdf_feature().is_in()
+           ? name + " beside it was written of another state of this SDF or of what it includes, and builds without SDF run that"
+           : "it or what it includes has changed since " + name + " was written of it, and that is what runs") +
+      ": vsa export --mjcf writes it anew, in a build with SDF");
+}
+
 description::World read_description(const reader::SdfSource& source, const WorldOptions& options, Entry& entry,
                                     Problems& problems) {
   ReadWorld& file = *entry.file;
   const std::filesystem::path mjcf = mjcf_of(source.path);
   if (mjcf.empty() && !physics::is_mjcf({}, source.text)) {
-    return reader::read_sdf(source, {file.engine->capabilities(), options.concave}, reader::Finder(entry.key.search, entry.seen),
-                            entry.seen, file.warnings, problems);
+    description::World out =
+        reader::read_sdf(source, {file.engine->capabilities(), options.concave}, reader::Finder(entry.key.search, entry.seen),
+                         entry.seen, file.warnings, problems);
+    if (problems.empty()) compare_with_mjcf(source.path, entry);
+    return out;
   }
   for (const std::filesystem::path& read : physics::files_of_mjcf(mjcf)) entry.seen.reads(read);
   physics::MjcfRead read = physics::read_mjcf(mjcf, source.text, file.warnings, problems);
   if (read.names_others) entry.seen.lost();
+  if (problems.empty() && mjcf != source.path) compare_with_mjcf(source.path, entry);
   return std::move(read.world);
 }
 
