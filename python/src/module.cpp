@@ -35,7 +35,8 @@ void* refuse_unmade(std::size_t) { throw py::type_error("isn't made yet: its __i
 void refuse_what_was_never_made(const py::module_& m) {
   for (const auto& [name, value] : m.attr("__dict__").cast<py::dict>()) {
     if (!py::isinstance<py::type>(value)) continue;
-    if (auto* const info = py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(value.ptr()))) info->operator_new = refuse_unmade;
+    if (auto* const info = py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(value.ptr())))
+      info->operator_new = refuse_unmade;
   }
 }
 

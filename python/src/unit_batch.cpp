@@ -197,13 +197,17 @@ constexpr const char* kRead =
     "is\n"
     "(units, 2). Its dtype is UnitBatch.reading_dtype. out: such an array, which is filled and returned. A copy.";
 constexpr const char* kState =
-    "A unit's state, with the batch's time, as numbers: ndarray (n,) of float64, which restore() and Unit.restore_state() take. out:\n"
-    "such an array, which is filled and returned. A copy. Not in it: the lever, and commands that no step has taken. IndexError: no such unit.";
+    "A unit's state, with the batch's time, as numbers: ndarray (n,) of float64, which restore() and Unit.restore_state() take. "
+    "out:\n"
+    "such an array, which is filled and returned. A copy. Not in it: the lever, and commands that no step has taken. IndexError: "
+    "no such unit.";
 constexpr const char* kRestore =
-    "A unit back to the numbers of state(), or of Unit.state(), of a unit with these parameters: (n,) of float64. The batch's time\n"
+    "A unit back to the numbers of state(), or of Unit.state(), of a unit with these parameters: (n,) of float64. The batch's "
+    "time\n"
     "stays; the motion is the same bit by bit where steps meet the ticks of 1 ms as they did. What stands in `equilibrium`, "
     "`preset`\n"
-    "and `push` is given with the next step as ever. InputError, TypeError as Unit.restore_state, IndexError: no such unit; nothing\n"
+    "and `push` is given with the next step as ever. InputError, TypeError as Unit.restore_state, IndexError: no such unit; "
+    "nothing\n"
     "has changed then.";
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "vsa/sdf/feature.hpp"
 #include "vsa/sdf/finder.hpp"
 #include "vsa/sdf/source_mark.hpp"
+#include "vsa/utf8.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -98,14 +99,24 @@ void compare_with_mjcf(const std::filesystem::path& sdf, Entry& entry) {
       ": vsa export --mjcf writes it anew, in a build with SDF");
 }
 
+/// Topics, tables and pages hold names, and are UTF-8.
+void check_names(const description::World& world, const std::string& file, Problems& problems) {
+  const auto check = [&](const char* what, const std::string& name) {
+    if (!is_utf8(name)) problems.add({file, what, name, "isn't UTF-8", "a file in UTF-8"});
+  };
+  check("world", world.name);
+  for (const description::Plugin& p : world.plugins) check("model", p.model);
+  for (const description::Link& l : world.links) check("link", l.name);
+  for (const description::Joint& j : world.joints) check("joint", j.name);
+}
+
 description::World read_description(const reader::SdfSource& source, const WorldOptions& options, Entry& entry,
                                     Problems& problems) {
   ReadWorld& file = *entry.file;
   const std::filesystem::path mjcf = mjcf_of(source.path);
   if (mjcf.empty() && !physics::is_mjcf({}, source.text)) {
-    description::World out =
-        reader::read_sdf(source, {file.engine->capabilities(), options.concave}, reader::Finder(entry.key.search, entry.seen),
-                         entry.seen, file.warnings, problems);
+    description::World out = reader::read_sdf(source, {file.engine->capabilities(), options.concave},
+                                              reader::Finder(entry.key.search, entry.seen), entry.seen, file.warnings, problems);
     if (problems.empty()) compare_with_mjcf(source.path, entry);
     return out;
   }
@@ -135,6 +146,7 @@ std::shared_ptr<ReadWorld> read_world(const reader::SdfSource& source, const Wor
   const auto entry = std::make_shared<Entry>(Entry{std::move(key), std::make_shared<ReadWorld>(), {}});
   entry->file->engine = entry->key.engine;
   entry->file->world = std::make_shared<const description::World>(read_description(source, options, *entry, problems));
+  if (problems.empty()) check_names(*entry->file->world, source.label(), problems);
   if (problems.empty() && entry->seen.settled()) cache.keep(entry);
   return entry->file;
 }

@@ -103,7 +103,7 @@ std::optional<std::string> source_mark_in(std::string_view mjcf) {
   if (at == std::string_view::npos) return std::nullopt;
   const std::string_view rest = mjcf.substr(at + kOpen.size());
   return rest.substr(std::min(kDigits, rest.size()), kClose.size()) == kClose ? std::optional(std::string(rest.substr(0, kDigits)))
-                                                                            : std::nullopt;
+                                                                              : std::nullopt;
 }
 
 }  // namespace vsa::reader

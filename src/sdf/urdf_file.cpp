@@ -53,8 +53,9 @@ void tell_of_limits(const XMLElement& e, const UrdfJoint& joint, const std::stri
   if (limit == nullptr || (joint.type != "continuous" && joint.type != "fixed")) return;
   const auto given = [&](const char* name) { return config::parse_number(config::trim(attribute(limit, name))).value_or(0) != 0; };
   if (!given("lower") && !given("upper")) return;
-  notes.add(joint.type == "fixed" ? "a fixed joint doesn't move: lower and upper of its <limit> are left out, did you mean revolute?"
-                                  : "lower and upper of a continuous joint's <limit> are left out, did you mean revolute?",
+  notes.add(joint.type == "fixed"
+                ? "a fixed joint doesn't move: lower and upper of its <limit> are left out, did you mean revolute?"
+                : "lower and upper of a continuous joint's <limit> are left out, did you mean revolute?",
             place_of(*limit, file));
 }
 

@@ -129,11 +129,12 @@ std::size_t told_of_mjcf(const fs::path& sdf) {
 TEST(Export, TellsWhenItsSdfHasChangedSince) {
   const Scratch scratch;
   const auto part = [](const char* mass, const char* more = "") {
-    return "<sdf version='1.7'><model name='part'><link name='l'><inertial><mass>" + std::string(mass) + "</mass></inertial></link>" +
-           more + "</model></sdf>\n";
+    return "<sdf version='1.7'><model name='part'><link name='l'><inertial><mass>" + std::string(mass) +
+           "</mass></inertial></link>" + more + "</model></sdf>\n";
   };
   const std::string world = "<sdf version='1.7'><world name='w'><include><uri>part</uri></include></world></sdf>\n";
   const fs::path sdf = scratch.path() / "w.sdf";
+  fs::create_directories(scratch.path() / "part");
   record::spew(sdf, world);
   record::spew(scratch.path() / "part/model.sdf", part("1"));
   record::spew(scratch.path() / "part/model.config", "<model><sdf version='1.7'>model.sdf</sdf></model>");

@@ -45,7 +45,8 @@ std::string refusal(std::string_view text) {
 }
 
 TEST(ReadJson, TellsLineAndKeyOfWhatIsGivenTwiceInOneObject) {
-  EXPECT_EQ(refusal("{\n\"a\": 1,\n\"b\": {\"a\": 2},\n\"a\": 3}"), "f.json:4: a: is given twice in one object (allowed: an object)");
+  EXPECT_EQ(refusal("{\n\"a\": 1,\n\"b\": {\"a\": 2},\n\"a\": 3}"),
+            "f.json:4: a: is given twice in one object (allowed: an object)");
   EXPECT_EQ(refusal("[{\"a\": 1}, {\"a\": 1, \"b\": [{\"b\": 1}]}]"), "");
   EXPECT_EQ(refusal("{\"x\": {\"\\u0061\": 1, \"a\": 2}}"), "f.json:1: a: is given twice in one object (allowed: an object)");
   EXPECT_EQ(refusal("{\n\n\"a\": }"), "f.json:3: isn't JSON (allowed: an object)");

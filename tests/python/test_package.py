@@ -71,6 +71,14 @@ class Unmade(unittest.TestCase):
             unmade.readings()
 
 
+class Errors(unittest.TestCase):
+    def test_a_file_name_that_isnt_utf8_is_told_as_python_has_it(self):
+        name = os.fsdecode(b"nowhere\xff.sdf")
+        with self.assertRaisesRegex(vsasim.InputError, r"nowhere\\xff.sdf.*no such file") as caught:
+            vsasim.World.load(pathlib.Path(name))
+        self.assertIn(name, [text for p in caught.exception.problems for text in p.values()])
+
+
 class Stubs(unittest.TestCase):
     def test_they_name_every_public_name_and_no_other(self):
         for name, module in MODULES.items():

@@ -37,10 +37,11 @@ void refuse_mixed(const CLI::App& sub) {
   Problems problems;
   for (const CLI::Option* option : sub.get_options()) {
     const std::string name = option->get_name();
-    const bool either = name == "--help" || name == "--out" || name == "--compare" || name == "--threads" || name == "--part" ||
-                        name == "--wait-s";
+    const bool either =
+        name == "--help" || name == "--out" || name == "--compare" || name == "--threads" || name == "--part" || name == "--wait-s";
     if (option->count() == 0 || either) continue;
-    problems.add({"", name, "", "isn't for --compare: its file says it, and it goes on by itself", "--out, --threads, --part, --wait-s"});
+    problems.add(
+        {"", name, "", "isn't for --compare: its file says it, and it goes on by itself", "--out, --threads, --part, --wait-s"});
   }
   problems.throw_if_any();
 }

@@ -66,9 +66,10 @@ void OthersRuns::wait_for(const std::vector<std::size_t>& missing, const char* r
     }
   }
   if (std::chrono::duration<double>(now - news_).count() >= wait_s_)
-    throw std::runtime_error(fmt::format("no {} of the parts {} for {} s, which owe {}: start them, and then this one again "
-                                         "(--wait-s waits longer)",
-                                         runs, parts, wait_s_, missing.size()));
+    throw std::runtime_error(
+        fmt::format("no {} of the parts {} for {} s, which owe {}: start them, and then this one again "
+                    "(--wait-s waits longer)",
+                    runs, parts, wait_s_, missing.size()));
   if (!told_ && part_.of > 1 && now - begin_ > kSoon) {
     console_.line(fmt::format("waiting for {} {} of the parts {}, for up to {} s without news (--wait-s): are they at work?",
                               missing.size(), runs, parts, wait_s_));

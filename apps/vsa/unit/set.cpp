@@ -36,8 +36,8 @@ Examples:
   vsa set /dev/ttyUSB0 inputs -910ticks 910ticks --id 3
   vsa set /dev/ttyUSB0 position_pid 0.1 0 0.8 --id 1-12 --store)";
 
-constexpr std::array<std::string_view, 8> kWritable{"inputs", "equilibrium",    "position_stiffness", "active",
-                                                    "store",  "store_defaults", "restore",            "baudrate"};
+constexpr std::array<std::string_view, 8> kWritable{
+    "inputs", "equilibrium", "position_stiffness", "active", "store", "store_defaults", "restore", "baudrate"};
 constexpr auto kSettles = std::chrono::seconds(2);  // references show two ticks later, which a busy machine may delay
 constexpr std::int32_t kLowest = std::numeric_limits<std::int16_t>::min();
 constexpr std::int32_t kHighest = std::numeric_limits<std::int16_t>::max();
