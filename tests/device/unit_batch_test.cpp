@@ -191,18 +191,18 @@ TEST(LeverBatch, ARestoredUnitGoesOnAsItDid) {
   device::LeverBatch levers(maker_pro(), 9, {2e-3, 0.01, 0.3});
   for (std::size_t i = 0; i < 9; ++i) levers.equilibrium()[i] = 0.1 * static_cast<double>(i) - 0.4;
   levers.step(60);
-  const UnitState before = levers.state(4);
+  const UnitState before = levers.state(7);
   const std::int64_t at = levers.units().time_ns();
-  EXPECT_EQ(before.reached.angle, levers.shaft_rad()[4]);
+  EXPECT_EQ(before.reached.angle, levers.shaft_rad()[7]);
   EXPECT_GT(std::abs(before.reached.speed), 0.1) << "in full swing";
   levers.step(40);
-  const double angle = levers.shaft_rad()[4], speed = levers.shaft_speed_rad_per_s()[4], other = levers.shaft_rad()[3];
-  levers.restore(4, before, at);
-  EXPECT_EQ(levers.shaft_rad()[4], before.reached.angle);
+  const double angle = levers.shaft_rad()[7], speed = levers.shaft_speed_rad_per_s()[7], other = levers.shaft_rad()[3];
+  levers.restore(7, before, at);
+  EXPECT_EQ(levers.shaft_rad()[7], before.reached.angle);
   EXPECT_EQ(levers.shaft_rad()[3], other);
   levers.step(40);
-  EXPECT_EQ(levers.shaft_rad()[4], angle);
-  EXPECT_EQ(levers.shaft_speed_rad_per_s()[4], speed);
+  EXPECT_EQ(levers.shaft_rad()[7], angle);
+  EXPECT_EQ(levers.shaft_speed_rad_per_s()[7], speed);
 }
 
 TEST(LeverBatch, RefusesStatesThatAreNone) {

@@ -22,7 +22,8 @@ std::string page_text(const char* name, const Memory& memory) {
   state::Writer writer(numbers);
   state::walk_fields(writer, memory);
   std::string out = fmt::format("[unit.{}]\n", name);
-  for (const StateEntry& e : state::layout_of<Memory>().entries()) {
+  const StateLayout layout = state::layout_of<Memory>();
+  for (const StateEntry& e : layout.entries()) {
     std::string values;
     for (std::size_t i = 0; i < e.count; ++i) values += (i == 0 ? "" : ", ") + config::number_text(numbers[e.offset + i]);
     out += fmt::format("\"{}\" = [{}]\n", e.name, values);
