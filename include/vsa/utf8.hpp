@@ -25,6 +25,7 @@ namespace vsa {
   return 0;
 }
 
+/// Whether all of it is UTF-8; an empty text is.
 [[nodiscard]] constexpr bool is_utf8(std::string_view text) noexcept {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = utf8_length(text, at);
