@@ -1,6 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/errors.hpp"
 
+#include "vsa/utf8.hpp"
+
 namespace vsa {
 namespace {
 
@@ -15,7 +17,8 @@ std::string join(const std::vector<Problem>& problems) {
 
 constexpr std::size_t kLongestShown = 300;
 
-/// On one line and without what would steer a terminal: control characters, those of two bytes too, as \xNN.
+/// On one line, in UTF-8, and without what would steer a terminal: control characters, those of two bytes too, and what is no
+/// character, as \xNN.
 std::string shown(const std::string& text) {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string out;
@@ -24,8 +27,10 @@ std::string shown(const std::string& text) {
     const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
     const auto before = i > 0 ? static_cast<unsigned char>(text[i - 1]) : 0U;
     const bool c1 = (byte == 0xC2 && next >= 0x80 && next < 0xA0) || (before == 0xC2 && byte >= 0x80 && byte < 0xA0);
-    if (byte >= 0x20 && byte != 0x7F && !c1) {
-      out += text[i];
+    const std::size_t length = utf8_length(text, i);
+    if (byte >= 0x20 && byte != 0x7F && !c1 && length > 0) {
+      out.append(text, i, length);
+      i += length - 1;
       continue;
     }
     out += "\\x";

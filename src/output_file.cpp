@@ -4,8 +4,10 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <optional>
 #include <string>
@@ -121,10 +123,13 @@ class Beside {
   void take_place() {
     if (straight_) return;
     if (before_) {
-      if (::chown(written_.c_str(), before_->st_uid, before_->st_gid) != 0) {
+      constexpr auto kSame = static_cast<uid_t>(-1);
+      if (::chown(written_.c_str(), before_->st_uid, before_->st_gid) != 0 &&
+          ::chown(written_.c_str(), kSame, before_->st_gid) != 0) {
         // Who may not give files away keeps them.
       }
       if (::chmod(written_.c_str(), before_->st_mode & 0777) != 0) cant(asked_, "can't keep its permissions", errno);
+      keep_access_list();
     }
     if (::rename(written_.c_str(), target_.c_str()) != 0) cant(asked_, "can't be replaced", errno);
     straight_ = true;  // nothing is beside it any more
@@ -132,6 +137,15 @@ class Beside {
 
  private:
   static constexpr int kMostLinks = 40;  // Linux's own
+
+  /// Of POSIX: whom else it lets in. Where there is none, or file systems have none, the mode is all.
+  void keep_access_list() const {
+    constexpr const char* kList = "system.posix_acl_access";
+    std::array<char, 4096> list{};
+    const ssize_t size = ::getxattr(target_.c_str(), kList, list.data(), list.size());
+    if (size > 0 && ::setxattr(written_.c_str(), kList, list.data(), static_cast<std::size_t>(size), 0) != 0 && errno != ENOTSUP)
+      cant(asked_, "can't keep its access list", errno);
+  }
 
   /// A name that nobody has; never wider permissions than those of the file that it shall replace.
   void create() {

@@ -55,12 +55,7 @@ void write_neck(Xml& xml, const Description& d) {
   const ModuleSpec& m = d.module;
   begin_link(xml, "neck", {0, 0, f.head_pan_height_m}, 0);
   const double top = m.edge_m / 2, bottom = f.head_tilt_m - m.edge_m / 2;
-  Inertial tilt = housing(m);
-  tilt.center_m[2] = f.head_tilt_m;
-  const Inertial flange =
-      solid_cylinder(m.flange_mass_kg, m.flange_radius_m, m.flange_thickness_m, Axis::z, {0, 0, top + m.flange_thickness_m / 2});
-  write_inertial(
-      xml, combine({flange, solid_cylinder(m.bracket_mass_kg, 0.02, bottom - top, Axis::z, {0, 0, (top + bottom) / 2}), tilt}));
+  write_inertial(xml, upright_module(m, f.head_tilt_m));
   cylinder_visual(xml, "flange", {0, 0, top + 0.004}, Axis::z, m.flange_radius_m, 0.006, kFlange);
   cylinder_visual(xml, "tube", {0, 0, (top + bottom) / 2}, Axis::z, 0.018, bottom - top, kSteel);
   housing_visuals(xml, m, Axis::y, kBodyAlternate, {{0, 0, f.head_tilt_m}, 0, ""});

@@ -24,12 +24,8 @@ void write_base(Xml& xml, const Description& d) {
 void write_turret(Xml& xml, const Description& d) {
   const ModuleSpec& m = d.module;
   const double top = m.edge_m / 2, reach = d.manipulator.shoulder_m, bottom = reach - top;
-  Inertial box = housing(m);
-  box.center_m[2] = reach;
   begin_link(xml, "turret", {0, 0, d.manipulator.base_height_m}, 0);
-  write_inertial(xml, combine({solid_cylinder(m.flange_mass_kg, m.flange_radius_m, m.flange_thickness_m, Axis::z,
-                                              {0, 0, top + m.flange_thickness_m / 2}),
-                               box}));
+  write_inertial(xml, upright_module(m, reach));
   cylinder_visual(xml, "flange", {0, 0, top + 0.004}, Axis::z, m.flange_radius_m, 0.006, kFlange);
   cylinder_visual(xml, "tube", {0, 0, (top + bottom) / 2}, Axis::z, 0.018, bottom - top, kSteel);
   box_visual(xml, "mark", {0.024, 0, top + 0.006, 0, 0, 0}, {0.012, 0.006, 0.006}, kMark);

@@ -79,4 +79,15 @@ Inertial bracket(const ModuleSpec& m, Axis axis, double reach, double mass_kg) {
   return combine({flange, solid_box(mass_kg, {0.03, 0.03, std::abs(end)}, {0, 0, end / 2})});
 }
 
+Inertial upright_module(const ModuleSpec& m, double reach) {
+  constexpr double kTubeRadius_m = 0.02;
+  const double top = m.edge_m / 2, bottom = reach - top;
+  const Inertial flange =
+      solid_cylinder(m.flange_mass_kg, m.flange_radius_m, m.flange_thickness_m, Axis::z, {0, 0, top + m.flange_thickness_m / 2});
+  const Inertial tube = solid_cylinder(m.bracket_mass_kg, kTubeRadius_m, bottom - top, Axis::z, {0, 0, (top + bottom) / 2});
+  Inertial box = housing(m);
+  box.center_m[2] = reach;
+  return combine({flange, tube, box});
+}
+
 }  // namespace vsa::generate

@@ -31,5 +31,7 @@ void begin_link(Xml& xml, const std::string& name, const Vec& at, double yaw_rad
 void bracket_visuals(Xml& xml, const ModuleSpec& m, Axis axis, double reach);
 /// Flange, C-flange and tube.
 [[nodiscard]] Inertial bracket(const ModuleSpec& m, Axis axis, double reach, double mass_kg);
+/// Flange and tube on a shaft along z, and the next module's housing at `reach` on top, its shaft along y.
+[[nodiscard]] Inertial upright_module(const ModuleSpec& m, double reach);
 
 }  // namespace vsa::generate

@@ -44,7 +44,9 @@ class OutputFile {
 };
 
 /// `file` as a whole or as it was: `write` gets the name of a file beside it, FILE.part-…, which takes its place afterwards, with the
-/// permissions of the one that was there. A link stays, and what it leads to is replaced; a pipe or device is itself what `write` gets.
+/// permissions, the access list, and as far as this user may give files away the owner and group of the one that was there. A symbolic
+/// link stays, and what it leads to is replaced; a pipe or device is itself what `write` gets. Other hard links keep the old bytes: this
+/// name alone gets the new ones.
 /// Throws what `write` does, OutputError where the place can't be taken; nothing is left beside it then.
 void write_whole(const std::filesystem::path& file, const std::function<void(const std::filesystem::path& beside)>& write);
 /// The same with these bytes. Throws OutputError.

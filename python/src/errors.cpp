@@ -23,17 +23,23 @@ PyObject* input_error = nullptr;
 PyObject* simulation_error = nullptr;
 PyObject* output_error = nullptr;
 
+/// Bytes that aren't UTF-8, a file's name may have some, as Python's own file names have them.
+py::str text(const std::string& bytes) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "surrogateescape"));
+}
+
 py::list problem_list(const InputError& error) {
   py::list out;
   for (const Problem& p : error.problems()) {
-    out.append(py::dict(py::arg("file") = p.file, py::arg("key") = p.key, py::arg("value") = p.value, py::arg("why") = p.message,
-                        py::arg("allowed") = p.allowed));
+    out.append(py::dict(py::arg("file") = text(p.file), py::arg("key") = text(p.key), py::arg("value") = text(p.value),
+                        py::arg("why") = text(p.message), py::arg("allowed") = text(p.allowed)));
   }
   return out;
 }
 
 void raise(const InputError& error) {
-  py::object made = py::reinterpret_borrow<py::object>(input_error)(error.what());
+  py::object made = py::reinterpret_borrow<py::object>(input_error)(text(error.what()));
   made.attr("problems") = problem_list(error);
   PyErr_SetObject(input_error, made.ptr());
 }
@@ -59,9 +65,9 @@ void bind_errors(py::module_& m) {
     } catch (const InputError& error) {
       raise(error);
     } catch (const physics::SimulationError& error) {
-      PyErr_SetString(simulation_error, error.what());
+      PyErr_SetObject(simulation_error, text(error.what()).ptr());
     } catch (const OutputError& error) {
-      PyErr_SetString(output_error, error.what());
+      PyErr_SetObject(output_error, text(error.what()).ptr());
     }
   });
 }

@@ -29,6 +29,17 @@ void find_data() {
   }
 }
 
+void* refuse_unmade(std::size_t) { throw py::type_error("isn't made yet: its __init__ wasn't called, or failed"); }
+
+/// Of an object that C.__new__(C) gave, pybind11 hands methods fresh memory, with nothing in it, from its class's operator new.
+void refuse_what_was_never_made(const py::module_& m) {
+  for (const auto& [name, value] : m.attr("__dict__").cast<py::dict>()) {
+    if (!py::isinstance<py::type>(value)) continue;
+    if (auto* const info = py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(value.ptr())))
+      info->operator_new = refuse_unmade;
+  }
+}
+
 }  // namespace
 }  // namespace vsa::python
 
@@ -46,4 +57,6 @@ PYBIND11_MODULE(_vsasim, m) {
   bind_batch(m);
   bind_study(m);
   bind_identify(m);
+  for (const py::module_& of : {m, m.attr("study").cast<py::module_>(), m.attr("identify").cast<py::module_>()})
+    refuse_what_was_never_made(of);
 }

@@ -95,6 +95,15 @@ void reset(PyUnitBatch& b, const py::object& which, const py::object& equilibriu
   for (std::size_t k = 0; k < those.size(); ++k) levers.reset(those[k], q[k], p[k], at[k], v[k]);
 }
 
+void restore(PyUnitBatch& b, const py::object& which, const py::object& given) {
+  LeverBatch& levers = b.get();
+  const std::size_t unit = index_of(which, levers.size(), "unit");
+  device::UnitState state;
+  std::int64_t time_ns = 0;
+  restore_unit_state(state, time_ns, given);
+  levers.restore(unit, state, time_ns);
+}
+
 /// Of read(): what device::read() tells, and what Unit.readings() adds to that.
 struct Row {
   device::UnitReading now;
@@ -129,11 +138,11 @@ py::dtype reading_dtype() {
 static_assert(offsetof(Row, now) == 0 && sizeof(Row) == sizeof(device::UnitReading) + 16, "offsets of `now` are the row's");
 
 py::array read(PyUnitBatch& b, const py::object& out) {
-  const device::UnitBatch& units = b.get().units();
-  py::array rows = into(out, reading_dtype(), {static_cast<py::ssize_t>(units.size())});
+  const LeverBatch& levers = b.get();
+  py::array rows = into(out, reading_dtype(), {static_cast<py::ssize_t>(levers.size())});
   auto* to = static_cast<Row*>(rows.mutable_data());
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    const device::UnitState state = units.state(i);
+  for (std::size_t i = 0; i < levers.size(); ++i) {
+    const device::UnitState state = levers.state(i);
     const device::UnitReading now = device::read(b.unit, state);
     const auto ticks = device::measured(b.unit, state);
     to[i] = {now, now.shaft_rad - now.equilibrium_rad, {ticks[0].value, ticks[1].value, ticks[2].value}};
@@ -188,9 +197,18 @@ constexpr const char* kRead =
     "is\n"
     "(units, 2). Its dtype is UnitBatch.reading_dtype. out: such an array, which is filled and returned. A copy.";
 constexpr const char* kState =
-    "A unit's state, with the batch's time, as numbers: ndarray (n,) of float64, which Unit.restore_state() takes. out: such an "
-    "array,\n"
-    "which is filled and returned. A copy. Not in it: the lever, and commands that no step has taken. IndexError: no such unit.";
+    "A unit's state, with the batch's time, as numbers: ndarray (n,) of float64, which restore() and Unit.restore_state() take. "
+    "out:\n"
+    "such an array, which is filled and returned. A copy. Not in it: the lever, and commands that no step has taken. IndexError: "
+    "no such unit.";
+constexpr const char* kRestore =
+    "A unit back to the numbers of state(), or of Unit.state(), of a unit with these parameters: (n,) of float64. The batch's "
+    "time\n"
+    "stays; the motion is the same bit by bit where steps meet the ticks of 1 ms as they did. What stands in `equilibrium`, "
+    "`preset`\n"
+    "and `push` is given with the next step as ever. InputError, TypeError as Unit.restore_state, IndexError: no such unit; "
+    "nothing\n"
+    "has changed then.";
 
 }  // namespace
 
@@ -214,10 +232,11 @@ void bind_unit_batch(py::module_& m) {
       .def(
           "state",
           [](PyUnitBatch& b, const py::object& unit, const py::object& out) {
-            const device::UnitBatch& units = b.get().units();
-            return unit_state(units.state(index_of(unit, units.size(), "unit")), units.time_ns(), out);
+            const LeverBatch& levers = b.get();
+            return unit_state(levers.state(index_of(unit, levers.size(), "unit")), levers.units().time_ns(), out);
           },
           py::arg("unit"), py::arg("out") = py::none(), kState)
+      .def("restore", &restore, py::arg("unit"), py::arg("state"), kRestore)
       .def("__len__", [](const PyUnitBatch& b) { return b.levers.size(); })
       .def_property_readonly(
           "instructions", [](const PyUnitBatch& b) { return b.levers.units().instructions(); }, "The instruction set in use: str.")

@@ -43,8 +43,14 @@ Emulation::Emulation(std::vector<EmulatedUnit> units, const LineConfig& line,
     : units_(checked(units)),
       states_([&] {
         std::vector<UnitState> states;
-        for (std::size_t i = 0; i < units.size(); ++i)
+        for (std::size_t i = 0; i < units.size(); ++i) {
           states.push_back(units_[i]->switched_on(units[i].shaft_rad, static_cast<std::uint8_t>(units[i].id), 0));
+          if (!units[i].pages) continue;
+          firmware::ProgramState& program = states.back().program;
+          program.memory.user = units[i].pages->user;
+          program.memory.factory = units[i].pages->factory;
+          units_[i]->program().power_up(program, 0);
+        }
         return states;
       }()),
       chain_(line, stations()),
@@ -95,6 +101,14 @@ void Emulation::set_faults(std::size_t unit, const Faults& faults) {
   problems.throw_if_any();
   const std::lock_guard lock(faults_mutex_);
   faults_.emplace_back(unit, faults);
+}
+
+UnitPages Emulation::pages(std::size_t unit) const {
+  if (unit >= size()) throw InputError({"", "unit", std::to_string(unit), "no such unit", "below " + std::to_string(size())});
+  return port_.locked([&] {
+    const firmware::MemoryState& memory = states_[unit].program.memory;
+    return UnitPages{memory.user, memory.factory};
+  });
 }
 
 void Emulation::take_faults() {

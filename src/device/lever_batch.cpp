@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "device/numbers.hpp"
 #include "vsa/checks.hpp"
 #include "vsa/errors.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 constexpr double kKeep = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFar = 1e6;             // rad, rad/s, N·m: beyond any lever, and far from where an encoder's turns overflow
 constexpr double kLeastInertia = 1e-12;  // kg·m²
+constexpr std::int64_t kLatest_ns = 4'000'000'000'000'000'000;  // so that a sum of two is a number
 constexpr int kMostSteps = 1'000'000'000, kSlice = 1'000'000;
 
 void check(const Lever& lever) {
@@ -35,6 +37,15 @@ void check(const Lever& lever) {
 void check_near(const char* key, std::size_t unit, double value) {
   if (!(std::abs(value) <= kFar))
     throw InputError({"", std::string(key) + "[" + std::to_string(unit) + "]", Checks::text(value), "out of range", "−1e6 … 1e6"});
+}
+
+/// What a unit's references stand for: for a command of one of the two, which leaves the other.
+elastic::EquilibriumPreset commanded(const Unit& unit, const UnitState& s) {
+  const UnitConfig& config = unit.config();
+  if (config.servo) return {s.servo.command.equilibrium, s.servo.command.preset};
+  const double rad_per_raw = (inverted(config) ? -1.0 : 1.0) * radians(Raw{1});
+  const auto& ref = s.program.loop.ref_new;
+  return config.actuator.transmission->attained({ref[0] * rad_per_raw, ref[1] * rad_per_raw});
 }
 
 }  // namespace
@@ -130,6 +141,31 @@ void LeverBatch::reset(std::size_t i, double equilibrium_rad, double preset, dou
   angle_[i] = shaft_rad;
   speed_[i] = speed_rad_per_s;
   torque_[i] = 0;
+}
+
+UnitState LeverBatch::state(std::size_t i) const {
+  UnitState s = units_.state(i);
+  s.reached = {angle_[i], speed_[i]};
+  return s;
+}
+
+void LeverBatch::restore(std::size_t i, const UnitState& state, std::int64_t time_ns) {
+  (void)lever(i);
+  check_near("shaft_rad", i, state.reached.angle);
+  check_near("speed_rad_per_s", i, state.reached.speed);
+  for (const auto& [key, value] : {std::pair{"time_ns", time_ns}, std::pair{"program.busy_until", state.program.busy_until_ns},
+                                   std::pair{"program.watchdog.next_clock", state.program.watchdog.next_clock_ns}})
+    if (value < -kLatest_ns || value > kLatest_ns)
+      throw InputError({"", key, std::to_string(value), "out of range", "−4e18 … 4e18 ns"});
+  UnitState here = state;
+  firmware::Program::shift_time(here.program, units_.time_ns() - time_ns);
+  units_.set(i, here);
+  const elastic::EquilibriumPreset held = commanded(unit_, state);
+  held_equilibrium_[i] = held.equilibrium;
+  held_preset_[i] = held.preset;
+  angle_[i] = state.reached.angle;
+  speed_[i] = state.reached.speed;
+  torque_[i] = state.applied_torque;
 }
 
 }  // namespace vsa::device

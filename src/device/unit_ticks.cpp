@@ -42,8 +42,6 @@ std::optional<control::Servo> make_servo(const UnitConfig& c) {
   return control::Servo(*c.servo, motors, c.actuator.transmission, 1.0 / c.actuator.shaft_scale);
 }
 
-bool inverted(const UnitConfig& c) noexcept { return !c.servo && c.program.model == firmware::Model::advanced; }
-
 }  // namespace
 
 std::array<std::int32_t, 2> UnitConfig::reference_range_raw(int i) const noexcept {

@@ -7,10 +7,13 @@
 
 #include "vsa/description/capabilities.hpp"
 #include "vsa/engine/mjcf.hpp"
+#include "vsa/files.hpp"
 #include "vsa/physics/mjcf.hpp"
 #include "vsa/physics/mujoco.hpp"
 #include "vsa/sdf/feature.hpp"
 #include "vsa/sdf/finder.hpp"
+#include "vsa/sdf/source_mark.hpp"
+#include "vsa/utf8.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -80,17 +83,49 @@ Cache cache;
 // libsdformat keeps global state while it reads: two threads in sdf::Root::Load crash.
 std::mutex reading;
 
+/// An MJCF beside an SDF stands for it where no SDF can be read, so both should say the same.
+void compare_with_mjcf(const std::filesystem::path& sdf, Entry& entry) {
+  std::filesystem::path mjcf = sdf;
+  mjcf.replace_extension(".xml");
+  if (sdf.extension() != ".sdf" || !entry.seen.asks(mjcf)) return;
+  entry.seen.reads(mjcf);
+  const auto written_of = reader::source_mark_in(read_file(mjcf).value_or(""));
+  if (!written_of) return;
+  const auto now = reader::source_mark(sdf, reader::Finder(entry.key.search, entry.seen), entry.seen);
+  if (!now || *now == *written_of) return;
+  const std::string name = mjcf.filename().string();
+  entry.file->warnings.push_back(
+      (reader::sdf_feature().is_in()
+           ? name + " beside it was written of another state of this SDF or of what it includes, and builds without SDF run that"
+           : "it or what it includes has changed since " + name + " was written of it, and that is what runs") +
+      ": vsa export --mjcf writes it anew, in a build with SDF");
+}
+
+/// Topics, tables and pages hold names, and are UTF-8.
+void check_names(const description::World& world, const std::string& file, Problems& problems) {
+  const auto check = [&](const char* what, const std::string& name) {
+    if (!is_utf8(name)) problems.add({file, what, name, "isn't UTF-8", "a file in UTF-8"});
+  };
+  check("world", world.name);
+  for (const description::Plugin& p : world.plugins) check("model", p.model);
+  for (const description::Link& l : world.links) check("link", l.name);
+  for (const description::Joint& j : world.joints) check("joint", j.name);
+}
+
 description::World read_description(const reader::SdfSource& source, const WorldOptions& options, Entry& entry,
                                     Problems& problems) {
   ReadWorld& file = *entry.file;
   const std::filesystem::path mjcf = mjcf_of(source.path);
   if (mjcf.empty() && !physics::is_mjcf({}, source.text)) {
-    return reader::read_sdf(source, {file.engine->capabilities(), options.concave, options.impossible_inertia},
-                            reader::Finder(entry.key.search, entry.seen), entry.seen, file.warnings, problems);
+    description::World out = reader::read_sdf(source, {file.engine->capabilities(), options.concave, options.impossible_inertia},
+                                              reader::Finder(entry.key.search, entry.seen), entry.seen, file.warnings, problems);
+    if (problems.empty()) compare_with_mjcf(source.path, entry);
+    return out;
   }
   for (const std::filesystem::path& read : physics::files_of_mjcf(mjcf)) entry.seen.reads(read);
   physics::MjcfRead read = physics::read_mjcf(mjcf, source.text, file.warnings, problems);
   if (read.names_others) entry.seen.lost();
+  if (problems.empty() && mjcf != source.path) compare_with_mjcf(source.path, entry);
   return std::move(read.world);
 }
 
@@ -113,6 +148,7 @@ std::shared_ptr<ReadWorld> read_world(const reader::SdfSource& source, const Wor
   const auto entry = std::make_shared<Entry>(Entry{std::move(key), std::make_shared<ReadWorld>(), {}});
   entry->file->engine = entry->key.engine;
   entry->file->world = std::make_shared<const description::World>(read_description(source, options, *entry, problems));
+  if (problems.empty()) check_names(*entry->file->world, source.label(), problems);
   if (problems.empty() && entry->seen.settled()) cache.keep(entry);
   return entry->file;
 }

@@ -9,6 +9,7 @@
 #include "vsa/engine/mjcf.hpp"
 #include "vsa/physics/mjcf.hpp"
 #include "vsa/sdf/feature.hpp"
+#include "vsa/sdf/source_mark.hpp"
 
 namespace vsa::engine {
 
@@ -33,6 +34,9 @@ std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const 
   for (physics::WrittenFile& one : physics::write_mjcf_files(*file->world, path.stem().string(), path.string(), problems))
     out.push_back({std::move(one.name), std::move(one.bytes)});
   problems.throw_if_any();
+  reader::SeenFiles seen;
+  const auto mark = reader::source_mark(path, reader::Finder(reader::SearchPath(options.model_path), seen), seen);
+  if (mark) out.front().bytes = reader::with_source_mark(std::move(out.front().bytes), *mark);
   return out;
 }
 

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <set>
 
 #include "vsa/bits.hpp"
+#include "vsa/errors.hpp"
 
 namespace vsa::page {
 
@@ -62,6 +66,47 @@ Json reals(const std::vector<double>& values) {
 Json results_head(const std::string& command) { return {{"program", "vsa " VSA_VERSION}, {"command", command}}; }
 
 std::string results_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+
+namespace {
+
+/// The parser tells of no line: its way through the text does.
+struct Counting {
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+  const char* at;
+  std::size_t* line;
+  reference operator*() const { return *at; }
+  Counting& operator++() {
+    if (*at++ == '\n') ++*line;
+    return *this;
+  }
+  bool operator==(const Counting& other) const { return at == other.at; }
+  bool operator!=(const Counting& other) const { return at != other.at; }
+};
+
+}  // namespace
+
+Json read_json(std::string_view text, const std::string& file, const std::string& allowed) {
+  std::size_t line = 1;
+  const auto fail = [&](const std::string& key, const char* what) {
+    const std::string place = file.empty() ? "" : file + ":" + std::to_string(line);
+    throw InputError({place, key, "", what, allowed});
+  };
+  std::vector<std::set<std::string>> open;  // the keys of each object that has begun
+  const auto look = [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) open.emplace_back();
+    if (event == Json::parse_event_t::object_end) open.pop_back();
+    if (event == Json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second)
+      fail(well_formed(parsed.get<std::string>()), "is given twice in one object");
+    return true;
+  };
+  Json out = Json::parse(Counting{text.data(), &line}, Counting{text.data() + text.size(), &line}, look, false);
+  if (out.is_discarded()) fail("", "isn't JSON");
+  return out;
+}
 
 std::string well_formed(std::string_view value) {
   return Json::parse(Json(value).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();

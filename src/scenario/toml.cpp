@@ -7,6 +7,8 @@
 
 #include "vsa/config/find_file.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/errors.hpp"
+#include "vsa/utf8.hpp"
 
 namespace vsa::scenario {
 namespace {
@@ -74,12 +76,14 @@ void read_commands(const std::vector<const toml::table*>& all, const fs::path& f
   std::stable_sort(out.commands.begin(), out.commands.end(), earlier);
 }
 
-/// A built-in file's name, or the whole path.
+/// A built-in file's name, or the whole path. Throws InputError.
 std::string name_of(const fs::path& file, const fs::path& folder) {
   std::error_code differs;
   const auto built_in = config::find_data(folder / file.filename());
-  return built_in && fs::equivalent(*built_in, file, differs) ? file.stem().string()
-                                                              : fs::absolute(file).lexically_normal().string();
+  if (built_in && fs::equivalent(*built_in, file, differs)) return file.stem().string();
+  std::string name = fs::absolute(file).lexically_normal().string();
+  if (!is_utf8(name)) throw InputError({"", "file", name, "can't stand in a scenario, which is UTF-8", "a name in UTF-8"});
+  return name;
 }
 
 toml::table set_table(const std::vector<std::string>& set) {

@@ -9,6 +9,7 @@
 
 #include "sdf/input_files.hpp"
 #include "sdf/newer_sdf.hpp"
+#include "sdf/plugin_places.hpp"
 #include "sdf/xml_place.hpp"
 #include "vsa/config/text.hpp"
 
@@ -26,6 +27,7 @@ std::string printed(const tinyxml2::XMLDocument& xml) {
 /// What libsdformat would refuse or lose is changed. True where something was.
 bool mend(tinyxml2::XMLElement& root, const std::string& label, ReadContext& c) {
   if (is_unexpanded(root, label, c.problems)) return false;
+  check_plugin_places(root, label, c.problems);
   const std::string_view name = root.Name();
   if (name == "sdf") return mend_sdf(root, label, c.notes, c.problems);
   if (name != "robot") return false;

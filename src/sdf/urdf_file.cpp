@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "sdf/urdf_elements.hpp"
+#include "sdf/xml_place.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::reader {
@@ -49,6 +50,18 @@ UrdfJoint read_joint(const XMLElement& e, const Urdf& urdf, Notes& notes, Proble
   joint.mimic = UrdfMimic{attribute(mimic, "joint"), mimic_number(*mimic, "multiplier", 1, urdf, joint.name, problems),
                           mimic_number(*mimic, "offset", 0, urdf, joint.name, problems)};
   return joint;
+}
+
+/// A <limit> of 0 … 0 is what exporters write of every joint, and an <axis> of a fixed joint changes nothing: no word of those.
+void tell_of_limits(const XMLElement& e, const UrdfJoint& joint, const std::string& file, Notes& notes) {
+  const XMLElement* limit = e.FirstChildElement("limit");
+  if (limit == nullptr || (joint.type != "continuous" && joint.type != "fixed")) return;
+  const auto given = [&](const char* name) { return config::parse_number(config::trim(attribute(limit, name))).value_or(0) != 0; };
+  if (!given("lower") && !given("upper")) return;
+  notes.add(joint.type == "fixed"
+                ? "a fixed joint doesn't move: lower and upper of its <limit> are left out, did you mean revolute?"
+                : "lower and upper of a continuous joint's <limit> are left out, did you mean revolute?",
+            place_of(*limit, file));
 }
 
 bool is_true(const char* text) {
@@ -142,6 +155,7 @@ Urdf mend_urdf(XMLElement& robot, const std::string& file, std::size_t id, Notes
   for (const XMLElement* e = robot.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint")) {
     UrdfJoint joint = read_joint(*e, urdf, notes, problems);
     joint.lumped = joint.type == "fixed" && joint.parent != "world" && !stays(robot, joint.name);
+    tell_of_limits(*e, joint, file, notes);
     if (e->FirstChildElement("safety_controller") != nullptr)
       notes.add("<safety_controller> of joints is a controller's and left out", joint.name);
     if (e->FirstChildElement("calibration") != nullptr)

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "vsa/errors.hpp"
 #include "vsa/files.hpp"
+#include "vsa/page/json.hpp"
 
 namespace vsa::study {
 namespace {
 
-using Parsed = nlohmann::json;
+using Parsed = page::Json;
 
 constexpr const char* kWhatItIs = "results.json of vsa identify, with cross-validation";
 
@@ -50,9 +50,7 @@ class Fields {
 Parsed parse(const std::filesystem::path& file) {
   const auto text = read_file(file);
   if (!text) throw InputError({file.string(), "", "", "can't be read", kWhatItIs});
-  Parsed out = Parsed::parse(*text, nullptr, false);
-  if (out.is_discarded()) throw InputError({file.string(), "", "", "isn't JSON", kWhatItIs});
-  return out;
+  return page::read_json(*text, file.string(), kWhatItIs);
 }
 
 void add_parameter(LeaveOneOut& out, const Parsed& parameter) {

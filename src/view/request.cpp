@@ -8,14 +8,15 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "vsa/errors.hpp"
+#include "vsa/page/json.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::view {
 namespace {
 
-using nlohmann::json;
+using page::Json;
 
 constexpr double kReach_m = 1000;
 constexpr Span kFactor{0.01, 100};
@@ -29,26 +30,26 @@ struct Refused {
 /// One object: every key must be taken, and may be taken once.
 class Fields {
  public:
-  Fields(const json& object, std::string where) : object_(object), where_(std::move(where)) {
+  Fields(const Json& object, std::string where) : object_(object), where_(std::move(where)) {
     if (!object.is_object()) throw Refused{where_ + "not an object"};
   }
 
   [[nodiscard]] bool has(const char* key) const { return object_.contains(key); }
-  const json& at(const char* key) {
+  const Json& at(const char* key) {
     const auto found = object_.find(key);
     if (found == object_.end()) throw Refused{where_ + key + ": missing"};
     taken_.emplace_back(key);
     return *found;
   }
   double number(const char* key, const Span& span) { return number(at(key), where_ + key, span); }
-  static double number(const json& value, const std::string& name, const Span& span) {
+  static double number(const Json& value, const std::string& name, const Span& span) {
     if (!value.is_number()) throw Refused{name + ": not a number: " + shown(value)};
     const double x = value.get<double>();
     if (x >= span.min && x <= span.max) return x;  // false for NaN
     throw Refused{fmt::format("{} = {}: out of range (allowed: {} … {})", name, x, span.min, span.max)};
   }
   std::int64_t whole(const char* key, std::int64_t min, std::int64_t max) { return whole(at(key), where_ + key, min, max); }
-  static std::int64_t whole(const json& value, const std::string& name, std::int64_t min, std::int64_t max) {
+  static std::int64_t whole(const Json& value, const std::string& name, std::int64_t min, std::int64_t max) {
     const bool fits = value.is_number_integer() && (!value.is_number_unsigned() || value.get<std::uint64_t>() <= INT64_MAX);
     if (!fits) throw Refused{name + ": not a whole number: " + shown(value)};
     const auto n = value.get<std::int64_t>();
@@ -56,22 +57,22 @@ class Fields {
     throw Refused{fmt::format("{} = {}: out of range (allowed: {} … {})", name, n, min, max)};
   }
   std::string text(const char* key) {
-    const json& value = at(key);
+    const Json& value = at(key);
     if (!value.is_string()) throw Refused{where_ + key + ": not a text: " + shown(value)};
     return value.get<std::string>();
   }
   bool flag(const char* key) {
-    const json& value = at(key);
+    const Json& value = at(key);
     if (!value.is_boolean()) throw Refused{where_ + key + ": not true or false: " + shown(value)};
     return value.get<bool>();
   }
-  const json& list(const char* key) {
-    const json& value = at(key);
+  const Json& list(const char* key) {
+    const Json& value = at(key);
     if (!value.is_array()) throw Refused{where_ + key + ": not a list: " + shown(value)};
     return value;
   }
   std::array<double, 3> place(const char* key) {
-    const json& value = list(key);
+    const Json& value = list(key);
     if (value.size() != 3) throw Refused{where_ + key + ": not three numbers"};
     std::array<double, 3> out{};
     for (std::size_t i = 0; i < 3; ++i) out[i] = number(value[i], where_ + key, {-kReach_m, kReach_m});
@@ -86,22 +87,22 @@ class Fields {
   }
 
  private:
-  static std::string shown(const json& value) {
-    const std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
+  static std::string shown(const Json& value) {
+    const std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
     return text.size() <= kShown ? text : text.substr(0, kShown) + "…";
   }
 
-  const json& object_;
+  const Json& object_;
   std::string where_;
   std::vector<std::string> taken_;
 };
 
 Request command(Fields& in, const Rules& rules) {
   Command out;
-  const json& list = in.list("actuators");
+  const Json& list = in.list("actuators");
   if (list.empty() || list.size() > rules.actuators.size()) throw Refused{"actuators: none, or more than there are"};
   const auto last = static_cast<std::int64_t>(rules.actuators.size()) - 1;
-  for (const json& item : list) {
+  for (const Json& item : list) {
     const auto i = static_cast<std::size_t>(Fields::whole(item, "actuators", 0, last));
     if (std::find(out.actuators.begin(), out.actuators.end(), i) != out.actuators.end())
       throw Refused{"actuators: one is listed twice"};
@@ -130,7 +131,7 @@ Request change_gait(Fields& in, const Rules& rules) {
   const motion::GaitBounds& bounds = motion::kGaitBounds;
   ChangeGait out;
   out.to.frequency_rad_per_s = in.number("frequency_rad_per_s", span(bounds.frequency_rad_per_s));
-  const json& list = in.list("groups");
+  const Json& list = in.list("groups");
   if (list.size() != rules.gait_groups.size()) throw Refused{"groups: not as many as the gait has"};
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string& name = rules.gait_groups[i];
@@ -146,7 +147,7 @@ Request change_gait(Fields& in, const Rules& rules) {
 }
 
 Request speed(Fields& in) {
-  const json& factor = in.at("factor");
+  const Json& factor = in.at("factor");
   return Speed{factor.is_null() ? std::nullopt : std::optional(Fields::number(factor, "factor", kFactor))};
 }
 
@@ -186,7 +187,7 @@ void check_offered(const std::string& what, const Rules& rules) {
   if (!rules.hands && what == "pull") throw Refused{what + ": this simulator takes no hands"};
 }
 
-Request read(const json& object, const Rules& rules) {
+Request read(const Json& object, const Rules& rules) {
   Fields in(object, "");
   const std::string what = in.text("do");
   const auto reader = kReaders.find(what);
@@ -201,9 +202,10 @@ Request read(const json& object, const Rules& rules) {
 
 Parsed parse_request(std::string_view text, const Rules& rules) {
   try {
-    const json object = json::parse(text, nullptr, false);
-    if (object.is_discarded()) return {std::nullopt, "not JSON"};
-    return {read(object, rules), ""};
+    return {read(page::read_json(text, "", ""), rules), ""};
+  } catch (const InputError& error) {
+    const std::string& key = error.problems().front().key;
+    return {std::nullopt, key.empty() ? "not JSON" : key.substr(0, kShown) + ": is given twice"};
   } catch (const Refused& refused) {
     return {std::nullopt, refused.why};
   }

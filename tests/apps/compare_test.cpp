@@ -96,6 +96,37 @@ TEST_F(CompareRanks, AndPartsJudgeTheSame) {
   EXPECT_EQ(rows_of(run_vsa(job(3, to("ranks")), mpirun())), alone);
 }
 
+TEST(Compare, APartThatNobodyElseWorksBesideEndsAndSaysWhatIsMissing) {
+  const Scratch scratch;
+  write_file(scratch / "two.toml", comparison(hypothesis("one", "") + hypothesis("other", "\"tendon.friction\" = 0.05")));
+  const Result alone = compare(scratch, {"--part", "1/2", "--wait-s", "0.5"});
+  EXPECT_EQ(alone.exit_code, 1) << alone.err;
+  EXPECT_NE(alone.err.find("no fits of the parts 2/2 for 0.5 s, which owe 3"), std::string::npos) << alone.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out" / "comparison.json"));
+  EXPECT_EQ(compare(scratch, {"--part", "2/2"}).exit_code, 0);
+  EXPECT_EQ(rows_of(compare(scratch, {"--part", "1/2", "--wait-s", "0"})), rows_of(compare(scratch)));
+  EXPECT_EQ(compare(scratch, {"--part", "1/2", "--wait-s", "-1"}).exit_code, 2);
+  EXPECT_EQ(compare(scratch, {"--wait-s", "1"}).exit_code, 2) << "without --part nobody is waited for";
+}
+
+TEST(Compare, AFitThatFailedInAnotherPartEndsTheWaitForIt) {
+  const Scratch scratch;
+  write_file(scratch / "two.toml", comparison(hypothesis("one", "") + hypothesis("other", "\"tendon.friction\" = 0.05")));
+  const std::string rows = rows_of(compare(scratch));
+  const std::filesystem::path fits = scratch / "out" / "fits";
+  const std::string name = "one.without.stiffness_preset_0.0000rad_branches";  // the second: part 2's
+  const std::string stored = read_file(fits / (name + ".json"));
+  const std::size_t at = stored.find("\"asked\": \"") + 10;
+  write_file(fits / (name + ".failed"), stored.substr(at, stored.find('"', at) - at) + "\nfell over\n");
+  std::filesystem::remove(fits / (name + ".json"));
+  const Result waiting = compare(scratch, {"--part", "1/2"});
+  EXPECT_EQ(waiting.exit_code, 1) << waiting.err;
+  EXPECT_NE(waiting.err.find(name + " failed in another part: fell over"), std::string::npos) << waiting.err;
+  EXPECT_EQ(compare(scratch, {"--part", "2/2"}).exit_code, 0) << "tried again";
+  EXPECT_FALSE(std::filesystem::exists(fits / (name + ".failed")));
+  EXPECT_EQ(rows_of(compare(scratch, {"--part", "1/2"})), rows);
+}
+
 TEST(Compare, KeepsWhatWasDoneWhenItIsInterrupted) {
   const Scratch scratch;
   write_file(scratch / "two.toml", comparison(hypothesis("one", "") + hypothesis("other", "\"tendon.friction\" = 0.05"), "19"));

@@ -215,6 +215,18 @@ TEST_F(IdentifyPool, OneThreadAndPartsFindTheSame) {
   EXPECT_EQ(runs_in(scratch_ / "parts/jobs"), 11U) << "nothing twice";
 }
 
+TEST_F(IdentifyPool, APartAloneEndsAfterItsWaitAndGoesOnWithTheOther) {
+  const Result alone = run_vsa(asked("lone", {"--part", "1/2", "--wait-s", "0.5"}));
+  EXPECT_EQ(alone.exit_code, 1) << alone.err;
+  EXPECT_NE(alone.err.find("no runs of the parts 2/2 for 0.5 s"), std::string::npos) << alone.err;
+  {
+    Subprocess second(asked("lone", {"--part", "2/2"}));
+    EXPECT_EQ(run_vsa(asked("lone", {"--part", "1/2", "--resume"})).exit_code, 0);
+    EXPECT_EQ(second.wait().exit_code, 0);
+  }
+  EXPECT_TRUE(found("lone") == expected_);
+}
+
 TEST_F(IdentifyPool, KilledItGoesOnWhereItWas) {
   for (const int signal : {SIGKILL, SIGINT}) {
     const std::string out = "killed_" + std::to_string(signal);

@@ -214,6 +214,79 @@ TEST(GetAndSet, ParametersAreCheckedSentStoredAndReadBack) {
   expect(units.vsa({"get", "info"}), 0, {"Firmware version: QBMMP v6.1.0", "Control Mode: Deflection"});
 }
 
+TEST(GetAndSet, DefaultsAreStoredAndRestoredInBothDialects) {
+  for (const char* dialect : {"6", "7"}) {
+    Emulated units({"--dialect", dialect});
+    ASSERT_TRUE(units.ready);
+    expect(units.vsa({"set", "position_pid", "0.25", "0", "0.5"}, {"--store"}), 0, {"stored"});
+    expect(units.vsa({"set", "restore"}), 0, {"unit 1: has its defaults, stored\n"});
+    expect(units.vsa({"get", "position_pid"}), 0, {"P 0.0999"});
+    expect(units.vsa({"set", "position_pid", "0.25", "0", "0.5"}), 0, {"sent"});
+    expect(units.vsa({"set", "store_defaults"}), 0, {"stored as its defaults"});
+    expect(units.vsa({"set", "position_pid", "0.75", "0", "0.5"}, {"--store"}), 0, {"stored"});
+    expect(units.vsa({"set", "restore"}), 0, {"has its defaults"});
+    expect(units.vsa({"get", "position_pid"}), 0, {"P 0.25"});
+    expect(units.vsa({"set", "id", "9"}, {"--store"}), 0, {"stored"});
+    expect(units.vsa({"set", "restore"}, {"--id", "9"}), 0, {"another id: vsa ping"});
+    expect(units.vsa({"get", "active"}), 0, {"off"});
+    expect(units.vsa({"set", "restore"}, {"--id", "1-2"}), 2, {"one unit"});
+    expect(units.vsa({"set", "restore", "now"}), 2, {"restore"});
+  }
+}
+
+TEST(Emulate, AMemoryInAFileOutlivesTheProgram) {
+  const Scratch scratch;
+  const std::string file = (scratch / "units.toml").string();
+  {
+    Emulated units({"--units", "2", "--memory", file});
+    ASSERT_TRUE(units.ready);
+    expect(units.vsa({"set", "position_pid", "0.25", "0", "0.5"}, {"--id", "2", "--store"}), 0, {"stored"});
+    expect(units.vsa({"set", "position_pid", "0.75", "0", "0.5"}), 0, {"sent"});
+    expect(units.vsa({"set", "id", "9"}, {"--id", "2", "--store"}), 0, {"stored"});
+    units.end();
+  }
+  const std::string kept = vsa::test::read_file(file);
+  {
+    Emulated units({"--units", "2", "--memory", file});
+    ASSERT_TRUE(units.ready);
+    expect(units.vsa({"get", "position_pid"}, {"--id", "9"}), 0, {"P 0.25"});
+    expect(units.vsa({"get", "position_pid"}), 0, {"P 0.0999"});
+    expect(units.vsa({"set", "restore"}, {"--id", "9"}), 0, {"another id"});
+    expect(units.vsa({"get", "position_pid"}, {"--id", "2"}), 0, {"P 0.0999"});
+    units.end();
+  }
+  EXPECT_NE(vsa::test::read_file(file), kept);
+  const auto refused = [&](const Arguments& more, const std::string& part) {
+    Arguments all{"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--memory", file};
+    all.insert(all.end(), more.begin(), more.end());
+    expect(run_vsa(all), 2, {part});
+  };
+  refused({}, "aren't as many as --units");
+  refused({"--active"}, "--active");
+  write_file(file, kept.substr(0, kept.find("\"limit_low\"")));
+  refused({"--units", "2"}, "limit_low");
+  std::string wide = kept;
+  wide.replace(wide.find("\"id\" = [") + 8, 1, "7777");
+  write_file(file, wide);
+  refused({"--units", "2"}, "unit[0].user.id");
+  write_file(file, "type = \"qbmove_advanced\"\n");
+  refused({"--units", "2"}, "qbmove_advanced");
+}
+
+TEST(GetAndSet, ABaudrateActsAtOnceForTheUnitThatIsTold) {
+  Emulated units({"--units", "2"});
+  ASSERT_TRUE(units.ready);
+  expect(units.vsa({"set", "baudrate", "115200"}), 2, {"460800, 2000000"});
+  expect(units.vsa({"set", "baudrate"}), 2, {"baudrate"});
+  expect(units.vsa({"set", "baudrate", "2000000"}), 0, {"as before"});
+  expect(units.vsa({"set", "baudrate", "460800"}, {"--id", "2"}), 0,
+         {"unit 2: was told to listen at 460800 bit/s: --baud-Hz 460800"});
+  expect(units.vsa({"get", "active"}, {"--id", "2", "--baud-Hz", "460800"}), 0, {"off"});
+  expect(units.vsa({"get", "active"}), 0, {"off"});
+  expect(units.vsa({"set", "baudrate", "2000000"}, {"--id", "2", "--baud-Hz", "460800"}), 0, {"was told"});
+  expect(units.vsa({"get", "active"}, {"--id", "2"}), 0, {"off"});
+}
+
 /// Its list has a slot more, and its references come back with the other sign.
 TEST(GetAndSet, AnAdvancedUnitAsAnyOther) {
   Emulated unit({}, "qbmove_advanced");

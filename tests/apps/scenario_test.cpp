@@ -230,4 +230,26 @@ TEST(Scenario, CommandsFromTopicsAreOwnedUpTo) {
   EXPECT_EQ(saved.find("topics ="), std::string::npos) << saved;
 }
 
+TEST(Scenario, NamesThatArentUtf8AreRefusedAndNoRecordIsTouched) {
+  const Scratch scratch;
+  place(scratch);
+  const std::string odd = (scratch / "robot\xff.sdf").string();
+  fs::copy_file(scratch / "robot.sdf", odd);
+  const auto run = [&](const std::string& world, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"run", world, "--no-topics", "--duration-s", "0.01"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run_vsa(all);
+  };
+  EXPECT_EQ(run(odd, {}).exit_code, 0);
+  const auto recorded = run(odd, {"--record", (scratch / "out").string()});
+  EXPECT_EQ(recorded.exit_code, 2) << recorded.err;
+  EXPECT_NE(recorded.err.find("robot\\xff.sdf: can't stand in a scenario"), std::string::npos) << recorded.err;
+  EXPECT_FALSE(fs::exists(scratch / "out"));
+  std::string text = read_file(scratch / "robot.sdf");
+  text.replace(text.find("<link name=\"") + 12, 0, "\xe9");
+  write_file(scratch / "latin.sdf", text);
+  const auto latin = run((scratch / "latin.sdf").string(), {});
+  EXPECT_EQ(latin.exit_code, 2) << latin.err;
+}
+
 }  // namespace

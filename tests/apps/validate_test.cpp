@@ -184,6 +184,7 @@ TEST(Validate, RefusesALeaveOneOutRecordThatIsNone) {
     EXPECT_NE(r.err.find("r.json"), std::string::npos) << r.err;
   };
   refused("{", "isn't JSON");
+  refused("{\n\"command\": \"x\",\n\"command\": \"y\"}", "r.json:3: command: is given twice");
   refused("[]", "isn't an object");
   refused("{}", "command");
   refused(R"({"command": "x", "parameters": []})", "holds no parameter");

@@ -4,8 +4,13 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <set>
 #include <string>
@@ -67,6 +72,50 @@ TEST_F(WriteWhole, AFileThatIsThereKeepsItsPermissions) {
     EXPECT_EQ(meanwhile & ~(mode_before | S_IWUSR), 0U) << "readable by others while it was written";
     fs::remove(file);
   }
+}
+
+TEST_F(WriteWhole, AFileThatIsThereKeepsItsOwnerWhereRootWritesIt) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root may give files away";
+  write_whole(file, "old");
+  ASSERT_EQ(::chown(file.c_str(), 1234, 2345), 0);
+  ASSERT_EQ(::chmod(file.c_str(), 0640), 0);
+  write_whole(file, "new");
+  struct stat now {};
+  ASSERT_EQ(::stat(file.c_str(), &now), 0);
+  EXPECT_EQ(now.st_uid, 1234U);
+  EXPECT_EQ(now.st_gid, 2345U);
+  EXPECT_EQ(now.st_mode & 0777U, 0640U);
+  EXPECT_EQ(text(file), "new");
+}
+
+TEST_F(WriteWhole, AFileThatIsThereKeepsItsAccessList) {
+  write_whole(file, "old");
+  constexpr std::uint32_t kNobody = 0xFFFFFFFF;
+  // As the kernel has it: version 2, then tag, permissions and id of owner, user 1234, group, mask and others.
+  struct Entry {
+    std::uint16_t tag, permissions;
+    std::uint32_t id;
+  };
+  struct {
+    std::uint32_t version = 2;
+    std::array<Entry, 5> entries{{{1, 6, kNobody}, {2, 6, 1234}, {4, 4, kNobody}, {16, 6, kNobody}, {32, 0, kNobody}}};
+  } const list;
+  constexpr const char* kName = "system.posix_acl_access";
+  if (::setxattr(file.c_str(), kName, &list, sizeof list, 0) != 0 && errno == ENOTSUP)
+    GTEST_SKIP() << "this file system has no access lists";
+  write_whole(file, "new");
+  std::array<char, 256> now{};
+  ASSERT_EQ(::getxattr(file.c_str(), kName, now.data(), now.size()), static_cast<ssize_t>(sizeof list));
+  EXPECT_EQ(std::memcmp(now.data(), &list, sizeof list), 0);
+}
+
+TEST_F(WriteWhole, OtherHardLinksKeepWhatWas) {
+  const fs::path other = folder.path() / "other";
+  write_whole(file, "old");
+  fs::create_hard_link(file, other);
+  write_whole(file, "new");
+  EXPECT_EQ(text(file), "new");
+  EXPECT_EQ(text(other), "old");
 }
 
 TEST_F(WriteWhole, LinksStayAndWhatTheyLeadToIsWritten) {

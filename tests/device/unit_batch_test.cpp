@@ -187,6 +187,37 @@ TEST(LeverBatch, SwingsAsAUnitAloneUnderTheSameLever) {
   EXPECT_NEAR(levers.shaft_rad()[3], again.first, 1e-12) << "and whoever was reset begins anew, pushed as before";
 }
 
+TEST(LeverBatch, ARestoredUnitGoesOnAsItDid) {
+  device::LeverBatch levers(maker_pro(), 9, {2e-3, 0.01, 0.3});
+  for (std::size_t i = 0; i < 9; ++i) levers.equilibrium()[i] = 0.1 * static_cast<double>(i) - 0.4;
+  levers.step(60);
+  const UnitState before = levers.state(7);
+  const std::int64_t at = levers.units().time_ns();
+  EXPECT_EQ(before.reached.angle, levers.shaft_rad()[7]);
+  EXPECT_GT(std::abs(before.reached.speed), 0.1) << "in full swing";
+  levers.step(40);
+  const double angle = levers.shaft_rad()[7], speed = levers.shaft_speed_rad_per_s()[7], other = levers.shaft_rad()[3];
+  levers.restore(7, before, at);
+  EXPECT_EQ(levers.shaft_rad()[7], before.reached.angle);
+  EXPECT_EQ(levers.shaft_rad()[3], other);
+  levers.step(40);
+  EXPECT_EQ(levers.shaft_rad()[7], angle);
+  EXPECT_EQ(levers.shaft_speed_rad_per_s()[7], speed);
+}
+
+TEST(LeverBatch, RefusesStatesThatAreNone) {
+  device::LeverBatch levers(maker_pro(), 2, {});
+  UnitState state = levers.state(1);
+  EXPECT_THROW(levers.restore(2, state, 0), InputError);
+  EXPECT_THROW((void)levers.state(2), InputError);
+  EXPECT_THROW(levers.restore(1, state, std::numeric_limits<std::int64_t>::min()), InputError);
+  state.reached.speed = std::nan("");
+  EXPECT_THROW(levers.restore(1, state, 0), InputError);
+  state = levers.state(1);
+  state.program.busy_until_ns = std::numeric_limits<std::int64_t>::max();
+  EXPECT_THROW(levers.restore(1, state, 0), InputError);
+}
+
 TEST(LeverBatch, RefusesLeversAndCommandsThatAreNone) {
   EXPECT_THROW(device::LeverBatch(maker_pro(), 2, {0, 0, 0}), InputError);
   EXPECT_THROW(device::LeverBatch(maker_pro(), 2, {1e-3, -1, 0}), InputError);

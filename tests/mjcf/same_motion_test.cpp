@@ -3,6 +3,8 @@
 // A world from SDF and the same from the MJCF that was written of it: the same to the last bit, in motion and in what is recorded.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "../record/scratch.hpp"
 #include "vsa/config/find_file.hpp"
 #include "vsa/engine/mjcf.hpp"
@@ -114,6 +116,44 @@ TEST(CommittedMjcf, IsWhatTheCommandWrites) {
           << file.name << " differs: run vsa export --mjcf " << name << " --out models/worlds";
     }
   }
+}
+
+/// The warnings of NAME.sdf that speak of its MJCF.
+std::size_t told_of_mjcf(const fs::path& sdf) {
+  const World world = World::load(sdf);
+  return static_cast<std::size_t>(std::count_if(world.warnings().begin(), world.warnings().end(), [](const std::string& text) {
+    return text.find("vsa export --mjcf writes it anew") != std::string::npos;
+  }));
+}
+
+TEST(Export, TellsWhenItsSdfHasChangedSince) {
+  const Scratch scratch;
+  const auto part = [](const char* mass, const char* more = "") {
+    return "<sdf version='1.7'><model name='part'><link name='l'><inertial><mass>" + std::string(mass) +
+           "</mass></inertial></link>" + more + "</model></sdf>\n";
+  };
+  const std::string world = "<sdf version='1.7'><world name='w'><include><uri>part</uri></include></world></sdf>\n";
+  const fs::path sdf = scratch.path() / "w.sdf";
+  fs::create_directories(scratch.path() / "part");
+  record::spew(sdf, world);
+  record::spew(scratch.path() / "part/model.sdf", part("1"));
+  record::spew(scratch.path() / "part/model.config", "<model><sdf version='1.7'>model.sdf</sdf></model>");
+  EXPECT_EQ(told_of_mjcf(sdf), 0u) << "nothing beside it";
+  write(export_mjcf(sdf), scratch.path());
+  const std::string exported = slurp(scratch.path() / "w.xml");
+  EXPECT_EQ(exported.find(scratch.path().string()), std::string::npos);
+  EXPECT_EQ(told_of_mjcf(sdf), 0u);
+  record::spew(scratch.path() / "part/model.sdf", part("1", "<!-- a word -->"));
+  EXPECT_EQ(told_of_mjcf(sdf), 0u) << "comments move nothing";
+  record::spew(scratch.path() / "part/model.sdf", part("2"));
+  EXPECT_EQ(told_of_mjcf(sdf), 1u) << "what it includes counts";
+  record::spew(scratch.path() / "part/model.sdf", part("1"));
+  EXPECT_EQ(told_of_mjcf(sdf), 0u);
+  record::spew(scratch.path() / "w.xml", "<mujoco/>\n");
+  EXPECT_EQ(told_of_mjcf(sdf), 0u) << "one without a mark is somebody's own";
+  const Scratch elsewhere;
+  fs::copy(scratch.path(), elsewhere.path(), fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  EXPECT_EQ(export_mjcf(elsewhere.path() / "w.sdf").front().bytes, exported) << "wherever it lies";
 }
 
 TEST(Export, GoesBetweenSnapshots) {

@@ -35,6 +35,25 @@ TEST(JsonString, KeepsUtf8AndReplacesWhatIsNone) {
   }
 }
 
+std::string refusal(std::string_view text) {
+  try {
+    (void)read_json(text, "f.json", "an object");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(ReadJson, TellsLineAndKeyOfWhatIsGivenTwiceInOneObject) {
+  EXPECT_EQ(refusal("{\n\"a\": 1,\n\"b\": {\"a\": 2},\n\"a\": 3}"),
+            "f.json:4: a: is given twice in one object (allowed: an object)");
+  EXPECT_EQ(refusal("[{\"a\": 1}, {\"a\": 1, \"b\": [{\"b\": 1}]}]"), "");
+  EXPECT_EQ(refusal("{\"x\": {\"\\u0061\": 1, \"a\": 2}}"), "f.json:1: a: is given twice in one object (allowed: an object)");
+  EXPECT_EQ(refusal("{\n\n\"a\": }"), "f.json:3: isn't JSON (allowed: an object)");
+  EXPECT_EQ(refusal(""), "f.json:1: isn't JSON (allowed: an object)");
+  EXPECT_EQ(read_json("{\"b\": [1, 2.5], \"a\": null}", "", "").dump(), R"({"b":[1,2.5],"a":null})");
+}
+
 TEST(Number, ReadsBackAndIsNullWhereJsonHasNone) {
   EXPECT_EQ(text(number(0.1)), "0.1");
   EXPECT_EQ(text(number(0.1f)), "0.1");

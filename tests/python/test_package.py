@@ -36,6 +36,49 @@ def public(thing):
     return {n for n in dir(thing) if not n.startswith("_")}
 
 
+class Unmade(unittest.TestCase):
+    def test_what_was_never_made_raises_whatever_is_asked_of_it(self):
+        compiled = vsasim._vsasim
+        classes = [c for m in (compiled, compiled.study, compiled.identify) for c in vars(m).values() if isinstance(c, type)]
+        self.assertGreater(len(classes), 12)
+        for of in classes:
+            if issubclass(of, Exception):
+                continue
+            for name in dir(of):
+                if name.startswith("__") and name not in TOLD | {"__repr__"}:
+                    continue
+                static = inspect.getattr_static(of, name)
+                if isinstance(static, staticmethod) or "static" in type(static).__name__:
+                    continue
+                unmade = of.__new__(of)
+                with self.assertRaises((TypeError, RuntimeError), msg=f"{of.__name__}.{name}"):
+                    value = getattr(unmade, name)
+                    for n in range(5) if callable(value) else ():
+                        try:
+                            value(*[0] * n)
+                        except TypeError as error:
+                            if "isn't made" in str(error):
+                                raise
+                    raise TypeError("no count of arguments fits")
+        with self.assertRaisesRegex(TypeError, "isn't made yet"):
+            vsasim.World.__new__(vsasim.World).step()
+
+    def test_nor_does_one_whose_init_failed(self):
+        unmade = vsasim.Unit.__new__(vsasim.Unit)
+        with self.assertRaises(TypeError):
+            unmade.__init__("no type")
+        with self.assertRaisesRegex(TypeError, "isn't made yet"):
+            unmade.readings()
+
+
+class Errors(unittest.TestCase):
+    def test_a_file_name_that_isnt_utf8_is_told_as_python_has_it(self):
+        name = os.fsdecode(b"nowhere\xff.sdf")
+        with self.assertRaisesRegex(vsasim.InputError, r"nowhere\\xff.sdf.*no such file") as caught:
+            vsasim.World.load(pathlib.Path(name))
+        self.assertIn(name, [text for p in caught.exception.problems for text in p.values()])
+
+
 class Stubs(unittest.TestCase):
     def test_they_name_every_public_name_and_no_other(self):
         for name, module in MODULES.items():

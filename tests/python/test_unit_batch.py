@@ -78,6 +78,82 @@ class UnitBatch(unittest.TestCase):
         with self.assertRaisesRegex(IndexError, "unit 5"):
             units.state(5)
 
+    def test_restored_units_go_on_bit_by_bit_and_their_neighbours_as_they_would(self):
+        for instructions in vsasim.UnitBatch.instruction_sets():
+            units = vsasim.UnitBatch(maker_pro(), 9, 2e-3, 0.01, 0.4, instructions)
+            units.equilibrium, units.preset = np.linspace(-0.5, 0.5, 9), 0.2
+            units.push[4] = 0.3
+            units.step(150)
+            at = [units.state(i) for i in range(9)]
+            units.step(80)
+            there = [units.state(i)[1:] for i in range(9)]
+            for i in (0, 3, 4):
+                units.restore(i, at[i])
+            self.assertEqual(units.shaft_rad[3], units.read()["shaft_rad"][3])
+            self.assertNotEqual(units.shaft_rad[3], there[3][0])
+            neighbour = vsasim.UnitBatch(maker_pro(), 9, 2e-3, 0.01, 0.4, instructions)
+            for i in range(9):
+                neighbour.restore(i, units.state(i))
+            neighbour.push[4] = 0.3
+            units.step(80)
+            neighbour.step(80)
+            names = [(e["name"], e["offset"], e["count"]) for e in units.state_layout]
+            clocks = {k for n, o, c in names if n in ("time", "unit.program.busy_until", "unit.program.watchdog.next_clock") for k in range(o, o + c)}
+            rest = [k for k in range(len(at[0])) if k not in clocks]
+            for i in (0, 3, 4):
+                np.testing.assert_array_equal(units.state(i)[rest], np.concatenate([[0], there[i]])[rest], f"{instructions} {i}")
+            for i in range(9):  # commanded by nobody, they keep what they had
+                np.testing.assert_array_equal(neighbour.state(i)[rest], units.state(i)[rest], f"{instructions} {i}")
+
+    def test_a_state_tells_where_the_lever_is(self):
+        units = vsasim.UnitBatch(maker_pro(), 2, gravity_Nm=0.4, damping_Nms_per_rad=0.02)
+        units.equilibrium = 0.6
+        units.step(60)
+        np.testing.assert_array_equal(units.read()["shaft_rad"], units.shaft_rad)
+        np.testing.assert_array_equal(units.read()["shaft_speed_rad_per_s"], units.shaft_speed_rad_per_s)
+        unit = vsasim.Unit(maker_pro())
+        unit.restore_state(units.state(1))
+        self.assertEqual(unit.readings()["shaft_rad"], units.shaft_rad[1])
+
+    def test_states_that_are_none_are_refused_and_nothing_moves(self):
+        units = vsasim.UnitBatch(maker_pro(), 3)
+        units.equilibrium = 0.3
+        units.step(20)
+        at = units.state(1)
+        nan, far = at.copy(), at.copy()
+        nan[100] = np.nan
+        offset = next(e["offset"] for e in units.state_layout if e["name"] == "unit.reached.angle")
+        far[offset] = 1e7
+        late = at.copy()
+        late[next(e["offset"] for e in units.state_layout if e["name"] == "unit.program.busy_until")] = 2.0**31 - 1
+        world = np.zeros(len(at) + 7)
+        for bad in (at[:-1], np.append(at, 0.0), at.reshape(1, -1), nan, far, late, world, np.full_like(at, np.inf)):
+            with self.assertRaises(vsasim.InputError):
+                units.restore(1, bad)
+        for bad in (at.astype(np.float32), "state", None, list(at) + ["x"]):
+            with self.assertRaises(TypeError):
+                units.restore(1, bad)
+        for nobody in (3, -4):
+            with self.assertRaises(IndexError):
+                units.restore(nobody, at)
+        np.testing.assert_array_equal(units.state(1), at)
+
+    def test_one_command_after_a_restore_leaves_the_other(self):
+        units = vsasim.UnitBatch(maker_pro(), 2)
+        units.equilibrium, units.preset = 0.2, 0.4
+        units.step(500)
+        at = units.state(0)
+        other = vsasim.UnitBatch(maker_pro(), 2)
+        for i in (0, 1):
+            other.restore(i, at)
+        other.equilibrium = -0.2
+        other.preset[1] = 0.4  # 0 keeps it
+        other.step(800)
+        kept, told = other.read()
+        self.assertAlmostEqual(kept["equilibrium_rad"], told["equilibrium_rad"], delta=1e-3)
+        self.assertAlmostEqual(kept["preset"], told["preset"], delta=1e-3)
+        self.assertGreater(kept["preset"], 0.2)
+
     def test_views_outlive_the_batch(self):
         units = vsasim.UnitBatch(maker_pro(), 3)
         shaft = units.shaft_rad

@@ -59,6 +59,9 @@ std::vector<RobotFile> refused_files() {
       {"number_with_unit.sdf",
        "number_with_unit.sdf:8: model[m]/joint[j1]/axis/limit/lower = -1 rad: isn't a number (allowed: a number"},
       {"include_number_with_unit.sdf", "parts/number_with_unit.sdf:8: model[m]/joint[j1]/axis/limit/lower = -1 rad"},
+      {"plugin_in_visual.sdf",
+       "plugin_in_visual.sdf:8: world[w]/model[m]/link[a]/visual[v]/plugin[vsa::Robot]: belongs to a model"},
+      {"plugin_in_link.urdf", "plugin_in_link.urdf:8: gazebo/visual/plugin[vsa::Robot]: belongs to a model"},
       {"package.urdf", "package://robot_parts/box.stl: file not found"},
   };
 }

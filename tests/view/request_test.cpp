@@ -78,6 +78,7 @@ TEST(Request, SaysWhatIsWrong) {
   EXPECT_EQ(why("play"), "not JSON");
   EXPECT_EQ(why(""), "not JSON");
   EXPECT_EQ(why("[1]"), "not an object");
+  EXPECT_EQ(why(R"({"do":"speed","factor":1,"factor":2})"), "factor: is given twice");
   EXPECT_EQ(why("{}"), "do: missing");
   EXPECT_EQ(why(R"({"do":7})"), "do: not a text: 7");
   EXPECT_EQ(why(R"({"do":"fly"})"), "do = fly: unknown");

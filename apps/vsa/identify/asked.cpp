@@ -217,7 +217,8 @@ std::uint64_t Asked::fingerprint() const {
 Generations generations_of(const Asked& asked, Console& console) {
   make_directory(asked.out(), "--out");
   const IdentifyOptions& o = asked.options();
-  return {{asked.folder(), part_of(o.part), o.resume, o.retry_failed}, asked.series({}), console};
+  check_wait(o.wait_s);
+  return {{asked.folder(), part_of(o.part), o.resume, o.retry_failed, o.wait_s}, asked.series({}), console};
 }
 
 int identify_with(const Asked& asked, Generations& generations, Console& console, const MakeJobs& make) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <thread>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "terminal/table.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 #include "vsa/hash.hpp"
 #include "vsa/output_file.hpp"
 #include "vsa/sweep/fits.hpp"
@@ -39,6 +39,8 @@ Share share(int wanted, std::size_t fits) {
 
 fs::path file_of(const Comparing& what, std::size_t fit) { return what.out() / "fits" / (what.name(fit) + ".json"); }
 
+fs::path failure_of(const Comparing& what, std::size_t fit) { return what.out() / "fits" / (what.name(fit) + ".failed"); }
+
 void write_judgement(const Comparing& what, std::vector<identify::FitRecord> records) {
   Compared c;
   c.comparison = what.comparison();
@@ -60,6 +62,7 @@ void write_judgement(const Comparing& what, std::vector<identify::FitRecord> rec
 
 Comparing::Comparing(const CompareOptions& options) : options_(options) {
   (void)part_of(options.part);
+  check_wait(options.wait_s);
   comparison_ = identify::read_comparison(options.file);
   requests_ = identify::requests(comparison_);
   make_directory(out(), "--out");
@@ -75,6 +78,22 @@ fs::path Comparing::out() const {
 
 std::optional<identify::FitRecord> Comparing::stored(std::size_t fit) const {
   return stored_fit(file_of(*this, fit), hashes_[fit]);
+}
+
+std::optional<std::string> Comparing::failure(std::size_t fit) const {
+  const std::string text = read_file(failure_of(*this, fit)).value_or("");
+  const std::string& asked = hashes_[fit];
+  if (text.compare(0, asked.size(), asked) != 0) return std::nullopt;
+  return std::string(config::trim(std::string_view(text).substr(asked.size())));
+}
+
+void Comparing::note_failure(std::size_t fit, const std::string& why) const {
+  write_whole(failure_of(*this, fit), hashes_[fit] + '\n' + why + '\n');
+}
+
+void Comparing::forget_failure(std::size_t fit) const {
+  std::error_code ignored;
+  fs::remove(failure_of(*this, fit), ignored);
 }
 
 sweep::Series Comparing::series(unsigned threads, Console& console) const {
@@ -101,6 +120,7 @@ int compare_with(const Comparing& what, Console& console, const MakeFits& make) 
     if (what.stored(fit)) {
       console.line("kept: " + what.name(fit));
     } else {
+      what.forget_failure(fit);
       todo.add(fit);
     }
   }
@@ -110,24 +130,28 @@ int compare_with(const Comparing& what, Console& console, const MakeFits& make) 
   };
   if (todo.count > 0 && !make(todo)) return stopped();
   if (part.number != 1) return kDone;
+  OthersRuns others(part, what.options().wait_s, console);
   for (;;) {
     std::vector<identify::FitRecord> records;
+    std::vector<std::size_t> missing;
     bool failed = false;
     for (std::size_t fit = 0; fit < what.fits(); ++fit) {
       if (auto record = what.stored(fit)) {
         records.push_back(std::move(*record));
-      } else {
-        failed = failed || part.has(fit);
+        continue;
       }
+      missing.push_back(fit);
+      const auto why = part.has(fit) ? std::nullopt : what.failure(fit);
+      if (why) console.line(fmt::format("{} failed in another part: {}", what.name(fit), *why));
+      failed = failed || part.has(fit) || why;
     }
     if (failed) return kFailed;
     if (records.size() == what.fits()) {
       write_judgement(what, std::move(records));
       return kDone;
     }
-    console.status(fmt::format("waiting for {} fits of other parts", what.fits() - records.size()));
     if (interrupted() != 0) return stopped();
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    others.wait_for(missing, "fits");
   }
 }
 
@@ -152,7 +176,9 @@ int run_compare(const CompareOptions& o) {
 }
 
 void tell_failed(const Comparing& what, const sweep::Outcome& outcome, Console& console) {
-  if (!outcome.error.empty()) console.line(fmt::format("{} failed: {}", what.name(outcome.run), outcome.error));
+  if (outcome.error.empty()) return;
+  console.line(fmt::format("{} failed: {}", what.name(outcome.run), outcome.error));
+  what.note_failure(outcome.run, outcome.error);
 }
 
 }  // namespace vsa::app

@@ -22,6 +22,7 @@ struct CompareOptions {
   std::string out;             ///< directory; empty: compare_FILE
   std::optional<int> threads;  ///< fits side by side; none: as the file says
   std::string part;            ///< "2/8"
+  double wait_s = kWait_s;
 };
 
 /// What is compared, read and checked, and its fits as runs.
@@ -37,6 +38,11 @@ class Comparing {
   [[nodiscard]] std::string name(std::size_t fit) const { return identify::request_name(comparison_, requests_[fit]); }
   [[nodiscard]] std::filesystem::path out() const;
   [[nodiscard]] std::optional<identify::FitRecord> stored(std::size_t fit) const;
+  /// What it failed of in another part, if it did and hasn't been stored since.
+  [[nodiscard]] std::optional<std::string> failure(std::size_t fit) const;
+  void note_failure(std::size_t fit, const std::string& why) const;
+  /// Begun anew: what was noted of it goes.
+  void forget_failure(std::size_t fit) const;
   /// Runs that store their fits; each on so many threads.
   [[nodiscard]] sweep::Series series(unsigned threads, Console& console) const;
   [[nodiscard]] std::uint64_t fingerprint() const;
@@ -51,9 +57,10 @@ class Comparing {
 
 /// Makes these fits, and they are stored then, as far as they didn't fail. False: a signal came.
 using MakeFits = std::function<bool(const Todo& fits)>;
-/// Says so where a fit failed.
+/// Says so where a fit failed, to the other parts too.
 void tell_failed(const Comparing& what, const sweep::Outcome& outcome, Console& console);
-/// Takes what is stored, asks for the rest, writes and shows the judgement. The exit code: failed where a fit did.
+/// Takes what is stored, asks for the rest, writes and shows the judgement. The exit code: failed where a fit did,
+/// another part's too. Throws std::runtime_error where the others' don't come.
 int compare_with(const Comparing& what, Console& console, const MakeFits& make);
 
 /// Writes each fit into OUT/fits when it is done, takes those from there that were asked the same, and ends with comparison.json,

@@ -81,7 +81,7 @@ identify::FitRecord record_in(const Json& j) {
 
 }  // namespace
 
-std::string fit_json(const identify::FitRecord& record) { return record_json(record).dump(2) + '\n'; }
+std::string fit_json(const identify::FitRecord& record) { return page::results_text(record_json(record)); }
 
 std::optional<identify::FitRecord> stored_fit(const std::filesystem::path& file, const std::string& asked) {
   try {
@@ -119,7 +119,7 @@ std::string comparison_json(const Compared& c) {
                           {"fits", fits}});
   }
   const Json out{{"title", c.comparison.title}, {"command", c.command}, {"recordings", recordings}, {"hypotheses", hypotheses}};
-  return out.dump(2) + '\n';
+  return page::results_text(out);
 }
 
 }  // namespace vsa::app

@@ -37,9 +37,11 @@ void refuse_mixed(const CLI::App& sub) {
   Problems problems;
   for (const CLI::Option* option : sub.get_options()) {
     const std::string name = option->get_name();
-    const bool either = name == "--help" || name == "--out" || name == "--compare" || name == "--threads" || name == "--part";
+    const bool either =
+        name == "--help" || name == "--out" || name == "--compare" || name == "--threads" || name == "--part" || name == "--wait-s";
     if (option->count() == 0 || either) continue;
-    problems.add({"", name, "", "isn't for --compare: its file says it, and it goes on by itself", "--out, --threads, --part"});
+    problems.add(
+        {"", name, "", "isn't for --compare: its file says it, and it goes on by itself", "--out, --threads, --part, --wait-s"});
   }
   problems.throw_if_any();
 }
@@ -103,6 +105,7 @@ std::function<void()> add_identify_options(CLI::App& to, const std::shared_ptr<I
     o->compare.out = o->out;
     o->compare.threads = o->threads;
     o->compare.part = o->part;
+    o->compare.wait_s = o->wait_s;
   };
 }
 
@@ -111,6 +114,10 @@ void setup_identify(CLI::App& app, int& exit_code) {
   CLI::App* sub = app.add_subcommand("identify", "Find parameters of an actuator type from load-test recordings");
   const auto check = add_identify_options(*sub, o);
   sub->add_option("--part", o->part, "Make every Nth fit, from the Ith on, beside the other parts: I/N");
+  sub->add_option("--wait-s", o->wait_s, "How long a part waits without news of the others, s")
+      ->check(number_given())
+      ->capture_default_str()
+      ->needs("--part");
   sub->callback([o, check, &exit_code] {
     check();
     exit_code = o->compare.file.empty() ? run_identify(*o) : run_compare(o->compare);

@@ -33,6 +33,7 @@ struct IdentifyOptions {
   std::optional<int>
       threads;       ///< fits at once in each process; 0: as many as the machine runs; none: 0, or as a comparison's file says
   std::string part;  ///< "2/8"
+  double wait_s = kWait_s;
   bool resume = false, retry_failed = false;
   CompareOptions compare;  ///< its file is empty: nothing is compared
 };

@@ -58,6 +58,7 @@ RunSession::RunSession(const RunOptions& options, Console& console)
   if (options.view) open_view(options);
   // Last, so that a run that is refused has not touched an earlier record.
   if (!options.record.empty()) {
+    static_cast<void>(scenario_text(options_, 0, {}));
     recorder_.emplace(world_, options.record, recorder_options(options_));
     tell_of_other_records();
     write_scenario({"This run hasn't come to its end."});

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "terminal/interrupt.hpp"
@@ -38,20 +37,24 @@ std::vector<sweep::Outcome> Generations::complete(const sweep::Series& series, s
   for (std::size_t run = first; run < end; ++run)
     if (!known[run] && options_.part.has(run)) todo.add(run);
   if (todo.count > 0 && !make(todo)) throw Interrupted{};
-  // Parts run when they like; of a job whose runs are all made nothing more can come than what a network's disk holds back.
+  // Of a job whose runs are all made nothing more can come than what a network's disk holds back.
   constexpr std::chrono::seconds kLatest{120};
   const auto made = std::chrono::steady_clock::now();
-  for (int looks = 0;; ++looks) {
+  OthersRuns others(options_.part, options_.wait_s, console_);
+  for (;;) {
     sweep::Results all = sweep::read_logs(options_.folder, series);
     std::erase_if(all.outcomes, [&](const sweep::Outcome& o) { return o.run >= end; });
     if (all.outcomes.size() == end) return std::move(all.outcomes);
-    const std::size_t missing = end - all.outcomes.size();
+    std::vector<bool> there(end, false);
+    for (const sweep::Outcome& o : all.outcomes) there[o.run] = true;
+    std::vector<std::size_t> missing;
+    for (std::size_t run = 0; run < end; ++run)
+      if (!there[run]) missing.push_back(run);
+    if (interrupted() != 0) throw Interrupted{};
     if (options_.part.of == 1 && std::chrono::steady_clock::now() - made > kLatest)
       throw std::runtime_error(fmt::format("{}: {} runs that were made are in no log there; is it a folder that all nodes share?",
-                                           options_.folder.string(), missing));
-    if (looks > 0) console_.status(fmt::format("waiting for {} runs of others", missing));
-    if (interrupted() != 0) throw Interrupted{};
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+                                           options_.folder.string(), missing.size()));
+    others.wait_for(missing, "runs");
   }
 }
 

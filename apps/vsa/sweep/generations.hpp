@@ -25,6 +25,7 @@ struct GenerationOptions {
   std::filesystem::path folder;
   Part part;
   bool resume = false, retry_failed = false;
+  double wait_s = kWait_s;  ///< OthersRuns
 };
 
 class Generations {
@@ -32,7 +33,8 @@ class Generations {
   /// Claims the folder. Throws InputError: it has results of this part already and nobody said to resume, or another one is at work there.
   Generations(GenerationOptions options, const sweep::Series& series, Console& console);
   /// Makes those of the runs first … end − 1 that are this part's and that no log has, and gives the outcomes of 0 … end − 1, by run.
-  /// `make`: they are in the log then; false: a signal came. Throws Interrupted.
+  /// `make`: they are in the log then; false: a signal came. Throws Interrupted;
+  /// std::runtime_error where others' don't come.
   [[nodiscard]] std::vector<sweep::Outcome> complete(const sweep::Series& series, std::size_t first, std::size_t end,
                                                      const std::function<bool(const Todo&)>& make);
 

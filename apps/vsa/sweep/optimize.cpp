@@ -12,6 +12,7 @@
 
 #include "terminal/exit_codes.hpp"
 #include "terminal/interrupt.hpp"
+#include "terminal/numbers.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/output_file.hpp"
 #include "vsa/sweep/optimize.hpp"
@@ -73,7 +74,7 @@ void check_search(const sweep::Plan& plan, const SweepOptions& options) {
 }
 
 Generations generations_of(const sweep::Plan& plan, const SweepOptions& options, Console& console) {
-  return {{folder_of(options), part_of(options.part), options.resume, options.retry_failed}, plan, console};
+  return {{folder_of(options), part_of(options.part), options.resume, options.retry_failed, options.wait_s}, plan, console};
 }
 
 int search(const sweep::Plan& plan, const SweepOptions& options, Generations& generations, Console& console, const MakeRuns& make) {
@@ -96,6 +97,7 @@ int search(const sweep::Plan& plan, const SweepOptions& options, Generations& ge
 int run_optimize(const SweepOptions& options) {
   const sweep::Plan plan = sweep::Plan::load(options.plan);
   check_search(plan, options);
+  check_wait(options.wait_s);
   Console console;
   catch_interrupts();
   Generations generations = generations_of(plan, options, console);
@@ -112,6 +114,10 @@ void setup_optimize(CLI::App& app, int& exit_code) {
   CLI::App* sub = app.add_subcommand("optimize", "The best values of a plan's searched axes");
   add_sweep_options(*sub, *options);
   sub->add_option("--part", options->part, "Run every Nth run, from the Ith on, beside the other parts: I/N");
+  sub->add_option("--wait-s", options->wait_s, "How long a part waits without news of the others, s")
+      ->check(number_given())
+      ->capture_default_str()
+      ->needs("--part");
   sub->footer(kOptimizeNotes);
   sub->callback([options, &exit_code] { exit_code = run_optimize(*options); });
 }

@@ -8,6 +8,8 @@
 #include <iostream>
 #include <iterator>
 #include <set>
+#include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "terminal/exit_codes.hpp"
@@ -36,6 +38,46 @@ Part part_of(const std::string& text) {
   if (!number || !of || *number < 1 || *of < *number || *of > 1'000'000)
     throw InputError({"", "--part", text, "isn't a part of a whole", "I/N, 1 ≤ I ≤ N ≤ 1000000"});
   return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
+}
+
+void check_wait(double wait_s) {
+  constexpr double kMost_s = 1e8;
+  if (!(wait_s >= 0 && wait_s <= kMost_s))
+    throw InputError({"", "--wait-s", fmt::format("{}", wait_s), "out of range", "0 … 1e8 s"});
+}
+
+void OthersRuns::wait_for(const std::vector<std::size_t>& missing, const char* runs) {
+  constexpr std::chrono::seconds kSoon{5};
+  const auto now = std::chrono::steady_clock::now();
+  if (missing.size() != missing_) {
+    if (missing_ == 0) begin_ = now;
+    news_ = now;
+    missing_ = missing.size();
+  }
+  std::set<std::size_t> owing;
+  for (const std::size_t run : missing) owing.insert(run % part_.of + 1);
+  constexpr std::size_t kNamed = 8;
+  std::string parts;
+  for (const std::size_t part : owing) {
+    parts += fmt::format("{}{}/{}", parts.empty() ? "" : ", ", part, part_.of);
+    if (std::count(parts.begin(), parts.end(), '/') == kNamed && owing.size() > kNamed) {
+      parts += fmt::format(" and {} more", owing.size() - kNamed);
+      break;
+    }
+  }
+  if (std::chrono::duration<double>(now - news_).count() >= wait_s_)
+    throw std::runtime_error(
+        fmt::format("no {} of the parts {} for {} s, which owe {}: start them, and then this one again "
+                    "(--wait-s waits longer)",
+                    runs, parts, wait_s_, missing.size()));
+  if (!told_ && part_.of > 1 && now - begin_ > kSoon) {
+    console_.line(fmt::format("waiting for {} {} of the parts {}, for up to {} s without news (--wait-s): are they at work?",
+                              missing.size(), runs, parts, wait_s_));
+    told_ = true;
+  }
+  console_.status(fmt::format("waiting for {} {} of other parts", missing.size(), runs));
+  constexpr std::chrono::milliseconds kLook{200};
+  std::this_thread::sleep_for(kLook);
 }
 
 fs::path folder_of(const SweepOptions& options) {

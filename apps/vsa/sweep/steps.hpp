@@ -37,6 +37,25 @@ struct Part {
 /// "2/8"; empty: the whole. Throws InputError.
 [[nodiscard]] Part part_of(const std::string& text);
 
+/// s; throws InputError.
+void check_wait(double wait_s);
+
+/// One part's wait for the runs of the others, which may never have been started.
+class OthersRuns {
+ public:
+  OthersRuns(Part part, double wait_s, Console& console) : part_(part), wait_s_(wait_s), console_(console) {}
+  /// Looks again in a moment. Tells once which parts owe runs; throws std::runtime_error where none has come for wait_s.
+  void wait_for(const std::vector<std::size_t>& missing, const char* runs);
+
+ private:
+  Part part_;
+  double wait_s_;
+  Console& console_;
+  std::size_t missing_ = 0;
+  bool told_ = false;
+  std::chrono::steady_clock::time_point news_{}, begin_{};
+};
+
 /// The folder is this series', and this process's until the lock goes: alone, or with the other parts. Throws InputError: another plan's,
 /// or another process is at work there.
 [[nodiscard]] DirectoryLock claim_folder(const std::filesystem::path& folder, const sweep::Series& series, const Part& part);

@@ -6,12 +6,16 @@
 
 namespace vsa::app {
 
+/// How long a part waits without news of the others, s: more than any one run takes.
+inline constexpr double kWait_s = 6.0 * 3600;
+
 struct SweepOptions {
   std::string command = "sweep";
   std::string plan;  ///< TOML
   std::string out;   ///< folder; empty: COMMAND_PLAN
   unsigned threads = 0;
   std::string part;  ///< "2/8"
+  double wait_s = kWait_s;
   bool resume = false, retry_failed = false;
   bool check = false, merge = false;
   long long run = -1;  ///< only that one, to see it; −1: all

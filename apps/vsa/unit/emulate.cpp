@@ -18,6 +18,7 @@
 #include "terminal/pace.hpp"
 #include "unit/port.hpp"
 #include "unit/port_report.hpp"
+#include "unit/unit_memory.hpp"
 #include "vsa/config/actuator_type.hpp"
 #include "vsa/config/faults_text.hpp"
 #include "vsa/config/text.hpp"
@@ -116,8 +117,8 @@ void break_units(const EmulateOptions& o, device::Emulation& emulation) {
 /// Ticks by the wall clock, and how well that went.
 class Runner {
  public:
-  Runner(device::Emulation& emulation, const serial::VirtualPort& port, std::optional<double> duration_s)
-      : emulation_(emulation), port_(port), duration_s_(duration_s) {}
+  Runner(device::Emulation& emulation, const serial::VirtualPort& port, std::optional<double> duration_s, UnitMemory* memory)
+      : emulation_(emulation), port_(port), duration_s_(duration_s), memory_(memory) {}
 
   /// The signal that ended it, or 0.
   int run() {
@@ -131,6 +132,7 @@ class Runner {
       constexpr std::int64_t kShow = 100 * kStepNs;
       if (sim_ns_ % kShow == 0) {
         tell_wrong_rate();
+        if (memory_ != nullptr) memory_->keep(emulation_);
         show(Clock::now() - start);
       }
     }
@@ -162,6 +164,7 @@ class Runner {
   device::Emulation& emulation_;
   const serial::VirtualPort& port_;
   std::optional<double> duration_s_;
+  UnitMemory* memory_;
   Console console_;
   RealTimePace pace_;
   std::int64_t sim_ns_ = 0;
@@ -185,7 +188,12 @@ void introduce(const EmulateOptions& o, const std::string& path, bus::Dialect di
 
 int run_emulate(const EmulateOptions& options) {
   check(options);
-  const std::vector<device::EmulatedUnit> units = units_of(options);
+  std::vector<device::EmulatedUnit> units = units_of(options);
+  std::optional<UnitMemory> memory;
+  if (!options.memory.empty()) {
+    memory.emplace(options.memory, options.type, units.size());
+    for (std::size_t i = 0; i < memory->pages().size(); ++i) units[i].pages = memory->pages()[i];
+  }
   const bus::Dialect dialect = units.front().config.program.dialect;
   device::Emulation emulation(units);
   break_units(options, emulation);
@@ -197,8 +205,10 @@ int run_emulate(const EmulateOptions& options) {
   {
     const serial::VirtualPort port(emulation.line(), {serial::port_path(options.port.empty() ? options.type : options.port)});
     introduce(options, port.path(), dialect, elastic::antagonistic(*units.front().config.actuator.transmission));
-    Runner runner(emulation, port, options.duration_s);
+    if (memory) memory->keep(emulation);  // a place that can't be written shows now
+    Runner runner(emulation, port, options.duration_s, memory ? &*memory : nullptr);
     signal = runner.run();
+    if (memory) memory->keep(emulation);
     std::cout << fmt::format("{:<20}{:.3f} s in {:.3f} s of wall time\n", "simulated time", runner.simulated_s(), runner.wall_s())
               << port_report(port.counters(), emulation.line().lost(), emulation.line().wrong_rate().bytes);
   }
@@ -216,7 +226,9 @@ void setup_emulate(CLI::App& app, int& exit_code) {
       ->check(number_given());
   sub->add_option("--port", options->port, "The port's path or name; default: vsa-TYPE");
   sub->add_option("--dialect", options->dialect, "Of the firmware; default: the type's")->check(CLI::IsMember({6, 7}));
-  sub->add_flag("--active", options->active, "Motors on from the start, as the unit's start-up activation does");
+  auto* active = sub->add_flag("--active", options->active, "Motors on from the start, as the unit's start-up activation does");
+  sub->add_option("--memory", options->memory, "Keep what the units store in this file, and begin with what is there")
+      ->excludes(active);
   sub->add_flag("--held", options->held, "Shafts are held instead of free");
   sub->add_flag("--any-rate", options->any_rate, "Hear clients whatever rate their port is set to; for those that can't set one");
   sub->add_flag("--low-latency", options->low_latency, kLowLatencyHelp);

@@ -19,6 +19,7 @@ struct EmulateOptions {
   bool held = false;
   bool low_latency = false;
   bool any_rate = false;
+  std::string memory;  ///< file with what the units have stored; empty: it ends with the program
   std::vector<std::string> set;
   std::optional<double> duration_s;
   std::vector<std::string> faults;  ///< "IDS FAULT…" or "all FAULT…", see config/faults_text.hpp

@@ -26,6 +26,9 @@ constexpr const char* kSetNotes = R"(WHAT and its values; angles in degrees, or 
   active on|off                   motors on: they hold where they are, until the next references
   PARAMETER VALUE...              named as vsa get PORT parameters shows them; most act only once they are stored
   store                           write the parameters to the unit's memory
+  store_defaults                  write them to its page of defaults
+  restore                         take that page's parameters, the id too, and store them
+  baudrate 460800|2000000         the rate that it listens and answers at, at once and until it is switched off
 
 Examples:
   vsa set qbmove_maker_pro_6_1 active on
@@ -33,7 +36,8 @@ Examples:
   vsa set /dev/ttyUSB0 inputs -910ticks 910ticks --id 3
   vsa set /dev/ttyUSB0 position_pid 0.1 0 0.8 --id 1-12 --store)";
 
-constexpr std::array<std::string_view, 5> kWritable{"inputs", "equilibrium", "position_stiffness", "active", "store"};
+constexpr std::array<std::string_view, 8> kWritable{
+    "inputs", "equilibrium", "position_stiffness", "active", "store", "store_defaults", "restore", "baudrate"};
 constexpr auto kSettles = std::chrono::seconds(2);  // references show two ticks later, which a busy machine may delay
 constexpr std::int32_t kLowest = std::numeric_limits<std::int16_t>::min();
 constexpr std::int32_t kHighest = std::numeric_limits<std::int16_t>::max();
@@ -50,11 +54,11 @@ class Told {
     if (options_.what == "active") return activate(reader);
     if (options_.what == "inputs" || options_.what == "equilibrium") return references(reader);
     if (options_.what == "position_stiffness") return position_stiffness(reader);
-    if (options_.what == "store") {
-      reader.expect(0, "vsa set PORT store");
+    if (options_.what == "baudrate") return baud_rate(reader);
+    if (options_.what == "store" || options_.what == "store_defaults" || options_.what == "restore") {
+      reader.expect(0, "vsa set PORT " + options_.what);
       reader.throw_if_any();
-      store();
-      return "stored";
+      return memory();
     }
     return parameter(reader);
   }
@@ -63,6 +67,8 @@ class Told {
   std::string activate(config::ValueReader& reader);
   std::string references(config::ValueReader& reader);
   std::string position_stiffness(config::ValueReader& reader);
+  std::string baud_rate(config::ValueReader& reader);
+  std::string memory();
   std::string parameter(config::ValueReader& reader);
   void check_free(std::uint8_t id) const;
   void warn_of_mode();
@@ -161,6 +167,32 @@ std::string Told::position_stiffness(config::ValueReader& reader) {
                      percent);
 }
 
+/// Nobody answers it: a unit that hears the old rate still didn't take it.
+std::string Told::baud_rate(config::ValueReader& reader) {
+  constexpr std::array<std::string_view, 2> kRates{"460800", "2000000"};
+  const std::string rate = reader.expect(1, "460800") ? std::string(kRates[reader.word(0, kRates)]) : "";
+  reader.throw_if_any();
+  constexpr std::uint8_t kSlow = 13, kFast = 3;  // divide 6 MHz
+  static_cast<void>(port_.take(client_.send(id_, bus::SetBaudRate{rate == kRates[0] ? kSlow : kFast}), id_, options_.what));
+  if (rate == std::to_string(options_.port.baud_Hz)) return "listens at " + rate + " bit/s, as before";
+  if (port_.look_for(id_))
+    throw NoAnswer(fmt::format("{}: unit {}: still answers at {} bit/s", port_.path(), id_, options_.port.baud_Hz));
+  return fmt::format("was told to listen at {} bit/s: --baud-Hz {} from now on", rate, rate);
+}
+
+std::string Told::memory() {
+  if (options_.what == "store") {
+    store();
+    return "stored";
+  }
+  const bool restores = options_.what == "restore";
+  const bus::Request request = restores ? bus::Request(bus::RestoreDefaults{}) : bus::Request(bus::StoreDefaults{});
+  static_cast<void>(port_.take(client_.acknowledge(id_, request), id_, options_.what, UnitPort::Wait::slow));
+  if (!restores) return "stored as its defaults, and in force";
+  return port_.look_for(id_) ? "has its defaults, stored"
+                             : "has its defaults, stored, and with them another id: vsa ping " + port_.path() + " finds it";
+}
+
 std::string Told::parameter(config::ValueReader& reader) {
   const bus::ParameterId parameter = config::need_unit_parameter(dialect_, options_.what, kWritable);
   const bus::ParameterValue value = config::read_unit_parameter(reader, parameter, now().resolutions);
@@ -190,6 +222,8 @@ int run_set(const SetOptions& options) {
   if (options.what == "id" && ids.size() > 1) {
     throw InputError({"", "--id", options.port.ids, "several units can't have the same id", "one unit"});
   }
+  if (options.what == "restore" && ids.size() > 1)
+    throw InputError({"", "--id", options.port.ids, "several units may all have the same id in their defaults", "one unit"});
   if (options.what == "id" && !options.store) {
     throw InputError({"", "--store", "",
                       "is missing: a unit that has a new id and hasn't stored it hears the old one and answers "

@@ -21,12 +21,21 @@
 
 namespace vsa::device {
 
+/// What a unit's EEPROM holds.
+struct UnitPages {
+  firmware::Memory user,  ///< that a power-up loads
+      factory;            ///< its defaults
+  bool operator==(const UnitPages&) const = default;
+};
+
 /// A unit on the line, and what its shaft does.
 struct EmulatedUnit {
   UnitConfig config;     ///< checked as Unit does
   int id = 1;            ///< 1 … 254, unique
   bool held = false;     ///< the shaft stays where it is
   double shaft_rad = 0;  ///< where it begins
+  /// Of an earlier day, whose id counts then, even one that another unit has; none: as the configuration ships it.
+  std::optional<UnitPages> pages{};
 };
 
 /// Units on a line without a robot, each shaft free or held, which a client meets as if they were hardware (`vsa emulate`).
@@ -45,6 +54,9 @@ class Emulation {
 
   /// From any thread; from the next tick on. Throws InputError for values out of bounds or no such unit.
   void set_faults(std::size_t unit, const Faults& faults);
+
+  /// What a unit has stored by now. From any thread. Throws InputError: no such unit.
+  [[nodiscard]] UnitPages pages(std::size_t unit) const;
 
   /// What a unit is doing.
   struct Reading {

@@ -53,6 +53,14 @@ class LeverBatch {
   /// and preset() is commanded with the next step as ever. InputError: no such unit, numbers beyond ±1e6.
   void reset(std::size_t unit, double equilibrium_rad, double preset, double shaft_rad, double speed_rad_per_s = 0);
 
+  /// A unit's state at the end of the last step, its shaft where the lever has it. Not in it: the lever, and commands that no step
+  /// has taken. InputError: no such unit.
+  [[nodiscard]] UnitState state(std::size_t unit) const;
+  /// Goes on from a state of a unit with these parameters, taken at `time_ns` there: bit by bit where steps meet the ticks of 1 ms
+  /// as they did. equilibrium(), preset() and push() are given with the next step as ever. InputError: no such unit, a shaft beyond
+  /// ±1e6 rad or rad/s, times that no state has.
+  void restore(std::size_t unit, const UnitState& state, std::int64_t time_ns);
+
   [[nodiscard]] std::span<const double> shaft_rad() const noexcept { return angle_; }              ///< q now, one number a unit
   [[nodiscard]] std::span<const double> shaft_speed_rad_per_s() const noexcept { return speed_; }  ///< q̇ now, one number a unit
   [[nodiscard]] std::span<const double> torque_Nm() const noexcept { return torque_; }             ///< mean over the last step

@@ -33,6 +33,10 @@ using Json = nlohmann::ordered_json;
 /// As it stands in a results.json, indented.
 [[nodiscard]] std::string results_text(const Json& json);
 
+/// What somebody wrote. InputError with `file`, line and key: no JSON, a member given twice, of which a parser takes one in silence;
+/// `allowed`: what was expected.
+[[nodiscard]] Json read_json(std::string_view text, const std::string& file, const std::string& allowed);
+
 /// UTF-8, with U+FFFD for what was none.
 [[nodiscard]] std::string well_formed(std::string_view value);
 
