@@ -97,6 +97,20 @@ void World::Impl::add_robots(const std::string& file, Problems& problems) {
   }
 }
 
+/// What is deep in something else at the start is thrown out of it, or is pressed against it for ever by its actuators.
+void World::Impl::tell_overlaps() {
+  constexpr double kDeep_m = 5e-3;
+  std::vector<scene::Overlap> all = physics->overlaps();
+  std::erase_if(all, [](const scene::Overlap& o) { return o.depth_m <= kDeep_m; });
+  if (all.empty()) return;
+  const auto deepest = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.depth_m < b.depth_m; });
+  std::string more;
+  if (all.size() > 1) more = fmt::format(" and {} more", all.size() - 1);
+  warnings.push_back(fmt::format("shapes that collide are in each other from the start: {} and {} by {:.3g} mm{}",
+                                 world->links[deepest->link].name, world->links[deepest->other].name, deepest->depth_m * 1e3,
+                                 more));
+}
+
 /// One number for all: engine and robots step together.
 void World::Impl::find_substeps(const std::string& file, Problems& problems) {
   const RobotSlot* first = nullptr;
@@ -140,6 +154,7 @@ std::unique_ptr<World::Impl> World::Impl::load(const reader::SdfSource& source, 
     const description::Joint& joint = impl->world->joints[j];
     if (joint.one_axis() && joint.axes[0].start) impl->physics->set_joint(j, {*joint.axes[0].start, 0});
   }
+  impl->tell_overlaps();
   impl->index_names();
   impl->initial = impl->snapshot();
   return impl;

@@ -143,5 +143,24 @@ TEST(OddFiles, ThePluginsMjcfNamesJointsAsTheMjcfDoesAndLeavesItsKeys) {
   EXPECT_EQ(keys, 1U) << with_key.file.bytes;
 }
 
+std::string ball_at(double height, const std::string& name) {
+  return "<model name='" + name + "'><pose>0 0 " + std::to_string(height) + " 0 0 0</pose><link name='l'>" + inertial(1, 1e-3) +
+         "<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link></model>";
+}
+
+TEST(OddFiles, ShapesThatAreDeepInEachOtherFromTheStartAreNamed) {
+  const auto told = [](const std::string& content) {
+    std::string out;
+    const World w = World::load_string(world(content));
+    for (const std::string& warning : w.warnings()) out += warning + '\n';
+    return out;
+  };
+  EXPECT_EQ(told(ground() + ball_at(0.097, "a")), "");  // 3 mm: lies on it
+  EXPECT_EQ(told(ground() + ball_at(0.07, "a")),
+            "shapes that collide are in each other from the start: ground::l and a::l by 30 mm\n");
+  EXPECT_EQ(told(ground() + ball_at(0.09, "a") + ball_at(0.22, "b")),
+            "shapes that collide are in each other from the start: a::l and b::l by 70 mm and 1 more\n");
+}
+
 }  // namespace
 }  // namespace vsa::engine::testing

@@ -87,7 +87,8 @@ class Physics {
   [[nodiscard]] virtual bool displace(std::span<const std::size_t> links, double yaw, const std::array<double, 3>& shift) = 0;
   /// With positions moved back by half a step, velocities as they are.
   [[nodiscard]] virtual scene::Energy energy() const = 0;
-  [[nodiscard]] virtual int contact_count() const = 0;                ///< at the present positions
+  [[nodiscard]] virtual int contact_count() const = 0;                     ///< at the present positions
+  [[nodiscard]] virtual std::vector<scene::Overlap> overlaps() const = 0;  ///< likewise; each pair of links once
   virtual void contacts(std::vector<scene::Contact>& out) const = 0;  ///< of the last advance(); none where the state was set since
 
   [[nodiscard]] virtual StateLayout state_layout() const = 0;  ///< of the numbers of save()

@@ -40,6 +40,7 @@ class MujocoPhysics final : public Physics {
   bool displace(std::span<const std::size_t> links, double yaw, const std::array<double, 3>& shift) override;
   scene::Energy energy() const override;
   int contact_count() const override;
+  std::vector<scene::Overlap> overlaps() const override;
   void contacts(std::vector<scene::Contact>& out) const override;
   StateLayout state_layout() const override;
   std::size_t state_size() const override;

@@ -130,6 +130,21 @@ int MujocoPhysics::contact_count() const {
   return view_->ncon;
 }
 
+std::vector<scene::Overlap> MujocoPhysics::overlaps() const {
+  std::vector<scene::Overlap> out;
+  for (int i = 0, count = contact_count(); i < count; ++i) {
+    const mjContact& c = view_->contact[i];
+    if (c.dist >= 0) continue;
+    const auto [link, other] =
+        std::minmax(objects_.geoms[static_cast<std::size_t>(c.geom1)], objects_.geoms[static_cast<std::size_t>(c.geom2)]);
+    const auto same = [&](const scene::Overlap& o) { return o.link == link && o.other == other; };
+    auto it = std::find_if(out.begin(), out.end(), same);
+    if (it == out.end()) it = out.insert(it, {link, other, 0});
+    it->depth_m = std::max(it->depth_m, -c.dist);
+  }
+  return out;
+}
+
 void MujocoPhysics::contacts(std::vector<scene::Contact>& out) const {
   out.clear();
   if (!stepped_) return;
