@@ -24,7 +24,6 @@ struct SerialWorld {
   double last_mass_kg = 0, last_inertia_kgm2 = 0;  ///< of the last link, where they differ
   double damping = 0, spring = 0;                  ///< of the host's own at every driven joint, N·m·s/rad and N·m/rad
   double passive_damping = 0, passive_spring = 0;  ///< of the others'
-  bool standing = false;                           ///< on two legs on the ground, 20 kg, instead of fixed to the world
   bool passive_first = false;                      ///< j1 isn't driven
   bool implicit_damper = false;                    ///< asks ODE in Gazebo Classic to take springs and dampers implicitly
   std::string overrides;                           ///< <override …/> elements for every actuator
@@ -43,16 +42,8 @@ inline std::string serial_model(const SerialWorld& w) {
   const device::UnitConfig unit = config::TypeLibrary().load(w.type).unit;
   std::ostringstream s;
   s.precision(17);
-  s << "<model name='m'><link name='l0'>";
-  if (w.standing) {
-    s << "<inertial><pose>0 0 -0.5 0 0 0</pose><mass>20</mass><inertia><ixx>2</ixx><iyy>2</iyy><izz>2</izz></inertia></inertial>";
-    for (const char* x : {"-0.5", "0.5"})
-      s << "<collision name='leg" << x << "'><pose>" << x
-        << " 0 -0.5 0 0 0</pose><geometry><box><size>0.1 1 1</size></box></geometry></collision>";
-    s << "</link>";
-  } else {
-    s << "<inertial><mass>1</mass></inertial></link><joint name='fix' type='fixed'><parent>world</parent><child>l0</child></joint>";
-  }
+  s << "<model name='m'><link name='l0'><inertial><mass>1</mass></inertial></link>"
+    << "<joint name='fix' type='fixed'><parent>world</parent><child>l0</child></joint>";
   for (int i = 1; i <= w.joints; ++i) {
     const bool last = i == w.joints;
     const double mass = last && w.last_mass_kg > 0 ? w.last_mass_kg : w.mass_kg;
@@ -84,10 +75,6 @@ inline std::string serial_model(const SerialWorld& w) {
     s << "<bus name='b'/></plugin>";
   }
   s << "</model>";
-  if (w.standing)
-    s << "<model name='ground'><static>1</static><pose>0 0 -1 0 0 0</pose><link name='l'><collision "
-         "name='c'><geometry><plane><normal>0 0 1"
-      << "</normal><size>9 9</size></plane></geometry></collision></link></model>";
   return s.str();
 }
 
