@@ -37,19 +37,21 @@ void ModelRobots::remove(ModelRobot& robot) {
   joined_ = false;
 }
 
-/// Numbers the trees' actuators as the group does, from `first` on.
-void ModelRobots::take(std::unique_ptr<LinkTrees> links, std::size_t first, seat::SeatGroup::Trees& trees) {
-  for (std::size_t t = 0; t < links->trees().size(); ++t) {
-    trees_.push_back({links.get(), t});
-    trees.push_back(links->trees()[t]);
-    for (std::size_t& k : trees.back()) k += first;
+/// Numbers the trees' actuators as the group does, from the links' first on.
+void ModelRobots::take(Links links, seat::SeatGroup::Trees& trees) {
+  const auto& theirs = links.trees->trees();
+  for (std::size_t t = 0; t < theirs.size(); ++t) {
+    trees_.push_back({links.trees.get(), t});
+    trees.push_back(theirs[t]);
+    for (std::size_t& k : trees.back()) k += links.first;
   }
+  if (theirs.empty()) links.count = 0;
   links_.push_back(std::move(links));
 }
 
 /// Where the whole model is no tree, a robot's own may be one.
 void ModelRobots::join() {
-  using Links = ModelRobot::Links;
+  using Of = ModelRobot::Links;
   std::vector<seat::Seat*> seats;
   ModelRobot::Joints driven;
   for (const Member& m : members_) {
@@ -59,14 +61,34 @@ void ModelRobots::join() {
   links_.clear();
   trees_.clear();
   seat::SeatGroup::Trees trees;
-  take(members_.front().robot->link_trees(Links::of_outermost_model, driven), 0, trees);
+  in_.resize(driven.size());
+  take({members_.front().robot->link_trees(Of::of_outermost_model, driven), 0, driven.size()}, trees);
+  const bool whole = !trees.empty();
   std::size_t first = 0;
   for (const Member& m : members_) {
-    if (links_.front()->trees().empty()) take(m.robot->link_trees(Links::of_own_model, m.robot->driven()), first, trees);
-    first += m.robot->driven().size();
+    const std::size_t count = m.robot->driven().size();
+    if (!whole) take({m.robot->link_trees(Of::of_own_model, m.robot->driven()), first, count}, trees);
+    first += count;
   }
   group_ = seat::SeatGroup(std::move(seats), trees);
   joined_ = true;
+}
+
+/// Tells the joints how they are accelerated by all but their actuators.
+void ModelRobots::foresee(double dt_s) {
+  auto next = in_.begin();
+  for (const Member& m : members_) {
+    for (host::JointIn& in : m.robot->seat()->in()) {
+      in.free_acceleration_rad_per_s2.reset();
+      *next++ = &in;
+    }
+  }
+  for (const Links& links : links_)
+    if (links.count > 0) links.trees->foresee(std::span(in_).subspan(links.first, links.count), dt_s);
+}
+
+void ModelRobots::forget() noexcept {
+  for (const Links& links : links_) links.trees->forget();
 }
 
 void ModelRobots::step(const ModelRobot& asking, std::int64_t time_ns, std::int64_t dt_ns) {
@@ -76,11 +98,13 @@ void ModelRobots::step(const ModelRobot& asking, std::int64_t time_ns, std::int6
   if (!joined_) join();
   for (const Member& m : members_) m.robot->tell(time_ns);
   LinkTrees* looked = nullptr;
-  group_.step(dt_ns, [&](std::size_t tree, std::span<double> out) {
+  group_.update([&](std::size_t tree, std::span<double> out) {
     const Tree& t = trees_[tree];
     if (std::exchange(looked, t.links) != t.links) t.links->look();
     t.links->mobility(t.tree, out);
   });
+  foresee(static_cast<double>(dt_ns) * 1e-9);
+  group_.step(dt_ns);
   for (const Member& m : members_) m.robot->apply();
 }
 

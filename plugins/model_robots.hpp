@@ -16,16 +16,24 @@
 
 namespace vsa::plugins {
 
-/// Links as trees of bodies, for the mobility of driven joints, which no Gazebo tells.
+/// Links as trees of bodies, for the mobility of driven joints and what else moves them, which no Gazebo tells.
 class LinkTrees {
  public:
   virtual ~LinkTrees() = default;
   /// Where the links are now.
   virtual void look() = 0;
+  /// Where joints without actuators are, into tree_.
+  virtual void feel() = 0;
   /// Of driven joints that move each other; none where the links aren't trees of hinges, sliders and fixed joints.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& trees() const noexcept { return tree_.trees(); }
   /// B of one of them, as of the last look().
   void mobility(std::size_t tree, std::span<double> out) noexcept { tree_.mobility(tree, out); }
+  /// Tells the driven joints how they are accelerated by all else (seat::DrivenTree::foresee).
+  void foresee(std::span<host::JointIn* const> driven, double dt_s) {
+    feel();
+    tree_.foresee(driven, dt_s);
+  }
+  void forget() noexcept { tree_.forget(); }
 
  protected:
   seat::DrivenTree tree_;
@@ -57,6 +65,8 @@ class ModelRobots {
   void remove(ModelRobot& robot);
   /// Steps all, but where another has done so since this one asked last.
   void step(const ModelRobot& asking, std::int64_t time_ns, std::int64_t dt_ns);
+  /// The next step is the first: after a reset.
+  void forget() noexcept;
 
   /// For hosts with threads: held by whoever uses a robot of the model.
   [[nodiscard]] std::mutex& mutex() noexcept { return mutex_; }
@@ -66,17 +76,23 @@ class ModelRobots {
     ModelRobot* robot = nullptr;
     bool stepped = false;  ///< by another
   };
+  struct Links {
+    std::unique_ptr<LinkTrees> trees;
+    std::size_t first, count;  ///< which of all driven joints are theirs
+  };
   struct Tree {
     LinkTrees* links;
     std::size_t tree;  ///< of those
   };
   void join();
-  void take(std::unique_ptr<LinkTrees> links, std::size_t first, seat::SeatGroup::Trees& trees);
+  void take(Links links, seat::SeatGroup::Trees& trees);
+  void foresee(double dt_s);
 
   std::mutex mutex_;
   std::vector<Member> members_;
-  std::vector<std::unique_ptr<LinkTrees>> links_;
+  std::vector<Links> links_;
   std::vector<Tree> trees_;
+  std::vector<host::JointIn*> in_;  ///< of all driven joints
   seat::SeatGroup group_;
   bool joined_ = false;
 };

@@ -33,9 +33,11 @@ std::optional<TreeBody::Joint> kind(const JointPtr& joint) {
   return std::nullopt;
 }
 
-/// DART takes every damper so, ODE those joints that say <implicit_spring_damper>. Any other is of the speed at a step's start, a
-/// torque like gravity's, and isn't in B.
-bool takes_damper_implicitly(const JointPtr& joint) {
+bool moves(const TreeBody& body) { return body.joint == TreeBody::Joint::revolute || body.joint == TreeBody::Joint::prismatic; }
+
+/// DART takes every spring and damper so, ODE those of joints that say <implicit_spring_damper>. Any other is of the angle and speed at
+/// a step's start, a torque like gravity's, and isn't in B.
+bool takes_implicitly(const JointPtr& joint) {
   if (const auto ode = boost::dynamic_pointer_cast<gazebo::physics::ODEJoint>(joint)) return ode->UsesImplicitSpringDamper();
   return joint->GetWorld()->Physics()->GetType() == "dart";
 }
@@ -52,6 +54,8 @@ ModelTree::ModelTree(const ModelPtr& model, const ModelRobot::Joints& driven) {
     if (at == items_.end()) return;
     body_of.push_back(static_cast<std::size_t>(at - items_.begin()));
   }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (moves(bodies[i]) && std::find(body_of.begin(), body_of.end(), i) == body_of.end()) passive_.push_back(i);
   tree_ = seat::DrivenTree(std::move(bodies), std::move(body_of));
 }
 
@@ -77,7 +81,7 @@ bool ModelTree::build(const std::vector<LinkPtr>& links, std::vector<TreeBody>& 
         }
         body.parent = static_cast<std::size_t>(at - items_.begin());
       }
-      items_.push_back({*it, joint, {}, {}, {}, {}, 0});
+      items_.push_back({*it, joint, {}, {}, {}, {}, false});
       bodies.push_back(body);
       it = waiting.erase(it);
     }
@@ -87,12 +91,14 @@ bool ModelTree::build(const std::vector<LinkPtr>& links, std::vector<TreeBody>& 
 }
 
 /// An axis keeps its place in its link, so what it is there is asked for once, when the model stands.
-void ModelTree::read_joint(Item& item, const TreeBody& body) {
-  if (body.joint != TreeBody::Joint::revolute && body.joint != TreeBody::Joint::prismatic) return;
+void ModelTree::read_joint(Item& item, TreeBody& body) {
+  if (!moves(body)) return;
   const auto& pose = item.link->WorldPose();
   item.axis = pose.Rot().RotateVectorReverse(item.joint->GlobalAxis(0));
   item.anchor = pose.Rot().RotateVectorReverse(item.joint->WorldPose().Pos() - pose.Pos());
-  if (takes_damper_implicitly(item.joint)) item.implicit_damping = std::abs(item.joint->GetDamping(0));
+  body.damping = std::abs(item.joint->GetDamping(0));  // ODE takes its size, a sign only asks for more of it
+  body.stiffness = item.joint->GetStiffness(0);
+  item.implicit = takes_implicitly(item.joint);
 }
 
 void ModelTree::read_inertia(Item& item, TreeBody& body) {
@@ -109,11 +115,13 @@ void ModelTree::look() {
     read_inertia(items_[i], bodies[i]);
   }
   read_ = true;
+  if (items_.empty()) return;
   // Somebody may give a link another mass while it runs: one of them is looked at each time.
-  if (!items_.empty()) {
-    next_ = (next_ + 1) % items_.size();
-    read_inertia(items_[next_], bodies[next_]);
-  }
+  next_ = (next_ + 1) % items_.size();
+  read_inertia(items_[next_], bodies[next_]);
+  const auto world = items_.front().link->GetWorld();
+  const double dt_s = world->Physics()->GetMaxStepSize();
+  const auto gravity = world->Gravity();
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const Item& item = items_[i];
     TreeBody& body = bodies[i];
@@ -124,12 +132,20 @@ void ModelTree::look() {
       for (unsigned c = 0; c < 3; ++c) body.inertia_kgm2[3 * r + c] = inertia(r, c);
     }
     body.center_of_mass = array(pose.Pos() + turned * item.center);
-    if (body.joint != TreeBody::Joint::revolute && body.joint != TreeBody::Joint::prismatic) continue;
+    body.weight_N = array(item.link->GetGravityMode() ? body.mass_kg * gravity : ignition::math::Vector3d::Zero);
+    if (!moves(body)) continue;
     body.axis = array(turned * item.axis);
     body.anchor = array(pose.Pos() + turned * item.anchor);
-    body.damping_dt = item.implicit_damping * item.link->GetWorld()->Physics()->GetMaxStepSize();
+    body.implicit_s = item.implicit ? dt_s : 0;
   }
   tree_.update();
+}
+
+void ModelTree::feel() {
+  for (const std::size_t i : passive_) {
+    tree_.positions()[i] = items_[i].joint->Position(0);
+    tree_.speeds()[i] = items_[i].joint->GetVelocity(0);
+  }
 }
 
 }  // namespace vsa::plugins

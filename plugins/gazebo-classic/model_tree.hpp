@@ -19,6 +19,7 @@ class ModelTree final : public LinkTrees {
   ModelTree(const gazebo::physics::ModelPtr& model, const ModelRobot::Joints& driven);
 
   void look() override;
+  void feel() override;
 
  private:
   struct Item {
@@ -27,17 +28,18 @@ class ModelTree final : public LinkTrees {
     // in the link's own frame
     ignition::math::Vector3d center, axis, anchor;
     ignition::math::Matrix3d inertia;
-    double implicit_damping = 0;  ///< of the engine's damper, where it takes it implicitly
+    bool implicit = false;  ///< the engine takes the joint's spring and damper implicitly
   };
 
-  void read_joint(Item& item, const host::TreeBody& body);
+  void read_joint(Item& item, host::TreeBody& body);
   void read_inertia(Item& item, host::TreeBody& body);
 
   bool build(const std::vector<gazebo::physics::LinkPtr>& links, std::vector<host::TreeBody>& bodies);
 
   std::vector<Item> items_;
-  std::size_t next_ = 0;  ///< whose inertia is read again
-  bool read_ = false;
+  std::vector<std::size_t> passive_;  ///< joints without actuators
+  std::size_t next_ = 0;              ///< whose inertia is read again
+  bool read_ = false;                 ///< joints were
 };
 
 }  // namespace vsa::plugins

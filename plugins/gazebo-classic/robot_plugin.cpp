@@ -76,12 +76,7 @@ void ClassicRobot::attach(const sdf::ElementPtr& element) {
   collect_joints(model_, "", known);
   seat::Model model{element->ToString(""), world_ + ": " + model_->GetScopedName(), model_->GetScopedName(), {}};
   for (const NamedJoint& k : known)
-    model.joints.push_back({k.name,
-                            {model_->GetWorld().get(), k.joint->GetId()},
-                            {},
-                            {},
-                            k.joint->HasType(Base::SLIDER_JOINT),
-                            std::abs(k.joint->GetDamping(0))});  // ODE takes its size, a sign only asks for more of it
+    model.joints.push_back({k.name, {model_->GetWorld().get(), k.joint->GetId()}, {}, {}, k.joint->HasType(Base::SLIDER_JOINT)});
   seat::Options options;
   options.report = [](const std::string& line) { gzwarn << "vsa::Robot: " << line << std::endl; };
   seat_ = std::make_unique<seat::Seat>(model, options);
@@ -147,6 +142,7 @@ void ClassicRobot::Reset() {
   if (!seat_) return;
   const std::lock_guard lock(robots_->mutex());
   seat_->reset();
+  robots_->forget();
 }
 
 GZ_REGISTER_MODEL_PLUGIN(ClassicRobot)

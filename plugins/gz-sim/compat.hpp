@@ -10,6 +10,7 @@
 #include <gz/sim/System.hh>
 #include <gz/sim/Util.hh>
 #include <gz/sim/components/ChildLinkName.hh>
+#include <gz/sim/components/Gravity.hh>
 #include <gz/sim/components/Inertial.hh>
 #include <gz/sim/components/Joint.hh>
 #include <gz/sim/components/JointAxis.hh>
@@ -43,6 +44,7 @@ namespace math = gz::math;
 #include <ignition/gazebo/System.hh>
 #include <ignition/gazebo/Util.hh>
 #include <ignition/gazebo/components/ChildLinkName.hh>
+#include <ignition/gazebo/components/Gravity.hh>
 #include <ignition/gazebo/components/Inertial.hh>
 #include <ignition/gazebo/components/Joint.hh>
 #include <ignition/gazebo/components/JointAxis.hh>

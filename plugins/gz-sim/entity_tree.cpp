@@ -30,6 +30,15 @@ std::optional<TreeBody::Joint> kind(sdf::JointType type) {
   }
 }
 
+/// Whether gravity pulls at a link: where the physics asks for that at all.
+bool falls([[maybe_unused]] sim::Entity link, [[maybe_unused]] const sim::EntityComponentManager& ecm) {
+#ifdef VSA_HAS_LINK_GRAVITY
+  return ecm.ComponentData<components::GravityEnabled>(link).value_or(true);
+#else
+  return true;
+#endif
+}
+
 /// The link that a joint names, seen from the joint's own model; null: the world, or unknown.
 sim::Entity named_link(sim::Entity joint, const std::string& name, const sim::EntityComponentManager& ecm) {
   const auto found = sim::entitiesFromScopedName(name, ecm, ecm.ParentEntity(joint));
@@ -38,7 +47,7 @@ sim::Entity named_link(sim::Entity joint, const std::string& name, const sim::En
 
 }  // namespace
 
-EntityTree::EntityTree(sim::Entity model, const ModelRobot::Joints& driven, const sim::EntityComponentManager& ecm) : ecm_(ecm) {
+EntityTree::EntityTree(sim::Entity model, const ModelRobot::Joints& driven, sim::EntityComponentManager& ecm) : ecm_(ecm) {
   std::vector<sim::Entity> links, joints;
   for (const NamedEntity& e : entities_below<components::Link>(model, ecm)) links.push_back(e.entity);
   for (const NamedEntity& e : entities_below<components::Joint>(model, ecm)) joints.push_back(e.entity);
@@ -50,7 +59,12 @@ EntityTree::EntityTree(sim::Entity model, const ModelRobot::Joints& driven, cons
     if (at == items_.end()) return;
     body_of.push_back(static_cast<std::size_t>(at - items_.begin()));
   }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const bool moves = bodies[i].joint == TreeBody::Joint::revolute || bodies[i].joint == TreeBody::Joint::prismatic;
+    if (moves && std::find(body_of.begin(), body_of.end(), i) == body_of.end()) passive_.push_back(i);
+  }
   tree_ = seat::DrivenTree(std::move(bodies), std::move(body_of));
+  feel();  // so that the physics fills their components from now on
 }
 
 /// Parents first. False: no tree.
@@ -73,8 +87,10 @@ bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<
     if (at == waiting.end() || at->item.joint != sim::kNullEntity) return false;  // another model's link, or a loop
     at->item.joint = joint;
     at->item.joint_pose = ecm_.ComponentData<components::Pose>(joint).value_or(math::Pose3d::Zero);
-    at->item.axis = ecm_.ComponentData<components::JointAxis>(joint).value_or(sdf::JointAxis()).Xyz();
-    at->item.damping = damping(joint, ecm_);
+    const auto axis = ecm_.ComponentData<components::JointAxis>(joint).value_or(sdf::JointAxis());
+    at->item.axis = axis.Xyz();
+    at->body.damping = axis.Damping();
+    at->body.stiffness = axis.SpringStiffness();
     at->body.joint = *kind(*type);
     at->parent = *parent == "world" ? sim::kNullEntity : named_link(joint, *parent, ecm_);
     if (*parent != "world" && at->parent == sim::kNullEntity) return false;
@@ -96,6 +112,7 @@ bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<
 
 void EntityTree::look() {
   const double dt_s = world_step_s(ecm_);
+  const math::Vector3d gravity = world_gravity(ecm_);
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const auto* inertial = ecm_.Component<components::Inertial>(items_[i].link);
     if (inertial == nullptr) continue;
@@ -112,9 +129,17 @@ void EntityTree::look() {
     const math::Pose3d joint = link * items_[i].joint_pose;
     body.axis = array(joint.Rot().RotateVector(items_[i].axis));
     body.anchor = array(joint.Pos());
-    body.damping_dt = dt_s * items_[i].damping;  // DART takes dampers implicitly
+    body.weight_N = array(falls(items_[i].link, ecm_) ? body.mass_kg * gravity : math::Vector3d::Zero);
+    body.implicit_s = dt_s;  // DART takes springs and dampers so
   }
   tree_.update();
+}
+
+void EntityTree::feel() {
+  for (const std::size_t i : passive_) {
+    tree_.positions()[i] = first_number<components::JointPosition>(items_[i].joint, ecm_);
+    tree_.speeds()[i] = first_number<components::JointVelocity>(items_[i].joint, ecm_);
+  }
 }
 
 }  // namespace vsa::plugins

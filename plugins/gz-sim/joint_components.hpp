@@ -19,10 +19,6 @@ inline bool slides(sim::Entity joint, const sim::EntityComponentManager& ecm) {
   return ecm.ComponentData<sim::components::JointType>(joint) == sdf::JointType::PRISMATIC;
 }
 
-inline double damping(sim::Entity joint, const sim::EntityComponentManager& ecm) {
-  return ecm.ComponentData<sim::components::JointAxis>(joint).value_or(sdf::JointAxis()).Damping();
-}
-
 /// The first of a component's numbers; 0 where the physics hasn't filled it yet. Creates the component where it is missing.
 template <class Component>
 double first_number(sim::Entity joint, sim::EntityComponentManager& ecm) {

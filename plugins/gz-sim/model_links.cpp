@@ -52,6 +52,10 @@ double world_step_s(const sim::EntityComponentManager& ecm) {
   return physics ? physics->MaxStepSize() : 0;
 }
 
+math::Vector3d world_gravity(const sim::EntityComponentManager& ecm) {
+  return ecm.ComponentData<components::Gravity>(sim::worldEntity(ecm)).value_or(math::Vector3d::Zero);
+}
+
 std::string world_name(const sim::EntityComponentManager& ecm) {
   return ecm.ComponentData<components::Name>(sim::worldEntity(ecm)).value_or("world");
 }

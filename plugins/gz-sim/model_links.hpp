@@ -11,6 +11,7 @@ namespace vsa::plugins {
 
 /// Of the world that the manager is of. Step: 0 where it isn't known.
 [[nodiscard]] double world_step_s(const sim::EntityComponentManager& ecm);
+[[nodiscard]] math::Vector3d world_gravity(const sim::EntityComponentManager& ecm);  ///< m/s²
 [[nodiscard]] std::string world_name(const sim::EntityComponentManager& ecm);
 
 }  // namespace vsa::plugins

@@ -38,7 +38,7 @@ void SimRobot::attach(const sdf::Element& element, sim::EntityComponentManager& 
   for (const NamedEntity& joint : entities_below<components::Joint>(model_, ecm)) {
     if (!has_one_axis(joint.entity, ecm)) continue;
     known.push_back(joint);
-    model.joints.push_back({joint.name, {&ecm, joint.entity}, {}, {}, slides(joint.entity, ecm), damping(joint.entity, ecm)});
+    model.joints.push_back({joint.name, {&ecm, joint.entity}, {}, {}, slides(joint.entity, ecm)});
   }
   seat::Options options;
   options.report = [](const std::string& line) { VSA_WARNING << "vsa::Robot: " << line << std::endl; };
@@ -116,7 +116,10 @@ void SimRobot::ConfigureParameters(gz::transport::parameters::ParametersRegistry
 
 #ifdef VSA_HAS_RESET
 void SimRobot::Reset(const sim::UpdateInfo&, sim::EntityComponentManager&) {
-  if (seat_) seat_->reset();
+  if (seat_) {
+    seat_->reset();
+    robots_->forget();
+  }
   faults_.reset();
   steps_ = 0;
 }

@@ -31,21 +31,22 @@ namespace vsa::plugins {
 class EntityTree final : public LinkTrees {
  public:
   /// `driven`: the actuators' joints, by their entities.
-  EntityTree(sim::Entity model, const ModelRobot::Joints& driven, const sim::EntityComponentManager& ecm);
+  EntityTree(sim::Entity model, const ModelRobot::Joints& driven, sim::EntityComponentManager& ecm);
   void look() override;
+  void feel() override;
 
  private:
   struct Item {
     sim::Entity link = sim::kNullEntity, joint = sim::kNullEntity;
     math::Pose3d joint_pose;  ///< in the link
     math::Vector3d axis;      ///< in the joint
-    double damping = 0;       ///< N·m·s/rad or N·s/m
   };
 
   bool build(const std::vector<sim::Entity>& links, const std::vector<sim::Entity>& joints, std::vector<host::TreeBody>& bodies);
 
-  const sim::EntityComponentManager& ecm_;
+  sim::EntityComponentManager& ecm_;
   std::vector<Item> items_;
+  std::vector<std::size_t> passive_;  ///< joints without actuators
 };
 
 class SimRobot : public sim::System,

@@ -4,20 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spatial.hpp"
 #include "vsa/owner.hpp"
 
 namespace vsa::host {
 namespace {
 
-using Vector3 = std::array<double, 3>;
-using Vector = std::array<double, 6>;  // rotation first
+using spatial::cross;
+using spatial::minus;
+using spatial::Vector;
+using spatial::Vector3;
 using Matrix = std::array<Vector, 6>;
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vector3 minus(const Vector3& a, const Vector3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 double dot(const Vector& a, const Vector& b) {
   double sum = 0;
@@ -63,17 +60,6 @@ Matrix spatial_inertia(const TreeBody& body, const Vector3& origin) {
   return out;
 }
 
-Vector spatial_axis(const TreeBody& body, const Vector3& origin) {
-  Vector s{};
-  const bool turns = body.joint == TreeBody::Joint::revolute;
-  const Vector3 moved = turns ? cross(minus(body.anchor, origin), body.axis) : body.axis;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (turns) s[i] = body.axis[i];
-    s[3 + i] = moved[i];
-  }
-  return s;
-}
-
 /// By Gauss and Jordan; the matrix is positive definite, or the result isn't finite.
 Matrix inverse_of(Matrix m) {
   Matrix out{};
@@ -109,15 +95,14 @@ void TreeInertia::update(const std::vector<TreeBody>& bodies) noexcept {
   const Vector3 origin = bodies.front().center_of_mass;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     nodes_[i].inertia = spatial_inertia(bodies[i], origin);
-    nodes_[i].axis = spatial_axis(bodies[i], origin);
+    nodes_[i].axis = spatial::axis_of(bodies[i], origin);
   }
   for (std::size_t i = bodies.size(); i-- > 0;) {
     Node& n = nodes_[i];
-    const TreeBody::Joint joint = bodies[i].joint;
-    const bool moves = joint == TreeBody::Joint::revolute || joint == TreeBody::Joint::prismatic;
     n.momentum = times(n.inertia, n.axis);
-    n.reciprocal = moves ? 1 / (dot(n.axis, n.momentum) + bodies[i].damping_dt) : 0.0;
-    if (joint == TreeBody::Joint::free) n.response = inverse_of(n.inertia);
+    const double h = bodies[i].implicit_s, ahead = h * (bodies[i].damping + h * bodies[i].stiffness);
+    n.reciprocal = spatial::moves(bodies[i]) ? 1 / (dot(n.axis, n.momentum) + ahead) : 0.0;
+    if (bodies[i].joint == TreeBody::Joint::free) n.response = inverse_of(n.inertia);
     if (bodies[i].parent == TreeBody::kGround) continue;
     Matrix& parent = nodes_[bodies[i].parent].inertia;
     for (std::size_t r = 0; r < 6; ++r) {
@@ -126,13 +111,9 @@ void TreeInertia::update(const std::vector<TreeBody>& bodies) noexcept {
   }
 }
 
-/// Towards the roots: what unit torques at the joints of `block` ask of every body, p and u.
-void TreeInertia::push(const std::vector<TreeBody>& bodies, std::span<const std::size_t> block, std::size_t last) noexcept {
-  for (std::size_t i = 0; i <= last; ++i) {
-    nodes_[i].bias = {};
-    nodes_[i].drive = {};
-  }
-  for (std::size_t c = 0; c < block.size(); ++c) nodes_[block[c]].drive[c] = 1;
+/// Towards the roots: what the joints' torques, in `drive`, ask of every body, p and u.
+void TreeInertia::push(const std::vector<TreeBody>& bodies, std::size_t last) noexcept {
+  for (std::size_t i = 0; i <= last; ++i) nodes_[i].bias = {};
   for (std::size_t i = last + 1; i-- > 0;) {
     Node& n = nodes_[i];
     if (bodies[i].parent == TreeBody::kGround) {
@@ -179,13 +160,27 @@ void TreeInertia::mobility(const std::vector<TreeBody>& bodies, std::span<const 
   for (std::size_t j = 0; j < n; j += kBlock) {
     const auto block = of.subspan(j, std::min(kBlock, n - j));
     const std::size_t last = *std::max_element(block.begin(), block.end());
-    push(bodies, block, last);
+    for (std::size_t i = 0; i <= last; ++i) nodes_[i].drive = {};
+    for (std::size_t c = 0; c < block.size(); ++c) nodes_[block[c]].drive[c] = 1;
+    push(bodies, last);
     pull(bodies, last);
     // What lies behind a joint in the list has that joint in its own block, or in this.
     for (std::size_t c = 0; c < block.size(); ++c)
       for (std::size_t i = 0; i < n; ++i)
         if (of[i] <= block[c]) out[i * n + j + c] = out[(j + c) * n + i] = nodes_[of[i]].drive[c];
   }
+}
+
+void TreeInertia::answer(const std::vector<TreeBody>& bodies, std::span<const double> torques,
+                         std::span<double> accelerations) noexcept {
+  const std::size_t n = nodes_.size();
+  require(bodies.size() == n && torques.size() == n && accelerations.size() == n, "vsa::host::TreeInertia::answer",
+          "bodies, torques and accelerations need as many entries as it has");
+  if (n == 0) return;
+  for (std::size_t i = 0; i < n; ++i) nodes_[i].drive = {nodes_[i].reciprocal == 0 ? 0.0 : torques[i]};
+  push(bodies, n - 1);
+  pull(bodies, n - 1);
+  for (std::size_t i = 0; i < n; ++i) accelerations[i] = nodes_[i].drive.front();
 }
 
 std::vector<std::vector<std::size_t>> joined(const std::vector<TreeBody>& bodies, std::span<const std::size_t> of) {

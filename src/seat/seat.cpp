@@ -74,12 +74,6 @@ std::vector<std::size_t> joints_of(const host::Robot& robot, const Model& model)
   return out;
 }
 
-std::vector<double> damping_of(const Model& model, const std::vector<std::size_t>& joints) {
-  std::vector<double> out;
-  for (const std::size_t joint : joints) out.push_back(model.joints[joint].damping);
-  return out;
-}
-
 std::vector<DrivenJoints::Joint> driven(const host::Robot& robot, const Model& model, const std::vector<std::size_t>& joints) {
   std::vector<DrivenJoints::Joint> out;
   for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -103,7 +97,6 @@ Seat::Seat(const Model& model, const Options& options)
     : model_(model.name),
       robot_(make_robot(model, options)),
       joints_(joints_of(robot_, model)),
-      damping_(damping_of(model, joints_)),
       driven_(model.where, driven(robot_, model, joints_)),
       report_(options.report),
       watches_pace_(options.watches_pace),
@@ -119,8 +112,6 @@ Seat::Seat(const Seat& other, host::Robot robot)
     : model_(other.model_),
       robot_(std::move(robot)),
       joints_(other.joints_),
-      damping_(other.damping_),
-      dampers_(other.dampers_),
       driven_("", {}),
       watches_pace_(other.watches_pace_),
       own_(other.own_),
@@ -145,8 +136,6 @@ void Seat::join(const std::vector<std::vector<std::size_t>>& trees, const std::v
   robot_.join(trees, shared);
   own_.mobility.resize(robot_.mobility_size());
   own_.watch.again();
-  dampers_ = {damping_, trees};  // of shared joints nothing is told: B of their tree is the group's
-  own_.dampers = dampers_.begin();
   kept_ = loaded_ = own_;
   own_size_ = state::size_of(own_);
 }
@@ -173,7 +162,6 @@ bool Seat::can_step(std::int64_t dt_ns) {
 
 void Seat::step(std::int64_t dt_ns) {
   if (!can_step(dt_ns)) return;
-  dampers_.tell(own_.now.in, own_.mobility, static_cast<double>(dt_ns) * 1e-9, own_.dampers);
   robot_.advance(own_.now.time_ns, dt_ns, own_.now.in, torques_, own_.mobility);
   stepped(dt_ns);
 }
@@ -184,7 +172,6 @@ void Seat::step_together(std::span<Seat* const> seats, host::RobotGroup& group, 
   for (std::size_t i = 0; i < seats.size(); ++i) {
     Seat& seat = *seats[i];
     if (!all && !seat.stopped()) seat.stop("another robot on its kinematic tree has stopped");
-    if (all) seat.dampers_.tell(seat.own_.now.in, seat.own_.mobility, static_cast<double>(dt_ns) * 1e-9, seat.own_.dampers);
     group.steps()[i] = {&seat.robot_, seat.own_.now.time_ns, seat.own_.now.in, seat.torques_, seat.own_.mobility};
   }
   if (!all) return;
@@ -213,7 +200,6 @@ void Seat::reset() {
   own_.now.time_ns = 0;
   own_.now.stopped = false;
   own_.watch.again();
-  own_.dampers.forget();
   std::fill(torques_.begin(), torques_.end(), 0.0);
 }
 

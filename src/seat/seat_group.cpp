@@ -113,14 +113,15 @@ void SeatGroup::fill(const std::vector<std::size_t>& trees, std::span<double> ou
   }
 }
 
-void SeatGroup::step(std::int64_t dt_ns, const Mobility& mobility) {
+void SeatGroup::update(const Mobility& mobility) {
   for (std::size_t r = 0; r < seats_.size(); ++r)
     if (seats_[r]->wants_mobility()) fill(own_[r], seats_[r]->mobility(), mobility);
+  for (Together& t : together_) fill(t.trees, t.group.mobility(), mobility);
+}
+
+void SeatGroup::step(std::int64_t dt_ns) {
   for (const std::size_t r : alone_) seats_[r]->step(dt_ns);
-  for (Together& t : together_) {
-    fill(t.trees, t.group.mobility(), mobility);
-    Seat::step_together(t.seats, t.group, dt_ns);
-  }
+  for (Together& t : together_) Seat::step_together(t.seats, t.group, dt_ns);
 }
 
 }  // namespace vsa::seat

@@ -22,13 +22,18 @@ struct SerialWorld {
   bool alternating = false;  ///< axes y, x, y, x …; else all y
   double mass_kg = 0.45, inertia_kgm2 = 3.3e-4, length_m = 0.08;
   double last_mass_kg = 0, last_inertia_kgm2 = 0;  ///< of the last link, where they differ
-  double damping = 0;                              ///< of the host's own damper at every joint, N·m·s/rad
-  double last_damping = 0;                         ///< of the last joint's, where it differs
-  bool implicit_damper = false;                    ///< asks ODE in Gazebo Classic to take it implicitly
+  double damping = 0, spring = 0;                  ///< of the host's own at every driven joint, N·m·s/rad and N·m/rad
+  double passive_damping = 0, passive_spring = 0;  ///< of the others'
+  bool passive_first = false;                      ///< j1 isn't driven
+  bool implicit_damper = false;                    ///< asks ODE in Gazebo Classic to take springs and dampers implicitly
   std::string overrides;                           ///< <override …/> elements for every actuator
   std::vector<int> robots;                         ///< how many joints each drives; empty: one drives all. What is left is passive
 
-  [[nodiscard]] int driven() const { return robots.empty() ? joints : std::accumulate(robots.begin(), robots.end(), 0); }
+  [[nodiscard]] int driven() const {
+    return robots.empty() ? joints - first_driven() + 1 : std::accumulate(robots.begin(), robots.end(), 0);
+  }
+  [[nodiscard]] int first_driven() const { return passive_first ? 2 : 1; }
+  [[nodiscard]] bool drives(int joint) const { return joint >= first_driven() && joint < first_driven() + driven(); }
 };
 
 /// <model name='m'> with links l0, l1 … and joints j1, j2 …, and its robots. Joints slide where the type does; one that has no preset
@@ -48,14 +53,16 @@ inline std::string serial_model(const SerialWorld& w) {
       << "</izz></inertia></inertial></link><joint name='j" << i << "' type='"
       << (unit.actuator.linear() ? "prismatic" : "revolute") << "'><parent>l" << i - 1 << "</parent><child>l" << i
       << "</child><axis><xyz>" << (w.alternating && i % 2 == 0 ? "1 0 0" : "0 1 0") << "</xyz>";
-    const double damping = last && w.last_damping > 0 ? w.last_damping : w.damping;
-    if (damping > 0) s << "<dynamics><damping>" << damping << "</damping></dynamics>";
+    const double damping = w.drives(i) ? w.damping : w.passive_damping, spring = w.drives(i) ? w.spring : w.passive_spring;
+    if (damping > 0 || spring > 0)
+      s << "<dynamics><damping>" << damping << "</damping><spring_reference>0</spring_reference><spring_stiffness>" << spring
+        << "</spring_stiffness></dynamics>";
     s << "</axis>";
     if (w.implicit_damper) s << "<physics><ode><implicit_spring_damper>1</implicit_spring_damper></ode></physics>";
     s << "</joint>";
   }
-  int i = 0;
-  for (const int count : w.robots.empty() ? std::vector{w.joints} : w.robots) {
+  int i = w.first_driven() - 1;
+  for (const int count : w.robots.empty() ? std::vector{w.driven()} : w.robots) {
     s << "<plugin name='vsa::Robot' filename='libvsa-robot.so'>";
     for (const int end = i + count; i < end;) {
       ++i;

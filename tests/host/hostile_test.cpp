@@ -13,11 +13,11 @@
 #include "support/servos.hpp"
 #include "vsa/elastic/series_spring.hpp"
 #include "vsa/errors.hpp"
-#include "vsa/host/joint_dampers.hpp"
 #include "vsa/host/mobility_watch.hpp"
 #include "vsa/host/resolution.hpp"
 #include "vsa/host/robot_group.hpp"
 #include "vsa/host/topics.hpp"
+#include "vsa/host/tree_foresight.hpp"
 #include "vsa/host/tree_inertia.hpp"
 #include "vsa/state_io.hpp"
 
@@ -449,34 +449,47 @@ TEST(HostileTree, AWatchOverOtherJointsEndsTheProgramInWords) {
   EXPECT_TRUE(watch.due(std::span<const JointIn>(joints).first(2)));
 }
 
-TEST(HostileTree, DampersOfOtherJointsOrWithoutNumbersTellNothingWrong) {
-  using vsa::host::JointDampers;
-  EXPECT_THROW(JointDampers({0.1, -1}, {}), vsa::InputError);
-  EXPECT_THROW(JointDampers({kNan}, {{0}}), vsa::InputError);
-  EXPECT_THROW(JointDampers({0.1}, {{1}}), vsa::InputError);
-  EXPECT_THROW(JointDampers({}, {{0}}), vsa::InputError);
-  const JointDampers two({0.1, 0.2}, {{0, 1}}), none;
-  JointDampers::Memory memory = two.begin(), others;
-  std::vector<JointIn> joints(2);
-  const std::vector<double> mobility(4, 1e3);
-  EXPECT_DEATH(two.tell(std::span(joints).first(1), mobility, 1e-3, memory), "one entry a driven joint");
-  EXPECT_DEATH(two.tell(joints, mobility, 1e-3, others), "begin");
-  EXPECT_DEATH(two.tell(joints, std::span(mobility).first(3), 1e-3, memory), "n² numbers a tree");
-  none.tell(joints, {}, 1e-3, others);
-  two.tell(joints, mobility, 1e-3, memory);
-  EXPECT_FALSE(joints[0].free_acceleration_rad_per_s2.has_value()) << "nothing is known of a step before";
-  for (const double x : {kNan, kInfinity}) {
-    joints[0].speed_rad_per_s = x;
-    two.tell(joints, mobility, 1e-3, memory);
-    EXPECT_FALSE(joints[1].free_acceleration_rad_per_s2.has_value()) << x;
-    joints[0].speed_rad_per_s = 0;
-    two.tell(joints, mobility, x, memory);
-    two.tell(joints, mobility, 1e-3, memory);
-    for (const JointIn& joint : joints) EXPECT_TRUE(std::isfinite(joint.free_acceleration_rad_per_s2.value_or(0.0))) << x;
+TEST(HostileTree, ForesightOfOtherBodiesOrWithoutNumbersTellsNothingWrong) {
+  using vsa::host::TreeBody, vsa::host::TreeForesight, vsa::host::TreeInertia;
+  constexpr double kMost = 1e12;
+  std::vector<TreeBody> bodies(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    bodies[i] = {i == 0 ? TreeBody::kGround : 0, TreeBody::Joint::revolute, {0, 1, 0}, {}, 1, {1, 0, 0}};
+    bodies[i].damping = 0.1;
+    bodies[i].weight_N = {0, 0, -9.81};
+  }
+  TreeInertia inertia(2);
+  inertia.update(bodies);
+  TreeForesight two(2), none(0);
+  TreeForesight::Memory memory = two.begin(), others;
+  std::vector<double> one(1), out(2), q(2), v(2);
+  EXPECT_DEATH(inertia.answer(bodies, one, out), "as many entries as it has");
+  EXPECT_DEATH(inertia.answer({}, q, out), "as many entries as it has");
+  EXPECT_DEATH(two.torques(bodies, q, one, out), "as many entries as it has");
+  EXPECT_DEATH(two.foresee(bodies, inertia, one, v, 1e-3, memory, out), "as many entries as it has");
+  EXPECT_DEATH(two.foresee(bodies, inertia, q, v, 1e-3, others, out), "begin");
+  std::vector<TreeBody> turned = bodies;
+  turned[0].parent = 1;
+  EXPECT_DEATH(two.torques(turned, q, v, out), "a parent comes before its children");
+  others = none.begin();
+  none.foresee({}, inertia, {}, {}, 1e-3, others, {});
+  none.torques({}, {}, {}, {});
+  two.foresee(bodies, inertia, q, v, 1e-3, memory, out);
+  EXPECT_TRUE(std::isnan(out[0])) << "nothing is known of a step before";
+  for (const double x : {kNan, kInfinity, kMost}) {
+    for (std::vector<double>* number : {&q, &v}) {
+      (*number)[0] = x;
+      two.foresee(bodies, inertia, q, v, 1e-3, memory, out);
+      (*number)[0] = 0;
+      two.foresee(bodies, inertia, q, v, x, memory, out);
+      two.foresee(bodies, inertia, q, v, 1e-3, memory, out);
+      two.foresee(bodies, inertia, q, v, 1e-3, memory, out);
+      EXPECT_EQ(out[0], 0) << x << ": it stands";
+    }
   }
   memory.forget();
-  two.tell(joints, mobility, 1e-3, memory);
-  EXPECT_FALSE(joints[0].free_acceleration_rad_per_s2.has_value());
+  two.foresee(bodies, inertia, q, v, 1e-3, memory, out);
+  EXPECT_TRUE(std::isnan(out[0]));
 }
 
 TEST(HostileTree, AStepThatIsNoNumberResolvesNothingWrong) {

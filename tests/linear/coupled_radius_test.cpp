@@ -14,7 +14,6 @@
 
 #include "host/free_flanges.hpp"
 #include "vsa/elastic/series_spring.hpp"
-#include "vsa/host/joint_dampers.hpp"
 #include "vsa/host/resolution.hpp"
 
 namespace {
@@ -120,62 +119,6 @@ TEST(CoupledRadius, IsNeverAboveOneInTreesByChance) {
   }
   std::printf("largest radius of 2000 trees: %.9f\n", largest);
   EXPECT_LE(largest, 1 + 1e-5);
-}
-
-/// What is left of a swing's energy, and of its root, after 400 steps of an engine that takes dampers at the joints implicitly, v' = v + dt·B(τ − D v) with
-/// B = (M + dt·D)⁻¹. `told`: by host::JointDampers; else a damper goes on with what it did in the last step.
-double growth(const Tree& tree, const VectorXd& damping, bool told) {
-  const auto n = static_cast<Eigen::Index>(tree.size());
-  const double dt = 1e-9 * static_cast<double>(tree.dt_ns);
-  std::vector<std::size_t> all(tree.size());
-  std::iota(all.begin(), all.end(), 0);
-  Robot robot(robot_of(tree));
-  robot.join({all});
-  const vsa::host::JointDampers dampers({damping.data(), damping.data() + n}, {all});
-  auto memory = dampers.begin();
-  const MatrixXd mass = tree.mobility.inverse();
-  const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = (mass + dt * MatrixXd(damping.asDiagonal())).inverse();
-  const std::span<const double> mobility(rows.data(), tree.size() * tree.size());
-  std::vector<vsa::host::JointIn> in(tree.size());
-  std::vector<double> torques(tree.size());
-  VectorXd q = VectorXd::Zero(n), v = VectorXd::Zero(n);
-  q[0] = 1e-4;
-  double begun = 0, left = 0;
-  for (int k = 0; k < 400; ++k) {
-    for (Eigen::Index i = 0; i < n; ++i) in[static_cast<std::size_t>(i)] = {q[i], v[i], rows(i, i)};
-    if (told) dampers.tell(in, mobility, dt, memory);
-    robot.advance(k * tree.dt_ns, tree.dt_ns, in, torques, mobility);
-    v += dt * (rows * (Eigen::Map<const VectorXd>(torques.data(), n) - VectorXd(damping.cwiseProduct(v))));
-    q += dt * v;
-    const VectorXd y = q - 0.5 * dt * v;
-    const double energy = v.dot(mass * v) + y.cwiseAbs2().dot(Eigen::Map<const VectorXd>(tree.stiffness.data(), n));
-    if (k < 20) begun = std::max(begun, energy);
-    if (k >= 380) left = std::max(left, energy);
-  }
-  return std::sqrt(left / begun);
-}
-
-TEST(CoupledRadius, DampersAtTheJointsOnlyTakeEnergy) {
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  double largest = 0;
-  int grown = 0;  // where nothing is told
-  for (int trial = 0; trial < 200; ++trial) {
-    const int count = 1 + trial % 6;
-    MatrixXd root(count, count);
-    for (int i = 0; i < count * count; ++i) root(i) = unit(random);
-    Tree tree{1e3 * (root * root.transpose() + 0.05 * MatrixXd::Identity(count, count)), {}, 500'000LL << (trial % 4)};
-    VectorXd damping(count);
-    for (int i = 0; i < count; ++i) {
-      tree.stiffness.push_back(std::pow(10.0, 1 + 2 * unit(random)));
-      damping[i] = i % 3 == 2 ? 0.0 : std::pow(10.0, -1.5 + 1.5 * unit(random));
-    }
-    largest = std::max(largest, growth(tree, damping, true));
-    grown += growth(tree, damping, false) > 1 ? 1 : 0;
-  }
-  std::printf("largest growth of 200 trees with dampers: %.3f; untold %d of them grow\n", largest, grown);
-  EXPECT_LE(largest, 1);
-  EXPECT_GT(grown, 2) << "then this test shows nothing";
 }
 
 }  // namespace

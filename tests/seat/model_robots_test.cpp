@@ -24,8 +24,11 @@ struct ArmTrees final : LinkTrees {
     tree_ = DrivenTree(std::move(bodies), std::move(driven));
   }
   void look() override { ++looks; }
+  void feel() override {}
   static inline int looks = 0;
 };
+
+double damping = 0;  ///< at each joint of the trees
 
 enum class Is { tree, loop_of_trees, no_tree };
 
@@ -55,6 +58,7 @@ class Plugin final : public ModelRobot {
                         0.05,
                         {x + 0.05, 0, 0},
                         {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4}});
+      bodies.back().damping = damping;
     }
     std::vector<std::size_t> at;
     for (const std::uint64_t joint : driven) at.push_back(joint - 100 - from);
@@ -127,6 +131,49 @@ TEST(ModelRobots, OfAnArmAndItsHandMoveAsOneInWhateverOrderTheyAreCalled) {
       EXPECT_EQ(plugin->said, "");
     }
   }
+}
+
+struct ModelRobotsWithDampers : ::testing::Test {
+  ModelRobotsWithDampers() { damping = 0.01; }
+  ~ModelRobotsWithDampers() override { damping = 0; }
+};
+
+TEST_F(ModelRobotsWithDampers, OfOneTreeAreToldTheSame) {
+  Host whole({3});
+  Host two({2, 1}, Is::tree, 2);
+  for (int n = 0; n < 400; ++n) {
+    const auto angles = whole.step();
+    ASSERT_EQ(two.step(n % 3 == 0), angles) << "step " << n;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto told = whole.plugins[0]->seat()->in()[i].free_acceleration_rad_per_s2;
+      ASSERT_EQ(told.has_value(), n > 0) << "step " << n;
+      ASSERT_EQ(two.plugins[i / 2]->seat()->in()[i % 2].free_acceleration_rad_per_s2, told) << "step " << n;
+    }
+  }
+}
+
+TEST_F(ModelRobotsWithDampers, AreToldNothingWhereThereIsNoStepBeforeNoTreeOrNoDamper) {
+  const auto told = [](Host& host) { return host.plugins[0]->seat()->in()[0].free_acceleration_rad_per_s2.has_value(); };
+  Host host({2, 1}, Is::loop_of_trees);
+  for (const bool known : {false, true, true}) {
+    host.step();
+    EXPECT_EQ(told(host), known);
+  }
+  host.plugins[0]->seat()->in()[0].placed = true;
+  host.step();
+  EXPECT_FALSE(told(host));
+  host.step();
+  EXPECT_TRUE(told(host));
+  host.robots->forget();
+  host.step();
+  EXPECT_FALSE(told(host));
+  Host none({3}, Is::no_tree, 2);
+  for (int n = 0; n < 3; ++n) none.step();
+  EXPECT_FALSE(told(none));
+  damping = 0;
+  Host free({3}, Is::tree, 3);
+  for (int n = 0; n < 3; ++n) free.step();
+  EXPECT_FALSE(told(free));
 }
 
 TEST(ModelRobots, OneThatGoesLeavesTheOthersMoving) {

@@ -41,11 +41,12 @@ struct Two {
   std::array<double, 3> step(SeatGroup& with, Seat& a, Seat& b) {
     arm.tell(a, 0);
     arm.tell(b, 2);
-    with.step(kStep_ns, [this](std::size_t tree, std::span<double> out) {
+    with.update([this](std::size_t tree, std::span<double> out) {
       ++asked[tree];
       if (arm.tied == 3) return arm.fill(0, 3, out);
       arm.fill(tree == 0 ? 0 : 2, tree == 0 ? 2 : 1, out);
     });
+    with.step(kStep_ns);
     arm.torque = {a.torques()[0], a.torques()[1], b.torques()[0]};
     arm.move();
     return arm.angle;
@@ -134,7 +135,8 @@ TEST(SeatGroup, RefusesTreesThatCannotBe) {
   const SeatGroup group({&upper, &hand}, {{0, 1, 2}});
   EXPECT_THROW(static_cast<void>(group.another({&upper})), InputError);
   SeatGroup nobody({}, {});
-  nobody.step(kStep_ns, [](std::size_t, std::span<double>) { FAIL(); });
+  nobody.update([](std::size_t, std::span<double>) { FAIL(); });
+  nobody.step(kStep_ns);
 }
 
 }  // namespace

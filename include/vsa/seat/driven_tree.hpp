@@ -1,14 +1,18 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The bodies of a model and those whose joints have actuators: from them comes B, which no Gazebo tells.
+// The bodies of a model and those whose joints have actuators: from them come B and what else moves the joints, which no Gazebo tells.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "vsa/host/robot.hpp"
+#include "vsa/host/tree_foresight.hpp"
 #include "vsa/host/tree_inertia.hpp"
+#include "vsa/owner.hpp"
 
 namespace vsa::seat {
 
@@ -18,7 +22,15 @@ class DrivenTree {
   DrivenTree() = default;
   /// `driven`: the body of each actuator's joint, in the actuators' order.
   DrivenTree(std::vector<host::TreeBody> bodies, std::vector<std::size_t> driven)
-      : bodies_(std::move(bodies)), driven_(std::move(driven)), inertia_(bodies_.size()), trees_(host::joined(bodies_, driven_)) {
+      : bodies_(std::move(bodies)),
+        driven_(std::move(driven)),
+        inertia_(bodies_.size()),
+        foresight_(bodies_.size()),
+        memory_(foresight_.begin()),
+        positions_(bodies_.size()),
+        speeds_(bodies_.size()),
+        free_(bodies_.size()),
+        trees_(host::joined(bodies_, driven_)) {
     for (const auto& tree : trees_) {
       of_tree_.emplace_back();
       for (const std::size_t actuator : tree) of_tree_.back().push_back(driven_[actuator]);
@@ -38,10 +50,32 @@ class DrivenTree {
     for (double& b : out) b = static_cast<float>(b);
   }
 
+  /// Where joints without actuators are and how fast, one entry a body, rad or m: to be filled before foresee().
+  [[nodiscard]] std::vector<double>& positions() noexcept { return positions_; }
+  [[nodiscard]] std::vector<double>& speeds() noexcept { return speeds_; }
+  /// Once before each step, after update() where the bodies moved: JointIn::free_acceleration of the actuators, whose angles and speeds
+  /// are there, in their order. Joints that were placed are told nothing (host/tree_foresight.hpp).
+  void foresee(std::span<host::JointIn* const> actuators, double dt_s) noexcept {
+    require(actuators.size() == driven_.size(), "vsa::seat::DrivenTree::foresee", "one entry an actuator");
+    for (std::size_t i = 0; i < driven_.size(); ++i) {
+      positions_[driven_[i]] = actuators[i]->angle_rad;
+      speeds_[driven_[i]] = actuators[i]->speed_rad_per_s;
+    }
+    foresight_.foresee(bodies_, inertia_, positions_, speeds_, dt_s, memory_, free_);
+    for (std::size_t i = 0; i < driven_.size(); ++i) {
+      actuators[i]->free_acceleration_rad_per_s2.reset();
+      if (std::isfinite(free_[driven_[i]]) && !actuators[i]->placed) actuators[i]->free_acceleration_rad_per_s2 = free_[driven_[i]];
+    }
+  }
+  void forget() noexcept { memory_.forget(); }  ///< of the step before: after a reset
+
  private:
   std::vector<host::TreeBody> bodies_;
   std::vector<std::size_t> driven_;
   host::TreeInertia inertia_{0};
+  host::TreeForesight foresight_{0};
+  host::TreeForesight::Memory memory_;
+  std::vector<double> positions_, speeds_, free_;
   std::vector<std::vector<std::size_t>> trees_, of_tree_;
 };
 

@@ -31,7 +31,6 @@
 #include <vector>
 
 #include "vsa/config/plugin_xml.hpp"
-#include "vsa/host/joint_dampers.hpp"
 #include "vsa/host/mobility_watch.hpp"
 #include "vsa/host/robot.hpp"
 #include "vsa/host/robot_group.hpp"
@@ -49,7 +48,6 @@ struct Joint {
   std::string refusal{};              ///< why no actuator can drive it; empty: one can
   std::optional<double> start_rad{};  ///< where it begins, if not at 0
   bool slides = false;                ///< its position is a travel in m, for a linear actuator
-  double damping = 0;                 ///< of the host's own damper there, N·m·s/rad; 0 where it tells JointIn::free_acceleration
 };
 
 /// What a host knows of a model before it steps: from it the seat makes its robot.
@@ -175,10 +173,9 @@ class Seat {
     Moment now;
     std::vector<double> mobility;
     host::MobilityWatch watch;
-    host::JointDampers::Memory dampers;
     [[nodiscard]] static Own of(std::size_t joints);  ///< at the first sample
     static auto fields(auto& s, auto&& visit) {
-      return visit("now", "", s.now, "mobility", "1/(kg·m²)", s.mobility, "mobility_watch", "", s.watch, "dampers", "", s.dampers);
+      return visit("now", "", s.now, "mobility", "1/(kg·m²)", s.mobility, "mobility_watch", "", s.watch);
     }
   };
   struct Connection {
@@ -200,8 +197,6 @@ class Seat {
   std::string model_;
   host::Robot robot_;
   std::vector<std::size_t> joints_;
-  std::vector<double> damping_;  // of each actuator's joint
-  host::JointDampers dampers_;   // of those, by trees
   DrivenJoints driven_;
   Report report_;
   bool watches_pace_;

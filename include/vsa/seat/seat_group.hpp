@@ -3,7 +3,7 @@
 // The robots of one host. Those whose joints move each other, an arm and the hand at its end, step together; the others by themselves.
 //
 //   SeatGroup group({&arm, &hand}, {{0, 1, 2}});     the arm's actuators 0 and 1, the hand's first: one tree
-//   every step: fill each seat's in(), then group.step(dt_ns, …)
+//   every step: fill each seat's in(), then group.update(…), group.step(dt_ns)
 #pragma once
 
 #include <cstddef>
@@ -32,9 +32,11 @@ class SeatGroup {
   /// Of clones of the seats, in the same order; throws InputError for another number of them.
   [[nodiscard]] SeatGroup another(const std::vector<Seat*>& seats) const;
 
-  /// Seat::step of all, whose in() are filled. `mobility` is asked where B is due: that of a tree that several seats drive each time.
-  /// Of seats that step together all stop where one does.
-  void step(std::int64_t dt_ns, const Mobility& mobility);
+  /// Once before each step, when the seats' in() are filled. `mobility` is asked where B is due: that of a tree that several seats
+  /// drive each time.
+  void update(const Mobility& mobility);
+  /// Seat::step of all, after update(). Of seats that step together all stop where one does.
+  void step(std::int64_t dt_ns);
 
  private:
   /// Seats that have trees in common.
