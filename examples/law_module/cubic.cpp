@@ -30,7 +30,7 @@ class Cubic final : public Transmission {
       r.load[i] = torque;
       r.curvature.qq += stiffness;
       r.curvature.qx[i] = -stiffness;
-      (i == 0 ? r.curvature.x0x0 : r.curvature.x1x1) = stiffness;
+      r.curvature.xx[i] = stiffness;
     }
     return r;
   }

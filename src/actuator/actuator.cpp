@@ -73,8 +73,7 @@ double Actuator::swing_squared(const ActuatorState& s, double dt_s) const noexce
   mean_from<double>(s.origin, s.origin.at, 0.0, mean);
   const elastic::Hessian& half = mean.slope;  // slopes are for a segment's end
   double most = 0;
-  for (int i = 0; i < motors<double>(); ++i)
-    most = std::max(most, 2.0 * (i == 0 ? half.x0x0 : half.x1x1) * dt_s * dt_s / sides_[i].motor.inertia_kgm2);
+  for (int i = 0; i < motors<double>(); ++i) most = std::max(most, 2.0 * half.xx[i] * dt_s * dt_s / sides_[i].motor.inertia_kgm2);
   return most;
 }
 

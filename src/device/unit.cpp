@@ -5,6 +5,7 @@
 
 #include "device/numbers.hpp"
 #include "device/unit_lanes.hpp"
+#include "device/widest.hpp"
 
 namespace vsa::device {
 namespace {
@@ -118,11 +119,14 @@ double Unit::step_held(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, cons
 
 /// The usual step, all of it in one function.
 [[gnu::flatten]] double Unit::end_whole(UnitState& s, StepPlan& plan) noexcept {
-  double torque = 0;
-  begin_trials(s, plan);
-  settled_ = solve_whole<double>(steps<double>(), s, plan, seconds(plan.dt_ns), torque);
-  s.started = true;
-  return torque;
+  const auto step = [&] {
+    double torque = 0;
+    begin_trials(s, plan);
+    settled_ = solve_whole<double>(steps<double>(), s, plan, seconds(plan.dt_ns), torque);
+    s.started = true;
+    return torque;
+  };
+  return kHasAvx512 ? widest(step) : step();
 }
 
 double Unit::end_step(UnitState& s, StepPlan& plan) noexcept {

@@ -175,8 +175,8 @@ class AloneSolver {
   void guess() noexcept {
     gradient_ = gradient();
     const Truth good = factor(lanes::truth<T>(true));
-    newton(good);
-    dy_ = lanes::select(good, lanes::clamp(dy_ + move_, -T(solver::kReach_rad), solver::kReach_rad), dy_);
+    const T step = -gradient_ * factor_;  // not by way of move_: a number that was just stored comes late
+    dy_ = lanes::select(good, lanes::clamp(dy_ + step, -T(solver::kReach_rad), solver::kReach_rad), dy_);
   }
   Truth search(Truth all) noexcept;
 

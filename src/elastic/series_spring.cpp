@@ -15,7 +15,7 @@ Response SeriesSpring::evaluate(const Positions& at) const noexcept {
   r.load[0] = torque;
   r.curvature.qq = stiffness_;
   r.curvature.qx[0] = -stiffness_;
-  r.curvature.x0x0 = stiffness_;
+  r.curvature.xx[0] = stiffness_;
   return r;
 }
 
@@ -26,7 +26,7 @@ SegmentMean SeriesSpring::mean_over(const Positions& from, const Positions& to) 
   mean.load[0] = torque;
   mean.slope.qq = 0.5 * stiffness_;
   mean.slope.qx[0] = -0.5 * stiffness_;
-  mean.slope.x0x0 = 0.5 * stiffness_;
+  mean.slope.xx[0] = 0.5 * stiffness_;
   return mean;
 }
 

@@ -14,9 +14,9 @@ void add_scaled(Hessian& sum, const Hessian& h, double w) noexcept {
   sum.qq += w * h.qq;
   sum.qx[0] += w * h.qx[0];
   sum.qx[1] += w * h.qx[1];
-  sum.x0x0 += w * h.x0x0;
+  sum.xx[0] += w * h.xx[0];
   sum.x0x1 += w * h.x0x1;
-  sum.x1x1 += w * h.x1x1;
+  sum.xx[1] += w * h.xx[1];
 }
 
 }  // namespace

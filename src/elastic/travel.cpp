@@ -31,9 +31,9 @@ std::array<double, 2> Travel::loads(const std::array<double, 2>& own) const noex
 Hessian Travel::curvature(Hessian c) const noexcept {
   c.qq *= rho_ * rho_;
   for (std::size_t i = 0; i < 2; ++i) c.qx[i] *= rho_ * h_[i];
-  c.x0x0 *= h_[0] * h_[0];
+  c.xx[0] *= h_[0] * h_[0];
   c.x0x1 *= h_[0] * h_[1];
-  c.x1x1 *= h_[1] * h_[1];
+  c.xx[1] *= h_[1] * h_[1];
   return c;
 }
 

@@ -85,7 +85,7 @@ Response TwoSinh::evaluate(const Positions& at) const noexcept {
     r.torque -= s.torque;
     r.curvature.qq += s.stiffness;
     r.curvature.qx[i] = -s.stiffness;
-    (i == 0 ? r.curvature.x0x0 : r.curvature.x1x1) = s.stiffness;
+    r.curvature.xx[i] = s.stiffness;
   }
   return r;
 }
@@ -96,14 +96,13 @@ std::array<double, 2> TwoSinh::signed_energies(const Positions& at) const noexce
 
 SegmentMean TwoSinh::mean_over(const Positions& from, const Positions& to) const noexcept {
   SegmentMean mean;
-  std::array<double, 2> slope{};
   for (std::size_t i = 0; i < 2; ++i) {
     const Mean m = this->mean(i, from.q - from.x[i], to.q - to.x[i]);
     mean.load[i] = m.torque;
     mean.slope.qx[i] = -m.slope;
-    slope[i] = m.slope;
+    mean.slope.xx[i] = m.slope;
   }
-  sum(slope, mean);
+  sum(mean);
   return mean;
 }
 
@@ -113,8 +112,8 @@ Origin TwoSinh::origin(const Positions& at) const noexcept {
     const double deflection = at.q - at.x[i];
     if (std::abs(deflection) > params_.linear_beyond_rad) continue;  // the tangent needs none
     const Hyperbolic h = hyperbolic(params_.a_per_rad[i] * deflection);
-    here.kept[2 * i] = h.sinh;
-    here.kept[2 * i + 1] = h.cosh_less_1;
+    here.kept[i] = h.sinh;
+    here.kept_too[i] = h.cosh_less_1;
   }
   return here;
 }

@@ -103,8 +103,8 @@ double static_stiffness(const Plant& plant, const Loops& loops) {
     const double p_V_per_rad = loops.motors.empty() ? 0.0 : loops.motors[static_cast<std::size_t>(i)].p_V_per_rad;
     shaft += s.tendon_stiffness;
     across[i] = h.qx[i] - s.tendon_stiffness;
-    own(i, i) = (i == 0 ? h.x0x0 : h.x1x1) + s.tendon_stiffness + s.stuck_stiffness +
-                plant.motor[i].torque_constant_Nm_per_A * s.amps_per_volt * p_V_per_rad;
+    own(i, i) =
+        h.xx[i] + s.tendon_stiffness + s.stuck_stiffness + plant.motor[i].torque_constant_Nm_per_A * s.amps_per_volt * p_V_per_rad;
     if (i == 1) own(0, 1) = own(1, 0) = h.x0x1;
   }
   const double left = shaft - across.dot(own.completeOrthogonalDecomposition().solve(across));

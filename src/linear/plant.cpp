@@ -178,7 +178,7 @@ Eigen::MatrixXd state_matrix(const Plant& p) {
   const int n = p.states();
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
   const elastic::Hessian& h = p.curvature;
-  const std::array<double, 2> own{h.x0x0, h.x1x1};
+  const std::array<double, 2> own = h.xx;
   a(0, 1) = 1;
   a(1, 0) = -(h.qq + p.shaft_stiffness) / p.inertia;
   a(1, 1) = -p.damping / p.inertia;

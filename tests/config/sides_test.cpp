@@ -131,7 +131,7 @@ class Screwed final : public elastic::Transmission {
     const double d = at.q - at.x[0], k = 1 + 100 * at.x[1] * at.x[1];
     elastic::Response r{};
     r.energy = 0.5 * k * d * d, r.torque = -k * d, r.load = {k * d, -100 * at.x[1] * d * d};
-    r.curvature = {.qq = k, .qx = {-k, 200 * at.x[1] * d}, .x0x0 = k, .x0x1 = -200 * at.x[1] * d, .x1x1 = 100 * d * d};
+    r.curvature = {.qq = k, .qx = {-k, 200 * at.x[1] * d}, .xx = {k, 100 * d * d}, .x0x1 = -200 * at.x[1] * d};
     return r;
   }
   [[nodiscard]] std::array<double, 2> references(const elastic::EquilibriumPreset& c) const noexcept override {

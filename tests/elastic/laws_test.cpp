@@ -32,7 +32,7 @@ double* coordinate(Positions& p, int i) { return i == 0 ? &p.q : &p.x[static_cas
 double gradient(const vsa::elastic::Response& r, int i) { return i == 0 ? -r.torque : -r.load[static_cast<std::size_t>(i - 1)]; }
 
 double hessian(const vsa::elastic::Hessian& h, int i, int j) {
-  const double m[3][3] = {{h.qq, h.qx[0], h.qx[1]}, {h.qx[0], h.x0x0, h.x0x1}, {h.qx[1], h.x0x1, h.x1x1}};
+  const double m[3][3] = {{h.qq, h.qx[0], h.qx[1]}, {h.qx[0], h.xx[0], h.x0x1}, {h.qx[1], h.x0x1, h.xx[1]}};
   return m[i][j];
 }
 
@@ -42,7 +42,7 @@ TEST(ElasticLaws, TorqueAndLoadsAreTheNegativeGradientOfTheEnergy) {
     for (int n = 0; n < 200; ++n) {
       const Positions at = random_place(l, rng);
       const auto r = l.law->evaluate(at);
-      const double scale = 1 + std::abs(r.curvature.qq) + std::abs(r.curvature.x1x1);
+      const double scale = 1 + std::abs(r.curvature.qq) + std::abs(r.curvature.xx[1]);
       for (int i = 0; i < 3; ++i) {
         Positions up = at, down = at;
         const double h = 1e-5;
@@ -93,7 +93,7 @@ TEST(ElasticLaws, TheSegmentMeansSlopeIsItsDerivativeAtTheEnd) {
         const double dq = -(mu.torque - md.torque) / 2e-5;
         const double d0 = -(mu.load[0] - md.load[0]) / 2e-5;
         const double d1 = -(mu.load[1] - md.load[1]) / 2e-5;
-        const double tolerance = (closed ? 1e-6 : 1e-5) * (1 + std::abs(m.slope.qq) + std::abs(m.slope.x1x1));
+        const double tolerance = (closed ? 1e-6 : 1e-5) * (1 + std::abs(m.slope.qq) + std::abs(m.slope.xx[1]));
         EXPECT_NEAR(hessian(m.slope, i, 0), dq, tolerance) << l.name;
         EXPECT_NEAR(hessian(m.slope, i, 1), d0, tolerance) << l.name;
         EXPECT_NEAR(hessian(m.slope, i, 2), d1, tolerance) << l.name;
@@ -168,8 +168,8 @@ TEST(ElasticLaws, AreFiniteAndStoreNothingNegativeFarOutsideOfTheirReachToo) {
       const auto r = l.law->evaluate(a);
       EXPECT_GE(r.energy, -1e-12 * std::abs(r.torque)) << l.name;
       const SegmentMean m = l.law->mean_over(a, b);
-      for (const double v : {r.energy, r.torque, r.load[0], r.load[1], r.curvature.qq, r.curvature.x0x1, r.curvature.x1x1, m.torque,
-                             m.load[0], m.load[1], m.slope.qq, m.slope.x0x0, m.slope.x1x1})
+      for (const double v : {r.energy, r.torque, r.load[0], r.load[1], r.curvature.qq, r.curvature.x0x1, r.curvature.xx[1],
+                             m.torque, m.load[0], m.load[1], m.slope.qq, m.slope.xx[0], m.slope.xx[1]})
         EXPECT_TRUE(std::isfinite(v)) << l.name;
     }
   }
@@ -289,7 +289,7 @@ TEST(ElasticLaws, GoOnSmoothlyBeyondAPivotsStop) {
     const double stop = l.name == "lever_pivot" ? 2.0 : 3.2, step = 1e-6;
     EXPECT_NEAR(at(stop + step).energy, at(stop - step).energy, 1e-3);
     EXPECT_NEAR(at(stop + step).load[1], at(stop - step).load[1], 1e-3);
-    EXPECT_NEAR(at(stop + step).curvature.x1x1, at(stop - step).curvature.x1x1, 1e-3);
+    EXPECT_NEAR(at(stop + step).curvature.xx[1], at(stop - step).curvature.xx[1], 1e-3);
     EXPECT_LT(at(100).energy, 1e6) << "no pole at L";
   }
 }

@@ -110,7 +110,7 @@ TEST(Table, TorqueStiffnessAndLoadHaveNoJumps) {
   const auto law = table().make(wild(random));
   const auto step = [&](const Positions& a, const Positions& b) {
     const auto x = law->evaluate(a), y = law->evaluate(b);
-    const double slope = 1e-5 * (1 + std::abs(x.curvature.qq) + std::abs(x.curvature.x1x1)) * 100;
+    const double slope = 1e-5 * (1 + std::abs(x.curvature.qq) + std::abs(x.curvature.xx[1])) * 100;
     EXPECT_NEAR(x.torque, y.torque, slope);
     EXPECT_NEAR(x.load[1], y.load[1], slope);
     EXPECT_NEAR(x.curvature.qq, y.curvature.qq, 100 * slope);
@@ -138,13 +138,13 @@ TEST(Table, MeansOverLongWaysAcrossManyCellsAreExactWithTheirSlope) {
       summed.torque += r.torque / kParts;
       summed.load[1] += r.load[1] / kParts;
       summed.slope.qq += s * r.curvature.qq / kParts;
-      summed.slope.x1x1 += s * r.curvature.x1x1 / kParts;
-      most = std::max(most, std::abs(r.curvature.x1x1));
+      summed.slope.xx[1] += s * r.curvature.xx[1] / kParts;
+      most = std::max(most, std::abs(r.curvature.xx[1]));
     }
     EXPECT_NEAR(m.torque, summed.torque, 1e-5 * (1 + std::abs(m.torque)));
     EXPECT_NEAR(m.load[1], summed.load[1], 1e-4 * (1 + std::abs(m.load[1])));
     EXPECT_NEAR(m.slope.qq, summed.slope.qq, 1e-3 * (1 + m.slope.qq));
-    EXPECT_NEAR(m.slope.x1x1, summed.slope.x1x1, 1e-5 + 10 * most / kParts);
+    EXPECT_NEAR(m.slope.xx[1], summed.slope.xx[1], 1e-5 + 10 * most / kParts);
   }
 }
 

@@ -46,12 +46,12 @@ TEST(Travel, HasTheDerivativesOfItsEnergy) {
       up.x[i] += kStep, down.x[i] -= kStep;
       const Response a = law->evaluate(up), b = law->evaluate(down);
       const auto slope = [&](double from, double to) { return (to - from) / (2 * kStep); };
-      const double scale = std::abs(r.curvature.qq) + std::abs(r.curvature.x1x1) + 1e-3;
+      const double scale = std::abs(r.curvature.qq) + std::abs(r.curvature.xx[1]) + 1e-3;
       EXPECT_NEAR(r.load[i], -slope(b.energy, a.energy), 1e-5 * scale) << l.name;
       EXPECT_NEAR(r.curvature.qx[i], -slope(b.torque, a.torque), 1e-4 * scale) << l.name;
       EXPECT_NEAR(r.curvature.x0x1, -slope(b.load[1 - i], a.load[1 - i]), 1e-4 * scale) << l.name;
       EXPECT_NEAR(r.curvature.qx[i], slope_q(*law, at, [&](const Response& s) { return -s.load[i]; }), 1e-4 * scale) << l.name;
-      EXPECT_NEAR(i == 0 ? r.curvature.x0x0 : r.curvature.x1x1, -slope(b.load[i], a.load[i]), 1e-4 * scale) << l.name;
+      EXPECT_NEAR(r.curvature.xx[i], -slope(b.load[i], a.load[i]), 1e-4 * scale) << l.name;
     }
     const double scale = std::abs(r.curvature.qq) + 1e-3;
     EXPECT_NEAR(r.torque, -slope_q(*law, at, [](const Response& s) { return s.energy; }), 1e-5 * scale) << l.name;

@@ -37,7 +37,7 @@ class Magnets final : public elastic::Transmission {
     out.torque = -m * slope;
     out.load = {m * slope, -p_.torque_Nm_per_rad * height};
     const double tie = p_.torque_Nm_per_rad * slope;
-    out.curvature = {.qq = m * bend, .qx = {-m * bend, tie}, .x0x0 = m * bend, .x0x1 = -tie};
+    out.curvature = {.qq = m * bend, .qx = {-m * bend, tie}, .xx = {m * bend, 0}, .x0x1 = -tie};
     return out;
   }
   [[nodiscard]] std::array<double, 2> references(const elastic::EquilibriumPreset& c) const noexcept override {
@@ -114,9 +114,9 @@ TEST(LawDoor, TorqueLoadsAndCurvatureAreTheDerivativesOfTheEnergy) {
     EXPECT_NEAR(r.curvature.qq, -difference(1, 0, 0, torque), 1e-7);
     EXPECT_NEAR(r.curvature.qx[0], -difference(0, 1, 0, torque), 1e-7);
     EXPECT_NEAR(r.curvature.qx[1], -difference(0, 0, 1, torque), 1e-7);
-    EXPECT_NEAR(r.curvature.x0x0, -difference(0, 1, 0, load0), 1e-7);
+    EXPECT_NEAR(r.curvature.xx[0], -difference(0, 1, 0, load0), 1e-7);
     EXPECT_NEAR(r.curvature.x0x1, -difference(0, 0, 1, load0), 1e-7);
-    EXPECT_NEAR(r.curvature.x1x1, -difference(0, 0, 1, load1), 1e-7);
+    EXPECT_NEAR(r.curvature.xx[1], -difference(0, 0, 1, load1), 1e-7);
   }
 }
 

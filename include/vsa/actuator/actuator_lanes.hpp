@@ -22,7 +22,7 @@ namespace step {
 /// ∂²H/∂x_i².
 template <class T, class Side>
 [[nodiscard]] typename Side::Number load_curvature(const elastic::HessianOf<T>& h, const Side& side) noexcept {
-  return side(h.x0x0, h.x1x1);
+  return side(h.xx);
 }
 
 /// What a side picks of its motor: ∫ω so far.
@@ -39,7 +39,7 @@ void carry(const elastic::SegmentMeanOf<T>& mean, T dq, const std::array<T, 2>& 
   const elastic::HessianOf<T>& h = mean.slope;
   to.torque = mean.torque - (h.qq * dq + h.qx[0] * dx[0] + h.qx[1] * dx[1]);
   lanes::each_side<T>([&](auto side) {
-    side.put(to.load, side(mean.load) - (side(h.qx) * dq + side(h.x0x0, h.x0x1) * dx[0] + side(h.x0x1, h.x1x1) * dx[1]));
+    side.put(to.load, side(mean.load) - (side(h.qx) * dq + side(h.xx[0], h.x0x1) * dx[0] + side(h.x0x1, h.xx[1]) * dx[1]));
   });
 }
 

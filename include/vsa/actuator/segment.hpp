@@ -130,8 +130,8 @@ class SegmentOf {
     static auto fields(auto& s, auto&& visit) {
       return visit(s.dq, s.dx, s.gain, s.friction[0].displacement, s.friction[0].torque, s.friction[0].anchor_travel,
                    s.friction[1].displacement, s.friction[1].torque, s.friction[1].anchor_travel, s.mean.torque, s.mean.load,
-                   s.mean.slope.qq, s.mean.slope.qx, s.mean.slope.x0x0, s.mean.slope.x0x1, s.mean.slope.x1x1, s.rub.dx, s.rub.dy,
-                   s.rub.damping, s.straight_J, s.tension, s.stick, s.slope);
+                   s.mean.slope.qq, s.mean.slope.qx, s.mean.slope.xx, s.mean.slope.x0x1, s.rub.dx, s.rub.dy, s.rub.damping,
+                   s.straight_J, s.tension, s.stick, s.slope);
     }
   };
   std::array<const drive::MotorStepper*, 2> stepper{};

@@ -58,10 +58,9 @@ void Actuator::add_tendon_friction(const SegmentOf<T>& seg, TrialOf<T>& t, const
   elastic::SegmentMeanOf<T>& mean = t.mean;
   const LeadOf<T>& lead = seg.in.lead;
   const T shift = seg.shift(t.dq), ahead_rad = t.dq * seg.per_share - lead.drift;  // q' − y' of the step
-  std::array<T, 2> xxs{mean.slope.x0x0, mean.slope.x1x1};
   each_spring<T>([&](auto side) {
     using N = typename decltype(side)::Number;
-    const N xx = side(xxs), deflection = t.dq - side(t.dx), before = side(seg.w), load = side(mean.load);
+    const N xx = side(mean.slope.xx), deflection = t.dq - side(t.dx), before = side(seg.w), load = side(mean.load);
     // The mean tension times the deflection's change is the energy's change: w at the end costs no call of the law.
     const N signed_tension = load - 2.0 * xx * shift;
     const N energy = lanes::max(lanes::abs(before) + signed_tension * deflection, 0.0);
@@ -86,15 +85,13 @@ void Actuator::add_tendon_friction(const SegmentOf<T>& seg, TrialOf<T>& t, const
     side.put(mean.slope.qx, side(mean.slope.qx) - dx);
     side.add(mean.torque, torque);
     side.add(mean.slope.qq, dx);
-    side.put(xxs, xx + dx);
+    side.put(mean.slope.xx, xx + dx);
   });
-  mean.slope.x0x0 = xxs[0];
-  mean.slope.x1x1 = xxs[1];
 }
 
 template <class T, class Of>
 typename Of::Number Actuator::spring_slope(const TrialOf<T>& t, const Of& side) noexcept {
-  return side(t.mean.slope.x0x0, t.mean.slope.x1x1) - side(t.rub.dx);
+  return side(t.mean.slope.xx) - side(t.rub.dx);
 }
 
 /// How far the springs' deflections may be corrected by the slopes alone: min(a/b, c/d) of each by one division. Nothing where it isn't

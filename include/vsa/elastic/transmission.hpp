@@ -39,13 +39,10 @@ template <class T>
 struct HessianOf {
   T qq = 0;               ///< σ
   std::array<T, 2> qx{};  ///< ∂²H/∂q∂x_i, N·m/rad
-  /// ∂²H/∂x_i∂x_j, N·m/rad, symmetric.
-  T x0x0 = 0;
-  T x0x1 = 0;  ///< likewise
-  T x1x1 = 0;  ///< likewise
+  std::array<T, 2> xx{};  ///< ∂²H/∂x_i², N·m/rad; side by side, as one unit's sides take them
+  T x0x1 = 0;             ///< ∂²H/∂x₀∂x₁, N·m/rad
   static auto fields(auto& s, auto&& visit) {
-    return visit("qq", "N·m/rad", s.qq, "qx", "N·m/rad", s.qx, "x0x0", "N·m/rad", s.x0x0, "x0x1", "N·m/rad", s.x0x1, "x1x1",
-                 "N·m/rad", s.x1x1);
+    return visit("qq", "N·m/rad", s.qq, "qx", "N·m/rad", s.qx, "xx", "N·m/rad", s.xx, "x0x1", "N·m/rad", s.x0x1);
   }
 };
 using Hessian = HessianOf<double>;  ///< of one unit
@@ -78,9 +75,12 @@ using SegmentMean = SegmentMeanOf<double>;  ///< of one unit
 template <class T>
 struct OriginOf {
   PositionsOf<T> at;          ///< shaft and inputs there
-  std::array<T, 4> kept{};    ///< of the law's own making
+  std::array<T, 2> kept{},    ///< of the law's own making: a number of each side
+      kept_too{};             ///< and another
   lanes::Count<T> moves = 0;  ///< since it was worked out from `at` alone
-  static auto fields(auto& s, auto&& visit) { return visit("at", "", s.at, "kept", "", s.kept, "moves", "", s.moves); }
+  static auto fields(auto& s, auto&& visit) {
+    return visit("at", "", s.at, "kept", "", s.kept, "kept_too", "", s.kept_too, "moves", "", s.moves);
+  }
 };
 using Origin = OriginOf<double>;  ///< of one unit
 

@@ -46,7 +46,7 @@ class TwoSinh final : public Transmission {
   [[nodiscard]] double energy(const Positions& at) const noexcept override;
   /// Closed form: the mean of k sinh(a δ) from δ₀ to δ₁ is k sinh(a m) sinhc(a Δ/2), m = (δ₀+δ₁)/2, Δ = δ₁−δ₀.
   [[nodiscard]] SegmentMean mean_over(const Positions& from, const Positions& to) const noexcept override;
-  /// Kept: sinh and cosh − 1 of each a_i δ_i. From there the addition theorems give a segment's means and the next origin by short
+  /// Kept: sinh of both a_i δ_i, then cosh − 1. From there the addition theorems give a segment's means and the next origin by short
   /// series, without exp, as long as no a_i δ_i moves by more than 0.1; every 64th origin is worked out anew.
   [[nodiscard]] Origin origin(const Positions& at) const noexcept override;
   /// By addition theorems, see origin().
@@ -102,7 +102,7 @@ class TwoSinh final : public Transmission {
   void mean_far(const Side& side, Mask close, typename Side::Number begin, typename Side::Number end, T ahead,
                 MeanOf<typename Side::Number>& mean) const noexcept;
   template <class T>
-  static void sum(const std::array<T, 2>& slope, SegmentMeanOf<T>& mean) noexcept;
+  static void sum(SegmentMeanOf<T>& mean) noexcept;
   template <class Side, class T>
   [[nodiscard]] auto energy_near(const Side& side, const OriginOf<T>& here) const noexcept;
   template <class Side>

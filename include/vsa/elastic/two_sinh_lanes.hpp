@@ -77,8 +77,7 @@ void TwoSinh::move_lanes(OriginOf<T>& here, const PositionsOf<T>& to) const noex
       anew = anew | !near(side, begin, move);
     }
     const N z = side(params_.a_per_rad) * move;
-    const auto h =
-        series::moved<N>(side(here.kept[0], here.kept[2]), side(here.kept[1], here.kept[3]), z * series::sinhc(z).value, z);
+    const auto h = series::moved<N>(side(here.kept), side(here.kept_too), z * series::sinhc(z).value, z);
     side.put(sinh, h.sinh);
     side.put(less_1, h.cosh_less_1);
   });
@@ -90,17 +89,20 @@ void TwoSinh::move_lanes(OriginOf<T>& here, const PositionsOf<T>& to) const noex
   }
   // Member by member, as in all that a step does: a copy of the whole would wait for numbers that were stored one by one.
   here.at.q = to.q;
-  for (std::size_t i = 0; i < 2; ++i) {
-    here.at.x[i] = to.x[i];
-    here.kept[2 * i] = sinh[i];
-    here.kept[2 * i + 1] = less_1[i];
-  }
+  lanes::each_side<T>([&](auto side) {
+    side.put(here.at.x, side(to.x));
+    side.put(here.kept, side(sinh));
+    side.put(here.kept_too, side(less_1));
+  });
   here.moves = here.moves + 1;
   if constexpr (!lanes::kScalar<T>) {
     for (int lane = 0; lanes::any(anew) && lane < T::kWidth; ++lane) {
       if (!anew.lane(lane)) continue;
       const Origin one = origin({to.q.lane(lane), {to.x[0].lane(lane), to.x[1].lane(lane)}});
-      for (std::size_t k = 0; k < 4; ++k) here.kept[k].set_lane(lane, one.kept[k]);
+      for (std::size_t i = 0; i < 2; ++i) {
+        here.kept[i].set_lane(lane, one.kept[i]);
+        here.kept_too[i].set_lane(lane, one.kept_too[i]);
+      }
       here.moves.set_lane(lane, one.moves);
     }
   }
@@ -119,23 +121,20 @@ auto TwoSinh::mean_near(const Side& side, const OriginOf<T>& from, typename Side
     sinh_middle = middle * series::sinhc(middle).value;
     begin += ahead;
   }
-  const auto h = series::moved<N>(side(from.kept[0], from.kept[2]), side(from.kept[1], from.kept[3]), sinh_middle, middle);
+  const auto h = series::moved<N>(side(from.kept), side(from.kept_too), sinh_middle, middle);
   return {k * h.sinh * s.value + half_c * (begin + begin + move), 0.5 * a * k * (h.cosh * s.value + h.sinh * s.slope) + half_c};
 }
 
-/// What the springs' own loads and slopes amount to.
+/// What the springs' own loads and slopes, xx, amount to.
 template <class T>
-void TwoSinh::sum(const std::array<T, 2>& slope, SegmentMeanOf<T>& mean) noexcept {
+void TwoSinh::sum(SegmentMeanOf<T>& mean) noexcept {
   mean.torque = 0.0 - mean.load[0] - mean.load[1];
-  mean.slope.qq = slope[0] + slope[1];
-  mean.slope.x0x0 = slope[0];
+  mean.slope.qq = mean.slope.xx[0] + mean.slope.xx[1];
   mean.slope.x0x1 = 0.0;
-  mean.slope.x1x1 = slope[1];
 }
 
 template <class T>
 void TwoSinh::mean_lanes(const OriginOf<T>& from, const PositionsOf<T>& to, T ahead, SegmentMeanOf<T>& mean) const noexcept {
-  std::array<T, 2> slope;
   lanes::each_side<T>([&](auto side) {
     using N = typename decltype(side)::Number;
     const N begin = from.at.q - side(from.at.x), end = to.q - side(to.x), move = end - begin;
@@ -152,9 +151,9 @@ void TwoSinh::mean_lanes(const OriginOf<T>& from, const PositionsOf<T>& to, T ah
     if (!lanes::all(close)) mean_far(side, close, begin, end, ahead, m);
     side.put(mean.load, m.torque);
     side.put(mean.slope.qx, -m.slope);
-    side.put(slope, m.slope);
+    side.put(mean.slope.xx, m.slope);
   });
-  sum(slope, mean);
+  sum(mean);
 }
 
 /// Those that went far, one by one.
@@ -183,8 +182,7 @@ TangentOf<T> TwoSinh::tangent_lanes(const OriginOf<T>& here) const noexcept {
     const auto k = side(params_.k_Nm), a = side(params_.a_per_rad), c = side(params_.c_Nm_per_rad);
     const N deflection = here.at.q - side(here.at.x), beyond = lanes::abs(deflection) - params_.linear_beyond_rad;
     const auto past = beyond > 0.0;
-    N stiffness = a * k * (1.0 + side(here.kept[1], here.kept[3])) + c,
-      tension = lanes::abs(k * side(here.kept[0], here.kept[2]) + c * deflection);
+    N stiffness = a * k * (1.0 + side(here.kept_too)) + c, tension = lanes::abs(k * side(here.kept) + c * deflection);
     if (lanes::any(past)) {
       const auto edge = side(edge_[0].stiffness, edge_[1].stiffness);
       stiffness = lanes::select(past, N(edge), stiffness);
@@ -202,7 +200,7 @@ auto TwoSinh::energy_near(const Side& side, const OriginOf<T>& here) const noexc
   using N = typename Side::Number;
   const N deflection = here.at.q - side(here.at.x), beyond = lanes::abs(deflection) - params_.linear_beyond_rad;
   const auto past = beyond > 0.0;
-  const N inside = side(params_.k_Nm) / side(params_.a_per_rad) * side(here.kept[1], here.kept[3]) +
+  const N inside = side(params_.k_Nm) / side(params_.a_per_rad) * side(here.kept_too) +
                    0.5 * side(params_.c_Nm_per_rad) * deflection * deflection;
   if (!lanes::any(past)) return inside;
   const N further = N(side(edge_[0].torque, edge_[1].torque)) + 0.5 * beyond * side(edge_[0].stiffness, edge_[1].stiffness);

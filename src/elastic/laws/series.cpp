@@ -36,7 +36,7 @@ class SeriesHardening : public Transmission {
     r.energy = (0.5 * k_ + 0.25 * c_ * d * d) * d * d;
     r.torque = -torque;
     r.load[0] = torque;
-    r.curvature.qq = r.curvature.x0x0 = stiffness;
+    r.curvature.qq = r.curvature.xx[0] = stiffness;
     r.curvature.qx[0] = -stiffness;
     return r;
   }

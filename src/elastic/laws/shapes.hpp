@@ -29,7 +29,7 @@ class TwoSprings : public Transmission {
       r.load[i] = kWay[i] * s.torque;
       r.curvature.qq += s.stiffness;
       r.curvature.qx[i] = -s.stiffness;
-      (i == 0 ? r.curvature.x0x0 : r.curvature.x1x1) = s.stiffness;
+      r.curvature.xx[i] = s.stiffness;
     }
     return r;
   }
@@ -41,7 +41,7 @@ class TwoSprings : public Transmission {
       m.load[i] = kWay[i] * s.torque;
       m.slope.qq += s.slope;
       m.slope.qx[i] = -s.slope;
-      (i == 0 ? m.slope.x0x0 : m.slope.x1x1) = s.slope;
+      m.slope.xx[i] = s.slope;
     }
     return m;
   }
@@ -71,7 +71,7 @@ struct Potential {
 
 /// What a law with a mover says: δ = q − x₀, p = x₁.
 [[nodiscard]] inline Response response_of(const Potential& h) noexcept {
-  return {h.energy, -h.d, {h.d, -h.p}, {.qq = h.dd, .qx = {-h.dd, h.dp}, .x0x0 = h.dd, .x0x1 = -h.dp, .x1x1 = h.pp}};
+  return {h.energy, -h.d, {h.d, -h.p}, {.qq = h.dd, .qx = {-h.dd, h.dp}, .xx = {h.dd, h.pp}, .x0x1 = -h.dp}};
 }
 
 /// H = ½ κ e² of a spring with elongation e(δ, p), which isn't pushed: 0 below e = 0. `e`: that and its derivatives.
