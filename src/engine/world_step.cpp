@@ -67,7 +67,8 @@ void World::Impl::drive() {
     tell_joints(slot);
     for (host::JointIn& joint : slot.seat->in()) joint.free_acceleration_rad_per_s2 = *next++;
   }
-  group.step(substep_ns(), [this](std::size_t tree, std::span<double> out) { physics->mobility(trees[tree], out); });
+  group.update([this](std::size_t tree, std::span<double> out) { physics->mobility(trees[tree], out); });
+  group.step(substep_ns());
   for (const RobotSlot& slot : robots) {
     for (std::size_t i = 0; i < slot.joints.size(); ++i) physics->apply(slot.joints[i], slot.seat->torques()[i]);
   }
