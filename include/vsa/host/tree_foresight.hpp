@@ -25,7 +25,8 @@ class TreeForesight {
   /// What one step leaves for the next: a part of the host's state.
   struct Memory {
     double last_dt_s = 0;                      ///< length of the last step; 0: there was none
-    std::vector<double> positions, speeds;     ///< at its start, of all bodies' joints
+    std::vector<double> positions;             ///< at its start, of all bodies' joints, rad or m
+    std::vector<double> speeds;                ///< likewise, rad/s or m/s
     void forget() noexcept { last_dt_s = 0; }  ///< as before the first step
     static auto fields(auto& s, auto&& visit) {
       return visit("last_dt", "s", s.last_dt_s, "position", "rad", s.positions, "speed", "rad/s", s.speeds);

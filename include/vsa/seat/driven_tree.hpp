@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The bodies of a model and those whose joints have actuators: from them come B and what else moves the joints, which no Gazebo tells.
+// The bodies of a model and those whose joints have actuators: from them come B and what else moves the joints, which no Gazebo
+// tells.
 #pragma once
 
 #include <cmath>
@@ -50,8 +51,9 @@ class DrivenTree {
     for (double& b : out) b = static_cast<float>(b);
   }
 
-  /// Where joints without actuators are and how fast, one entry a body, rad or m: to be filled before foresee().
+  /// Where joints without actuators are, one entry a body, rad or m: to be filled before foresee().
   [[nodiscard]] std::vector<double>& positions() noexcept { return positions_; }
+  /// How fast they are, rad/s or m/s, likewise.
   [[nodiscard]] std::vector<double>& speeds() noexcept { return speeds_; }
   /// Once before each step, after update() where the bodies moved: JointIn::free_acceleration of the actuators, whose angles and speeds
   /// are there, in their order. Joints that were placed are told nothing (host/tree_foresight.hpp).
