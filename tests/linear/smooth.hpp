@@ -38,7 +38,7 @@ class Differential : public elastic::Transmission {
     r.torque = -kShaft * bend;
     r.load = {0.5 * kShaft * bend - kBetween * apart, 0.5 * kShaft * bend + kBetween * apart};
     const double own = 0.25 * kShaft + kBetween;
-    r.curvature = {kShaft, {-0.5 * kShaft, -0.5 * kShaft}, own, 0.25 * kShaft - kBetween, own};
+    r.curvature = {.qq = kShaft, .qx = {-0.5 * kShaft, -0.5 * kShaft}, .xx = {own, own}, .x0x1 = 0.25 * kShaft - kBetween};
     return r;
   }
   [[nodiscard]] std::array<double, 2> references(const elastic::EquilibriumPreset& c) const noexcept override {
