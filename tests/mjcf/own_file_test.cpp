@@ -96,9 +96,10 @@ TEST(OwnMjcf, TellsWhatItLeavesOut) {
   const std::string text = with(with(arm(), "timestep", "integrator=\"RK4\" timestep"), "</worldbody>",
                                 "</worldbody><actuator><motor joint=\"shoulder\"/></actuator>");
   const World world = World::load_string(text);
-  ASSERT_EQ(world.warnings().size(), 2u);
+  ASSERT_EQ(world.warnings().size(), 3u);
   EXPECT_NE(world.warnings()[0].find("control 0"), std::string::npos);
   EXPECT_NE(world.warnings()[1].find("semi-implicit Euler"), std::string::npos);
+  EXPECT_NE(world.warnings()[2].find("in each other from the start: arm::base and"), std::string::npos) << world.warnings()[2];
 }
 
 TEST(OwnMjcf, WithActuatorsThatHaveStatesIsRefused) {

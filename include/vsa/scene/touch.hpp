@@ -18,8 +18,9 @@ struct Contact {
 
 /// Two links whose colliding shapes are in each other.
 struct Overlap {
-  std::size_t link = 0, other = 0;  ///< into the world's links, the lower one first
-  double depth_m = 0;               ///< of their deepest contact
+  std::size_t link = 0,  ///< into the world's links
+      other = 0;         ///< likewise, the higher one
+  double depth_m = 0;    ///< of their deepest contact
 };
 
 /// A force at a point of a link and a torque on it, both in world axes; the point goes with the link.
