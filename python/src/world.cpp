@@ -119,7 +119,7 @@ constexpr const char* kLoad =
     "more\nthan the sum of the others: \"refuse\" or \"lower\" it. InputError with every problem at once.";
 
 template <class Source, class Load>
-auto loader(const Load& how) {
+auto loader(Load how) {
   return [how](const Source& source, const std::optional<double>& step_s, const std::optional<std::string>& type,
                const py::object& set, const std::string& concave, const std::string& impossible_inertia) {
     return load(source, options_of(step_s, type, set, concave, impossible_inertia), how);

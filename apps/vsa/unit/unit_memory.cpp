@@ -61,7 +61,7 @@ Memory read_page(const toml::table& unit, const char* name, const std::string& f
     try {
       throw_if_any(reader.fault(), layout);
     } catch (const InputError& error) {
-      for (Problem p : error.problems()) problems.add({file, key + "." + p.key, p.value, p.message, p.allowed});
+      for (const Problem& p : error.problems()) problems.add({file, key + "." + p.key, p.value, p.message, p.allowed});
     }
   }
   return out;

@@ -135,8 +135,9 @@ std::vector<scene::Overlap> MujocoPhysics::overlaps() const {
   for (int i = 0, count = contact_count(); i < count; ++i) {
     const mjContact& c = view_->contact[i];
     if (c.dist >= 0) continue;
-    const auto [link, other] =
-        std::minmax(objects_.geoms[static_cast<std::size_t>(c.geom1)], objects_.geoms[static_cast<std::size_t>(c.geom2)]);
+    const std::size_t first = objects_.geoms[static_cast<std::size_t>(c.geom1)],
+                      second = objects_.geoms[static_cast<std::size_t>(c.geom2)];
+    const std::size_t link = std::min(first, second), other = std::max(first, second);
     const auto same = [&](const scene::Overlap& o) { return o.link == link && o.other == other; };
     auto it = std::find_if(out.begin(), out.end(), same);
     if (it == out.end()) it = out.insert(it, {link, other, 0});
