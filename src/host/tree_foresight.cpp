@@ -103,7 +103,7 @@ void TreeForesight::foresee(const std::vector<TreeBody>& bodies, TreeInertia& in
     torques(bodies, moved_, sped_up_, torques_);
     inertia.answer(bodies, torques_, changes_);
     for (std::size_t i = 0; i < n; ++i)
-      if (nodes_[nodes_[i].root].known) out[i] = sped_up_[i] / memory.last_dt_s + static_cast<float>(changes_[i]);
+      if (nodes_[nodes_[i].root].known) out[i] = sped_up_[i] / memory.last_dt_s + changes_[i];
   }
   memory.last_dt_s = dt_s;
   std::copy(positions.begin(), positions.end(), memory.positions.begin());

@@ -80,15 +80,18 @@ bool is_zero(const char* numbers) {
 /// MuJoCo's way of saying that a robot floats: a floating joint between a link "world" that is nothing else and the root. Without both
 /// it does.
 void let_float(XMLElement& robot) {
-  XMLElement *floating = nullptr, *world = nullptr;
+  XMLElement *floating = nullptr, *world = nullptr, *root = nullptr;
   for (XMLElement* e = robot.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint")) {
     if (attribute(e->FirstChildElement("parent"), "link") != "world") continue;
     if (floating != nullptr || attribute(e, "type") != "floating") return;
     floating = e;
   }
-  for (XMLElement* e = robot.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link"))
+  if (floating == nullptr) return;
+  for (XMLElement* e = robot.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) {
     if (attribute(e, "name") == "world") world = e;
-  if (floating == nullptr || world == nullptr || !world->NoChildren()) return;
+    if (attribute(e, "name") == attribute(floating->FirstChildElement("child"), "link")) root = e;
+  }
+  if (world == nullptr || root == nullptr || root == world || !world->NoChildren()) return;
   const XMLElement* origin = floating->FirstChildElement("origin");
   if (origin != nullptr && !(is_zero(origin->Attribute("xyz")) && is_zero(origin->Attribute("rpy")))) return;
   robot.DeleteChild(floating);

@@ -47,6 +47,7 @@ std::vector<RobotFile> refused_files() {
       {"planar.urdf", "joint[slide]@type = planar"},
       {"floating_above.urdf", "joint[free]@type = floating"},
       {"floating_link.urdf", "joint[free]@type = floating"},
+      {"floating_nowhere.urdf", "joint[free]@type = floating"},
       {"gazebo_gravity_off.urdf", "r::a/gravity = false"},
       {"gazebo_not_a_number.urdf", "gazebo[a]/mu1 = slippery"},
       {"gazebo_damping_factor.urdf", "velocity_decay"},

@@ -8,7 +8,8 @@
 //     U = I S,   D = Sᵀ U + h·d + h²·k,   I_parent += I − U Uᵀ/D                                   from the leaves to the roots, once
 //     u = τ − Sᵀ p,   p_parent += p + U u/D                                                  from joint j to its root
 //     q̈ = (u − Uᵀ a_parent)/D,   a = a_parent + S q̈                                         from the roots to the leaves
-// With d and k of a damper and a spring at the joint that the engine takes implicitly (h = dt, else 0), a = 0 for the ground and a = −I⁻¹ p for a body that flies free. Four columns at
+// With d and k of a damper and a spring at the joint that the engine takes implicitly (h = dt, else 0), a = 0 for the ground and
+// a = −I⁻¹ p for a body that flies free. Four columns at
 // a time, and only as far out as their joints: B is symmetric. Contacts aren't in it. Reference: R. Featherstone, Rigid Body Dynamics Algorithms, ch. 7.
 #pragma once
 
