@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "device/lanes/table.hpp"
-#include "device/unit_lanes.hpp"
+#include "vsa/device/unit.hpp"
 
 namespace vsa::device {
 namespace {
@@ -175,31 +175,6 @@ void JointSolver::predict(std::span<const JointInStep> joints) noexcept {
   for (std::size_t i = 0; i < n_; ++i) joints[i].plan->dy = dy_[i];
 }
 
-namespace {
-
-struct Alone {
-  const JointInStep& j;
-  double free, last_torque;
-  [[nodiscard]] double dy() const noexcept { return j.plan->dy; }
-  [[nodiscard]] ShaftTorque foresee(double at) const noexcept { return j.unit->foresee(*j.state, *j.plan, at); }
-  ShaftTorque attempt(double at, bool rough, bool which) const noexcept {
-    return which ? j.unit->attempt(*j.state, *j.plan, at, rough) : ShaftTorque{};
-  }
-  [[nodiscard]] ShaftTorque carried(double move) const noexcept { return j.unit->carried(*j.state, *j.plan, move); }
-};
-
-}  // namespace
-
-bool JointSolver::solve_alone(const JointInStep& j, double& torque) noexcept {
-  j.unit->begin_trials(*j.state, *j.plan);
-  Alone joint{j, j.plan->free, j.plan->last_torque};
-  AloneSolver<double, Alone> solver;
-  const bool settled = solver.solve(joint, inertia_[0]);
-  torque = solver.torque;
-  j.unit->finish(*j.state, *j.plan, solver.move(), torque);
-  return settled;
-}
-
 /// `keep`: after a whole move_, who took it for the last has what that foretold.
 void JointSolver::attempt(std::span<const JointInStep> joints, bool rough, bool keep) noexcept {
   trials_.attempt(joints, tried_, dy_, rough, keep);
@@ -245,7 +220,10 @@ bool JointSolver::search(std::span<const JointInStep> joints) noexcept {
 }
 
 bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
-  if (n_ == 1) return solve_alone(joints[0], torques[0]);
+  if (n_ == 1) {
+    torques[0] = joints[0].unit->end_step(*joints[0].state, *joints[0].plan);
+    return joints[0].unit->settled();
+  }
   trials_.begin(joints, tried_, kReach_rad);
   for (std::size_t i = 0; i < n_; ++i) dy_[i] = std::clamp(tried_.free[i], -kReach_rad, kReach_rad);
   guess();

@@ -42,7 +42,7 @@ JointTrials::JointTrials(std::size_t joints, std::size_t together, std::string_v
   if (instructions != "none") {
     const LaneTable& first = lane_table(instructions);
     for (const LaneTable& table : lane_tables())
-      if (table.width <= first.width) {
+      if (table.width <= first.width && joints > 1) {  // one alone has nobody beside it
         tables_.push_back({&table, std::vector<Line>(lines(table.plan_bytes))});
         table.begin_plan(tables_.back().plan.data());
       }

@@ -26,7 +26,16 @@ bool idle(const firmware::ProgramState& p, std::int64_t now_ns) noexcept {
 
 }  // namespace
 
-PlainTicks::PlainTicks(const UnitConfig& c)
+PlainTicks::Duties::Duties(const Bridges& bridges) noexcept : of(bridges) {
+  for (std::size_t m = 0; m < 2; ++m) {
+    for (std::size_t i = 0; i < volts[m].size(); ++i) {
+      const double output = (static_cast<double>(i) - kFull) / of.limit_pct;
+      volts[m][i] = of.polarity[m] * drive::bridge_voltage(of.bridge[m], of.supply_V, output, of.limit_pct / kDutyScale);
+    }
+  }
+}
+
+PlainTicks::PlainTicks(const UnitConfig& c, const PlainTicks* like)
     : supply_V_(c.actuator.supply_V), supply_(firmware::supply_reading(sensor::supply_adc(c.actuator.supply_V))) {
   common_.encoder[2] = c.actuator.shaft_encoder;
   common_.shaft_zero_rad = c.actuator.shaft_zero_rad;
@@ -36,19 +45,19 @@ PlainTicks::PlainTicks(const UnitConfig& c)
              !params.repairs.jump_check_in_16_bits && !params.repairs.watchdog_stops_motors && supply_.value > 0 &&
              common_.limit_pct > 0;
   if (!program_) return;
+  Bridges bridges{supply_V_, common_.limit_pct, {}, {}};
   for (std::size_t m = 0; m < 2; ++m) {
     const actuator::SideParams& side = c.actuator.side[m];
     const drive::MotorParams motor = drive::at_pulley(side.motor, side.gearbox.ratio);
     common_.encoder[m] = side.encoder;
     common_.back_emf_Vs_per_rad[m] = motor.back_emf_Vs_per_rad;
     common_.resistance_Ohm[m] = motor.resistance_Ohm + side.bridge.switch_Ohm;
-    volts_of_duty_[m].resize(2 * kFull + 1);
-    common_.volts_of_duty[m] = volts_of_duty_[m].data();
-    for (std::size_t i = 0; i < volts_of_duty_[m].size(); ++i) {
-      const double output = (static_cast<double>(i) - kFull) / common_.limit_pct;
-      volts_of_duty_[m][i] = side.polarity * drive::bridge_voltage(side.bridge, supply_V_, output, common_.limit_pct / kDutyScale);
-    }
+    bridges.bridge[m] = side.bridge;
+    bridges.polarity[m] = side.polarity;
   }
+  const bool shares = like != nullptr && like->duties_ != nullptr && like->duties_->of == bridges;
+  duties_ = shares ? like->duties_ : std::make_shared<const Duties>(bridges);
+  for (std::size_t m = 0; m < 2; ++m) common_.volts_of_duty[m] = duties_->volts[m].data();
 }
 
 bool PlainTicks::plain(const UnitState& s, std::int64_t now_ns) const noexcept {
@@ -71,7 +80,7 @@ bool PlainTicks::volts(const std::array<std::int32_t, 2>& duty_pct, std::int32_t
   for (std::size_t m = 0; m < 2; ++m) {
     const std::int32_t at = duty_pct[m] + kFull;
     if (at < 0 || at > 2 * kFull) return false;
-    volts[m] = volts_of_duty_[m][static_cast<std::size_t>(at)];
+    volts[m] = duties_->volts[m][static_cast<std::size_t>(at)];
   }
   return true;
 }

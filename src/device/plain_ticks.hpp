@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "device/lanes/table.hpp"
+#include "device/numbers.hpp"
+#include "vsa/drive/bridge.hpp"
 #include "vsa/firmware/controller.hpp"
 
 namespace vsa::device {
@@ -18,7 +20,8 @@ struct UnitConfig;
 
 class PlainTicks {
  public:
-  explicit PlainTicks(const UnitConfig& config);
+  /// `like`: whose table of duties serves here, too, where it is of the same bridges; null: nobody's.
+  explicit PlainTicks(const UnitConfig& config, const PlainTicks* like = nullptr);
 
   /// Whether the ticks of a unit of this type from then on are plain: nothing but time and references will change what they do.
   [[nodiscard]] bool plain(const UnitState& state, std::int64_t now_ns) const noexcept;
@@ -32,7 +35,20 @@ class PlainTicks {
   bool program_ = false;  // one that has such ticks
   double supply_V_ = 0;
   MilliVolt supply_{};
-  std::array<std::vector<double>, 2> volts_of_duty_;  // its numbers stay where they are when this object moves
+  struct Bridges {
+    double supply_V = 0;
+    std::int32_t limit_pct = 0;
+    std::array<drive::BridgeParams, 2> bridge;
+    std::array<int, 2> polarity{};
+    bool operator==(const Bridges&) const = default;
+  };
+  /// What the bridges make of duties of −100 … 100 %, V.
+  struct Duties {
+    explicit Duties(const Bridges& bridges) noexcept;
+    Bridges of;
+    std::array<std::array<double, 2 * kFull + 1>, 2> volts{};
+  };
+  std::shared_ptr<const Duties> duties_;
   TickStep common_;
 };
 

@@ -16,6 +16,20 @@ std::array<double, 2> gone(const actuator::ActuatorState& from, const actuator::
   return {to.motor[0].angle - from.motor[0].angle, to.motor[1].angle - from.motor[1].angle};
 }
 
+/// A joint alone whose step has several segments.
+struct Alone {
+  Unit& unit;
+  UnitState& state;
+  StepPlan& plan;
+  double free, last_torque;
+  [[nodiscard]] double dy() const noexcept { return plan.dy; }
+  [[nodiscard]] ShaftTorque foresee(double at) const noexcept { return unit.expect(state, plan, at); }
+  ShaftTorque attempt(double at, bool rough, bool which) const noexcept {
+    return which ? unit.attempt(state, plan, at, rough) : ShaftTorque{};
+  }
+  [[nodiscard]] ShaftTorque carried(double move) const noexcept { return unit.carried(state, plan, move); }
+};
+
 }  // namespace
 
 // A step is many small functions, and calls between them cost a tenth of it: each of these is one piece.
@@ -82,9 +96,9 @@ double Unit::step(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, const Sha
   StepPlan& plan = plan_;
   begin_step(s, plan, t_ns, dt_ns, in);
   if (first_tick_ns(t_ns + 1) < t_ns + dt_ns) {
-    const JointInStep joint{this, &s, &plan};
-    alone_.set({&in.inverse_inertia, 1}, dt_ns);
-    alone_.predict({&joint, 1});
+    Alone joint{*this, s, plan, plan.free, plan.last_torque};
+    plan.dy = s.started ? AloneSolver<double, Alone>().predict(joint, coupled_inertia(in.inverse_inertia, seconds(dt_ns)))
+                        : std::clamp(plan.free, -solver::kReach_rad, solver::kReach_rad);
   }
   for (std::int64_t at = first_tick_ns(t_ns); at < t_ns + dt_ns; at += kTickNs) {
     if (servo_) {
@@ -131,11 +145,12 @@ double Unit::step_held(UnitState& s, std::int64_t t_ns, std::int64_t dt_ns, cons
 
 double Unit::end_step(UnitState& s, StepPlan& plan) noexcept {
   if (plan.whole) return end_whole(s, plan);
-  const JointInStep joint{this, &s, &plan};
-  double torque = 0;
-  alone_.set({&plan.in.inverse_inertia, 1}, plan.dt_ns);
-  settled_ = alone_.solve({&joint, 1}, {&torque, 1});
-  return torque;
+  begin_trials(s, plan);
+  Alone joint{*this, s, plan, plan.free, plan.last_torque};
+  AloneSolver<double, Alone> solver;
+  settled_ = solver.solve(joint, coupled_inertia(plan.in.inverse_inertia, seconds(plan.dt_ns)));
+  finish(s, plan, solver.move(), solver.torque);
+  return solver.torque;
 }
 
 ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) const noexcept {

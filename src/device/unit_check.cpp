@@ -70,9 +70,11 @@ void validate(const UnitConfig& c, std::string_view where, Problems& problems) {
 
 bool alike(const UnitConfig& a, const UnitConfig& b) noexcept {
   if (!a.actuator.transmission || !b.actuator.transmission) return false;
+  if (a.actuator.transmission == b.actuator.transmission) return a == b;
+  if (!a.actuator.transmission->equals(*b.actuator.transmission)) return false;
   UnitConfig same_law = a;
   same_law.actuator.transmission = b.actuator.transmission;
-  return same_law == b && a.actuator.transmission->equals(*b.actuator.transmission);
+  return same_law == b;
 }
 
 }  // namespace vsa::device

@@ -117,9 +117,7 @@ class AloneSolver {
       lead(led);
       return led;
     }
-    dy_ = lanes::clamp(joint.free, -T(solver::kReach_rad), solver::kReach_rad);
-    take(joint.foresee(dy_), lanes::truth<T>(true));
-    guess();
+    set_out_free();
     if (lanes::any(led)) lead(led);
     Truth settled = search(!led) | led;
     if (lanes::all(settled)) return settled;
@@ -130,10 +128,22 @@ class AloneSolver {
     near(left);
     return settled | (lanes::abs(gradient_) <= solver::kLeft * lanes::abs(torque_) + solver::kLeft_Nm);
   }
+  /// A first Δy, from what the last steps left.
+  T predict(Joint& joint, T inertia) noexcept {
+    joint_ = &joint;
+    inertia_ = inertia;
+    set_out_free();
+    return dy_;
+  }
   T torque = 0.0;                                                               ///< what acts
   [[nodiscard]] T move() const noexcept { return dy_ - joint_->dy() + move_; }  ///< from the last attempt
 
  private:
+  void set_out_free() noexcept {
+    dy_ = lanes::clamp(joint_->free, -T(solver::kReach_rad), solver::kReach_rad);
+    take(joint_->foresee(dy_), lanes::truth<T>(true));
+    guess();
+  }
   void lead(Truth which) noexcept {
     dy_ = lanes::select(which, joint_->free, dy_);
     move_ = lanes::select(which, T(0.0), move_);
@@ -232,6 +242,13 @@ lanes::Truth<T> AloneSolver<T, Joint>::search(Truth goes_on) noexcept {
   return settled;
 }
 
+/// 2/dt²/B; 0 where somebody else moves the shaft.
+template <class T>
+[[nodiscard]] T coupled_inertia(T b, double dt) noexcept {
+  const lanes::Truth<T> coupled = (b > 0.0) & (b < std::numeric_limits<double>::infinity());
+  return lanes::where<T>(coupled, 2.0 / (dt * dt) / b);
+}
+
 /// A step of one segment, of joints alone, from where its trials have begun.
 template <class T, class State, class Plan>
 lanes::Truth<T> solve_whole(const UnitPhysics<T>& physics, State& state, Plan& step, double dt, T& torque) noexcept {
@@ -249,9 +266,7 @@ lanes::Truth<T> solve_whole(const UnitPhysics<T>& physics, State& state, Plan& s
     [[nodiscard]] ShaftTorqueOf<T> carried(T move) const noexcept { return p.carried(s, plan, move, dt_s); }
   } joint{physics, state, step, dt, step.free, step.last_torque};
   AloneSolver<T, Joint> solver;
-  const T b = step.in.inverse_inertia;
-  const lanes::Truth<T> coupled = (b > 0.0) & (b < std::numeric_limits<double>::infinity());
-  const auto settled = solver.solve(joint, lanes::where<T>(coupled, 2.0 / (dt * dt) / b));
+  const auto settled = solver.solve(joint, coupled_inertia<T>(step.in.inverse_inertia, dt));
   torque = solver.torque;
   physics.finish(state, step, solver.move(), torque, dt);
   return settled;

@@ -60,16 +60,17 @@ std::array<std::int32_t, 2> UnitConfig::reference_range_raw(int i) const noexcep
   return turned ? std::array{-memory.limit_high[n], -memory.limit_low[n]} : std::array{memory.limit_low[n], memory.limit_high[n]};
 }
 
-Unit::Unit(UnitConfig config)
-    : config_(checked(std::move(config))),
+Unit::Unit(UnitConfig config) : Unit(checked(std::move(config)), nullptr, nullptr) {}
+
+Unit::Unit(UnitConfig config, const actuator::Actuator* physics, const Unit* like)
+    : config_(std::move(config)),
       substep_ns_(std::llround(config_.substep_max_s * 1e9)),
       program_(config_.program),
       servo_(make_servo(config_)),
       shaft_friction_(actuator::shaft_friction(config_.actuator)),
       tendon_(drive::FrictionParams{config_.actuator.tendon.friction, config_.actuator.tendon.presliding_J}),
-      actuator_(config_.actuator),
-      plain_ticks_(std::make_shared<const PlainTicks>(config_)),
-      alone_(1) {}
+      actuator_(physics == nullptr ? actuator::Actuator(config_.actuator) : *physics),
+      plain_ticks_(std::make_shared<const PlainTicks>(config_, like == nullptr ? nullptr : like->plain_ticks_.get())) {}
 
 std::array<Ticks, 2> Unit::inputs_for(double equilibrium_rad, double preset) const noexcept {
   const double kept = std::clamp(preset, -config_.preset_max, config_.preset_max);

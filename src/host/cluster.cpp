@@ -163,6 +163,13 @@ void Cluster::settle_in(device::JointTrials& trials, std::span<const device::Joi
   }
 }
 
+void Cluster::exchange(std::span<const std::shared_ptr<device::Unit>> units) noexcept {
+  for (Tree& tree : trees_)
+    for (std::size_t i = 0; i < tree.joints.size(); ++i) tree.joints[i].unit = units[tree.actuators[i]].get();
+  for (SharedJoint& shared : shared_) shared.joint.unit = units[shared.actuator].get();
+  for (std::size_t k = 0; k < lone_.size(); ++k) lone_[k].unit = units[lone_from_[k].actuator].get();
+}
+
 template <class Does>
 void Cluster::for_each_trials(Does&& does) noexcept {
   does(lone_trials_);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -42,6 +43,9 @@ class Cluster {
 
   /// Where its units may write during a step; as many as it has, and clusters may share them. It stays where it is from now on.
   void use(std::span<device::StepPlan> plans) noexcept;
+
+  /// Its joints have these units from now on, by actuator; none of their numbers is in lanes (leave()).
+  void exchange(std::span<const std::shared_ptr<device::Unit>> units) noexcept;
 
   /// One host step of its units; how many of them the solver left unsettled.
   std::size_t advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,

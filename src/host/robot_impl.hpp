@@ -131,9 +131,10 @@ struct Robot::Impl {
   /// their own.
   std::shared_ptr<device::Unit> unit_for(const UnitConfig& unit, const actuator::Actuator* prepared = nullptr) {
     for (const auto& known : distinct)
-      if (known->config() == unit || device::alike(known->config(), unit)) return known;
-    distinct.push_back(std::make_shared<device::Unit>(unit));
-    if (prepared != nullptr) distinct.back()->physics() = *prepared;
+      if (device::alike(known->config(), unit)) return known;
+    distinct.push_back(prepared == nullptr
+                           ? std::make_shared<device::Unit>(unit)
+                           : std::make_shared<device::Unit>(unit, prepared, distinct.empty() ? nullptr : distinct.back().get()));
     return distinct.back();
   }
 

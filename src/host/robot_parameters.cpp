@@ -132,7 +132,10 @@ std::shared_ptr<const RobotConfig> Robot::parameters_with(const RobotConfig& bas
   const ActuatorConfig* last = nullptr;
   for (const auto& [actuator, to] : changes) {
     ActuatorConfig& a = out->actuators[actuator];
+    const std::shared_ptr<const elastic::Transmission> law = a.unit.actuator.transmission;
     take_unit(a, to);
+    // Laws that are alike are one from here on: whoever compares sees that at a glance.
+    if (law != nullptr && law->equals(*a.unit.actuator.transmission)) a.unit.actuator.transmission = law;
     a.prepared = last != nullptr && last->unit == a.unit ? last->prepared : prepared(a.unit, dt_ns);
     last = &a;
   }
@@ -189,13 +192,13 @@ void Robot::Impl::set_parameters(std::size_t i, const UnitConfig& unit) {
     units[i] = next;
     next->adopt(state.actuators[i].unit, before);
   }
-  make_clusters(std::vector(trees), std::vector(shared));
+  for (Cluster& cluster : clusters) cluster.exchange(units);
   initial.state.actuators[i].unit = first_state(i);
   initial.made_of = made_of;
   drop_unused();
 }
 
-/// All that may fail comes first, but for the clusters' memory.
+/// All that may fail comes first.
 void Robot::Impl::use(const std::shared_ptr<const RobotConfig>& to) {
   if (to == made_of) return;
   check(to.get());
@@ -213,7 +216,7 @@ void Robot::Impl::use(const std::shared_ptr<const RobotConfig>& to) {
   }
   next.clear();
   made_of = to;
-  make_clusters(std::vector(trees), std::vector(shared));
+  for (Cluster& cluster : clusters) cluster.exchange(units);
   drop_unused();
 }
 

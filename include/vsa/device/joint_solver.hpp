@@ -66,7 +66,8 @@ class JointSolver {
 
   /// A first Δy for every plan, from what the last steps left: for ticks inside a step.
   void predict(std::span<const JointInStep> joints) noexcept;
-  /// Solves, ends every unit's step, writes the torques. False: after kMaxIterations more than a thousandth of a torque (and more
+  /// Solves, ends every unit's step, writes the torques; one joint alone has its unit solve it, with the entry of B that its step was
+  /// begun with. False: after kMaxIterations more than a thousandth of a torque (and more
   /// than 1e-4 N·m) is left over; the torques are those of the last attempt.
   bool solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
 
@@ -74,7 +75,6 @@ class JointSolver {
 
  private:
   void factor_mobility() noexcept;
-  [[nodiscard]] bool solve_alone(const JointInStep& joint, double& torque) noexcept;
   void gradient() noexcept;
   bool factor_slopes() noexcept;
   void newton() noexcept;

@@ -139,8 +139,11 @@ class PlainTicks;
 /// once: it has scratch.
 class Unit {
  public:
-  explicit Unit(UnitConfig config);                                            ///< throws InputError with all that validate() finds
-  [[nodiscard]] const UnitConfig& config() const noexcept { return config_; }  ///< as checked
+  explicit Unit(UnitConfig config);  ///< throws InputError with all that validate() finds
+  /// Of a config() that was checked. `physics`: the physics() of a unit of the same, prepared for its steps; `like`: one with which it
+  /// may have something in common, which then isn't worked out again. Either may be null.
+  Unit(UnitConfig checked, const actuator::Actuator* physics, const Unit* like);
+  [[nodiscard]] const UnitConfig& config() const noexcept { return config_; }           ///< as checked
   [[nodiscard]] const firmware::Program& program() const noexcept { return program_; }  ///< of a unit with a servo: unused
   [[nodiscard]] const control::Servo* servo() const noexcept { return servo_ ? &*servo_ : nullptr; }  ///< null: it has the program
 
@@ -250,7 +253,6 @@ class Unit {
   drive::Friction tendon_;
   actuator::Actuator actuator_;
   std::shared_ptr<const PlainTicks> plain_ticks_;
-  JointSolver alone_;
   StepPlan plan_;  // scratch of step(): its thousand bytes are cleared once
   bool settled_ = true;
   firmware::Output out_;  // of a unit without a line: nobody hears it
