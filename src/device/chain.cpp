@@ -48,6 +48,7 @@ void Chain::show(std::size_t station) noexcept {
   const std::size_t missed = passed_.bytes - known.bytes;
   if (missed == 0) return;
   known.bytes = passed_.bytes;
+  keeper_->changes(station);
   firmware::Program::let_pass(*stations_[station].state, missed, passed_.id, passed_.length, passed_.at_ns);
 }
 

@@ -83,6 +83,7 @@ void JointTrials::loops_to_lanes(Group& g) noexcept {
 void JointTrials::run_clocks(std::int64_t at_ns) noexcept {
   if (at_ns < next_clock_ns_) return;
   next_clock_ns_ = std::numeric_limits<std::int64_t>::max();
+  states_counted_ = true;
   for (const Group& g : groups_) {
     for (std::size_t i = g.first; i < g.first + g.count && g.lanes != nullptr; ++i) {
       firmware::Watchdog& watchdog = joints_[i].state->program.watchdog;
@@ -148,6 +149,7 @@ void JointTrials::leave() noexcept {
 
 void JointTrials::forget() noexcept {
   in_lanes_ = loops_in_lanes_ = false;
+  states_counted_ = true;
   for (Group& g : groups_) g.opened = g.shown = 0;
 }
 
@@ -176,6 +178,46 @@ void JointTrials::observe(std::size_t joint) noexcept {
   if (g.lanes == nullptr) return;
   const ShaftMotion& to = joints_[joint].state->reached;
   g.lanes->observe(g.block, static_cast<int>(joint - g.first), to.angle, to.speed);
+}
+
+void JointTrials::keep() noexcept {
+  kept_.in_lanes = in_lanes_;
+  kept_.states_are_old = in_lanes_ && !states_counted_;
+  states_counted_ = !in_lanes_;
+  if (!in_lanes_) return;
+  kept_.loops_in_lanes = loops_in_lanes_;
+  kept_.may_stay = may_stay_;
+  kept_.next_clock_ns = next_clock_ns_;
+  kept_.groups.assign(groups_.begin(), groups_.end());
+  for (const Group& g : groups_) {
+    if (g.lanes == nullptr) continue;
+    std::copy_n(g.block, lines(g.lanes->block_bytes), &kept_.blocks[static_cast<std::size_t>(g.block - memory_.data())]);
+    if (loops_in_lanes_)
+      std::copy_n(g.loop, lines(g.lanes->loop_bytes), &kept_.loops[static_cast<std::size_t>(g.loop - loop_memory_.data())]);
+  }
+}
+
+bool JointTrials::in_kept(std::size_t joint) const noexcept {
+  return kept_.states_are_old && kept_.groups[group_of_[joint]].lanes != nullptr;
+}
+
+void JointTrials::go_back() noexcept {
+  forget();
+  if (!kept_.in_lanes) return;
+  in_lanes_ = true;
+  loops_in_lanes_ = kept_.loops_in_lanes;
+  may_stay_ = kept_.may_stay;
+  next_clock_ns_ = kept_.next_clock_ns;
+  groups_.assign(kept_.groups.begin(), kept_.groups.end());
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    Group& g = groups_[k];
+    std::fill_n(&group_of_[g.first], g.count, k);
+    if (g.lanes == nullptr) continue;
+    g.shown = 0;
+    std::copy_n(&kept_.blocks[static_cast<std::size_t>(g.block - memory_.data())], lines(g.lanes->block_bytes), g.block);
+    if (loops_in_lanes_)
+      std::copy_n(&kept_.loops[static_cast<std::size_t>(g.loop - loop_memory_.data())], lines(g.lanes->loop_bytes), g.loop);
+  }
 }
 
 }  // namespace vsa::device

@@ -36,6 +36,9 @@ void JointTrials::stay(std::span<const JointInStep> joints) {
   group_of_.resize(joints.size());
   memory_.resize(room_for(joints.size(), [this](const LaneTable& t) { return block_lines(t); }));
   loop_memory_.resize(room_for(joints.size(), [](const LaneTable& t) { return lines(t.loop_bytes); }));
+  kept_.blocks.resize(memory_.size());
+  kept_.loops.resize(loop_memory_.size());
+  kept_.groups.reserve(joints.size());
 }
 
 JointTrials::JointTrials(std::size_t joints, std::size_t together, std::string_view instructions) : each_alone_(together == 0) {

@@ -61,9 +61,12 @@ void BusLine::show(std::size_t member) noexcept {
 }
 
 void BusLine::open(std::size_t station) noexcept {
-  const BusMember& m = members_[station];
+  BusMember& m = members_[station];
+  m.changed = true;
   if (m.trials != nullptr) m.trials->open(m.joint);
 }
+
+void BusLine::changes(std::size_t station) noexcept { members_[station].changed = true; }
 
 void BusLine::tick(std::int64_t at_ns) noexcept {
   if (port_) {
@@ -86,7 +89,8 @@ void BusLine::tick(std::int64_t at_ns) noexcept {
   for (std::size_t k = on_line_; k < members_.size(); ++k) run_servo(members_[k], at_ns);
 }
 
-void BusLine::run_servo(const BusMember& m, std::int64_t at_ns) noexcept {
+void BusLine::run_servo(BusMember& m, std::int64_t at_ns) noexcept {
+  m.changed = true;
   device::UnitState& state = m.slot->unit;
   m.unit->command(state, m.slot->equilibrium.at(at_ns), m.slot->preset.at(at_ns));
   m.unit->run_servo(state, *m.plan, at_ns);
@@ -153,7 +157,9 @@ std::array<Ticks, 2> BusLine::inputs(int k, std::int64_t now_ns) noexcept {
 }
 
 void BusLine::measured(int k, const std::array<Ticks, 3>& positions) noexcept {
-  members_[static_cast<std::size_t>(k)].slot->measured = positions;
+  BusMember& m = members_[static_cast<std::size_t>(k)];
+  m.changed = true;
+  m.slot->measured = positions;
 }
 
 }  // namespace vsa::host

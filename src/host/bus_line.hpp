@@ -28,6 +28,7 @@ struct BusMember {
   std::size_t index;                      ///< of the actuator in its robot
   device::JointTrials* trials = nullptr;  ///< its joint's, where its numbers may be
   std::size_t joint = 0;                  ///< which it is of theirs
+  bool changed = true;                    ///< its slot, since Robot::keep(), but for what is in lanes
 };
 
 struct BusState {
@@ -85,10 +86,11 @@ class BusLine final : private bus::MasterClient, private device::ProgramKeeper {
  private:
   [[nodiscard]] std::size_t member_of(const ActuatorSlot& slot) const noexcept;
   void open(std::size_t station) noexcept override;
+  void changes(std::size_t station) noexcept override;
   std::array<Ticks, 2> inputs(int k, std::int64_t now_ns) noexcept override;
   void measured(int k, const std::array<Ticks, 3>& positions) noexcept override;
 
-  void run_servo(const BusMember& member, std::int64_t at_ns) noexcept;
+  void run_servo(BusMember& member, std::int64_t at_ns) noexcept;
 
   std::vector<BusMember> members_;
   std::size_t on_line_;  ///< how many of them, the first ones, are stations of the chain

@@ -183,6 +183,13 @@ void Cluster::forget() noexcept {
   for_each_trials([](device::JointTrials& t) { t.forget(); });
 }
 
+void Cluster::keep() noexcept {
+  for_each_trials([](device::JointTrials& t) { t.keep(); });
+}
+void Cluster::go_back() noexcept {
+  for_each_trials([](device::JointTrials& t) { t.go_back(); });
+}
+
 void Cluster::tick(std::int64_t at_ns) noexcept {
   for (BusLine* bus : buses_) bus->run_line(at_ns);
   for_each_trials([at_ns](device::JointTrials& t) { t.tick(at_ns); });

@@ -60,6 +60,8 @@ class Cluster {
   // Its units' numbers, as device::JointTrials has it.
   void leave() noexcept;
   void forget() noexcept;
+  void keep() noexcept;
+  void go_back() noexcept;
 
  private:
   /// Where a joint alone has its numbers.

@@ -53,6 +53,7 @@ void Robot::join(std::vector<std::vector<std::size_t>> trees, std::vector<std::s
   take(shared);
   problems.throw_if_any();
   impl_->make_clusters(std::move(trees), std::move(shared));
+  impl_->keep();  // what was kept went with the clusters
 }
 
 std::size_t Robot::mobility_size() const { return impl_->mobility_size; }
@@ -182,8 +183,8 @@ void Robot::restore(const Snapshot& snapshot) {
   impl_->restore(snapshot);
 }
 
-void Robot::keep() { impl_->keep(impl_->kept); }
-void Robot::go_back() { impl_->restore(impl_->kept); }
+void Robot::keep() { impl_->keep(); }
+void Robot::go_back() { impl_->go_back(); }
 
 void Robot::reset() {
   impl_->notices.clear();

@@ -61,7 +61,7 @@ struct Robot::Impl {
     for (const auto& bus : buses) initial.buses.push_back(bus->state());
     for (Snapshot* room : {&kept, &loaded}) {
       *room = initial;
-      keep(*room);
+      for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->save(room->buses[b]);
     }
     numbers = size_as_numbers();
   }
@@ -124,7 +124,13 @@ struct Robot::Impl {
   RobotState& home() noexcept {
     for (Cluster& cluster : clusters) cluster.leave();
     for (const auto& bus : buses) bus->look_anew();
+    all_change();
     return state;
+  }
+  [[nodiscard]] BusMember& member(std::size_t i) noexcept { return lodgings[i].bus->members()[lodgings[i].member]; }
+  void all_change() noexcept {
+    for (const auto& bus : buses)
+      for (BusMember& m : bus->members()) m.changed = true;
   }
 
   /// Units with equal parameters share one instance, which goes in lanes and a thousand times into the processor's cache. States are
@@ -141,6 +147,7 @@ struct Robot::Impl {
   void take_commands() noexcept {
     queue.drain([this](Order& c) {
       ActuatorSlot& slot = state.actuators[c.actuator];
+      member(c.actuator).changed = true;
       const BusConfig& bus = config.buses[config.actuators[c.actuator].bus];
       if (bus.serial_port) return notice(c.actuator, slot.noted_port, true, NoticeKind::port, 0);  // its client commands
       if (units[c.actuator]->config().is(control::ServoKind::motor_voltages))
@@ -194,6 +201,7 @@ struct Robot::Impl {
   /// What a user should know of the run as a whole; now and then.
   void look() noexcept {
     static_cast<void>(shown());
+    all_change();
     actuator::Ledger sum;
     for (std::size_t i = 0; i < units.size(); ++i) {
       ActuatorSlot& slot = state.actuators[i];
@@ -228,21 +236,49 @@ struct Robot::Impl {
     if (++state.steps % kLookSteps == 0 && !units.empty()) look();
   }
 
-  void keep(Snapshot& into) const {
+  /// What is in lanes stays there, and of units that have most of their numbers there only what else has changed is copied.
+  void keep() {
     const QuietBuses quiet(buses);
-    into.made_of = made_of;
-    into.state = shown();
-    for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->save(into.buses[b]);
+    kept.made_of = made_of;
+    kept.state.time_ns = state.time_ns;
+    kept.state.steps = state.steps;
+    kept.state.unsettled = state.unsettled;
+    kept.state.noted_unsettled = state.noted_unsettled;
+    kept.state.noted_energy = state.noted_energy;
+    for (Cluster& cluster : clusters) cluster.keep();
+    for (std::size_t i = 0; i < lodgings.size(); ++i) {
+      const Lodging& l = lodgings[i];
+      l.bus->show(l.member);
+      bool& changed = member(i).changed;
+      if (!changed && l.trials != nullptr && l.trials->in_kept(l.joint)) continue;
+      changed = false;
+      kept.state.actuators[i] = state.actuators[i];
+    }
+    for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->save(kept.buses[b]);
+  }
+
+  void go_back() {
+    const QuietBuses quiet(buses);
+    put_back(kept);
+    for (Cluster& cluster : clusters) cluster.go_back();
+    if (kept.made_of == made_of) return;
+    home();
+    adopt(*kept.made_of);
   }
 
   void restore(const Snapshot& from) {
     const QuietBuses quiet(buses);
+    put_back(from);
+    if (from.made_of != made_of) adopt(*from.made_of);
+  }
+
+  void put_back(const Snapshot& from) {
     queue.clear();
     faults.clear();
     for (Cluster& cluster : clusters) cluster.forget();
     state = from.state;
+    all_change();
     for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->restore(from.buses[b]);
-    if (from.made_of != made_of) adopt(*from.made_of);
   }
 
   void check(const RobotConfig* theirs) const;

@@ -254,6 +254,7 @@ TEST(Chain, ACopiedLineGoesOnBitForBit) {
 /// Somebody who looks at states now and then. Ticks come to those only whom a random number hits, so that what passes a station waits
 /// for long.
 struct Keeper final : device::ProgramKeeper {
+  void changes(std::size_t /*station*/) noexcept override {}
   void open(std::size_t) noexcept override { ++opened; }
   int opened = 0;
 };

@@ -1,7 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // A robot keeps its units' numbers in lanes from step to step where it can. Nobody may see that: beside it goes one that has to begin
-// from the units' states in every step, and one that somebody looks at all the time; whatever happens to them, they are the same.
+// from the units' states in every step, one that somebody looks at all the time, and one that goes astray and back now and then;
+// whatever happens to them, they are the same.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -98,7 +100,7 @@ void look_at_everything(const Robot& robot) {
 }
 
 /// What may happen to a robot between two steps, the same for every bench.
-void something_happens(std::mt19937& random, std::array<Bench*, 3> benches) {
+void something_happens(std::mt19937& random, std::span<Bench* const> benches) {
   const std::size_t who = random() % benches[0]->robot.size();
   const double x = 1e-3 * static_cast<double>(random() % 1000);
   const auto each = [&](const std::function<void(Bench&)>& does) {
@@ -152,23 +154,42 @@ void something_happens(std::mt19937& random, std::array<Bench*, 3> benches) {
   }
 }
 
+/// Some steps from which it goes back to where it was.
+void go_astray(std::mt19937& random, Bench& bench) {
+  const std::vector<JointIn> in = bench.in;
+  const std::int64_t t_ns = bench.t_ns;
+  for (std::size_t steps = 1 + random() % 3; steps > 0; --steps) {
+    if (random() % 2 == 0) something_happens(random, std::array{&bench});
+    for (JointIn& joint : bench.in) joint.speed_rad_per_s += 1e-3 * static_cast<double>(random() % 100);
+    bench.step(random() % 4 == 0 ? 2'500'000 : 1'000'000);
+    bench.robot.observe(bench.in);
+  }
+  bench.robot.go_back();
+  bench.in = in;
+  bench.t_ns = t_ns;
+}
+
 void compare(const std::string& types, unsigned seed) {
   std::mt19937 random(seed);
-  Bench quiet(types), fresh(types), watched(types);
+  Bench quiet(types), fresh(types), watched(types), back(types);
+  const std::array<Bench*, 4> all{&quiet, &fresh, &watched, &back};
   std::int64_t dt_ns = 1'000'000;
   for (int step = 0; step < 700; ++step) {
     fresh.robot.restore(*fresh.robot.snapshot());  // which drops what it hasn't been told yet
-    if (random() % 25 == 0) something_happens(random, {&quiet, &fresh, &watched});
+    back.robot.keep();
+    if (random() % 4 == 0) go_astray(random, back);
+    if (random() % 25 == 0) something_happens(random, all);
     // Most of the time at a millisecond, on the ticks; else steps without a tick, with one inside, with several.
     if (random() % 40 == 0) dt_ns = std::array{1'000'000, 1'000'000, 1'000'000, 250'000, 500'000, 700'000, 2'000'000}[random() % 7];
     if (dt_ns == 1'000'000 && random() % 8 == 0)
-      for (Bench* b : {&quiet, &fresh, &watched}) b->t_ns = (b->t_ns + 999'999) / 1'000'000 * 1'000'000;
-    for (Bench* b : {&quiet, &fresh, &watched}) b->step(dt_ns);
+      for (Bench* b : all) b->t_ns = (b->t_ns + 999'999) / 1'000'000 * 1'000'000;
+    for (Bench* b : all) b->step(dt_ns);
     if (step % 3 == 0)
-      for (Bench* b : {&quiet, &fresh, &watched}) b->robot.observe(b->in);
+      for (Bench* b : all) b->robot.observe(b->in);
     look_at_everything(watched.robot);
     ASSERT_EQ(quiet.torque, fresh.torque) << types << ", seed " << seed << ", step " << step;
     ASSERT_EQ(quiet.torque, watched.torque) << types << ", seed " << seed << ", step " << step;
+    ASSERT_EQ(quiet.torque, back.torque) << types << ", seed " << seed << ", step " << step;
     const std::size_t one = random() % quiet.in.size();
     for (const Bench* b : {&quiet, &fresh, &watched}) {
       const double told = step % 3 == 0 ? b->in[one].speed_rad_per_s : b->robot.read(one).shaft_speed_rad_per_s;
@@ -177,6 +198,7 @@ void compare(const std::string& types, unsigned seed) {
     if (random() % 30 != 0) continue;
     ASSERT_EQ(quiet.robot.state_hash(), fresh.robot.state_hash()) << types << ", seed " << seed << ", step " << step;
     ASSERT_EQ(quiet.robot.state_hash(), watched.robot.state_hash()) << types << ", seed " << seed << ", step " << step;
+    ASSERT_EQ(quiet.robot.state_hash(), back.robot.state_hash()) << types << ", seed " << seed << ", step " << step;
   }
 }
 
@@ -219,6 +241,17 @@ TEST(InLanes, WhatIsGoneIsGone) {
       ASSERT_EQ(one.torque, other.torque) << "step " << step;
     }
   }
+  EXPECT_EQ(one.robot.state_hash(), other.robot.state_hash());
+  // What was kept before other parameters came goes on with them, and what was kept before other trees.
+  one.robot.keep();
+  const auto then = other.robot.snapshot();
+  for (Bench* b : {&one, &other}) b->robot.set_parameters(3, harder);
+  one.robot.go_back();
+  other.robot.restore(*then);
+  EXPECT_EQ(one.robot.state_hash(), other.robot.state_hash());
+  one.robot.keep();
+  for (Bench* b : {&one, &other}) b->robot.join({});
+  one.robot.go_back();
   EXPECT_EQ(one.robot.state_hash(), other.robot.state_hash());
 }
 

@@ -44,6 +44,8 @@ class ProgramKeeper {
  public:
   /// Before a program does anything but let a frame for another unit pass: its state is to be up to date, and is what counts.
   virtual void open(std::size_t station) noexcept = 0;
+  /// Its state is brought up to date with frames that passed it.
+  virtual void changes(std::size_t station) noexcept = 0;
 
  protected:
   ProgramKeeper() = default;

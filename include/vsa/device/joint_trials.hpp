@@ -92,6 +92,13 @@ class JointTrials {
   void open(std::size_t joint) noexcept;
   void observe(std::size_t joint) noexcept;  ///< the state's `reached` is what counts
 
+  /// For who keeps what there is before a step that may fail. Keeps what is in lanes; in_kept(): the joint's numbers were there then,
+  /// and its state is as at the keep() before but for what its owner changed. go_back(), once all states are those of keep(): what was
+  /// in lanes then is there again. Of joints that stay; nothing is allocated.
+  void keep() noexcept;
+  [[nodiscard]] bool in_kept(std::size_t joint) const noexcept;  ///< as keep() says
+  void go_back() noexcept;                                       ///< as keep() says
+
  private:
   struct alignas(64) Line {
     std::byte bytes[64];
@@ -148,6 +155,15 @@ class JointTrials {
   bool in_lanes_ = false;              // the physics of all groups that have lanes
   bool loops_in_lanes_ = false;        // and their programs' loops
   std::int64_t next_clock_ns_ = 0;     // of their watchdogs, the first
+  bool states_counted_ = true;         // at some time since keep()
+  /// What keep() keeps; blocks lie as in memory_.
+  struct Kept {
+    std::vector<Line> blocks, loops;
+    std::vector<Group> groups;
+    bool in_lanes = false, loops_in_lanes = false, may_stay = false;
+    bool states_are_old = false;  // what they hold besides is that of the keep() before
+    std::int64_t next_clock_ns = 0;
+  } kept_;
 };
 
 }  // namespace vsa::device

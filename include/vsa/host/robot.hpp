@@ -258,7 +258,7 @@ class Robot {
   [[nodiscard]] std::uint64_t state_hash() const;         ///< of the numbers that save() gives; allocates
 
   /// For a host whose step may fail: keep() before it notes what snapshot() would hold, in memory that the robot has for it, so that
-  /// nothing is allocated; go_back() is restore() of that, or of the first sample where nothing was kept.
+  /// nothing is allocated; go_back() is restore() of that, or of the first sample where nothing was kept. join() counts as keep().
   void keep();
   void go_back();  ///< to where keep() was called last
 
