@@ -124,14 +124,9 @@ struct Robot::Impl {
   RobotState& home() noexcept {
     for (Cluster& cluster : clusters) cluster.leave();
     for (const auto& bus : buses) bus->look_anew();
-    all_change();
     return state;
   }
   [[nodiscard]] BusMember& member(std::size_t i) noexcept { return lodgings[i].bus->members()[lodgings[i].member]; }
-  void all_change() noexcept {
-    for (const auto& bus : buses)
-      for (BusMember& m : bus->members()) m.changed = true;
-  }
 
   /// Units with equal parameters share one instance, which goes in lanes and a thousand times into the processor's cache. States are
   /// their own.
@@ -201,9 +196,9 @@ struct Robot::Impl {
   /// What a user should know of the run as a whole; now and then.
   void look() noexcept {
     static_cast<void>(shown());
-    all_change();
     actuator::Ledger sum;
     for (std::size_t i = 0; i < units.size(); ++i) {
+      member(i).changed = true;
       ActuatorSlot& slot = state.actuators[i];
       for (Track* track : {&slot.equilibrium, &slot.preset}) track->settle(state.time_ns);
       notice(i, slot.noted_unresolved, slot.unit.unresolved > 0, NoticeKind::unresolved, slot.unit.unresolved);
@@ -261,9 +256,7 @@ struct Robot::Impl {
     const QuietBuses quiet(buses);
     put_back(kept);
     for (Cluster& cluster : clusters) cluster.go_back();
-    if (kept.made_of == made_of) return;
-    home();
-    adopt(*kept.made_of);
+    if (kept.made_of != made_of) adopt(*kept.made_of);
   }
 
   void restore(const Snapshot& from) {
@@ -277,7 +270,6 @@ struct Robot::Impl {
     faults.clear();
     for (Cluster& cluster : clusters) cluster.forget();
     state = from.state;
-    all_change();
     for (std::size_t b = 0; b < buses.size(); ++b) buses[b]->restore(from.buses[b]);
   }
 
