@@ -273,6 +273,30 @@ TEST(Emulate, AMemoryInAFileOutlivesTheProgram) {
   refused({"--units", "2"}, "qbmove_advanced");
 }
 
+TEST(Emulate, UnitsAreKnownByTheIdsThatTheirMemoryHas) {
+  const Scratch scratch;
+  const Arguments memory{"--units", "3", "--memory", (scratch / "units.toml").string()};
+  {
+    Emulated units(memory);
+    ASSERT_TRUE(units.ready);
+    expect(units.vsa({"set", "startup_activation", "on"}, {"--id", "3", "--store"}), 0, {"stored"});
+    expect(units.vsa({"set", "id", "5"}, {"--id", "1", "--store"}), 0, {"stored"});
+    expect(units.end(), 0, {"3 units, ids 1 to 3, dialect 6, motors off"});
+  }
+  Arguments broken = memory;
+  broken.insert(broken.end(), {"--fault", "5 off"});
+  {
+    Emulated units(broken);
+    ASSERT_TRUE(units.ready);
+    const Result all = run_vsa({"ping", units.path, "--id", "2,3,5", "--dialect", "6", "--timeout-ms", "300"});
+    expect(all, 1, {"2     6", "3     6", "no answer from unit 5"});
+    expect(units.end(), 0, {"3 units, ids 5,2,3, dialect 6, motors on of 3)", "--id 5"});
+  }
+  broken.back() = "1 off";
+  broken.insert(broken.begin(), {"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string()});
+  expect(run_vsa(broken), 2, {"--fault", "no such unit", "all, 5,2,3"});
+}
+
 TEST(GetAndSet, ABaudrateActsAtOnceForTheUnitThatIsTold) {
   Emulated units({"--units", "2"});
   ASSERT_TRUE(units.ready);
