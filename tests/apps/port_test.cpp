@@ -297,6 +297,25 @@ TEST(Emulate, UnitsAreKnownByTheIdsThatTheirMemoryHas) {
   expect(run_vsa(broken), 2, {"--fault", "no such unit", "all, 5,2,3"});
 }
 
+TEST(Emulate, AMemoryThatNoUnitCouldHaveStoredIsRefused) {
+  const Scratch scratch;
+  const std::string file = (scratch / "units.toml").string();
+  const Arguments emulate{"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--memory",
+                          file,      "--duration-s",         "0.05"};
+  expect(run_vsa(emulate), 0, {"simulated time"});
+  const std::string kept = vsa::test::read_file(file);
+  const auto with = [&](const std::string& key, const std::string& values) {
+    std::string text = kept;
+    const std::size_t at = text.find("\"" + key + "\" = [") + key.size() + 6;
+    write_file(file, text.replace(at, text.find(']', at) - at, values));
+    return run_vsa(emulate);
+  };
+  expect(with("resolution", "200, 1, 1"), 2, {file, "unit[0].user.resolution", "200", "0 … 8"});
+  expect(with("multiplier", "1, nan, 1"), 2, {file, "unit[0].user.multiplier", "nan", "finite"});
+  expect(with("limit_low", "-30000, 40000"), 2, {file, "unit[0].user.limit_low", "40000", "below 30000"});
+  expect(with("limit_low", "30000, -30000"), 0, {"simulated time"});  // vsa set limits takes them so
+}
+
 TEST(GetAndSet, ABaudrateActsAtOnceForTheUnitThatIsTold) {
   Emulated units({"--units", "2"});
   ASSERT_TRUE(units.ready);
