@@ -227,7 +227,7 @@ TEST(GetAndSet, DefaultsAreStoredAndRestoredInBothDialects) {
     expect(units.vsa({"set", "restore"}), 0, {"has its defaults"});
     expect(units.vsa({"get", "position_pid"}), 0, {"P 0.25"});
     expect(units.vsa({"set", "id", "9"}, {"--store"}), 0, {"stored"});
-    expect(units.vsa({"set", "restore"}, {"--id", "9"}), 0, {"another id: vsa ping"});
+    expect(units.vsa({"set", "restore"}, {"--id", "9"}), 0, {"another id: vsa ping", "unless another unit has that id too"});
     expect(units.vsa({"get", "active"}), 0, {"off"});
     expect(units.vsa({"set", "restore"}, {"--id", "1-2"}), 2, {"one unit"});
     expect(units.vsa({"set", "restore", "now"}), 2, {"restore"});
