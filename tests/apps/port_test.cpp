@@ -8,9 +8,12 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <limits>
 #include <regex>
 
 #include "subprocess.hpp"
+#include "vsa/bus/codec.hpp"
+#include "vsa/bus/parameters.hpp"
 
 namespace {
 
@@ -314,6 +317,39 @@ TEST(Emulate, AMemoryThatNoUnitCouldHaveStoredIsRefused) {
   expect(with("multiplier", "1, nan, 1"), 2, {file, "unit[0].user.multiplier", "nan", "finite"});
   expect(with("limit_low", "-30000, 40000"), 2, {file, "unit[0].user.limit_low", "40000", "below 30000"});
   expect(with("limit_low", "30000, -30000"), 0, {"simulated time"});  // vsa set limits takes them so
+}
+
+/// As a client of its own does; without waiting for an answer.
+bool tell(const std::string& path, const vsa::bus::Request& request) {
+  const int fd = open(path.c_str(), O_RDWR | O_NOCTTY);
+  termios settings{};
+  const bool there =
+      tcgetattr(fd, &settings) == 0 && cfsetspeed(&settings, B2000000) == 0 && tcsetattr(fd, TCSANOW, &settings) == 0;
+  const vsa::bus::FrameBytes frame = vsa::bus::encode_request({}, 1, request);
+  const bool said = there && write(fd, frame.bytes.data(), frame.size) == frame.size;
+  close(fd);
+  return said;
+}
+
+TEST(Emulate, AStoredMultiplierThatIsNoNumberHasTheFileWrittenOnce) {
+  const Scratch scratch;
+  const std::string file = (scratch / "units.toml").string();
+  Emulated unit({"--memory", file});
+  ASSERT_TRUE(unit.ready);
+  const std::array<float, 3> none{std::numeric_limits<float>::quiet_NaN(), 1, 1};
+  const auto request = vsa::bus::encode_value(vsa::bus::ParameterId::multipliers, none);
+  ASSERT_TRUE(request && tell(unit.path, *request));
+  expect(unit.vsa({"set", "store"}), 0, {"stored"});
+  const auto begun = std::chrono::steady_clock::now();
+  while (vsa::test::read_file(file).find("\"multiplier\" = [nan, 1, 1]") == std::string::npos)
+    ASSERT_LT(std::chrono::steady_clock::now() - begun, vsa::test::kPatience);
+  const auto written = std::filesystem::last_write_time(file);
+  // It looks each 0.1 s; the commands take longer.
+  for (int i = 0; i < 20; ++i) expect(unit.vsa({"get", "active"}), 0, {"off"});
+  EXPECT_EQ(std::filesystem::last_write_time(file), written);
+  unit.end();
+  expect(run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", unit.path, "--memory", file}), 2,
+         {"unit[0].user.multiplier", "nan"});
 }
 
 TEST(GetAndSet, ABaudrateActsAtOnceForTheUnitThatIsTold) {
