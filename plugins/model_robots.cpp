@@ -95,6 +95,8 @@ void ModelRobots::step(const ModelRobot& asking, std::int64_t time_ns, std::int6
   for (Member& m : members_)
     if (m.robot == &asking && std::exchange(m.stepped, false)) return;
   for (Member& m : members_) m.stepped = m.robot != &asking;
+  // A nested model without a plug-in goes without a word.
+  joined_ = joined_ && std::all_of(links_.begin(), links_.end(), [](const Links& links) { return links.trees->are_there(); });
   if (!joined_) join();
   for (const Member& m : members_) m.robot->tell(time_ns);
   LinkTrees* looked = nullptr;

@@ -24,6 +24,8 @@ class LinkTrees {
   virtual void look() = 0;
   /// Where joints without actuators are, into tree_.
   virtual void feel() = 0;
+  /// False: some of the links are gone, with a model nested in this one; then the trees are found anew.
+  [[nodiscard]] virtual bool are_there() const { return true; }
   /// Of driven joints that move each other; none where the links aren't trees of hinges, sliders and fixed joints.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& trees() const noexcept { return tree_.trees(); }
   /// B of one of them, as of the last look().

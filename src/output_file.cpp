@@ -128,8 +128,8 @@ class Beside {
           ::chown(written_.c_str(), kSame, before_->st_gid) != 0) {
         // Who may not give files away keeps them.
       }
-      if (::chmod(written_.c_str(), before_->st_mode & 0777) != 0) cant(asked_, "can't keep its permissions", errno);
       keep_access_list();
+      if (::chmod(written_.c_str(), before_->st_mode & 0777) != 0) cant(asked_, "can't keep its permissions", errno);
     }
     if (::rename(written_.c_str(), target_.c_str()) != 0) cant(asked_, "can't be replaced", errno);
     straight_ = true;  // nothing is beside it any more
@@ -137,14 +137,16 @@ class Beside {
 
  private:
   static constexpr int kMostLinks = 40;  // Linux's own
+  static constexpr const char* kList = "system.posix_acl_access";
 
-  /// Of POSIX: whom else it lets in. Where there is none, or file systems have none, the mode is all.
+  /// Of POSIX: whom else it lets in. Where there is none, or file systems have none, the mode is all: what the directory gives new
+  /// files by default goes, since it may let in whom the old file kept out.
   void keep_access_list() const {
-    constexpr const char* kList = "system.posix_acl_access";
     std::array<char, 4096> list{};
     const ssize_t size = ::getxattr(target_.c_str(), kList, list.data(), list.size());
-    if (size > 0 && ::setxattr(written_.c_str(), kList, list.data(), static_cast<std::size_t>(size), 0) != 0 && errno != ENOTSUP)
-      cant(asked_, "can't keep its access list", errno);
+    const bool kept = size > 0 ? ::setxattr(written_.c_str(), kList, list.data(), static_cast<std::size_t>(size), 0) == 0
+                               : ::removexattr(written_.c_str(), kList) == 0 || errno == ENODATA;
+    if (!kept && errno != ENOTSUP) cant(asked_, "can't keep its access list", errno);
   }
 
   /// A name that nobody has; never wider permissions than those of the file that it shall replace.
@@ -155,6 +157,8 @@ class Beside {
       written_ += ".part-" + std::to_string(::getpid()) + '-' + std::to_string(number);
       const int fd = ::open(written_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
       if (fd >= 0) {
+        // The directory's default list; what can't be done here take_place() tells.
+        if (before_) static_cast<void>(::fremovexattr(fd, kList));
         ::close(fd);
         return;
       }

@@ -47,7 +47,8 @@ sim::Entity named_link(sim::Entity joint, const std::string& name, const sim::En
 
 }  // namespace
 
-EntityTree::EntityTree(sim::Entity model, const ModelRobot::Joints& driven, sim::EntityComponentManager& ecm) : ecm_(ecm) {
+EntityTree::EntityTree(sim::Entity model, const ModelRobot::Joints& driven, sim::EntityComponentManager& ecm)
+    : ecm_(ecm), driven_(driven) {
   std::vector<sim::Entity> links, joints;
   for (const NamedEntity& e : entities_below<components::Link>(model, ecm)) links.push_back(e.entity);
   for (const NamedEntity& e : entities_below<components::Joint>(model, ecm)) joints.push_back(e.entity);
@@ -83,6 +84,7 @@ bool EntityTree::build(const std::vector<sim::Entity>& links, const std::vector<
     const auto type = ecm_.ComponentData<components::JointType>(joint);
     if (!child || !parent || !type || !kind(*type)) return false;
     const sim::Entity link = named_link(joint, *child, ecm_);
+    if (link == sim::kNullEntity) continue;  // it went with its model
     const auto at = std::find_if(waiting.begin(), waiting.end(), [&](const Waiting& w) { return w.item.link == link; });
     if (at == waiting.end() || at->item.joint != sim::kNullEntity) return false;  // another model's link, or a loop
     at->item.joint = joint;
@@ -137,9 +139,17 @@ void EntityTree::look() {
 
 void EntityTree::feel() {
   for (const std::size_t i : passive_) {
+    if (!ecm_.HasEntity(items_[i].joint)) continue;  // components of what is gone are errors on the log
     tree_.positions()[i] = first_number<components::JointPosition>(items_[i].joint, ecm_);
     tree_.speeds()[i] = first_number<components::JointVelocity>(items_[i].joint, ecm_);
   }
+}
+
+/// A robot that goes has its neighbours' trees found anew by itself, when it is called.
+bool EntityTree::are_there() const {
+  const auto gone = [this](sim::Entity e) { return !ecm_.HasEntity(e); };
+  if (std::any_of(driven_.begin(), driven_.end(), gone)) return true;
+  return std::none_of(items_.begin(), items_.end(), [&](const Item& item) { return gone(item.link); });
 }
 
 }  // namespace vsa::plugins

@@ -34,6 +34,7 @@ class EntityTree final : public LinkTrees {
   EntityTree(sim::Entity model, const ModelRobot::Joints& driven, sim::EntityComponentManager& ecm);
   void look() override;
   void feel() override;
+  [[nodiscard]] bool are_there() const override;
 
  private:
   struct Item {
@@ -45,6 +46,7 @@ class EntityTree final : public LinkTrees {
   bool build(const std::vector<sim::Entity>& links, const std::vector<sim::Entity>& joints, std::vector<host::TreeBody>& bodies);
 
   sim::EntityComponentManager& ecm_;
+  ModelRobot::Joints driven_;
   std::vector<Item> items_;
   std::vector<std::size_t> passive_;  ///< joints without actuators
 };

@@ -75,6 +75,9 @@ inline bool damps_implicitly(const mjModel& m) {
 #if mjVERSION_HEADER >= 300
   if (m.opt.integrator == mjINT_EULER && (m.opt.disableflags & mjDSBL_EULERDAMP) != 0) return false;
 #endif
+#if mjVERSION_HEADER >= 336
+  if ((m.opt.disableflags & mjDSBL_DAMPER) != 0) return false;
+#endif
   return std::any_of(m.dof_damping, m.dof_damping + static_cast<std::ptrdiff_t>(m.nv), [](mjtNum b) { return b > 0; });
 }
 

@@ -206,9 +206,10 @@ constexpr const char* kRestore =
     "time\n"
     "stays; the motion is the same bit by bit where steps meet the ticks of 1 ms as they did. What stands in `equilibrium`, "
     "`preset`\n"
-    "and `push` is given with the next step as ever. InputError, TypeError as Unit.restore_state, IndexError: no such unit; "
-    "nothing\n"
-    "has changed then.";
+    "and `push` is given with the next step as ever; what it was (NaN) is what the unit's references stand for, of a command "
+    "beyond\n"
+    "its range no more than it holds: such a one, where it still stands there, is given once more. InputError, TypeError as\n"
+    "Unit.restore_state, IndexError: no such unit; nothing has changed then.";
 
 }  // namespace
 

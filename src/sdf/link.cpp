@@ -18,21 +18,24 @@ namespace {
 
 constexpr double kTriangleTolerance = 1e-6;  // relative; engines get the nearest inertia that satisfies it
 
-using SdfMass = std::decay_t<decltype(std::declval<sdf::Link>().Inertial().MassMatrix())>;
+using SdfInertial = std::decay_t<decltype(std::declval<sdf::Link>().Inertial())>;
 
 constexpr double kLight_kg = 1e-5, kLight_kgm2 = 1e-9;  // told, for a gram weighed in tonnes
 
-/// I − excess·v vᵀ with v the axis of the largest principal moment: that moment less `excess`, about the same axes.
-Mat3 lowered(const Mat3& inertia, const SdfMass& mass, double excess) {
-  const SdfVec3 p = mass.PrincipalMoments();
+/// I − excess·v vᵀ with v the axis of the largest principal moment: that moment less `excess`, about the same axes. I, and so v, in
+/// the link's frame: libsdformat gives the principal axes in that of <inertial>, which its <pose> may turn.
+Mat3 lowered(const Mat3& inertia, const SdfInertial& inertial, double excess) {
+  const SdfVec3 p = inertial.MassMatrix().PrincipalMoments();
   const Vec3 largest = p.Z() >= p.X() && p.Z() >= p.Y() ? Vec3(0, 0, 1) : p.Y() >= p.X() ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
-  const Vec3 v = Quat(mass.PrincipalAxesOffset()) * largest;
+  const Vec3 v = Quat(inertial.Pose().Rot() * inertial.MassMatrix().PrincipalAxesOffset()) * largest;
   std::array<double, 9> m{};
   for (std::size_t i = 0; i < 9; ++i) m[i] = inertia(i / 3, i % 3) - excess * v[i / 3] * v[i % 3];
   return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]};
 }
 
-void check_inertia(ReadContext& c, const sdf::ElementPtr& element, const SdfMass& mass, const std::string& key, Mat3& inertia) {
+void check_inertia(ReadContext& c, const sdf::ElementPtr& element, const SdfInertial& inertial, const std::string& key,
+                   Mat3& inertia) {
+  const auto& mass = inertial.MassMatrix();
   if (!std::isfinite(mass.Mass()) || mass.Mass() <= 0) {
     c.problem(element, key + "/inertial/mass", fmt::format("{}", mass.Mass()), "isn't a positive mass", "> 0 kg, finite");
   }
@@ -45,7 +48,7 @@ void check_inertia(ReadContext& c, const sdf::ElementPtr& element, const SdfMass
   } else if (low + middle < high * (1 - kTriangleTolerance)) {
     const std::string moments = fmt::format("principal moments {:.6g} + {:.6g} < {:.6g}", low, middle, high);
     if (c.impossible_inertia == ImpossibleInertia::lower) {
-      inertia = lowered(inertia, mass, high - low - middle);
+      inertia = lowered(inertia, inertial, high - low - middle);
       c.notes.add("inertias that no body can have are lowered to the sum of the two smaller principal moments",
                   fmt::format("{} ({})", key, moments));
     } else {
@@ -64,7 +67,7 @@ void read_inertia(ReadContext& c, const sdf::Link& link, const std::string& key,
   if (out.is_static) return;
   if (!child(link.Element(), "inertial")) c.notes.add("links without <inertial> have SDF's defaults, 1 kg and 1 kg·m²", key);
   if (!inertial.Pose().IsFinite()) c.problem(link.Element(), key + "/inertial/pose", "", "isn't finite", "finite numbers");
-  check_inertia(c, link.Element(), inertial.MassMatrix(), key, out.inertia);
+  check_inertia(c, link.Element(), inertial, key, out.inertia);
   const double least = inertial.MassMatrix().PrincipalMoments().Min();
   if (out.mass > 0 && (out.mass < kLight_kg || (least > 0 && least < kLight_kgm2)))
     c.notes.add(

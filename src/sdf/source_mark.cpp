@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "vsa/config/text.hpp"
@@ -18,17 +19,23 @@ namespace fs = std::filesystem;
 constexpr std::string_view kOpen = "<!-- written of SDF ", kClose = " -->";
 constexpr std::size_t kDigits = 16;
 
-/// Without comments, and with the line ends of this system.
-std::string plain(std::string text) {
-  std::erase(text, '\r');
-  for (std::size_t at = 0; (at = text.find("<!--", at)) != std::string::npos;) {
-    const std::size_t end = text.find("-->", at);
-    text.erase(at, end == std::string::npos ? end : end + 3 - at);
+std::string cut_out(std::string text, std::string_view begin, std::string_view end) {
+  for (std::size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
+    const std::size_t last = text.find(end, at);
+    text.erase(at, last == std::string::npos ? last : last + end.size() - at);
   }
   return text;
 }
 
-std::vector<std::string> uris_in(const std::string& text) {
+/// Without comments, and with the line ends of this system.
+std::string plain(std::string text) {
+  std::erase(text, '\r');
+  return cut_out(std::move(text), "<!--", "-->");
+}
+
+/// Without those of materials' scripts: nobody reads them, and Gazebo's own, which many models name, are on some machines only.
+std::vector<std::string> uris_in(const std::string& whole) {
+  const std::string text = cut_out(whole, "<script>", "</script>");
   constexpr std::string_view kBegin = "<uri>", kEnd = "</uri>";
   std::vector<std::string> out;
   for (std::size_t at = 0; (at = text.find(kBegin, at)) != std::string::npos;) {
@@ -61,9 +68,11 @@ class Walk {
   [[nodiscard]] std::uint64_t hash() const { return hash_; }
 
  private:
+  /// One that isn't found is its name, which stands in the file that names it.
   void named(const fs::path& path) {
+    if (path.empty()) return;
     std::error_code none;
-    if (!fs::is_directory(path, none)) return path.empty() ? static_cast<void>(whole_ = false) : file(path);
+    if (!fs::is_directory(path, none)) return file(path);
     std::vector<fs::path> models;
     for (const auto& entry : fs::directory_iterator(path, none))
       if (entry.path().extension() == ".sdf") models.push_back(entry.path());

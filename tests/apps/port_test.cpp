@@ -8,9 +8,12 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <limits>
 #include <regex>
 
 #include "subprocess.hpp"
+#include "vsa/bus/codec.hpp"
+#include "vsa/bus/parameters.hpp"
 
 namespace {
 
@@ -227,7 +230,7 @@ TEST(GetAndSet, DefaultsAreStoredAndRestoredInBothDialects) {
     expect(units.vsa({"set", "restore"}), 0, {"has its defaults"});
     expect(units.vsa({"get", "position_pid"}), 0, {"P 0.25"});
     expect(units.vsa({"set", "id", "9"}, {"--store"}), 0, {"stored"});
-    expect(units.vsa({"set", "restore"}, {"--id", "9"}), 0, {"another id: vsa ping"});
+    expect(units.vsa({"set", "restore"}, {"--id", "9"}), 0, {"another id: vsa ping", "unless another unit has that id too"});
     expect(units.vsa({"get", "active"}), 0, {"off"});
     expect(units.vsa({"set", "restore"}, {"--id", "1-2"}), 2, {"one unit"});
     expect(units.vsa({"set", "restore", "now"}), 2, {"restore"});
@@ -271,6 +274,82 @@ TEST(Emulate, AMemoryInAFileOutlivesTheProgram) {
   refused({"--units", "2"}, "unit[0].user.id");
   write_file(file, "type = \"qbmove_advanced\"\n");
   refused({"--units", "2"}, "qbmove_advanced");
+}
+
+TEST(Emulate, UnitsAreKnownByTheIdsThatTheirMemoryHas) {
+  const Scratch scratch;
+  const Arguments memory{"--units", "3", "--memory", (scratch / "units.toml").string()};
+  {
+    Emulated units(memory);
+    ASSERT_TRUE(units.ready);
+    expect(units.vsa({"set", "startup_activation", "on"}, {"--id", "3", "--store"}), 0, {"stored"});
+    expect(units.vsa({"set", "id", "5"}, {"--id", "1", "--store"}), 0, {"stored"});
+    expect(units.end(), 0, {"3 units, ids 1 to 3, dialect 6, motors off"});
+  }
+  Arguments broken = memory;
+  broken.insert(broken.end(), {"--fault", "5 off"});
+  {
+    Emulated units(broken);
+    ASSERT_TRUE(units.ready);
+    const Result all = run_vsa({"ping", units.path, "--id", "2,3,5", "--dialect", "6", "--timeout-ms", "300"});
+    expect(all, 1, {"2     6", "3     6", "no answer from unit 5"});
+    expect(units.end(), 0, {"3 units, ids 5,2,3, dialect 6, motors on of 3)", "--id 5"});
+  }
+  broken.back() = "1 off";
+  broken.insert(broken.begin(), {"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string()});
+  expect(run_vsa(broken), 2, {"--fault", "no such unit", "all, 5,2,3"});
+}
+
+TEST(Emulate, AMemoryThatNoUnitCouldHaveStoredIsRefused) {
+  const Scratch scratch;
+  const std::string file = (scratch / "units.toml").string();
+  const Arguments emulate{"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--memory",
+                          file,      "--duration-s",         "0.05"};
+  expect(run_vsa(emulate), 0, {"simulated time"});
+  const std::string kept = vsa::test::read_file(file);
+  const auto with = [&](const std::string& key, const std::string& values) {
+    std::string text = kept;
+    const std::size_t at = text.find("\"" + key + "\" = [") + key.size() + 6;
+    write_file(file, text.replace(at, text.find(']', at) - at, values));
+    return run_vsa(emulate);
+  };
+  expect(with("resolution", "200, 1, 1"), 2, {file, "unit[0].user.resolution", "200", "0 … 8"});
+  expect(with("multiplier", "1, nan, 1"), 2, {file, "unit[0].user.multiplier", "nan", "finite"});
+  expect(with("limit_low", "-30000, 40000"), 2, {file, "unit[0].user.limit_low", "40000", "below 30000"});
+  expect(with("limit_low", "30000, -30000"), 0, {"simulated time"});  // vsa set limits takes them so
+}
+
+/// As a client of its own does; without waiting for an answer.
+bool tell(const std::string& path, const vsa::bus::Request& request) {
+  const int fd = open(path.c_str(), O_RDWR | O_NOCTTY);
+  termios settings{};
+  const bool there =
+      tcgetattr(fd, &settings) == 0 && cfsetspeed(&settings, B2000000) == 0 && tcsetattr(fd, TCSANOW, &settings) == 0;
+  const vsa::bus::FrameBytes frame = vsa::bus::encode_request({}, 1, request);
+  const bool said = there && write(fd, frame.bytes.data(), frame.size) == frame.size;
+  close(fd);
+  return said;
+}
+
+TEST(Emulate, AStoredMultiplierThatIsNoNumberHasTheFileWrittenOnce) {
+  const Scratch scratch;
+  const std::string file = (scratch / "units.toml").string();
+  Emulated unit({"--memory", file});
+  ASSERT_TRUE(unit.ready);
+  const std::array<float, 3> none{std::numeric_limits<float>::quiet_NaN(), 1, 1};
+  const auto request = vsa::bus::encode_value(vsa::bus::ParameterId::multipliers, none);
+  ASSERT_TRUE(request && tell(unit.path, *request));
+  expect(unit.vsa({"set", "store"}), 0, {"stored"});
+  const auto begun = std::chrono::steady_clock::now();
+  while (vsa::test::read_file(file).find("\"multiplier\" = [nan, 1, 1]") == std::string::npos)
+    ASSERT_LT(std::chrono::steady_clock::now() - begun, vsa::test::kPatience);
+  const auto written = std::filesystem::last_write_time(file);
+  // It looks each 0.1 s; the commands take longer.
+  for (int i = 0; i < 20; ++i) expect(unit.vsa({"get", "active"}), 0, {"off"});
+  EXPECT_EQ(std::filesystem::last_write_time(file), written);
+  unit.end();
+  expect(run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", unit.path, "--memory", file}), 2,
+         {"unit[0].user.multiplier", "nan"});
 }
 
 TEST(GetAndSet, ABaudrateActsAtOnceForTheUnitThatIsTold) {

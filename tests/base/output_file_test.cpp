@@ -88,25 +88,52 @@ TEST_F(WriteWhole, AFileThatIsThereKeepsItsOwnerWhereRootWritesIt) {
   EXPECT_EQ(text(file), "new");
 }
 
-TEST_F(WriteWhole, AFileThatIsThereKeepsItsAccessList) {
-  write_whole(file, "old");
-  constexpr std::uint32_t kNobody = 0xFFFFFFFF;
-  // As the kernel has it: version 2, then tag, permissions and id of owner, user 1234, group, mask and others.
+/// Lets user 1234 read and write. As the kernel has it: version 2, then tag, permissions and id of owner, that user, group, mask and
+/// others.
+struct AccessList {
+  static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
   struct Entry {
     std::uint16_t tag, permissions;
     std::uint32_t id;
   };
-  struct {
-    std::uint32_t version = 2;
-    std::array<Entry, 5> entries{{{1, 6, kNobody}, {2, 6, 1234}, {4, 4, kNobody}, {16, 6, kNobody}, {32, 0, kNobody}}};
-  } const list;
-  constexpr const char* kName = "system.posix_acl_access";
-  if (::setxattr(file.c_str(), kName, &list, sizeof list, 0) != 0 && errno == ENOTSUP)
-    GTEST_SKIP() << "this file system has no access lists";
+  std::uint32_t version = 2;
+  std::array<Entry, 5> entries{{{1, 6, kNobody}, {2, 6, 1234}, {4, 4, kNobody}, {16, 6, kNobody}, {32, 0, kNobody}}};
+};
+constexpr const char* kAccess = "system.posix_acl_access";
+constexpr const char* kDefault = "system.posix_acl_default";  // a directory's: what new files in it begin with
+
+/// False: this file system has none.
+bool give(const fs::path& at, const char* name, const AccessList& list) {
+  return ::setxattr(at.c_str(), name, &list, sizeof list, 0) == 0 || errno != ENOTSUP;
+}
+
+bool has_access_list(const fs::path& at) { return ::getxattr(at.c_str(), kAccess, nullptr, 0) > 0; }
+
+TEST_F(WriteWhole, AFileThatIsThereKeepsItsAccessList) {
+  write_whole(file, "old");
+  const AccessList list;
+  if (!give(file, kAccess, list)) GTEST_SKIP() << "this file system has no access lists";
   write_whole(file, "new");
   std::array<char, 256> now{};
-  ASSERT_EQ(::getxattr(file.c_str(), kName, now.data(), now.size()), static_cast<ssize_t>(sizeof list));
+  ASSERT_EQ(::getxattr(file.c_str(), kAccess, now.data(), now.size()), static_cast<ssize_t>(sizeof list));
   EXPECT_EQ(std::memcmp(now.data(), &list, sizeof list), 0);
+}
+
+TEST_F(WriteWhole, AFileThatIsThereWithoutAnAccessListGetsNoneFromItsDirectory) {
+  write_whole(file, "old");
+  ASSERT_EQ(::chmod(file.c_str(), 0660), 0);
+  if (!give(folder.path(), kDefault, {})) GTEST_SKIP() << "this file system has no access lists";
+  put(folder.path() / "another.txt", "");
+  ASSERT_TRUE(has_access_list(folder.path() / "another.txt"));
+  bool meanwhile = true;
+  write_whole(file, [&](const fs::path& beside) {
+    put(beside, "new");
+    meanwhile = has_access_list(beside);
+  });
+  EXPECT_EQ(text(file), "new");
+  EXPECT_FALSE(has_access_list(file));
+  EXPECT_FALSE(meanwhile) << "readable by others while it was written";
+  EXPECT_EQ(mode(file), 0660U);
 }
 
 TEST_F(WriteWhole, OtherHardLinksKeepWhatWas) {

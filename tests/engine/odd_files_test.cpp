@@ -148,18 +148,36 @@ std::string ball_at(double height, const std::string& name) {
          "<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link></model>";
 }
 
+std::string warnings_of(const std::string& content) {
+  std::string out;
+  const World w = World::load_string(world(content));
+  for (const std::string& warning : w.warnings()) out += warning + '\n';
+  return out;
+}
+
 TEST(OddFiles, ShapesThatAreDeepInEachOtherFromTheStartAreNamed) {
-  const auto told = [](const std::string& content) {
-    std::string out;
-    const World w = World::load_string(world(content));
-    for (const std::string& warning : w.warnings()) out += warning + '\n';
-    return out;
-  };
-  EXPECT_EQ(told(ground() + ball_at(0.097, "a")), "");  // 3 mm: lies on it
-  EXPECT_EQ(told(ground() + ball_at(0.07, "a")),
+  EXPECT_EQ(warnings_of(ground() + ball_at(0.097, "a")), "");  // 3 mm: lies on it
+  EXPECT_EQ(warnings_of(ground() + ball_at(0.07, "a")),
             "shapes that collide are in each other from the start: ground::l and a::l by 30 mm\n");
-  EXPECT_EQ(told(ground() + ball_at(0.09, "a") + ball_at(0.22, "b")),
+  EXPECT_EQ(warnings_of(ground() + ball_at(0.09, "a") + ball_at(0.22, "b")),
             "shapes that collide are in each other from the start: a::l and b::l by 70 mm and 1 more\n");
+}
+
+std::string box_at(double x, double height, const std::string& name) {
+  return "<model name='" + name + "'><pose>" + std::to_string(x) + " 0 " + std::to_string(height) + " 0 0 0</pose><link name='l'>" +
+         inertial(1, 1e-2) +
+         "<collision name='c'><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision></link></model>";
+}
+
+TEST(OddFiles, ShapesInEachOtherAreNamedHoweverManyOthersOnlyTouch) {
+  for (const int boxes : {12, 50, 400}) {
+    std::string content = ground();
+    for (int i = 1; i <= boxes; ++i) content += box_at(0.5 * i, 0.0999, "m" + std::to_string(i));  // four contacts each
+    content += ball_at(5, "a") + ball_at(5.125, "b");
+    EXPECT_EQ(warnings_of(content), "shapes that collide are in each other from the start: a::l and b::l by 75 mm\n") << boxes;
+    const World w = World::load_string(world(content));
+    EXPECT_EQ(w.contact_count(), 4 * boxes + 1) << boxes;
+  }
 }
 
 }  // namespace

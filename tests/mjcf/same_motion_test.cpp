@@ -156,6 +156,34 @@ TEST(Export, TellsWhenItsSdfHasChangedSince) {
   EXPECT_EQ(export_mjcf(elsewhere.path() / "w.sdf").front().bytes, exported) << "wherever it lies";
 }
 
+TEST(Export, TellsSoOfAModelThatNamesWhatIsNotThere) {
+  const Scratch scratch;
+  const fs::path sdf = scratch.path() / "w.sdf", media = scratch.path() / "media";
+  // Gazebo's own colours stand so in many models; nobody reads the script, so whether it is there makes no other mark.
+  const auto box = [](const char* mass, const char* mesh) {
+    return "<sdf version='1.7'><world name='w'><model name='m'><link name='l'><inertial><mass>" + std::string(mass) +
+           "</mass></inertial><visual name='v'><geometry>" + mesh +
+           "</geometry><material><script><uri>file://media/gazebo.material</uri><name>Gazebo/Red</name></script></material></"
+           "visual>"
+           "</link></model></world></sdf>\n";
+  };
+  const char* const cube = "<box><size>1 1 1</size></box>";
+  record::spew(sdf, box("1", cube));
+  write(export_mjcf(sdf), scratch.path());
+  EXPECT_EQ(told_of_mjcf(sdf), 0u);
+  const std::string exported = slurp(scratch.path() / "w.xml");
+  record::spew(sdf, box("2", cube));
+  EXPECT_EQ(told_of_mjcf(sdf), 1u);
+  record::spew(sdf, box("1", cube));
+  EXPECT_EQ(told_of_mjcf(sdf), 0u);
+  fs::create_directories(media);
+  record::spew(media / "gazebo.material", "material Gazebo/Red {}\n");
+  EXPECT_EQ(told_of_mjcf(sdf), 0u);
+  EXPECT_EQ(export_mjcf(sdf).front().bytes, exported);
+  record::spew(sdf, box("1", "<mesh><uri>file://media/nowhere.stl</uri></mesh>"));
+  EXPECT_EQ(told_of_mjcf(sdf), 1u);
+}
+
 TEST(Export, GoesBetweenSnapshots) {
   const Scratch scratch;
   write(export_mjcf(kWorlds / "frank.sdf"), scratch.path());

@@ -11,8 +11,9 @@
 namespace vsa::engine::testing {
 namespace {
 
-/// A free body with these moments about x, y and z turned by 0.5 rad about x, then 0.7 about z, or not turned.
-std::string turned_body(double x, double y, double z, bool turned = true) {
+/// A free body with these moments about x, y and z turned by 0.5 rad about x, then 0.7 about z, or not turned; all that in a frame
+/// that stands in the link as `pose` says.
+std::string turned_body(double x, double y, double z, bool turned = true, const std::string& pose = "0 0 0 0 0 0") {
   const double a = turned ? 0.5 : 0, b = turned ? 0.7 : 0;
   const double r[3][3] = {{std::cos(b), -std::sin(b) * std::cos(a), std::sin(b) * std::sin(a)},
                           {std::sin(b), std::cos(b) * std::cos(a), -std::cos(b) * std::sin(a)},
@@ -23,9 +24,9 @@ std::string turned_body(double x, double y, double z, bool turned = true) {
     number << x * r[i][0] * r[j][0] + y * r[i][1] * r[j][1] + z * r[i][2] * r[j][2];
     return number.str();
   };
-  return "<model name='m'><link name='a'><inertial><mass>1</mass><inertia><ixx>" + at(0, 0) + "</ixx><iyy>" + at(1, 1) +
-         "</iyy><izz>" + at(2, 2) + "</izz><ixy>" + at(0, 1) + "</ixy><ixz>" + at(0, 2) + "</ixz><iyz>" + at(1, 2) +
-         "</iyz></inertia></inertial></link></model>";
+  return "<model name='m'><link name='a'><inertial><pose>" + pose + "</pose><mass>1</mass><inertia><ixx>" + at(0, 0) +
+         "</ixx><iyy>" + at(1, 1) + "</iyy><izz>" + at(2, 2) + "</izz><ixy>" + at(0, 1) + "</ixy><ixz>" + at(0, 2) + "</ixz><iyz>" +
+         at(1, 2) + "</iyz></inertia></inertial></link></model>";
 }
 
 WorldOptions lower() {
@@ -35,17 +36,18 @@ WorldOptions lower() {
 }
 
 TEST(ImpossibleInertia, LoweredTheLargestMomentIsTheSumOfTheOthersAboutTheSameAxes) {
-  // Whichever of them is the largest.
-  for (int kind = 0; kind < 6; ++kind) {
+  // Whichever of them is the largest, with moments beside the diagonal and without, in a frame that is turned itself and in one not.
+  for (int kind = 0; kind < 12; ++kind) {
     const int largest = kind % 3;
-    const bool turned = kind < 3;
+    const bool turned = kind % 6 < 3;
+    const char* const pose = kind < 6 ? "0 0 0 0 0 0" : "0.1 0 -0.2 0.4 -0.3 1.1";
     const double low = 0.01, middle = 0.012, high = 0.05;
     const double given[3][3] = {{high, low, middle}, {low, high, middle}, {low, middle, high}};
     double can[3] = {given[largest][0], given[largest][1], given[largest][2]};
     can[largest] = low + middle;
     World lowered =
-        World::load_string(world(turned_body(given[largest][0], given[largest][1], given[largest][2], turned)), lower());
-    World nearest = World::load_string(world(turned_body(can[0], can[1], can[2], turned)));
+        World::load_string(world(turned_body(given[largest][0], given[largest][1], given[largest][2], turned, pose)), lower());
+    World nearest = World::load_string(world(turned_body(can[0], can[1], can[2], turned, pose)));
     ASSERT_EQ(lowered.warnings().size(), 1u);
     EXPECT_NE(lowered.warnings()[0].find("m::a (principal moments 0.01"), std::string::npos) << lowered.warnings()[0];
     EXPECT_TRUE(nearest.warnings().empty());

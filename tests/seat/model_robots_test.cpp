@@ -25,7 +25,11 @@ struct ArmTrees final : LinkTrees {
   }
   void look() override { ++looks; }
   void feel() override {}
-  static inline int looks = 0;
+  [[nodiscard]] bool are_there() const override { return number_ >= gone; }
+  static inline int looks = 0, made = 0, gone = 0;  ///< gone: so many of those made have lost links
+
+ private:
+  int number_ = made++;
 };
 
 double damping = 0;  ///< at each joint of the trees
@@ -197,6 +201,19 @@ TEST(ModelRobots, OneThatComesLaterJoinsTheOthers) {
   for (int n = 0; n < 50; ++n) host.step();
   EXPECT_EQ(host.plugins[0]->times.size(), 100U);
   EXPECT_EQ(host.plugins[1]->times.size(), 50U);
+}
+
+TEST(ModelRobots, FindTheTreesAnewWhereLinksOfThemAreGone) {
+  Host undisturbed({2, 1}), host({2, 1}, Is::tree, 2);
+  std::vector<std::array<double, 3>> angles;
+  for (int n = 0; n < 200; ++n) angles.push_back(undisturbed.step());
+  for (std::size_t n = 0; n < angles.size(); ++n) {
+    if (n == 100) ArmTrees::gone = ArmTrees::made;
+    const int before = ArmTrees::made;
+    ASSERT_EQ(host.step(), angles[n]) << "step " << n;
+    EXPECT_EQ(ArmTrees::made - before, n == 0 || n == 100 ? 1 : 0) << "step " << n;
+  }
+  for (const auto& plugin : host.plugins) EXPECT_EQ(plugin->said, "");
 }
 
 TEST(ModelRobots, WhereTheWholeModelIsNoTreeEachHasItsOwnModel) {

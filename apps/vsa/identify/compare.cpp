@@ -41,6 +41,13 @@ fs::path file_of(const Comparing& what, std::size_t fit) { return what.out() / "
 
 fs::path failure_of(const Comparing& what, std::size_t fit) { return what.out() / "fits" / (what.name(fit) + ".failed"); }
 
+/// None: no failure is noted.
+std::optional<fs::file_time_type> failed_at(const Comparing& what, std::size_t fit) {
+  std::error_code none;
+  const fs::file_time_type at = fs::last_write_time(failure_of(what, fit), none);
+  return none ? std::nullopt : std::optional(at);
+}
+
 void write_judgement(const Comparing& what, std::vector<identify::FitRecord> records) {
   Compared c;
   c.comparison = what.comparison();
@@ -67,6 +74,7 @@ Comparing::Comparing(const CompareOptions& options) : options_(options) {
   requests_ = identify::requests(comparison_);
   make_directory(out(), "--out");
   make_directory(out() / "fits", "--out");
+  for (std::size_t fit = 0; fit < fits(); ++fit) failed_before_.push_back(failed_at(*this, fit));
   experiment::Watch watch;
   const SignalWatch signals(watch);
   hashes_ = identify::request_hashes(comparison_, requests_, share(options_.threads.value_or(0), fits()).fits, &watch);
@@ -80,11 +88,12 @@ std::optional<identify::FitRecord> Comparing::stored(std::size_t fit) const {
   return stored_fit(file_of(*this, fit), hashes_[fit]);
 }
 
-std::optional<std::string> Comparing::failure(std::size_t fit) const {
+std::optional<Comparing::Failure> Comparing::failure(std::size_t fit) const {
+  const bool is_news = failed_at(*this, fit) != failed_before_[fit];  // by one clock, the folder's
   const std::string text = read_file(failure_of(*this, fit)).value_or("");
   const std::string& asked = hashes_[fit];
   if (text.compare(0, asked.size(), asked) != 0) return std::nullopt;
-  return std::string(config::trim(std::string_view(text).substr(asked.size())));
+  return Failure{std::string(config::trim(std::string_view(text).substr(asked.size()))), is_news};
 }
 
 void Comparing::note_failure(std::size_t fit, const std::string& why) const {
@@ -131,7 +140,7 @@ int compare_with(const Comparing& what, Console& console, const MakeFits& make) 
   if (todo.count > 0 && !make(todo)) return stopped();
   if (part.number != 1) return kDone;
   OthersRuns others(part, what.options().wait_s, console);
-  for (;;) {
+  for (bool first = true;; first = false) {
     std::vector<identify::FitRecord> records;
     std::vector<std::size_t> missing;
     bool failed = false;
@@ -142,8 +151,12 @@ int compare_with(const Comparing& what, Console& console, const MakeFits& make) 
       }
       missing.push_back(fit);
       const auto why = part.has(fit) ? std::nullopt : what.failure(fit);
-      if (why) console.line(fmt::format("{} failed in another part: {}", what.name(fit), *why));
-      failed = failed || part.has(fit) || why;
+      const bool is_news = why && why->is_news;
+      if (is_news) console.line(fmt::format("{} failed in another part: {}", what.name(fit), why->why));
+      if (why && !is_news && first)
+        console.line(fmt::format("{} failed in another part before this one began, which waits for another try: {}", what.name(fit),
+                                 why->why));
+      failed = failed || part.has(fit) || is_news;
     }
     if (failed) return kFailed;
     if (records.size() == what.fits()) {

@@ -38,8 +38,12 @@ class Comparing {
   [[nodiscard]] std::string name(std::size_t fit) const { return identify::request_name(comparison_, requests_[fit]); }
   [[nodiscard]] std::filesystem::path out() const;
   [[nodiscard]] std::optional<identify::FitRecord> stored(std::size_t fit) const;
+  struct Failure {
+    std::string why;
+    bool is_news = false;  ///< noted since this process began: what was there before may be tried again by now
+  };
   /// What it failed of in another part, if it did and hasn't been stored since.
-  [[nodiscard]] std::optional<std::string> failure(std::size_t fit) const;
+  [[nodiscard]] std::optional<Failure> failure(std::size_t fit) const;
   void note_failure(std::size_t fit, const std::string& why) const;
   /// Begun anew: what was noted of it goes.
   void forget_failure(std::size_t fit) const;
@@ -52,6 +56,7 @@ class Comparing {
   CompareOptions options_;
   identify::Comparison comparison_;
   std::vector<identify::FitRequest> requests_;
+  std::vector<std::optional<std::filesystem::file_time_type>> failed_before_;  // by fit
   std::vector<std::string> hashes_;
 };
 

@@ -2,6 +2,7 @@
 #include "unit/emulate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -82,31 +83,44 @@ std::vector<device::EmulatedUnit> units_of(const EmulateOptions& o) {
   return units;
 }
 
+/// As the units have them, from their memory of an earlier day too: an id twice where two were given the same.
+std::vector<int> ids_of(const device::Emulation& emulation) {
+  std::vector<int> ids;
+  for (std::size_t i = 0; i < emulation.size(); ++i) ids.push_back(emulation.pages(i).user.id);
+  return ids;
+}
+
+std::string ids_text(const std::vector<int>& ids, const char* to) {
+  for (std::size_t i = 1; i < ids.size(); ++i)
+    if (ids[i] != ids[i - 1] + 1) return fmt::format("{}", fmt::join(ids, ","));
+  return ids.size() == 1 ? std::to_string(ids.front()) : fmt::format("{}{}{}", ids.front(), to, ids.back());
+}
+
 /// "IDS FAULT …": as `vsa run --fault`, with units instead of actuators.
-void break_units(const EmulateOptions& o, const std::string& text, device::Emulation& emulation) {
+void break_units(const std::string& text, device::Emulation& emulation) {
   const std::string_view trimmed = config::trim(text);
   const std::size_t end = std::min(trimmed.find_first_of(" \t\n\r\f\v"), trimmed.size());
   const std::string who(trimmed.substr(0, end));
-  const std::string all = fmt::format("{}-{}", o.first_id, o.first_id + o.units - 1);
   device::Faults faults = config::read_faults(trimmed.substr(end), "--fault");
+  const std::vector<int> ids = ids_of(emulation);
   Problems problems;
-  for (const std::uint8_t id : parse_ids(who == "all" ? all : who, "--fault")) {
-    const int index = id - o.first_id;
-    if (index < 0 || index >= o.units) {
-      problems.add({"", "--fault", std::to_string(id), "no such unit", "all, " + all});
-      continue;
-    }
-    emulation.set_faults(static_cast<std::size_t>(index), faults);
+  const auto named = who == "all" ? std::vector<std::uint8_t>{} : parse_ids(who, "--fault");
+  for (const std::uint8_t id : named)
+    if (std::find(ids.begin(), ids.end(), id) == ids.end())
+      problems.add({"", "--fault", std::to_string(id), "no such unit", "all, " + ids_text(ids, "-")});
+  problems.throw_if_any();
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (who != "all" && std::find(named.begin(), named.end(), ids[i]) == named.end()) continue;
+    emulation.set_faults(i, faults);
     ++faults.seed;  // units have their own luck
   }
-  problems.throw_if_any();
 }
 
 void break_units(const EmulateOptions& o, device::Emulation& emulation) {
   Problems problems;
   for (const std::string& text : o.faults) {
     try {
-      break_units(o, text, emulation);
+      break_units(text, emulation);
     } catch (const InputError& error) {
       problems.add_all(error);
     }
@@ -172,13 +186,24 @@ class Runner {
   bool told_ = false, told_rate_ = false;
 };
 
-void introduce(const EmulateOptions& o, const std::string& path, bus::Dialect dialect, bool antagonists) {
-  const std::string ids = o.units == 1 ? fmt::format("unit {}", o.first_id)
-                                       : fmt::format("{} units, ids {} to {}", o.units, o.first_id, o.first_id + o.units - 1);
-  std::cout << fmt::format("{:<20}{}  ({}, dialect {}, motors {})\n", "port", path, ids, static_cast<int>(dialect),
-                           o.active ? "on" : "off")
+/// "on", "off", or "on of 2,7": whose motors are on from the start.
+std::string motors_text(const device::Emulation& emulation) {
+  std::vector<int> on;
+  for (std::size_t i = 0; i < emulation.size(); ++i)
+    if (const firmware::Memory user = emulation.pages(i).user; user.startup_activation == kMotorsOn) on.push_back(user.id);
+  if (on.empty()) return "off";
+  return on.size() == emulation.size() ? "on" : "on of " + ids_text(on, " to ");
+}
+
+void introduce(const EmulateOptions& o, const device::Emulation& emulation, const std::string& path, bus::Dialect dialect,
+               bool antagonists) {
+  const std::vector<int> ids = ids_of(emulation);
+  const std::string units =
+      ids.size() == 1 ? fmt::format("unit {}", ids.front()) : fmt::format("{} units, ids {}", ids.size(), ids_text(ids, " to "));
+  std::cout << fmt::format("{:<20}{}  ({}, dialect {}, motors {})\n", "port", path, units, static_cast<int>(dialect),
+                           motors_text(emulation))
             << fmt::format("{:<20}vsa ping {}\n", "talk to it", path)
-            << fmt::format("{:<20}vsa set {} active on --id {}\n", "", path, o.first_id) << fmt::format("{:<20}Ctrl-C\n", "end it")
+            << fmt::format("{:<20}vsa set {} active on --id {}\n", "", path, ids.front()) << fmt::format("{:<20}Ctrl-C\n", "end it")
             << std::flush;
   if (!antagonists)
     std::cerr << fmt::format("warning: {}: its references aren't equilibrium ± preset; use vsa set {} inputs …\n", o.type, path);
@@ -204,7 +229,7 @@ int run_emulate(const EmulateOptions& options) {
   int signal = 0;
   {
     const serial::VirtualPort port(emulation.line(), {serial::port_path(options.port.empty() ? options.type : options.port)});
-    introduce(options, port.path(), dialect, elastic::antagonistic(*units.front().config.actuator.transmission));
+    introduce(options, emulation, port.path(), dialect, elastic::antagonistic(*units.front().config.actuator.transmission));
     if (memory) memory->keep(emulation);  // a place that can't be written shows now
     Runner runner(emulation, port, options.duration_s, memory ? &*memory : nullptr);
     signal = runner.run();

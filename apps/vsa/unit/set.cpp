@@ -27,7 +27,8 @@ constexpr const char* kSetNotes = R"(WHAT and its values; angles in degrees, or 
   PARAMETER VALUE...              named as vsa get PORT parameters shows them; most act only once they are stored
   store                           write the parameters to the unit's memory
   store_defaults                  write them to its page of defaults
-  restore                         take that page's parameters, the id too, and store them
+  restore                         take that page's parameters, the id too, and store them: nobody can ask for that id
+                                  before, and where another unit has it, neither can be told anything any more
   baudrate 460800|2000000         the rate that it listens and answers at, at once and until it is switched off
 
 Examples:
@@ -190,7 +191,8 @@ std::string Told::memory() {
   static_cast<void>(port_.take(client_.acknowledge(id_, request), id_, options_.what, UnitPort::Wait::slow));
   if (!restores) return "stored as its defaults, and in force";
   return port_.look_for(id_) ? "has its defaults, stored"
-                             : "has its defaults, stored, and with them another id: vsa ping " + port_.path() + " finds it";
+                             : "has its defaults, stored, and with them another id: vsa ping " + port_.path() +
+                                   " finds it, unless another unit has that id too: then both answer at once";
 }
 
 std::string Told::parameter(config::ValueReader& reader) {

@@ -5,7 +5,10 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
+#include "vsa/bits.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/config/toml_section.hpp"
 #include "vsa/errors.hpp"
@@ -29,6 +32,22 @@ std::string page_text(const char* name, const Memory& memory) {
     out += fmt::format("\"{}\" = [{}]\n", e.name, values);
   }
   return out;
+}
+
+/// What `vsa set` would store: what it wouldn't is a slip of the hand that wrote the file.
+void check_page(const Memory& memory, const std::string& file, const std::string& key, Problems& problems) {
+  Memory asked = memory;
+  for (std::size_t i = 0; i < 2; ++i) {  // limits that leave a motor one place can be stored; a type can't have them
+    if (asked.limit_low[i] != asked.limit_high[i]) continue;
+    asked.limit_low[i] = 0;
+    asked.limit_high[i] = 1;
+  }
+  Problems found;
+  firmware::validate(asked, key + ".", found);
+  for (const Problem& p : found.list()) {
+    const std::size_t raw = p.key.rfind("_raw");  // of a type's keys, which have their unit
+    problems.add({file, p.key.substr(0, raw), p.value, p.message, p.allowed});
+  }
 }
 
 Memory read_page(const toml::table& unit, const char* name, const std::string& file, const std::string& where, Problems& problems) {
@@ -63,8 +82,17 @@ Memory read_page(const toml::table& unit, const char* name, const std::string& f
     } catch (const InputError& error) {
       for (const Problem& p : error.problems()) problems.add({file, key + "." + p.key, p.value, p.message, p.allowed});
     }
+  } else if (out.valid) {
+    check_page(out, file, key, problems);
   }
   return out;
+}
+
+/// To the bit: over the wire a client can store a multiplier that isn't a number, which is unlike itself.
+bool same(Memory a, Memory b) {
+  const bool factors = bits_as<std::array<std::uint32_t, 3>>(a.multiplier) == bits_as<std::array<std::uint32_t, 3>>(b.multiplier);
+  a.multiplier = b.multiplier = {};
+  return factors && a == b;
 }
 
 }  // namespace
@@ -99,7 +127,10 @@ UnitMemory::UnitMemory(std::filesystem::path file, std::string type, std::size_t
 void UnitMemory::keep(const device::Emulation& emulation) {
   std::vector<device::UnitPages> now;
   for (std::size_t i = 0; i < emulation.size(); ++i) now.push_back(emulation.pages(i));
-  if (now == pages_) return;
+  const auto kept = [](const device::UnitPages& a, const device::UnitPages& b) {
+    return same(a.user, b.user) && same(a.factory, b.factory);
+  };
+  if (std::equal(now.begin(), now.end(), pages_.begin(), pages_.end(), kept)) return;
   std::string text = "# What the units of vsa emulate --memory have stored.\ntype = \"" + type_ + "\"\n";
   for (const device::UnitPages& unit : now)
     text += "\n[[unit]]\n" + page_text("user", unit.user) + page_text("factory", unit.factory);

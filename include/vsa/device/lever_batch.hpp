@@ -57,8 +57,9 @@ class LeverBatch {
   /// has taken. InputError: no such unit.
   [[nodiscard]] UnitState state(std::size_t unit) const;
   /// Goes on from a state of a unit with these parameters, taken at `time_ns` there: bit by bit where steps meet the ticks of 1 ms
-  /// as they did. equilibrium(), preset() and push() are given with the next step as ever. InputError: no such unit, a shaft beyond
-  /// ±1e6 rad or rad/s, times that no state has.
+  /// as they did. equilibrium(), preset() and push() are given with the next step as ever; what it was (NaN) is what the unit's
+  /// references stand for, of a command beyond its range no more than it holds: such a one, where it still stands there, is given
+  /// once more. InputError: no such unit, a shaft beyond ±1e6 rad or rad/s, times that no state has.
   void restore(std::size_t unit, const UnitState& state, std::int64_t time_ns);
 
   [[nodiscard]] std::span<const double> shaft_rad() const noexcept { return angle_; }              ///< q now, one number a unit

@@ -59,7 +59,9 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::
   unit_.resize(static_cast<std::size_t>(m->nv));
   pushed_.resize(unit_.size());
   column_.resize(unit_.size());
-  damped_ = std::any_of(m->dof_damping, m->dof_damping + m->nv, [](mjtNum d) { return d > 0; });
+  // Where mj_Euler takes none, nor may what is solved before it.
+  damped_ = !switched_off(*m, {"Damper", "Eulerdamp"}) &&
+            std::any_of(m->dof_damping, m->dof_damping + m->nv, [](mjtNum d) { return d > 0; });
   jacobian_.resize(3 * unit_.size());
   mobility_.resize(3 * unit_.size());
   bodies_ = std::make_shared<const MujocoBodies>(*m, objects_);

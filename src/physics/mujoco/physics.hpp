@@ -69,7 +69,9 @@ class MujocoPhysics final : public Physics {
   void make_data();
   bool grow();  ///< false: it is as large as it may be
   void changed();
+  void look(const mjModel& m, mjData& d) const;
   const mjData& view() const;
+  std::vector<mjContact> touching() const;
   std::optional<Refusal> find_fault() const;
   std::optional<Refusal> check(const mjtNum* values, int n, bool positions, const char* quantity) const;
 

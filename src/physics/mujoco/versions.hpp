@@ -118,6 +118,18 @@ inline bool grow_memory(mjModel& m) {
   return true;
 }
 
+/// The same for who looks at contacts and solves nothing.
+inline bool grow_contacts(mjModel& m) {
+#if mjVERSION_HEADER >= 300
+  return grow_memory(m);
+#else
+  constexpr int kMostContacts = 1 << 17;  // of half a kilobyte each
+  if (m.nconmax * 2 > kMostContacts) return false;
+  m.nconmax *= 2;
+  return true;
+#endif
+}
+
 /// False: no room among the virtual files.
 inline bool add_file(mjVFS& vfs, const std::string& name, const std::string& bytes) {
 #if mjVERSION_HEADER >= 300

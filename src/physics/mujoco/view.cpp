@@ -3,21 +3,22 @@
 // Looking at the world; none of this touches the state that steps, but displace().
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "physics/mujoco/physics.hpp"
 #include "physics/mujoco/versions.hpp"
 
 namespace vsa::physics {
 
+void MujocoPhysics::look(const mjModel& m, mjData& d) const {
+  mju_copy(d.qpos, data_->qpos, m.nq);
+  mju_copy(d.qvel, data_->qvel, m.nv);
+  mj_kinematics(&m, &d);
+  mj_comPos(&m, &d);
+}
+
 const mjData& MujocoPhysics::view() const {
-  if (view_stale_) {
-    const mjModel* m = model_.get();
-    mju_copy(view_->qpos, data_->qpos, m->nq);
-    mju_copy(view_->qvel, data_->qvel, m->nv);
-    mj_kinematics(m, view_.get());
-    mj_comPos(m, view_.get());
-    view_stale_ = false;
-  }
+  if (std::exchange(view_stale_, false)) look(*model_, *view_);
   return *view_;
 }
 
@@ -124,16 +125,35 @@ scene::Energy MujocoPhysics::energy() const {
   return out;
 }
 
-int MujocoPhysics::contact_count() const {
+/// All that touches now. Where it is more than there is room for, a larger model finds it, and only here: prepare() makes room for
+/// those of a step, and who looks between two steps changes nothing of them.
+std::vector<mjContact> MujocoPhysics::touching() const {
   static_cast<void>(view());
-  mj_collision(model_.get(), view_.get());
-  return view_->ncon;
+  ModelPtr larger;
+  DataPtr room;
+  const mjModel* m = model_.get();
+  mjData* d = view_.get();
+  for (;;) {
+    mj_collision(m, d);
+    if (std::exchange(d->warning[mjWARN_CONTACTFULL].number, 0) == 0) break;
+    ModelPtr next(mj_copyModel(nullptr, m));
+    if (!next) throw SimulationError("MuJoCo: no memory for a larger world");
+    if (!grow_contacts(*next)) break;
+    room.reset(mj_makeData(next.get()));
+    if (!room) throw SimulationError("MuJoCo: no memory for the world's state");
+    larger = std::move(next);
+    m = larger.get();
+    d = room.get();
+    look(*m, *d);
+  }
+  return {d->contact, d->contact + d->ncon};
 }
+
+int MujocoPhysics::contact_count() const { return static_cast<int>(touching().size()); }
 
 std::vector<scene::Overlap> MujocoPhysics::overlaps() const {
   std::vector<scene::Overlap> out;
-  for (int i = 0, count = contact_count(); i < count; ++i) {
-    const mjContact& c = view_->contact[i];
+  for (const mjContact& c : touching()) {
     if (c.dist >= 0) continue;
     const std::size_t first = objects_.geoms[static_cast<std::size_t>(c.geom1)],
                       second = objects_.geoms[static_cast<std::size_t>(c.geom2)];
