@@ -21,8 +21,9 @@ constexpr double kStepMin_s = 1e-6, kStepMax_s = host::kLongestStep_s;
 std::int64_t step_ns(const WorldOptions& options, const description::World& world, const std::string& file, Problems& problems) {
   const double step_s = options.step_s.value_or(world.step_s);
   if (!(step_s >= kStepMin_s && step_s <= kStepMax_s)) {
-    problems.add({options.step_s ? "" : file, options.step_s ? "step_s" : "physics/max_step_size", fmt::format("{}", step_s),
-                  "step out of range", fmt::format("{} … {} s", kStepMin_s, kStepMax_s)});
+    const char* key = options.step_s ? "step_s" : world.native ? "option@timestep" : "physics/max_step_size";
+    problems.add({options.step_s ? "" : file, key, fmt::format("{}", step_s), "step out of range",
+                  fmt::format("{} … {} s{}", kStepMin_s, kStepMax_s, options.step_s ? "" : ", here or as step_s (--step-s)")});
     return 1'000'000;
   }
   return std::llround(step_s * 1e9);

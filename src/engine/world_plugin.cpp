@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 
 #include "engine/world_check.hpp"
 #include "vsa/config/find_file.hpp"
@@ -43,12 +42,9 @@ class Writer {
 
  private:
   [[nodiscard]] bool has_key_start() const {
-    const std::regex start(R"(\bname\s*=\s*["']start["'])");
     for (std::size_t at = mjcf_.find("<key "); at != std::string::npos; at = mjcf_.find("<key ", at + 1)) {
       const std::size_t end = std::min(mjcf_.find('>', at), mjcf_.size());
-      if (std::regex_search(mjcf_.begin() + static_cast<std::ptrdiff_t>(at), mjcf_.begin() + static_cast<std::ptrdiff_t>(end),
-                            start))
-        return true;
+      if (physics::gives_attribute(std::string_view(mjcf_).substr(at, end - at), "name", "start")) return true;
     }
     return false;
   }

@@ -146,7 +146,8 @@ void report(const sdf::Errors& errors, std::vector<Message> printed, ReadContext
   const bool unexplained = c.problems.list().size() == before && !left_to_readers;
   for (Message& m : printed) c.problems.add({std::move(m.file), std::move(m.key), "", std::move(m.text), ""});
   if (unexplained && printed.empty())
-    c.problems.add({c.file, "", "", "isn't readable as SDF or URDF", "an SDF 1.6 … 1.12 or URDF file"});
+    c.problems.add(
+        {c.file, "", "", "isn't readable as SDF or URDF", "an SDF 1.6 … 1.12 or URDF file, or MJCF named .xml or .mjcf"});
 }
 
 sdf::ParserConfig parser_config(const ReadContext& c) {

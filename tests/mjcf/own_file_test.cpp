@@ -7,6 +7,7 @@
 
 #include "../record/scratch.hpp"
 #include "vsa/engine/world.hpp"
+#include "vsa/physics/mjcf.hpp"
 #include "vsa/sdf/feature.hpp"
 
 namespace vsa::engine {
@@ -106,6 +107,94 @@ TEST(OwnMjcf, WithActuatorsThatHaveStatesIsRefused) {
   const std::string text =
       with(arm(), "</worldbody>", "</worldbody><actuator><general joint=\"shoulder\" dyntype=\"integrator\"/></actuator>");
   EXPECT_NE(message_of<InputError>([&] { (void)World::load_string(text); }).find("states of their own"), std::string::npos);
+}
+
+TEST(OwnMjcf, MayHoldAnyNumberOfBlanks) {
+  const std::string blanks(1'000'000, ' ');
+  EXPECT_NO_THROW((void)World::load_string(with(arm(), "<worldbody>", "<!-- file" + blanks + "--><worldbody>")));
+  using physics::gives_attribute;
+  EXPECT_TRUE(gives_attribute("<mesh file = \"a.stl\"/>", "file"));
+  EXPECT_TRUE(gives_attribute("<mesh file" + blanks + "=\"a.stl\"/>", "file"));
+  EXPECT_FALSE(gives_attribute("<mesh profile=\"a\"/> a file, file" + blanks, "file"));
+  EXPECT_TRUE(gives_attribute("<key time='1' name" + blanks + "= 'start'/>", "name", "start"));
+  for (const char* other : {"<key name='starts'/>", "<key name='sta", "<key name=start/>", "<key name=", "<key name='start"})
+    EXPECT_FALSE(gives_attribute(other, "name", "start")) << other;
+}
+
+/// What has no name is called by its number, unless somebody is called so: an actuator found the wrong joint.
+TEST(OwnMjcf, MakesUpNoNameThatIsThere) {
+  const std::string unnamed = R"(<body name="first" pos="2 0 0"><joint axis="0 0 1"/><geom size="0.1"/></body>)";
+  World world = World::load_string(
+      with(with(with(arm(), "<body name=\"base\">", unnamed + "<body name=\"body_1\">"), "name=\"shoulder\"", "name=\"joint_0\""),
+           "&lt;joint&gt;shoulder", "&lt;joint&gt;joint_0"));
+  ASSERT_EQ(world.joints().size(), 2u);
+  EXPECT_EQ(world.joints()[0].name, "arm::joint_0_");
+  EXPECT_EQ(world.joints()[1].name, "arm::joint_0");
+  world.command("shoulder", 0.5, 0.2);
+  world.run(1.0);
+  EXPECT_NEAR(world.joint_angle("arm::joint_0"), 0.5, 0.1);
+  EXPECT_NEAR(world.joint_angle("arm::joint_0_"), 0.0, 1e-6);
+  const std::string twice = message_of<InputError>([] {
+    (void)World::load_string(with(arm(), "<body name=\"base\">", "<body name=\"arm::upper\"><geom size=\"0.1\"/></body><body>"));
+  });
+  EXPECT_NE(twice.find("arm::upper"), std::string::npos) << twice;
+  EXPECT_NE(twice.find("is there twice"), std::string::npos) << twice;
+}
+
+TEST(OwnMjcf, IsNoUrdfWithAnotherEnding) {
+  const Scratch scratch;
+  for (const char* root : {"robot", "sdf"}) {
+    record::spew(scratch.path() / "r.xml",
+                 std::string("<?xml version='1.0'?><!-- <mujoco> -->\n<") + root + " name='r'><link name='l'/></" + root + ">");
+    const std::string told = message_of<InputError>([&] { (void)World::load(scratch.path() / "r.xml"); });
+    EXPECT_NE(told.find("isn't MJCF"), std::string::npos) << told;
+    EXPECT_NE(told.find(std::string(root) == "sdf" ? ".sdf" : ".urdf"), std::string::npos) << told;
+  }
+}
+
+TEST(OwnMjcf, WhoseNameTopicsCantCarryHasAnother) {
+  const World world = World::load_string(with(arm(), "model=\"arm\"", "model=\"my arm@home\""));
+  EXPECT_EQ(world.name(), "my_arm_home");
+  EXPECT_EQ(world.actuators().front().model, "my_arm_home");
+  EXPECT_NE(world.warnings().front().find("my arm@home"), std::string::npos) << world.warnings().front();
+}
+
+TEST(OwnMjcf, GetsRoomForContactsWhateverItsRows) {
+  const std::string falling = R"(<body pos="0 0.5 -0.8996"><freejoint/><geom type="box" size="0.1 0.1 0.1"/></body>)";
+  World world = World::load_string(with(with(arm(), "<worldbody>", "<size njmax=\"6001\" nconmax=\"1\"/><worldbody>"),
+                                        "<body name=\"base\">", falling + "<body name=\"base\">"));
+  EXPECT_NO_THROW(world.run(0.02));
+  EXPECT_GE(world.contact_count(), 4);
+}
+
+TEST(OwnMjcf, TellsWhatMujocoWarnsOf) {
+  const World world = World::load_string(with(arm(), "pos=\"0 0 0.1\"", "pos=\"nan 0 0.1\""));
+  EXPECT_NE(world.warnings().front().find("NaN"), std::string::npos) << world.warnings().front();
+}
+
+TEST(OwnMjcf, TellsOfControlsThatCantBeZero) {
+  const World world = World::load_string(
+      with(arm(), "</worldbody>",
+           "</worldbody><actuator><motor name=\"m\" joint=\"shoulder\" ctrllimited=\"true\" ctrlrange=\"5 10\"/></actuator>"));
+  ASSERT_GE(world.warnings().size(), 2u);
+  EXPECT_NE(world.warnings()[1].find("m has no control 0 in its ctrlrange: MuJoCo takes 5"), std::string::npos)
+      << world.warnings()[1];
+}
+
+TEST(OwnMjcf, HasNoLimitsThatItSwitchesOff) {
+  const World world = World::load_string(with(arm(), "<worldbody>", "<option><flag limit=\"disable\"/></option><worldbody>"));
+  EXPECT_FALSE(world.joints()[0].range);
+}
+
+TEST(OwnMjcf, SaysWhichOfItsWordsIsWrong) {
+  const std::string slow = message_of<InputError>([] { (void)World::load_string(with(arm(), "0.001", "0.02")); });
+  EXPECT_NE(slow.find("option@timestep"), std::string::npos) << slow;
+  EXPECT_NE(slow.find("--step-s"), std::string::npos) << slow;
+  const Scratch scratch;
+  record::spew(scratch.path() / "arm.xml", arm());
+  fs::create_directory(scratch.path() / "arm.vsa.xml");
+  const std::string folder = message_of<InputError>([&] { (void)World::load(scratch.path() / "arm.xml"); });
+  EXPECT_NE(folder.find("arm.vsa.xml"), std::string::npos) << folder;
 }
 
 struct Wrong {

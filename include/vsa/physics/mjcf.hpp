@@ -47,6 +47,9 @@ struct MjcfRead {
 /// Whether that is MJCF: by the root element of a text, by .xml or .mjcf of a file.
 [[nodiscard]] bool is_mjcf(const std::filesystem::path& path, std::string_view text);
 
+/// Whether somewhere in that text an attribute of this name is given, whatever it belongs to; `value`: given so.
+[[nodiscard]] bool gives_attribute(std::string_view xml, std::string_view name, std::string_view value = {});
+
 /// `text` as it stands in an attribute there.
 [[nodiscard]] std::string escaped(const std::string& text);
 

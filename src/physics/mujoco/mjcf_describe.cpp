@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "physics/mujoco/mjcf_file.hpp"
 #include "physics/mujoco/versions.hpp"
@@ -51,6 +52,25 @@ class Describer {
   [[nodiscard]] std::string scoped(const std::string& name) const {
     return name.find("::") == std::string::npos ? scoped_name(out_.name, name) : name;
   }
+  /// The file's names of its bodies or joints, each of which must be one's own; what has none is called "body_3", or, where somebody
+  /// is called so, "body_3_", and so on.
+  [[nodiscard]] std::vector<std::string> names_of(int type, int count, const char* kind) {
+    std::set<std::string> taken;
+    std::vector<std::string> out;
+    for (int id = 0; id < count; ++id) {
+      const std::string own = name_of(m_, type, id);
+      out.push_back(own.empty() ? "" : scoped(own));
+      if (!own.empty() && !taken.insert(out.back()).second)
+        problem(kind, out.back(), "is there twice, once with the model's name before it", "names of their own");
+    }
+    for (int id = 0; id < count; ++id) {
+      std::string& name = out[static_cast<std::size_t>(id)];
+      if (!name.empty()) continue;
+      name = scoped(fmt::format("{}_{}", kind, id));
+      while (!taken.insert(name).second) name += '_';
+    }
+    return out;
+  }
   [[nodiscard]] Vec3 vector(const mjtNum* v) const { return {v[0], v[1], v[2]}; }
 
   void add_link(int body, scene::LinkInfo info) {
@@ -79,11 +99,11 @@ class Describer {
   }
 
   void links_of_bodies() {
+    const std::vector<std::string> names = names_of(mjOBJ_BODY, m_.nbody, "body");
     for (int b = 0; b < m_.nbody; ++b) {
       if (b == 0 && m_.body_geomnum[0] == 0) continue;
-      const std::string own = name_of(m_, mjOBJ_BODY, b);
       scene::LinkInfo info;
-      info.name = scoped(own.empty() ? fmt::format("body_{}", b) : own);
+      info.name = names[static_cast<std::size_t>(b)];
       info.model = std::string(outermost(info.name));
       info.is_static = m_.body_weldid[b] == 0 && m_.body_mass[b] <= 0;
       info.visuals = visuals_of(m_, b);
@@ -162,7 +182,8 @@ class Describer {
     const int v = m_.jnt_dofadr[id], q = m_.jnt_qposadr[id];
     Axis axis;
     axis.xyz = reversed ? -vector(data_->xaxis + 3 * id) : vector(data_->xaxis + 3 * id);
-    if (m_.jnt_limited[id] != 0) axis.range = {{m_.jnt_range[2 * id], m_.jnt_range[2 * id + 1]}};
+    if (m_.jnt_limited[id] != 0 && !switched_off(m_, {"Constraint", "Limit"}))
+      axis.range = {{m_.jnt_range[2 * id], m_.jnt_range[2 * id + 1]}};
     if (!without_dampers(m_)) axis.damping = m_.dof_damping[v];
     if (!switched_off(m_, {"Constraint", "Frictionloss"})) axis.friction = m_.dof_frictionloss[v];
     if (!without_springs(m_)) axis.stiffness = m_.jnt_stiffness[id];
@@ -183,14 +204,14 @@ class Describer {
   }
 
   void joints_of_bodies() {
+    const std::vector<std::string> names = names_of(mjOBJ_JOINT, m_.njnt, "joint");
     for (int id = 0; id < m_.njnt; ++id) {
       const std::optional<Kind> kind = kind_of(m_.jnt_type[id]);
       if (!kind) continue;
-      const std::string own = name_of(m_, mjOBJ_JOINT, id);
       const int body = m_.jnt_bodyid[id];
       Joint joint;
       joint.kind = *kind;
-      joint.name = scoped(own.empty() ? fmt::format("joint_{}", id) : own);
+      joint.name = names[static_cast<std::size_t>(id)];
       joint.parent = m_.body_parentid[body] == 0 ? std::nullopt : link_at(m_.body_parentid[body]);
       joint.child = link_at(body);
       add_joint(std::move(joint), {id, -1});

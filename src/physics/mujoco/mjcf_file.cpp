@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
-#include <regex>
 
 #include "physics/mujoco/mjcf.hpp"
 #include "physics/tree.hpp"
@@ -23,10 +23,33 @@ constexpr std::string_view kNameless = "MuJoCo Model";  // what MuJoCo calls a f
 
 fs::path beside_of(fs::path file) { return file.replace_extension(".vsa.xml"); }
 
+bool is_blank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+
+/// A model's name leads those of topics, which carry no blanks, no @ and no ~.
+std::string speakable(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return is_blank(c) || c == '@' || c == '~'; }, '_');
+  return name;
+}
+
 std::string name_of(const mjModel& m, const fs::path& path) {
   std::string own = m.names;  // the first of the names
   if (!own.empty() && own != kNameless) return own;
   return path.empty() ? "model" : path.stem().string();
+}
+
+/// The first element's name, behind declarations and comments; empty: there is none.
+std::string_view root_of(std::string_view text) {
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string_view::npos;) {
+    const std::string_view rest = text.substr(at + 1);
+    if (rest.empty() || (rest[0] != '?' && rest[0] != '!'))
+      return rest.substr(0, std::min(rest.find_first_of(" \t\r\n/>"), rest.size()));
+    const std::string_view end = rest.substr(0, 3) == "!--" ? "-->" : ">";
+    const std::size_t last = rest.find(end);
+    if (last == std::string_view::npos) return {};
+    at += 1 + last + end.size();
+  }
+  return {};
 }
 
 void read_texts(const mjModel& m, description::World& out) {
@@ -34,7 +57,7 @@ void read_texts(const mjModel& m, description::World& out) {
     const std::string_view name = m.names + m.name_textadr[i];
     if (name.substr(0, kRobot.size()) != kRobot) continue;
     const bool says = name.size() > kRobot.size() + 1;
-    const std::string model(says ? name.substr(kRobot.size() + 1) : std::string_view(out.name));
+    const std::string model = speakable(std::string(says ? name.substr(kRobot.size() + 1) : std::string_view(out.name)));
     out.plugins.push_back({model, std::string(outermost(model)), m.text_data + m.text_adr[i]});
   }
 }
@@ -42,15 +65,54 @@ void read_texts(const mjModel& m, description::World& out) {
 /// What MuJoCo has and this simulator leaves out or can't.
 void look_for_limits(const mjModel& m, const std::string& file, std::vector<std::string>& warnings, Problems& problems) {
   const auto warn = [&](const std::string& text) { warnings.push_back(text + " (" + file + ")"); };
-  if (m.na > 0)
-    problems.add({file, "actuator", fmt::format("{}", m.na), "have states of their own", "actuators without activation"});
+  if (m.na > 0) {
+    std::string with_states;
+    for (int a = 0; a < m.nu; ++a)
+      if (m.actuator_dyntype[a] != mjDYN_NONE) with_states += (with_states.empty() ? "" : ", ") + actuator_name(m, a);
+    problems.add({file, "actuator", with_states, "states of their own", "actuators without activation"});
+  }
   if (m.nu > 0) warn("MuJoCo's own actuators stay at control 0");
+  for (int a = 0; a < m.nu; ++a)
+    if (const double control = control_of(m, a); control != 0)
+      warn(fmt::format("actuator {} has no control 0 in its ctrlrange: MuJoCo takes {:g}", actuator_name(m, a), control));
   if (m.opt.integrator != mjINT_EULER) warn("the integrator is semi-implicit Euler, whatever <option> says");
   if (m.nkey > 0) warn("keyframes are left out");
   if (m.nsensor > 0) warn("sensors are left out");
 }
 
 }  // namespace
+
+std::string actuator_name(const mjModel& m, int actuator) {
+  const char* name = mj_id2name(&m, mjOBJ_ACTUATOR, actuator);
+  return name == nullptr ? fmt::format("number {}", actuator) : name;
+}
+
+double control_of(const mjModel& m, int actuator) {
+  const mjtNum* range = m.actuator_ctrlrange + 2 * actuator;
+  const bool limited = m.actuator_ctrllimited[actuator] != 0 && !switched_off(m, {"Clampctrl"});
+  return limited ? std::clamp(0.0, range[0], std::max(range[0], range[1])) : 0.0;
+}
+
+bool gives_attribute(std::string_view xml, std::string_view name, std::string_view value) {
+  const auto word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (std::size_t at = 0; (at = xml.find(name, at)) != std::string_view::npos;) {
+    const bool begins = at == 0 || !word(xml[at - 1]);
+    at += name.size();
+    const auto skip_blanks = [&] {
+      while (at < xml.size() && is_blank(xml[at])) ++at;
+    };
+    skip_blanks();
+    if (!begins || at == xml.size() || xml[at] != '=') continue;
+    ++at;
+    skip_blanks();
+    if (value.empty()) return true;
+    const std::string_view rest = xml.substr(std::min(at + 1, xml.size()));
+    if (at < xml.size() && (xml[at] == '"' || xml[at] == '\'') && rest.substr(0, value.size()) == value &&
+        rest.substr(std::min(value.size(), rest.size()), 1) == xml.substr(at, 1))
+      return true;
+  }
+  return false;
+}
 
 std::vector<fs::path> files_of_mjcf(const fs::path& path) { return {path, beside_of(path)}; }
 
@@ -72,22 +134,36 @@ MjcfRead read_mjcf(const fs::path& path, std::string_view given, std::vector<std
     }
     text = *bytes;
   }
-  out.names_others = std::regex_search(text, std::regex(R"(\bfile\s*=)"));
+  if (const std::string_view root = root_of(text); root == "robot" || root == "sdf") {  // MuJoCo would take a part of a URDF
+    const std::string ending = root == "sdf" ? ".sdf" : ".urdf";
+    problems.add({file, std::string(root), "", "isn't MJCF", "<mujoco>, or the file's name with " + ending});
+    return out;
+  }
+  out.names_others = gives_attribute(text, "file");
   auto native = std::make_shared<MjcfFile>();
   std::string reason;
-  native->model = path.empty() ? compile(text, {}, reason) : load_file(path.string(), reason);
+  std::vector<std::string> told;
+  native->model = path.empty() ? compile(text, {}, reason, &told) : load_file(path.string(), reason, &told);
   if (!native->model) {
     problems.add({file, "", "", "MuJoCo refuses it: " + reason, "MJCF of MuJoCo " + std::string(mj_versionString())});
     return out;
   }
   const mjModel& model = *native->model;
+  for (const std::string& text_of_mujoco : told) warnings.push_back("MuJoCo says: " + text_of_mujoco + " (" + file + ")");
   look_for_limits(model, file, warnings, problems);
-  out.world.name = name_of(model, path);
+  const std::string own_name = name_of(model, path);
+  out.world.name = speakable(own_name);
+  if (out.world.name != own_name)
+    warnings.push_back(fmt::format("mujoco@model \"{}\" is called {} here: topics' names carry no blanks, @ and ~ ({})", own_name,
+                                   out.world.name, file));
   out.world.step_s = model.opt.timestep;
   out.world.gravity = {model.opt.gravity[0], model.opt.gravity[1], model.opt.gravity[2]};
   read_texts(model, out.world);
   Beside beside;
   const std::optional<std::string> more = path.empty() ? std::nullopt : read_file(beside_of(path));
+  std::error_code none;
+  if (!path.empty() && !more && fs::symlink_status(beside_of(path), none).type() != fs::file_type::not_found)
+    problems.add({beside_of(path).string(), "", "", "can't be read", "a file, or none"});
   if (more) beside = read_beside(*more, beside_of(path).string(), out.world.name, problems);
   if (!problems.empty()) return out;
   describe(model, more ? beside_of(path).string() : file, beside, out.world, native->objects, problems);

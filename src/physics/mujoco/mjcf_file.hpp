@@ -46,6 +46,10 @@ struct Beside {
 void describe(const mjModel& model, const std::string& file, const Beside& beside, description::World& out, LinkObjects& objects,
               Problems& problems);
 
+/// Of MuJoCo's own: its name, or "number 3"; the control nearest to 0 that it takes.
+[[nodiscard]] std::string actuator_name(const mjModel& model, int actuator);
+[[nodiscard]] double control_of(const mjModel& model, int actuator);
+
 /// What else of the model acts on the joints of `out`.
 void describe_forces(const mjModel& model, const LinkObjects& objects, description::World& out);
 

@@ -85,7 +85,7 @@ class Forces {
       if (acts(t)) add(&Joint::pulled, joints_of_tendon(m_, t), name_of(m_, mjOBJ_TENDON, t, "tendon"));
     if (!switched_off(m_, {"Actuation"}))
       for (int a = 0; a < m_.nu; ++a)
-        if (m_.actuator_biastype[a] != mjBIAS_NONE)
+        if (m_.actuator_biastype[a] != mjBIAS_NONE || control_of(m_, a) != 0)
           add(&Joint::pulled, joints_of_actuator(a), name_of(m_, mjOBJ_ACTUATOR, a, "MuJoCo's actuator"));
     if (!without_dampers(m_) && (m_.opt.density > 0 || m_.opt.viscosity > 0))
       add(&Joint::pulled, all_joints(m_), "the fluid of <option>");

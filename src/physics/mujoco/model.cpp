@@ -12,7 +12,12 @@ namespace {
 
 std::mutex compiling;  // mj_loadXML keeps its last model in a global
 
-void on_warning(const char*) {}  // counted in mjData, where every step looks
+thread_local std::vector<std::string>* told = nullptr;  // while a model is compiled
+
+/// Those of a step are counted in mjData, where every step looks.
+void on_warning(const char* text) {
+  if (told != nullptr) told->emplace_back(text);
+}
 
 [[noreturn]] void on_error(const char* text) { throw SimulationError(std::string("MuJoCo: ") + text); }
 
@@ -28,8 +33,15 @@ void take_hooks() {
   mju_user_error = on_error;
 }
 
-ModelPtr load(const std::string& path, const mjVFS* files, std::string& reason) {
+ModelPtr load(const std::string& path, const mjVFS* files, std::string& reason, std::vector<std::string>* warnings) {
+  struct Listening {
+    explicit Listening(std::vector<std::string>* to) { told = to; }
+    ~Listening() { told = nullptr; }
+    Listening(const Listening&) = delete;
+    Listening& operator=(const Listening&) = delete;
+  };
   std::array<char, 1000> error{};
+  const Listening listening(warnings);
   ModelPtr model(mj_loadXML(path.c_str(), files, error.data(), static_cast<int>(error.size())));
   mj_freeLastXML();
   if (!model) reason = error.data();
@@ -38,7 +50,8 @@ ModelPtr load(const std::string& path, const mjVFS* files, std::string& reason) 
 
 }  // namespace
 
-ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, std::string& reason) {
+ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, std::string& reason,
+                 std::vector<std::string>* warnings) {
   const std::lock_guard lock(compiling);
   take_hooks();
   const std::unique_ptr<mjVFS, VfsDeleter> vfs(new mjVFS);
@@ -49,13 +62,13 @@ ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, 
     reason = "the world is too large for MuJoCo's virtual files";
     return nullptr;
   }
-  return load("world.xml", vfs.get(), reason);
+  return load("world.xml", vfs.get(), reason, warnings);
 }
 
-ModelPtr load_file(const std::string& path, std::string& reason) {
+ModelPtr load_file(const std::string& path, std::string& reason, std::vector<std::string>* warnings) {
   const std::lock_guard lock(compiling);
   take_hooks();
-  return load(path, nullptr, reason);
+  return load(path, nullptr, reason, warnings);
 }
 
 }  // namespace vsa::physics

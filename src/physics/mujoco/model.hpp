@@ -25,9 +25,11 @@ struct VirtualFile {
   std::string name, bytes;
 };
 
-/// Compiles XML from memory, with the files that it names. Null and a reason where MuJoCo refuses it.
-[[nodiscard]] ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, std::string& reason);
+/// Compiles XML from memory, with the files that it names. Null and a reason where MuJoCo refuses it; what it warns of goes to
+/// `warnings`, if there are any.
+[[nodiscard]] ModelPtr compile(const std::string& xml, const std::vector<VirtualFile>& named, std::string& reason,
+                               std::vector<std::string>* warnings = nullptr);
 /// The same of a file on the disk, with those that it names.
-[[nodiscard]] ModelPtr load_file(const std::string& path, std::string& reason);
+[[nodiscard]] ModelPtr load_file(const std::string& path, std::string& reason, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace vsa::physics

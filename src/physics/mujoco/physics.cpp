@@ -78,10 +78,10 @@ void MujocoPhysics::make_data() {
   view_stale_ = true;
 }
 
-bool MujocoPhysics::grow() {
+bool MujocoPhysics::grow(bool contacts_only) {
   ModelPtr larger(mj_copyModel(nullptr, model_.get()));
   if (!larger) throw SimulationError("MuJoCo: no memory for a larger world");
-  if (!grow_memory(*larger)) return false;
+  if (!grow_memory(*larger, contacts_only)) return false;
   std::vector<double> state(state_size());
   save(state);
   model_ = std::move(larger);
@@ -100,8 +100,8 @@ void MujocoPhysics::prepare() {
   save(before_);
   for (;;) {
     mj_fwdPosition(m, data_.get());
-    const bool full = data_->warning[mjWARN_CONTACTFULL].number > 0 || data_->warning[mjWARN_CNSTRFULL].number > 0;
-    if (!full || !grow()) break;
+    const bool rows = data_->warning[mjWARN_CNSTRFULL].number > 0, contacts = data_->warning[mjWARN_CONTACTFULL].number > 0;
+    if (!(rows || contacts) || !grow(!rows)) break;
     m = model_.get();  // another
   }
   take_dampers();

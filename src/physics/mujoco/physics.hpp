@@ -67,7 +67,7 @@ class MujocoPhysics final : public Physics {
     int q = -1, v = -1;
   };
   void make_data();
-  bool grow();  ///< false: it is as large as it may be
+  bool grow(bool contacts_only);  ///< false: it is as large as it may be
   void changed();
   void look(const mjModel& m, mjData& d) const;
   const mjData& view() const;

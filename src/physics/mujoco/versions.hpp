@@ -102,32 +102,36 @@ inline std::size_t row_room([[maybe_unused]] const mjModel& m, [[maybe_unused]] 
 #endif
 }
 
-/// More room for contacts and their rows. False: the model has as much as it may have.
-inline bool grow_memory(mjModel& m) {
-#if mjVERSION_HEADER >= 300
-  constexpr auto kMost = std::size_t{1} << 32;  // bytes, touched only as far as used
-  if (static_cast<std::size_t>(m.narena) >= kMost) return false;
-  m.narena *= 4;
-#else
-  constexpr int kMostRows = 12000;  // 12000² doubles of MuJoCo's dual matrix: 1.2 GB, touched only as far as used
-  if (m.njmax * 2 > kMostRows) return false;
-  m.njmax *= 2;
-  m.nconmax *= 2;
-  m.nstack *= 4;
-#endif
-  return true;
-}
-
-/// The same for who looks at contacts and solves nothing.
+/// Room for more contacts. False: the model has as much as it may have.
 inline bool grow_contacts(mjModel& m) {
 #if mjVERSION_HEADER >= 300
-  return grow_memory(m);
+  constexpr auto kMost = std::size_t{1} << 32;
+  if (static_cast<std::size_t>(m.narena) >= kMost) return false;
+  m.narena *= 4;
+  return true;
 #else
   constexpr int kMostContacts = 1 << 17;  // of half a kilobyte each
   if (m.nconmax * 2 > kMostContacts) return false;
   m.nconmax *= 2;
   return true;
 #endif
+}
+
+/// More room for contacts and their rows, or where rows have as much as they may have for contacts alone, if `contacts_only` are
+/// missing. False: the model has as much as it may have.
+inline bool grow_memory(mjModel& m, [[maybe_unused]] bool contacts_only) {
+#if mjVERSION_HEADER >= 300
+  constexpr auto kMost = std::size_t{1} << 32;  // bytes, touched only as far as used
+  if (static_cast<std::size_t>(m.narena) >= kMost) return false;
+  m.narena *= 4;
+#else
+  constexpr int kMostRows = 12000;  // 12000² doubles of MuJoCo's dual matrix: 1.2 GB, touched only as far as used
+  if (m.njmax * 2 > kMostRows) return contacts_only && grow_contacts(m);
+  m.njmax *= 2;
+  m.nconmax *= 2;
+  m.nstack *= 4;
+#endif
+  return true;
 }
 
 /// False: no room among the virtual files.
