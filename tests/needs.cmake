@@ -5,6 +5,7 @@
 set(VSA_NEEDS_SDF_mjcf
   CommittedMjcf.*
   Export.GoesBetweenSnapshots
+  Export.KeepsLinksWithoutGravity
   Export.WritesNamesThatXmlWouldTakeForItsOwn
   Worlds/FromSdfAndFromMjcf.*
 )
@@ -48,6 +49,7 @@ set(VSA_NEEDS_SDF_engine
   Hostile.AWorldThatWasMovedFromSaysSo
   Hostile.GaitsThatCannotBePlayedAreRefused
   Run.*
+  Weightless.*
   SecondLoad.GivesTheSameBitsAndTheSameWarnings
   SecondLoad.HasTheStepThatWasAskedFor
   SecondLoad.OfOneTextWithOtherWishesForConcaveMeshesIsReadAnew

@@ -163,7 +163,8 @@ void bind_joints(WorldClass& c) {
           "set_joint",
           [](PyWorld& w, const std::string& joint, double angle, double speed) { w.get().set_joint(joint, angle, speed); },
           py::arg("joint"), py::arg("angle_rad"), py::arg("speed_rad_per_s") = 0.0,
-          "Sets a joint's angle and speed, and those of joints that follow it (<mimic>); its actuator stays behind, which is a "
+          "Sets a joint's angle and speed, and those of joints that follow it (<mimic> or <equality>); its actuator stays behind, "
+          "which is a "
           "kick.\n"
           "place() moves that along. InputError: beyond the joint's limits, and a follower elsewhere than its leader has it.")
       .def(

@@ -45,7 +45,7 @@ std::string refusal_of(const description::World& world, std::size_t joint) {
                                    [&](const description::Coupling& k) { return k.follower == joint; });
   return j.kind == Joint::Kind::fixed ? "can't move: it is fixed, or its limits leave it no room"
          : !j.one_axis()              ? "isn't a joint with one axis"
-         : follows                    ? "follows another joint (<mimic>)"
+         : follows                    ? "follows another joint (<mimic> or <equality>)"
                                       : "";
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/world_cache.hpp"
 #include "engine/world_check.hpp"
 #include "vsa/config/find_file.hpp"
 #include "vsa/config/text.hpp"
@@ -137,6 +138,19 @@ std::string mjcf_text(const std::filesystem::path& path, const WorldOptions& opt
   return *std::move(text);
 }
 
+/// MuJoCo from 2.3.1 on leaves a body alone that has gravcomp.
+std::string without_gravity(std::string mjcf, const description::World& world, std::vector<std::string>& notes) {
+  for (const description::Link& link : world.links) {
+    if (!link.weightless) continue;
+    const std::string body = "<body name=" + in_quotes(link.name);
+    if (const std::size_t at = mjcf.find(body); at != std::string::npos)
+      mjcf.insert(at + body.size(), " gravcomp=\"1\"");
+    else
+      notes.push_back("link " + link.name + " is without gravity, which MuJoCo isn't told: give its body gravcomp=\"1\"");
+  }
+  return mjcf;
+}
+
 }  // namespace
 
 PluginMjcf export_plugin_mjcf(const std::filesystem::path& file, const WorldOptions& options, std::string mjcf) {
@@ -152,6 +166,9 @@ PluginMjcf export_plugin_mjcf(const std::filesystem::path& file, const WorldOpti
   PluginMjcf out;
   out.file.name = path.stem().string() + "_plugin.xml";
   if (mjcf.empty()) mjcf = mjcf_text(path, options);
+  const std::shared_ptr<ReadWorld> read = read_world({path, {}}, options, problems);
+  problems.throw_if_any();
+  mjcf = without_gravity(std::move(mjcf), *read->world, out.notes);
   out.file.bytes = Writer(world, std::move(mjcf)).text(out.notes, path.string());
   return out;
 }

@@ -41,7 +41,7 @@ void check_follower(const description::Coupling& c, const std::vector<JointInfo>
   if (angle && speed) return;
   const auto state = [](double position, double v) { return fmt::format("{}, speed {}", position, v); };
   throw InputError(Problem{"", joints[c.follower].name, state(f.wanted.position, f.wanted.speed),
-                           "follows " + joints[c.leader].name + " (<mimic>), which has it at " + state(there, moves),
+                           "follows " + joints[c.leader].name + " (<mimic> or <equality>), which has it at " + state(there, moves),
                            "setting " + joints[c.leader].name + ", which moves it along"});
 }
 

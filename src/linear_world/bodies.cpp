@@ -86,7 +86,8 @@ void check(const World& w, const Whole& all, Problems& problems) {
     if (all.joint[i] != kNobody) {
       const JointInfo& joint = w.joints()[all.joint[i]];
       if (joint.follows)
-        problems.add({"", joint.name, "", "follows " + w.joints()[*joint.follows].name + " (<mimic>), which isn't linearised",
+        problems.add({"", joint.name, "",
+                      "follows " + w.joints()[*joint.follows].name + " (<mimic> or <equality>), which isn't linearised",
                       "joints that move by themselves"});
       for (const std::string& what : joint.held)
         problems.add({"", joint.name, "", "is held by an <equality> (" + what + "), which isn't linearised",

@@ -225,6 +225,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"numbers", "<vsa><link name=\"base\"><visual shape=\"box\" pose=\"0 0 zero\"/></link></vsa>",
                           "7 numbers"},
                     Wrong{"start", "<vsa><joint name=\"shoulder\" kind=\"hinge\" start=\"up\"/></vsa>", "1 number"},
+                    Wrong{"unknown", "<vsa><link name=\"base\" masss_kg=\"1\"/></vsa>", "name, model, static, mass_kg, gravity"},
+                    Wrong{"child", "<vsa><link name=\"base\"><visaul/></link></vsa>", "link/visaul"},
+                    Wrong{"flag", "<vsa><link name=\"base\" static=\"yes\"/></vsa>", "true, false"},
+                    Wrong{"gravity", "<vsa><link name=\"base\" gravity=\"off\"/></vsa>", "link@gravity"},
                     Wrong{"robot", "<vsa><robot model=\"arm\"/></vsa>", "<plugin>"}),
     [](const auto& of) { return std::string(of.param.name); });
 

@@ -118,6 +118,38 @@ TEST(CommittedMjcf, IsWhatTheCommandWrites) {
   }
 }
 
+TEST(Export, KeepsLinksWithoutGravity) {
+  const Scratch scratch;
+  const auto link = [](const std::string& name, const std::string& more) {
+    return "<link name='" + name +
+           "'><inertial><pose>0.1 0 0 0 0 0</pose><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01"
+           "</izz></inertia></inertial>" +
+           more + "</link>";
+  };
+  const auto joint = [](const std::string& parent, const std::string& child) {
+    return "<joint name='to_" + child + "' type='revolute'><parent>" + parent + "</parent><child>" + child +
+           "</child><axis><xyz>0 1 0</xyz></axis></joint>";
+  };
+  record::spew(
+      scratch.path() / "w.sdf",
+      "<sdf version='1.9'><world name='w'><model name='m'>" + link("a", "<gravity>false</gravity>") + link("b", "") +
+          joint("world", "a") + joint("a", "b") +
+          "<plugin name='vsa::Robot' filename='libvsa-robot.so'><actuator><joint>to_b</joint><type>qbmove_maker_pro_6_1</type>"
+          "<bus id='1'>arm</bus></actuator><bus name='arm' baud='2000000' cycle_s='auto'/></plugin></model></world></sdf>");
+  fs::create_directory(scratch.path() / "out");
+  write(export_mjcf(scratch.path() / "w.sdf"), scratch.path() / "out");
+  World sdf = World::load(scratch.path() / "w.sdf"), mjcf = World::load(scratch.path() / "out/w.xml");
+  for (World* w : {&sdf, &mjcf}) w->run(0.2);
+  EXPECT_EQ(sdf.state_hash(), mjcf.state_hash());
+  std::vector<double> torques(sdf.dof_count());
+  sdf.reset();
+  sdf.gravity_torques(torques);
+  EXPECT_NEAR(std::abs(torques[sdf.joints()[0].dof.value()]), 0.1 * 9.8, 1e-12);  // of b alone
+  const std::string plugin = export_plugin_mjcf(scratch.path() / "w.sdf").file.bytes;
+  EXPECT_NE(plugin.find("<body name=\"m::a\" gravcomp=\"1\""), std::string::npos) << plugin;
+  EXPECT_EQ(plugin.find("<body name=\"m::b\" gravcomp"), std::string::npos) << plugin;
+}
+
 /// The warnings of NAME.sdf that speak of its MJCF.
 std::size_t told_of_mjcf(const fs::path& sdf) {
   const World world = World::load(sdf);

@@ -188,7 +188,6 @@ TEST(BadInput, PhysicsThatCantBeHonouredIsNamed) {
   EXPECT_TRUE(has(with("<friction><ode><mu>nan</mu></ode></friction>"), "ode/mu = nan"));
   EXPECT_TRUE(has(with("<friction><ode><slip1>1</slip1></ode></friction>"), "slip1"));
   EXPECT_EQ(with("<friction><ode><mu>0.5</mu></ode></friction>"), "");
-  EXPECT_TRUE(has(problems_of(model(link("a", inertial(1, 1) + "<gravity>false</gravity>"))), "m::a/gravity"));
   EXPECT_TRUE(has(problems_of(model(link("a", inertial(1, 1) + "<collision name='c'><geometry><plane/></geometry></collision>"))),
                   "can't move"));
   EXPECT_TRUE(has(problems_of(model(link(

@@ -37,6 +37,7 @@ std::vector<RobotFile> urdf_files() {
        {},
        {}},
       {"lumped_collisions.urdf", {}, {"r::a"}, {}, {}, {}, {}},
+      {"gazebo_gravity_off.urdf", {}, {"r::base", "r::a"}, {{"r::j1", 0}}, {}, {}, {}},
       {"mimic.urdf", {}, {"r::base", "r::a", "r::b"}, {{"r::j1", 0}, {"r::j2", 0.1}}, {}, {}, {}},
       {"dummy_wrist.urdf",
        {},

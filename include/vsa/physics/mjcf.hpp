@@ -8,7 +8,8 @@
 //
 //   <vsa>
 //     <world name="…"/>
-//     <link name="lab::arm::upper" model="lab" static="true" mass_kg="1">       the body of that name; links in this order
+//     <link name="lab::arm::upper" model="lab" static="true" mass_kg="1">       the body of that name; links in this order;
+//                                                                             gravity="false": gravity leaves it alone
 //       <visual shape="box" pose="x y z qw qx qy qz" size="x y z" rgba="r g b a"/>   as vsa/scene/link.hpp has them
 //       <visual shape="mesh" …><vertices>x y z …</vertices><triangles>0 1 2 …</triangles></visual>
 //       <visual shape="heightmap" geom="…" rgba="…"/>                               the MJCF's geom of that name

@@ -16,6 +16,7 @@ MujocoPhysics::MujocoPhysics(const MujocoPhysics& other)
       bodies_(other.bodies_),
       joint_(other.joint_),
       root_(other.root_),
+      weightless_(other.weightless_),
       q_owner_(other.q_owner_),
       v_owner_(other.v_owner_),
       before_(other.before_),
@@ -88,6 +89,7 @@ void MujocoPhysics::bias(std::span<double> out, bool moving) const {
   }
   mj_comVel(model_.get(), view_.get());
   mj_rne(model_.get(), view_.get(), 0, out.data());
+  hold_up(*view_, out.data(), -1);
 }
 
 void MujocoPhysics::jacobian(std::size_t link, const std::array<double, 3>& point, std::span<double> out) const {

@@ -53,6 +53,7 @@ description::Capabilities what_it_can() {
   can.followers = true;
   can.collision_masks = true;
   can.spin_friction = true;
+  can.weightless_links = true;
   return can;
 }
 

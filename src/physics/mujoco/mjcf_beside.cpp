@@ -88,10 +88,22 @@ class Reader {
     const char* text = e.Attribute(name);
     return text == nullptr ? "" : text;
   }
+  void only(const XMLElement& e, std::initializer_list<std::string_view> attributes) {
+    for (const tinyxml2::XMLAttribute* a = e.FirstAttribute(); a != nullptr; a = a->Next())
+      if (std::find(attributes.begin(), attributes.end(), a->Name()) == attributes.end())
+        problem(std::string(e.Name()) + "@" + a->Name(), a->Value(), "isn't known here",
+                fmt::format("{}", fmt::join(attributes, ", ")));
+  }
+  bool flag(const XMLElement& e, const char* name, bool otherwise) {
+    const std::string text = e.Attribute(name) == nullptr ? otherwise ? "true" : "false" : attribute(e, name);
+    if (text != "true" && text != "false") problem(std::string(e.Name()) + "@" + name, text, "isn't that", "true, false");
+    return text == "true";
+  }
 
   void part(const XMLElement& e) {
     const std::string_view name = e.Name();
     if (name == "world") {
+      only(e, {"name"});
       out_.world_name = attribute(e, "name");
     } else if (name == "link") {
       link(e);
@@ -108,11 +120,17 @@ class Reader {
 
   void link(const XMLElement& e) {
     Beside::Link out;
+    only(e, {"name", "model", "static", "mass_kg", "gravity"});
     out.info.name = attribute(e, "name");
     out.info.model = e.Attribute("model") != nullptr ? attribute(e, "model") : std::string(outermost(out.info.name));
-    out.info.is_static = e.BoolAttribute("static", false);
+    out.info.is_static = flag(e, "static", false);
+    out.weightless = !flag(e, "gravity", true);
     if (e.Attribute("mass_kg") != nullptr) out.info.mass_kg = all<double>(e, "mass_kg", 1)[0];
-    for (const XMLElement* v = e.FirstChildElement("visual"); v != nullptr; v = v->NextSiblingElement("visual")) {
+    for (const XMLElement* v = e.FirstChildElement(); v != nullptr; v = v->NextSiblingElement()) {
+      if (std::string_view(v->Name()) != "visual") {
+        problem(std::string("link/") + v->Name(), "", "isn't known here", "visual");
+        continue;
+      }
       out.info.visuals.push_back(visual(*v));
       out.geoms.push_back(attribute(*v, "geom"));
     }
@@ -142,6 +160,7 @@ class Reader {
 
   Shape visual(const XMLElement& e) {
     Shape out;
+    only(e, {"shape", "pose", "size", "rgba", "geom"});
     out.kind = named(e, "shape", kShapes);
     const std::vector<float> rgba = all<float>(e, "rgba", 4);
     std::copy_n(rgba.begin(), 4, out.rgba.begin());
@@ -165,12 +184,14 @@ class Reader {
   }
 
   void joint(const XMLElement& e) {
+    only(e, {"name", "kind", "parent", "child", "start"});
     Beside::Joint out{attribute(e, "name"), attribute(e, "parent"), attribute(e, "child"), named(e, "kind", kKinds), {}};
     if (e.Attribute("start") != nullptr) out.start = all<double>(e, "start", 1)[0];
     out_.joints.push_back(std::move(out));
   }
 
   void robot(const XMLElement& e) {
+    only(e, {"model", "top_model"});
     const std::string model = attribute(e, "model");
     const XMLElement* inner = e.FirstChildElement("plugin");
     if (inner == nullptr || model.empty()) return problem("robot", model, "lacks its model or its <plugin>", "both");
@@ -220,6 +241,7 @@ std::string write_beside(const description::World& world) {
     const scene::LinkInfo& info = world.infos[l];
     out += fmt::format("  <link name=\"{}\" model=\"{}\"", escaped(info.name), escaped(info.model));
     if (info.is_static) out += fmt::format(" static=\"true\" mass_kg=\"{}\"", info.mass_kg);
+    if (world.links[l].weightless && !info.is_static) out += " gravity=\"false\"";
     out += ">\n";
     for (const Shape& shape : info.visuals) {
       const std::string shared = terrain(shape, world.links[l]);

@@ -73,7 +73,7 @@ class Describer {
   }
   [[nodiscard]] Vec3 vector(const mjtNum* v) const { return {v[0], v[1], v[2]}; }
 
-  void add_link(int body, scene::LinkInfo info) {
+  void add_link(int body, scene::LinkInfo info, bool weightless = false) {
     Link link;
     const mjtNum *p = data_->xpos + 3 * body, *q = data_->xquat + 4 * body, *own = m_.body_inertia + 3 * body,
                  *turn = m_.body_iquat + 4 * body;
@@ -81,6 +81,7 @@ class Describer {
     link.name = info.name;
     link.model = info.model;
     link.is_static = info.is_static;
+    link.weightless = weightless;
     link.mass = info.mass_kg;
     link.pose = Pose3(vector(p), {q[0], q[1], q[2], q[3]});
     link.com = vector(m_.body_ipos + 3 * body);
@@ -126,7 +127,7 @@ class Describer {
         const int geom = mj_name2id(&m_, mjOBJ_GEOM, link.geoms[v].c_str());
         if (geom < 0 || !show(m_, geom, info.visuals[v])) problem("visual@geom", link.geoms[v], "no such geom to show", "a geom");
       }
-      add_link(body, std::move(info));
+      add_link(body, std::move(info), link.weightless);
     }
     for (int b = 1; b < m_.nbody; ++b) {
       if (link_of_body_[static_cast<std::size_t>(b)] || m_.body_jntnum[b] == 0) continue;

@@ -25,6 +25,7 @@ struct MjcfFile final : description::Native {
 struct Beside {
   struct Link {
     scene::LinkInfo info;
+    bool weightless = false;
     std::vector<std::string> geoms;  ///< of each visual: the heightmap that it shows, or empty
   };
   struct Joint {

@@ -55,6 +55,7 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::
     if (objects_.free[l] >= 0) own(objects_.free[l], "link " + world.links[l].name);
     const int root = m->body_rootid[objects_.body[l]], first = m->body_jntadr[root];
     if (first >= 0 && m->jnt_type[first] == mjJNT_FREE) root_[l] = first;
+    if (world.links[l].weightless && !objects_.is_static[l] && !switched_off(*m, {"Gravity"})) weightless_.push_back(l);
   }
   unit_.resize(static_cast<std::size_t>(m->nv));
   pushed_.resize(unit_.size());
@@ -106,7 +107,19 @@ void MujocoPhysics::prepare() {
   }
   take_dampers();
   mj_fwdVelocity(m, data_.get());
+  hold_up(*data_, data_->qfrc_passive, 1);
   mju_zero(data_->qfrc_applied, m->nv);
+}
+
+/// MuJoCo's gravity is for every body: −m·g at the centre of mass of one without it.
+void MujocoPhysics::hold_up(mjData& d, mjtNum* forces, double part) const {
+  const mjModel* m = model_.get();
+  for (const std::size_t link : weightless_) {
+    const int body = objects_.body[link];
+    mjtNum force[3], none[3] = {0, 0, 0};
+    mju_scl3(force, m->opt.gravity, -part * m->body_mass[body]);
+    mj_applyFT(m, &d, force, none, d.xipos + 3 * body, body, forces);
+  }
 }
 
 /// mj_Euler steps v' = v + dt·(M + dt·D)⁻¹ f with the joints' damping D, but MuJoCo's constraints are solved for accelerations M⁻¹ f:
@@ -216,16 +229,17 @@ std::optional<Refusal> MujocoPhysics::check(const mjtNum* values, int n, bool po
   return std::nullopt;
 }
 
-/// A warning names no joint, so the fastest one is shown.
+/// Of a singular inertia MuJoCo tells whose; of another warning the fastest joint is shown.
 std::optional<Refusal> MujocoPhysics::find_fault() const {
   for (int kind = 0; kind < mjNWARNING; ++kind) {
     if (data_->warning[kind].number == 0) continue;
     const auto nv = static_cast<std::size_t>(model_->nv);
     if (nv == 0) return Refusal{"world", warning_text(kind), 0};
-    const auto* fastest =
-        std::max_element(data_->qvel, data_->qvel + nv, [](mjtNum a, mjtNum b) { return std::abs(a) < std::abs(b); });
-    return Refusal{v_owner_[static_cast<std::size_t>(fastest - data_->qvel)], fmt::format("speed ({})", warning_text(kind)),
-                   *fastest};
+    const auto slower = [](mjtNum a, mjtNum b) { return std::abs(a) < std::abs(b); };
+    const auto fastest = static_cast<std::size_t>(std::max_element(data_->qvel, data_->qvel + nv, slower) - data_->qvel),
+               told = static_cast<std::size_t>(data_->warning[kind].lastinfo),
+               dof = kind == mjWARN_INERTIA && told < nv ? told : fastest;
+    return Refusal{v_owner_[dof], fmt::format("speed ({})", warning_text(kind)), data_->qvel[dof]};
   }
   return std::nullopt;
 }

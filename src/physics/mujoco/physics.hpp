@@ -75,6 +75,8 @@ class MujocoPhysics final : public Physics {
   std::optional<Refusal> find_fault() const;
   std::optional<Refusal> check(const mjtNum* values, int n, bool positions, const char* quantity) const;
 
+  /// Adds `part` times what holds up the links without gravity.
+  void hold_up(mjData& d, mjtNum* forces, double part) const;
   void take_dampers();
   void give_dampers_back();
   void tie(std::span<const std::size_t> joints, std::span<double> out);
@@ -89,6 +91,7 @@ class MujocoPhysics final : public Physics {
   std::shared_ptr<const MujocoBodies> bodies_;  // that model_ has
   std::vector<Address> joint_;                  // of a one-axis joint
   std::vector<int> root_;                       // of a link: the joint id of its free root, −1: tied to the world
+  std::vector<std::size_t> weightless_;         // links that gravity leaves alone
   std::vector<std::string> q_owner_, v_owner_;
   std::vector<double> before_;  // the state, of the last prepare()
   std::vector<mjtNum> pushed_;  // in the last step, by degree of freedom: applied and, without equalities, by constraints

@@ -119,6 +119,8 @@ scene::Energy MujocoPhysics::energy() const {
   out.kinetic = mju_dot(momentum.data(), d->qvel, m->nv) / 2;
   for (std::size_t i = 0; i < objects_.body.size() && !switched_off(*m, {"Gravity"}); ++i)
     out.gravitational -= bodies_->links()[i].mass_kg * mju_dot3(m->opt.gravity, d->xipos + 3 * objects_.body[i]);
+  for (const std::size_t i : weightless_)
+    out.gravitational += bodies_->links()[i].mass_kg * mju_dot3(m->opt.gravity, d->xipos + 3 * objects_.body[i]);
   if (without_springs(*m)) return out;
   for (int j = 0; j < m->njnt; ++j) out.springs += spring_of_joint(*m, *d, j);
   for (int t = 0; t < m->ntendon; ++t) out.springs += spring_of_tendon(*m, *d, t);
