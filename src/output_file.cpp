@@ -7,12 +7,12 @@
 #include <sys/xattr.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "vsa/errors.hpp"
 
@@ -142,10 +142,14 @@ class Beside {
   /// Of POSIX: whom else it lets in. Where there is none, or file systems have none, the mode is all: what the directory gives new
   /// files by default goes, since it may let in whom the old file kept out.
   void keep_access_list() const {
-    std::array<char, 4096> list{};
+    std::vector<char> list(65536);  // Linux's own limit of such a value
     const ssize_t size = ::getxattr(target_.c_str(), kList, list.data(), list.size());
-    const bool kept = size > 0 ? ::setxattr(written_.c_str(), kList, list.data(), static_cast<std::size_t>(size), 0) == 0
-                               : ::removexattr(written_.c_str(), kList) == 0 || errno == ENODATA;
+    bool kept = false;
+    if (size > 0) {
+      kept = ::setxattr(written_.c_str(), kList, list.data(), static_cast<std::size_t>(size), 0) == 0;
+    } else if (size == 0 || errno == ENODATA || errno == ENOTSUP) {
+      kept = ::removexattr(written_.c_str(), kList) == 0 || errno == ENODATA;
+    }
     if (!kept && errno != ENOTSUP) cant(asked_, "can't keep its access list", errno);
   }
 

@@ -5,6 +5,7 @@
 set(VSA_NEEDS_SDF_mjcf
   CommittedMjcf.*
   Export.GoesBetweenSnapshots
+  Export.KeepsFrictionWithADirection
   Export.KeepsLinksWithoutGravity
   Export.WritesNamesThatXmlWouldTakeForItsOwn
   Worlds/FromSdfAndFromMjcf.*
@@ -49,6 +50,7 @@ set(VSA_NEEDS_SDF_engine
   Hostile.AWorldThatWasMovedFromSaysSo
   Hostile.GaitsThatCannotBePlayedAreRefused
   Run.*
+  DirectedFriction.*
   Weightless.*
   SecondLoad.GivesTheSameBitsAndTheSameWarnings
   SecondLoad.HasTheStepThatWasAskedFor

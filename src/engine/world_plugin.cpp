@@ -138,6 +138,14 @@ std::string mjcf_text(const std::filesystem::path& path, const WorldOptions& opt
   return *std::move(text);
 }
 
+void note_frictions(const description::World& world, std::vector<std::string>& notes) {
+  for (const description::Link& link : world.links) {
+    for (const description::Collision& shape : link.collisions)
+      if (shape.surface.mu2)
+        notes.push_back(shape.name + ": <fdir1> isn't told to MuJoCo, which takes the larger of both coefficients");
+  }
+}
+
 /// MuJoCo from 2.3.1 on leaves a body alone that has gravcomp.
 std::string without_gravity(std::string mjcf, const description::World& world, std::vector<std::string>& notes) {
   for (const description::Link& link : world.links) {
@@ -168,6 +176,7 @@ PluginMjcf export_plugin_mjcf(const std::filesystem::path& file, const WorldOpti
   if (mjcf.empty()) mjcf = mjcf_text(path, options);
   const std::shared_ptr<ReadWorld> read = read_world({path, {}}, options, problems);
   problems.throw_if_any();
+  note_frictions(*read->world, out.notes);
   mjcf = without_gravity(std::move(mjcf), *read->world, out.notes);
   out.file.bytes = Writer(world, std::move(mjcf)).text(out.notes, path.string());
   return out;

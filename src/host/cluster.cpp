@@ -130,6 +130,7 @@ Cluster::Cluster(std::vector<BusLine*> buses, std::vector<Tree> trees, std::vect
     lone_.push_back(tree.joints.front());
     lone_from_.push_back({tree.actuators.front(), tree.joined ? std::optional(tree.mobility_at) : std::nullopt});
   }
+  find_whole();
 }
 
 void Cluster::use(std::span<device::StepPlan> plans) noexcept {
@@ -168,6 +169,13 @@ void Cluster::exchange(std::span<const std::shared_ptr<device::Unit>> units) noe
     for (std::size_t i = 0; i < tree.joints.size(); ++i) tree.joints[i].unit = units[tree.actuators[i]].get();
   for (SharedJoint& shared : shared_) shared.joint.unit = units[shared.actuator].get();
   for (std::size_t k = 0; k < lone_.size(); ++k) lone_[k].unit = units[lone_from_[k].actuator].get();
+  find_whole();
+}
+
+void Cluster::find_whole() noexcept {
+  whole_ns_ = std::numeric_limits<std::int64_t>::max();
+  for (const Tree& tree : trees_)
+    for (const device::JointInStep& joint : tree.joints) whole_ns_ = std::min(whole_ns_, joint.unit->substep_ns());
 }
 
 template <class Does>
@@ -231,7 +239,7 @@ std::size_t Cluster::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<co
 
 void Cluster::begin(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<const double> mobility) noexcept {
   const bool foresees = has_ticks_inside(t_ns, dt_ns);
-  if (foresees) leave();
+  if (foresees || dt_ns > whole_ns_) leave();
   for (Tree& tree : std::span(trees_).first(foresees ? trees_.size() : lone_at_)) begin_tree(tree, t_ns, dt_ns, in, mobility);
   if (foresees) {
     for (Tree& tree : trees_) tree.solver.predict(tree.joints);

@@ -72,6 +72,7 @@ class Cluster {
   static void begin_tree(Tree& tree, std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in,
                          std::span<const double> mobility) noexcept;
 
+  void find_whole() noexcept;
   /// All of its ticks at that time.
   void tick(std::int64_t at_ns) noexcept;
   void settle_in(device::JointTrials& trials, std::span<const device::JointInStep> joints);
@@ -88,6 +89,7 @@ class Cluster {
   std::vector<double> lone_torques_;
   device::JointTrials lone_trials_;
   std::vector<SharedJoint> shared_;
+  std::int64_t whole_ns_ = 0;  ///< a longer step is cut in some unit, which has to have its numbers at home
 };
 
 /// Whether a tick falls into the step other than at its start: what its sensors see must be foreseen.

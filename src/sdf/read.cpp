@@ -94,6 +94,7 @@ description::World read_sdf(const SdfSource& source, const ReadOptions& options,
   check_sdfs(context, root.Element());
   read_root(context, root);
   check_urdfs_found(context);
+  if (problems.empty()) find_direction_frames(context);
   if (problems.empty()) finish_joints(context);
   warnings = notes.texts();
   return out;

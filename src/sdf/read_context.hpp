@@ -41,6 +41,12 @@ struct Mimic {
   double multiplier = 1, offset = 0;
 };
 
+/// Of a collision's friction: the link in whose frame its direction is, before the links are all known.
+struct DirectionFrame {
+  std::string collision, frame;
+  sdf::ElementPtr element;
+};
+
 struct ReadContext {
   description::World& out;
   Problems& problems;
@@ -55,6 +61,7 @@ struct ReadContext {
   ImpossibleInertia impossible_inertia = ImpossibleInertia::refuse;
   bool parsed_clean = true;  ///< false: poses may not resolve for reasons already reported
   std::vector<Mimic> mimics{};
+  std::vector<DirectionFrame> direction_frames{};
   std::map<std::string, Pose3> model_poses{};  ///< scoped name → its frame in the world
 
   void problem(const sdf::ElementPtr& element, std::string key, std::string value, std::string message, std::string allowed = {});
@@ -95,6 +102,8 @@ void finish_joints(ReadContext& context);
 [[nodiscard]] std::optional<Geometry> read_geometry(ReadContext& context, const sdf::Geometry& geometry, const std::string& key,
                                                     bool collides);
 [[nodiscard]] Surface read_surface(ReadContext& context, const sdf::ElementPtr& collision, const std::string& key);
+/// Once all links are known.
+void find_direction_frames(ReadContext& context);
 [[nodiscard]] std::vector<scene::Shape> read_visuals(ReadContext& context, const sdf::Link& link, const Link& described);
 
 }  // namespace vsa::reader

@@ -1,7 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // <surface>: libsdformat 12's Surface has no friction, so the element tree is read.
-//   friction/ode/mu, mu2, fdir1       two that differ: if the engine's friction has directions, or both are ≥ 10
+//   friction/ode/mu, mu2, fdir1       two that differ: if the engine's friction has directions; without fdir1, or both ≥ 10, the smaller
 //   friction/bullet/friction, friction2, fdir1   where there is no ode
 //   friction/torsional/coefficient    spin torque = (3π/16)·patch_radius·coefficient·N, ODE's formula
 //   bounce/restitution_coefficient, contact/ode/kp, kd (bullet/kp, kd)   if the engine has them
@@ -14,10 +14,12 @@
 #include <numbers>
 
 #include "sdf/read_context.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::reader {
 namespace {
 
+constexpr const char* kFriction = "/surface/friction";
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kNeverSlips = 10;  // in a pair the smaller coefficient counts: of two beyond this neither does
 constexpr double kMuMax = 1e6;      // SDF files write 1e5 and more for "never slips"
@@ -29,12 +31,22 @@ void read_friction(ReadContext& c, const sdf::ElementPtr& e, const char* first, 
   const double mu2 = c.number(e, second, mu, 0.0, kInfinite, key);
   out.mu = std::min(mu, kMuMax);
   if (mu2 == mu) return;
-  if (c.engine.directional_friction) {
-    out.mu2 = std::min(mu2, kMuMax);
-    if (const sdf::ElementPtr direction = child(e, "fdir1")) out.first = direction->Get<SdfVec3>();
-  } else if (std::min(mu, mu2) >= kNeverSlips) {
+  const sdf::ElementPtr direction = child(e, "fdir1");
+  const Vec3 along = direction ? Vec3(direction->Get<SdfVec3>()) : Vec3::Zero;
+  if (!along.IsFinite())
+    return c.problem(direction, key + "/fdir1", direction->Get<std::string>(), "isn't finite", "finite numbers");
+  if (std::min(mu, mu2) >= kNeverSlips) {
     c.notes.add("of two coefficients of friction that both never slip the smaller is taken", key);
     out.mu = std::min({mu, mu2, kMuMax});
+  } else if (along == Vec3::Zero) {
+    c.notes.add("of two coefficients of friction without <fdir1> the smaller is taken", key);
+    out.mu = std::min({mu, mu2, kMuMax});
+  } else if (c.engine.directional_friction) {
+    out.mu2 = std::min(mu2, kMuMax);
+    out.first = along;
+    for (const char* name : {"gz:expressed_in", "ignition:expressed_in"})
+      if (const auto frame = direction->GetAttribute(name))
+        c.direction_frames.push_back({key.substr(0, key.rfind(kFriction)), frame->GetAsString(), direction});
   } else {
     c.cannot(e, key + "/" + second, fmt::format("{}", mu2), "friction that depends on the direction isn't",
              fmt::format("the value of {}, {}", first, mu));
@@ -51,6 +63,7 @@ double torsional(ReadContext& c, const sdf::ElementPtr& e, const std::string& ke
   if (!e) return 0;
   const double coefficient = c.number(e, "coefficient", 1.0, 0.0, kInfinite, key);
   const double radius = c.number(e, "patch_radius", 0.0, 0.0, kInfinite, key);
+  if (const sdf::ElementPtr ode = child(e, "ode")) refuse_nonzero(c, ode, "slip", key + "/ode");
   const sdf::ElementPtr use = child(e, "use_patch_radius");
   if (use && !use->Get<bool>()) {
     c.problem(use, key + "/use_patch_radius", "false", "a patch that grows with the depth isn't supported",
@@ -100,7 +113,7 @@ Surface read_surface(ReadContext& c, const sdf::ElementPtr& collision, const std
   Surface out;
   const sdf::ElementPtr surface = child(collision, "surface");
   const sdf::ElementPtr friction = child(surface, "friction");
-  const std::string friction_key = key + "/surface/friction";
+  const std::string friction_key = key + kFriction;
   if (const sdf::ElementPtr ode = child(friction, "ode")) {
     read_friction(c, ode, "mu", "mu2", friction_key + "/ode", out);
     refuse_nonzero(c, ode, "slip1", friction_key + "/ode");
@@ -122,6 +135,23 @@ Surface read_surface(ReadContext& c, const sdf::ElementPtr& collision, const std
   }
   if (child(surface, "soft_contact")) c.notes.add("soft contacts are left out", key);
   return out;
+}
+
+/// As gz-sim has it: a link of the same model.
+void find_direction_frames(ReadContext& c) {
+  for (const DirectionFrame& d : c.direction_frames) {
+    for (Link& link : c.out.links) {
+      for (Collision& shape : link.collisions) {
+        if (shape.name != d.collision) continue;
+        const std::string name = scoped_name(scope_of(link.name), d.frame);
+        const auto it = std::find_if(c.out.links.begin(), c.out.links.end(), [&](const Link& l) { return l.name == name; });
+        if (it == c.out.links.end())
+          return c.problem(d.element, d.collision + kFriction + "/ode/fdir1@expressed_in", d.frame, "no such link in its model",
+                           "a link's name");
+        shape.surface.first_of = static_cast<std::size_t>(it - c.out.links.begin());
+      }
+    }
+  }
 }
 
 }  // namespace vsa::reader

@@ -31,6 +31,7 @@ device::UnitConfig of_type(char type) {
   device::UnitConfig c = shared;
   if (type == 'b') c.actuator.tendon = {0.06, 2e-3, 3e-3};
   if (type == 'm') c.actuator.side[0].motor.inductance_H = c.actuator.side[1].motor.inductance_H = 1e-3;  // without lanes
+  if (type == 's') c.substep_max_s = 0.25e-3;      // longer steps are cut without a tick inside
   if (type == 'w') c.memory.watchdog_period = 50;  // ticks that are never plain
   return c;
 }
@@ -204,7 +205,7 @@ void compare(const std::string& types, unsigned seed) {
 
 TEST(InLanes, NobodyCanTell) {
   for (const char* types : {"aaaaaaaaaaaa|", "aaaaaaaaaaaa", "aaaaaaaaaaaa/aaaaaaaaaaaa/aaa", "aaa|bbbb|aab/aaaaa|bb|aab",
-                            "aamaa|bb", "aawaa|aaa", "ab|a", "a", "mmm|aa"})
+                            "aamaa|bb", "aawaa|aaa", "ab|a", "a", "mmm|aa", "sss", "aaa|ssss|sa"})
     for (unsigned seed = 1; seed < 5; ++seed) compare(types, seed);
 }
 

@@ -157,6 +157,28 @@ TEST(OwnMjcf, WhoseNameTopicsCantCarryHasAnother) {
   EXPECT_EQ(world.name(), "my_arm_home");
   EXPECT_EQ(world.actuators().front().model, "my_arm_home");
   EXPECT_NE(world.warnings().front().find("my arm@home"), std::string::npos) << world.warnings().front();
+  // As a part of names of its bodies and joints, too.
+  World scoped = World::load_string(
+      with(with(arm(), "model=\"arm\"", "model=\"my arm:=1\""), "name=\"shoulder\"", "name=\"my arm:=1::shoulder\""));
+  EXPECT_EQ(scoped.joints()[0].name, "my_arm_=1::shoulder");
+  EXPECT_EQ(scoped.joints()[0].actuator, 0u);
+}
+
+/// The name in the file beside it counts.
+TEST(OwnMjcf, IsCalledAsTheFileBesideItSays) {
+  const Scratch scratch;
+  record::spew(scratch.path() / "arm.xml", with(arm(), "model=\"arm\"", "model=\"my arm\""));
+  record::spew(scratch.path() / "arm.vsa.xml", "<vsa><world name=\"lab\"/></vsa>");
+  const World world = World::load(scratch.path() / "arm.xml");
+  EXPECT_EQ(world.name(), "lab");
+  EXPECT_TRUE(world.warnings().empty()) << world.warnings().front();
+}
+
+/// Neither a world without geoms nor a joint by which a body flies free is anything here.
+TEST(OwnMjcf, MayCallWhatIsntThereAsItLikes) {
+  std::string text = with(arm(), R"(<geom name="floor" type="plane" size="2 3 1" pos="0 0 -1"/>)",
+                          R"(<body name="arm::world" pos="3 0 0"><freejoint name="arm::shoulder"/><geom size="0.1"/></body>)");
+  EXPECT_EQ(World::load_string(text).joints().size(), 1u);
 }
 
 TEST(OwnMjcf, GetsRoomForContactsWhateverItsRows) {
@@ -179,6 +201,11 @@ TEST(OwnMjcf, TellsOfControlsThatCantBeZero) {
   ASSERT_GE(world.warnings().size(), 2u);
   EXPECT_NE(world.warnings()[1].find("m has no control 0 in its ctrlrange: MuJoCo takes 5"), std::string::npos)
       << world.warnings()[1];
+  const World off = World::load_string(
+      with(arm(), "</worldbody>",
+           "</worldbody><option><flag actuation=\"disable\"/></option><actuator><motor name=\"m\" joint=\"shoulder\" "
+           "ctrllimited=\"true\" ctrlrange=\"5 10\"/></actuator>"));
+  EXPECT_TRUE(off.warnings().empty()) << off.warnings().front();
 }
 
 TEST(OwnMjcf, HasNoLimitsThatItSwitchesOff) {
@@ -228,6 +255,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"unknown", "<vsa><link name=\"base\" masss_kg=\"1\"/></vsa>", "name, model, static, mass_kg, gravity"},
                     Wrong{"child", "<vsa><link name=\"base\"><visaul/></link></vsa>", "link/visaul"},
                     Wrong{"flag", "<vsa><link name=\"base\" static=\"yes\"/></vsa>", "true, false"},
+                    Wrong{"friction", "<vsa><friction geom=\"x\" mu=\"1\" mu2=\"2\" along=\"1 0 0\"/></vsa>", "no such geom"},
+                    Wrong{"direction", "<vsa><friction geom=\"x\" mu=\"1\" mu2=\"2\" along=\"1 1 0\"/></vsa>", "a unit vector"},
+                    Wrong{"mu", "<vsa><friction geom=\"x\" mu=\"-1\" mu2=\"2\" along=\"1 0 0\"/></vsa>", "not both 0"},
                     Wrong{"gravity", "<vsa><link name=\"base\" gravity=\"off\"/></vsa>", "link@gravity"},
                     Wrong{"robot", "<vsa><robot model=\"arm\"/></vsa>", "<plugin>"}),
     [](const auto& of) { return std::string(of.param.name); });

@@ -150,6 +150,32 @@ TEST(Export, KeepsLinksWithoutGravity) {
   EXPECT_EQ(plugin.find("<body name=\"m::b\" gravcomp"), std::string::npos) << plugin;
 }
 
+TEST(Export, KeepsFrictionWithADirection) {
+  const Scratch scratch;
+  const auto model = [](const std::string& name, const std::string& more, const std::string& shape, const std::string& mu2) {
+    return "<model name='" + name + "'>" + more + "<link name='l'><inertial><mass>2</mass><inertia><ixx>0.02</ixx><iyy>0.02</iyy>" +
+           "<izz>0.02</izz></inertia></inertial><collision name='c'><pose>0 0 0 0 0 0.3</pose><geometry>" + shape +
+           "</geometry><surface><friction><ode><mu>0.3</mu><mu2>" + mu2 + "</mu2><fdir1>1 2 0</fdir1></ode></friction></surface>" +
+           "</collision></link></model>";
+  };
+  const std::string plane = "<plane><normal>0 0 1</normal><size>9 9</size></plane>", box = "<box><size>0.4 0.4 0.2</size></box>";
+  record::spew(scratch.path() / "w.sdf", "<sdf version='1.9'><world name='w'><gravity>3 1 -9</gravity>" +
+                                             model("ground", "<static>true</static><pose>0 0 0 0 0 0.2</pose>", plane, "0.7") +
+                                             model("box", "<pose>0 0 0.1 0 0 0.1</pose>", box, "0.1") +
+                                             model("table", "<static>true</static><pose>0 5 0 0 0 0.4</pose>", box, "0.2") +
+                                             model("on_it", "<pose>0 5 0.2 0 0 0</pose>", box, "0.8") + "</world></sdf>");
+  fs::create_directory(scratch.path() / "out");
+  write(export_mjcf(scratch.path() / "w.sdf"), scratch.path() / "out");
+  World sdf = World::load(scratch.path() / "w.sdf"), mjcf = World::load(scratch.path() / "out/w.xml");
+  const std::uint64_t begun = sdf.state_hash();
+  for (World* w : {&sdf, &mjcf}) w->run(0.2);
+  EXPECT_EQ(sdf.state_hash(), mjcf.state_hash());
+  EXPECT_NE(sdf.state_hash(), begun);
+  const std::string beside = slurp(scratch.path() / "out/w.vsa.xml");
+  for (const char* geom : {"ground", "box", "table", "on_it"})
+    EXPECT_NE(beside.find("<friction geom=\"" + std::string(geom) + "::l/collision[c]\" mu=\"0.3\""), std::string::npos) << beside;
+}
+
 /// The warnings of NAME.sdf that speak of its MJCF.
 std::size_t told_of_mjcf(const fs::path& sdf) {
   const World world = World::load(sdf);

@@ -17,6 +17,7 @@ std::vector<RobotFile> sdf_files() {
         "of several shapes in one <geometry> one counts, its box: m::a/collision[c]", "text where a file has none is left out: "},
        {},
        {{"m::a", 0, 0, 0.1}}},
+      {"mu2.sdf", {}, {"m::base"}, {}, {"without <fdir1> the smaller is taken: m::base/collision[c]"}, {}, {}},
       {"gravity_off.sdf", {}, {"m::base"}, {}, {}, {}, {}},
       {"plain_1_6.sdf",
        {},

@@ -37,6 +37,7 @@ std::vector<RobotFile> urdf_files() {
        {},
        {}},
       {"lumped_collisions.urdf", {}, {"r::a"}, {}, {}, {}, {}},
+      {"mu_differ.urdf", {}, {"r::base", "r::a"}, {{"r::j1", 0}}, {"without <fdir1> the smaller is taken: "}, {}, {}},
       {"gazebo_gravity_off.urdf", {}, {"r::base", "r::a"}, {{"r::j1", 0}}, {}, {}, {}},
       {"mimic.urdf", {}, {"r::base", "r::a", "r::b"}, {{"r::j1", 0}, {"r::j2", 0.1}}, {}, {}, {}},
       {"dummy_wrist.urdf",

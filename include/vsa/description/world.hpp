@@ -54,7 +54,8 @@ inline constexpr std::uint32_t kAllCollisions = 0xFFFF;  ///< SDF's default
 struct Surface {
   double mu = 1;                        ///< Coulomb friction; a pair has the smaller of its two
   std::optional<double> mu2;            ///< across `first`, where it isn't mu
-  Vec3 first;                           ///< the direction of mu, in the collision's frame; zero: the engine's choice
+  Vec3 first;                           ///< where mu2 is given: the direction of mu, in the collision's frame or that of first_of
+  std::optional<std::size_t> first_of;  ///< the link in whose frame that is
   double torsional_m = 0;               ///< spin torque per normal force
   double restitution = 0;               ///< of the normal speed, 0 … 1
   std::optional<double> stiffness;      ///< of the contact, N/m; none: the engine's own

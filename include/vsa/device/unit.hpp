@@ -216,6 +216,7 @@ class Unit {
   }
   [[nodiscard]] actuator::Actuator& physics() noexcept { return actuator_; }  ///< motors, springs and the shaft's friction
   [[nodiscard]] const actuator::Actuator& physics() const noexcept { return actuator_; }  ///< to look at
+  [[nodiscard]] std::int64_t substep_ns() const noexcept { return substep_ns_; }          ///< a longer step is cut, ticks or not
   /// What ticks side by side have in common (src/device/plain_ticks.hpp).
   [[nodiscard]] const PlainTicks& plain_ticks() const noexcept { return *plain_ticks_; }
 

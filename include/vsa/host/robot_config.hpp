@@ -33,7 +33,8 @@ struct ActuatorConfig {
   /// False: the text names no initial equilibrium, and a host whose joint starts elsewhere may put it there.
   bool equilibrium_given = true;
   std::shared_ptr<const Settings> changed{};  ///< with which `unit` was made of `type`; none: nothing was
-  /// Of `unit`, with what its motors need for the host's steps worked out; none: the first step does that.
+  /// Of `unit` as it is, with what its motors need for the host's steps worked out; none: the first step does that. Who changes
+  /// `unit` resets this: where it is, nothing is checked.
   std::shared_ptr<const actuator::Actuator> prepared{};
 };
 

@@ -14,6 +14,8 @@
 //       <visual shape="mesh" …><vertices>x y z …</vertices><triangles>0 1 2 …</triangles></visual>
 //       <visual shape="heightmap" geom="…" rgba="…"/>                               the MJCF's geom of that name
 //     </link>
+//     <friction geom="…" mu="0.5" mu2="1" along="0 1 0" of="lab::arm::upper"/>   of a geom whose friction is the larger of the two: mu
+//                                                                             along that unit vector of a body's (else the world's)
 //     <joint name="lab::arm::elbow" kind="hinge" parent="lab::arm::upper" child="…" start="0.1"/>    fixed ones, too
 //     <robot model="lab::arm" top_model="lab"><plugin name="vsa::Robot">…</plugin></robot>
 //   </vsa>

@@ -22,11 +22,18 @@ namespace vsa::physics {
 
 /// Which of MuJoCo's objects are a link's.
 struct LinkObjects {
+  /// Of a geom whose friction has one: mu along, mu2 across.
+  struct Direction {
+    int geom = 0, body = 0;         ///< body: in whose axes
+    std::array<double, 3> along{};  ///< unit vector
+    double mu = 0, mu2 = 0;         ///< as the file has them
+  };
   std::vector<int> body;                   ///< of a link
   std::vector<bool> is_static;             ///< of a link
   std::vector<std::size_t> geoms;          ///< the link of each geom
   std::vector<std::array<int, 2>> joints;  ///< of a joint's axes; −1: hasn't one
   std::vector<int> free;                   ///< of a link: the joint by which it flies free; −1: it doesn't
+  std::vector<Direction> directions;       ///< of geoms
 };
 
 class MujocoBodies final : public Bodies {

@@ -17,6 +17,7 @@ MujocoPhysics::MujocoPhysics(const MujocoPhysics& other)
       joint_(other.joint_),
       root_(other.root_),
       weightless_(other.weightless_),
+      directed_(other.directed_),
       q_owner_(other.q_owner_),
       v_owner_(other.v_owner_),
       before_(other.before_),

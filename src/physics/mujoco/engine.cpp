@@ -37,6 +37,10 @@ LinkObjects objects_of(const mjModel& m, const description::World& world) {
       if (geom >= 0) out.geoms[static_cast<std::size_t>(geom)] = l;
     }
   }
+  for (const FrictionDirection& d : directions_of(world)) {
+    const int geom = mj_name2id(&m, mjOBJ_GEOM, names.geom(d.link, d.collision).c_str());
+    out.directions.push_back({geom, d.of ? out.body[*d.of] : 0, d.along, d.mu, d.mu2});
+  }
   for (std::size_t j = 0; j < world.joints.size(); ++j) {
     out.joints.push_back(
         {mj_name2id(&m, mjOBJ_JOINT, names.joint(j, 0).c_str()), mj_name2id(&m, mjOBJ_JOINT, names.joint(j, 1).c_str())});
@@ -53,6 +57,7 @@ description::Capabilities what_it_can() {
   can.followers = true;
   can.collision_masks = true;
   can.spin_friction = true;
+  can.directional_friction = true;
   can.weightless_links = true;
   return can;
 }

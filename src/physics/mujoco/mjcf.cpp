@@ -24,10 +24,13 @@ std::string place(const Pose3& p) {
   return fmt::format("pos=\"{}\" quat=\"{} {} {} {}\"", text(p.Pos()), q.W(), q.X(), q.Y(), q.Z());
 }
 
+/// MuJoCo's own of a shape: the larger one where there are two (directed_friction.hpp).
+double mu_of(const description::Surface& s) { return std::max(s.mu, s.mu2.value_or(0)); }
+
 std::vector<std::array<double, 2>> surfaces(const description::World& world) {
   std::vector<std::array<double, 2>> out;
   for (const Link& l : world.links)
-    for (const Collision& c : l.collisions) out.push_back({c.surface.mu, c.surface.torsional_m});
+    for (const Collision& c : l.collisions) out.push_back({mu_of(c.surface), c.surface.torsional_m});
   return out;
 }
 
@@ -183,10 +186,10 @@ class Writer {
   void geom(const Collision& c, const std::string& name, const Pose3& at, std::string& to) {
     Pose3 pose = at * c.pose * c.geometry.offset;
     if (c.geometry.heightmap) pose = pose * Pose3(c.geometry.heightmap->centre, description::Quat());
-    const ContactKind kind = kinds_.of(c.surface.mu, c.surface.torsional_m);
+    const ContactKind kind = kinds_.of(mu_of(c.surface), c.surface.torsional_m);
     to += fmt::format(
         "<geom name=\"{}\" {} {} friction=\"{} {} 0\" condim=\"{}\" priority=\"{}\" contype=\"{}\" conaffinity=\"{}\"/>\n",
-        escaped(name), shape(c.geometry), place(pose), c.surface.mu, c.surface.torsional_m, kind.condim, kind.priority,
+        escaped(name), shape(c.geometry), place(pose), mu_of(c.surface), c.surface.torsional_m, kind.condim, kind.priority,
         c.surface.mask, c.surface.mask);
   }
 
@@ -254,6 +257,32 @@ ContactKinds::ContactKinds(std::vector<std::array<double, 2>> mu_and_torsional) 
 ContactKind ContactKinds::of(double mu, double torsional_m) const {
   const auto at = std::lower_bound(classes_.begin(), classes_.end(), std::array{mu, torsional_m});
   return {mu < kSmallestMu ? 1 : torsional_m > 0 ? 4 : 3, static_cast<int>(classes_.end() - at)};
+}
+
+std::vector<FrictionDirection> directions_of(const description::World& world) {
+  std::vector<FrictionDirection> out;
+  for (std::size_t l = 0; l < world.links.size(); ++l) {
+    const Link& link = world.links[l];
+    for (std::size_t k = 0; k < link.collisions.size(); ++k) {
+      const Collision& c = link.collisions[k];
+      if (!c.surface.mu2) continue;
+      FrictionDirection d{l, k, l, {}, c.surface.mu, *c.surface.mu2};
+      Vec3 along = c.surface.first;
+      if (c.surface.first_of) {
+        d.of = c.surface.first_of;
+      } else {
+        along = c.pose.Rot() * along;
+        if (link.is_static) {  // a plane is the world's own
+          d.of.reset();
+          along = link.pose.Rot() * along;
+        }
+      }
+      along = along.Normalized();
+      d.along = {along.X(), along.Y(), along.Z()};
+      out.push_back(d);
+    }
+  }
+  return out;
 }
 
 double heightmap_scale(const Heightmap& map) { return std::max(map.highest(), 1e-6); }

@@ -57,6 +57,15 @@ class ContactKinds {
   std::vector<std::array<double, 2>> classes_;  // ascending, each once
 };
 
+/// A shape whose friction has a direction.
+struct FrictionDirection {
+  std::size_t link = 0, collision = 0;
+  std::optional<std::size_t> of;  ///< link in whose axes `along` is; none: the world
+  std::array<double, 3> along{};  ///< unit vector
+  double mu = 0, mu2 = 0;         ///< along, across
+};
+[[nodiscard]] std::vector<FrictionDirection> directions_of(const description::World& world);
+
 /// Heights are stored as fractions of this.
 [[nodiscard]] double heightmap_scale(const Heightmap& map);
 

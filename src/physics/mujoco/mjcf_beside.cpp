@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <span>
 
 #include "physics/mujoco/mjcf.hpp"
@@ -109,12 +110,14 @@ class Reader {
       link(e);
     } else if (name == "joint") {
       joint(e);
+    } else if (name == "friction") {
+      friction(e);
     } else if (name == "robot") {
       robot(e);
     } else if (name == "plugin") {
       plugin(e, model_, model_);
     } else {
-      problem(std::string(name), "", "isn't known here", "world, link, joint, robot, plugin");
+      problem(std::string(name), "", "isn't known here", "world, link, joint, friction, robot, plugin");
     }
   }
 
@@ -190,6 +193,18 @@ class Reader {
     out_.joints.push_back(std::move(out));
   }
 
+  void friction(const XMLElement& e) {
+    only(e, {"geom", "mu", "mu2", "along", "of"});
+    Beside::Friction out{attribute(e, "geom"), attribute(e, "of"), {}, all<double>(e, "mu", 1)[0], all<double>(e, "mu2", 1)[0]};
+    const std::vector<double> along = all<double>(e, "along", 3);
+    std::copy_n(along.begin(), 3, out.along.begin());
+    if (!(out.mu >= 0 && out.mu2 >= 0 && std::isfinite(out.mu + out.mu2) && out.mu + out.mu2 > 0))
+      problem("friction@mu, mu2", fmt::format("{}, {}", out.mu, out.mu2), "out of range", "finite, 0 or more, not both 0");
+    if (const double length = std::hypot(along[0], along[1], along[2]); !(std::abs(length - 1) < 1e-6))
+      problem("friction@along", attribute(e, "along"), "isn't that", "a unit vector");
+    out_.frictions.push_back(std::move(out));
+  }
+
   void robot(const XMLElement& e) {
     only(e, {"model", "top_model"});
     const std::string model = attribute(e, "model");
@@ -248,6 +263,13 @@ std::string write_beside(const description::World& world) {
       out += shared.empty() ? written(shape) : shared;
     }
     out += "  </link>\n";
+  }
+  const MjcfNames names{world, true};
+  for (const FrictionDirection& d : directions_of(world)) {
+    out += fmt::format("  <friction geom=\"{}\" mu=\"{}\" mu2=\"{}\" along=\"{}\"", escaped(names.geom(d.link, d.collision)), d.mu,
+                       d.mu2, fmt::join(d.along, " "));
+    if (d.of) out += fmt::format(" of=\"{}\"", escaped(names.body(*d.of)));
+    out += "/>\n";
   }
   const auto link = [&](std::optional<std::size_t> l) { return l ? escaped(world.links[*l].name) : std::string{}; };
   for (const Joint& j : world.joints) {

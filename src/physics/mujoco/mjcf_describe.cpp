@@ -40,6 +40,7 @@ class Describer {
     beside_.links.empty() ? links_of_bodies() : links_as_told();
     if (!problems_.empty()) return;
     geoms();
+    frictions();
     beside_.joints.empty() ? joints_of_bodies() : joints_as_told();
     couplings();
     describe_forces(m_, objects_, out_);
@@ -50,15 +51,17 @@ class Describer {
     problems_.add({file_, std::move(key), std::move(value), std::move(message), std::move(allowed)});
   }
   [[nodiscard]] std::string scoped(const std::string& name) const {
-    return name.find("::") == std::string::npos ? scoped_name(out_.name, name) : name;
+    if (name.find("::") == std::string::npos) return scoped_name(out_.name, name);
+    return scoped_name(speakable(std::string(scope_of(name))), name_within(name));
   }
   /// The file's names of its bodies or joints, each of which must be one's own; what has none is called "body_3", or, where somebody
   /// is called so, "body_3_", and so on.
-  [[nodiscard]] std::vector<std::string> names_of(int type, int count, const char* kind) {
+  template <class Counts>
+  [[nodiscard]] std::vector<std::string> names_of(int type, int count, const char* kind, Counts&& counts) {
     std::set<std::string> taken;
     std::vector<std::string> out;
     for (int id = 0; id < count; ++id) {
-      const std::string own = name_of(m_, type, id);
+      const std::string own = counts(id) ? name_of(m_, type, id) : "";
       out.push_back(own.empty() ? "" : scoped(own));
       if (!own.empty() && !taken.insert(out.back()).second)
         problem(kind, out.back(), "is there twice, once with the model's name before it", "names of their own");
@@ -100,9 +103,10 @@ class Describer {
   }
 
   void links_of_bodies() {
-    const std::vector<std::string> names = names_of(mjOBJ_BODY, m_.nbody, "body");
+    const auto is_link = [&](int b) { return b > 0 || m_.body_geomnum[0] > 0; };
+    const std::vector<std::string> names = names_of(mjOBJ_BODY, m_.nbody, "body", is_link);
     for (int b = 0; b < m_.nbody; ++b) {
-      if (b == 0 && m_.body_geomnum[0] == 0) continue;
+      if (!is_link(b)) continue;
       scene::LinkInfo info;
       info.name = names[static_cast<std::size_t>(b)];
       info.model = std::string(outermost(info.name));
@@ -165,6 +169,16 @@ class Describer {
     }
   }
 
+  void frictions() {
+    for (const Beside::Friction& f : beside_.frictions) {
+      const int geom = mj_name2id(&m_, mjOBJ_GEOM, f.geom.c_str()),
+                body = f.of.empty() ? 0 : mj_name2id(&m_, mjOBJ_BODY, f.of.c_str());
+      if (geom < 0) problem("friction@geom", f.geom, "no such geom in the MJCF", "its geoms");
+      if (body < 0) problem("friction@of", f.of, "no such body in the MJCF", "its bodies, or none for the world");
+      objects_.directions.push_back({geom, body, f.along, f.mu, f.mu2});
+    }
+  }
+
   [[nodiscard]] static std::optional<Kind> kind_of(int type) {
     switch (type) {
       case mjJNT_HINGE:
@@ -205,7 +219,8 @@ class Describer {
   }
 
   void joints_of_bodies() {
-    const std::vector<std::string> names = names_of(mjOBJ_JOINT, m_.njnt, "joint");
+    const std::vector<std::string> names =
+        names_of(mjOBJ_JOINT, m_.njnt, "joint", [&](int id) { return kind_of(m_.jnt_type[id]).has_value(); });
     for (int id = 0; id < m_.njnt; ++id) {
       const std::optional<Kind> kind = kind_of(m_.jnt_type[id]);
       if (!kind) continue;

@@ -25,13 +25,6 @@ fs::path beside_of(fs::path file) { return file.replace_extension(".vsa.xml"); }
 
 bool is_blank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
-/// A model's name leads those of topics, which carry no blanks, no @ and no ~.
-std::string speakable(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return is_blank(c) || c == '@' || c == '~'; }, '_');
-  return name;
-}
-
 std::string name_of(const mjModel& m, const fs::path& path) {
   std::string own = m.names;  // the first of the names
   if (!own.empty() && own != kNameless) return own;
@@ -71,16 +64,24 @@ void look_for_limits(const mjModel& m, const std::string& file, std::vector<std:
       if (m.actuator_dyntype[a] != mjDYN_NONE) with_states += (with_states.empty() ? "" : ", ") + actuator_name(m, a);
     problems.add({file, "actuator", with_states, "states of their own", "actuators without activation"});
   }
-  if (m.nu > 0) warn("MuJoCo's own actuators stay at control 0");
-  for (int a = 0; a < m.nu; ++a)
-    if (const double control = control_of(m, a); control != 0)
-      warn(fmt::format("actuator {} has no control 0 in its ctrlrange: MuJoCo takes {:g}", actuator_name(m, a), control));
+  if (m.nu > 0 && !switched_off(m, {"Actuation"})) {
+    warn("MuJoCo's own actuators stay at control 0, or what of their ctrlrange is nearest");
+    for (int a = 0; a < m.nu; ++a)
+      if (const double control = control_of(m, a); control != 0)
+        warn(fmt::format("actuator {} has no control 0 in its ctrlrange: MuJoCo takes {:g}", actuator_name(m, a), control));
+  }
   if (m.opt.integrator != mjINT_EULER) warn("the integrator is semi-implicit Euler, whatever <option> says");
   if (m.nkey > 0) warn("keyframes are left out");
   if (m.nsensor > 0) warn("sensors are left out");
 }
 
 }  // namespace
+
+std::string speakable(std::string name) {
+  for (std::size_t i = 0; i < name.size(); ++i)
+    if (is_blank(name[i]) || name[i] == '@' || name[i] == '~' || (name[i] == ':' && name.substr(i + 1, 1) == "=")) name[i] = '_';
+  return name;
+}
 
 std::string actuator_name(const mjModel& m, int actuator) {
   const char* name = mj_id2name(&m, mjOBJ_ACTUATOR, actuator);
@@ -153,9 +154,6 @@ MjcfRead read_mjcf(const fs::path& path, std::string_view given, std::vector<std
   look_for_limits(model, file, warnings, problems);
   const std::string own_name = name_of(model, path);
   out.world.name = speakable(own_name);
-  if (out.world.name != own_name)
-    warnings.push_back(fmt::format("mujoco@model \"{}\" is called {} here: topics' names carry no blanks, @ and ~ ({})", own_name,
-                                   out.world.name, file));
   out.world.step_s = model.opt.timestep;
   out.world.gravity = {model.opt.gravity[0], model.opt.gravity[1], model.opt.gravity[2]};
   read_texts(model, out.world);
@@ -167,7 +165,12 @@ MjcfRead read_mjcf(const fs::path& path, std::string_view given, std::vector<std
   if (more) beside = read_beside(*more, beside_of(path).string(), out.world.name, problems);
   if (!problems.empty()) return out;
   describe(model, more ? beside_of(path).string() : file, beside, out.world, native->objects, problems);
-  if (!beside.world_name.empty()) out.world.name = beside.world_name;
+  if (!beside.world_name.empty()) {
+    out.world.name = beside.world_name;
+  } else if (out.world.name != own_name) {
+    warnings.push_back(
+        fmt::format("model {} is called {} here: topics' names carry no blanks, @, ~ and := ({})", own_name, out.world.name, file));
+  }
   out.world.plugins.insert(out.world.plugins.end(), beside.plugins.begin(), beside.plugins.end());
   if (out.world.links.empty() && problems.empty()) problems.add({file, "", "", "holds no body", "a <worldbody> with one"});
   out.world.native = std::move(native);

@@ -33,7 +33,14 @@ struct Beside {
     description::Joint::Kind kind = description::Joint::Kind::fixed;
     std::optional<double> start;
   };
+  /// Of a geom: mu along, mu2 across; of: the body in whose axes `along` is, empty: the world.
+  struct Friction {
+    std::string geom, of;
+    std::array<double, 3> along{};
+    double mu = 0, mu2 = 0;
+  };
   std::string world_name;
+  std::vector<Friction> frictions;
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<description::Plugin> plugins;
@@ -46,6 +53,9 @@ struct Beside {
 /// The bodies of a model as links, and the joints; objects of both. Without what `beside` says its own words stand for themselves.
 void describe(const mjModel& model, const std::string& file, const Beside& beside, description::World& out, LinkObjects& objects,
               Problems& problems);
+
+/// A model's name leads those of topics, which carry no blanks, no @, ~ and :=.
+[[nodiscard]] std::string speakable(std::string name);
 
 /// Of MuJoCo's own: its name, or "number 3"; the control nearest to 0 that it takes.
 [[nodiscard]] std::string actuator_name(const mjModel& model, int actuator);

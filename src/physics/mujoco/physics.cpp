@@ -57,6 +57,7 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::
     if (first >= 0 && m->jnt_type[first] == mjJNT_FREE) root_[l] = first;
     if (world.links[l].weightless && !objects_.is_static[l] && !switched_off(*m, {"Gravity"})) weightless_.push_back(l);
   }
+  directed_ = DirectedFriction(objects_.directions, *m);
   unit_.resize(static_cast<std::size_t>(m->nv));
   pushed_.resize(unit_.size());
   column_.resize(unit_.size());
@@ -104,6 +105,10 @@ void MujocoPhysics::prepare() {
     const bool rows = data_->warning[mjWARN_CNSTRFULL].number > 0, contacts = data_->warning[mjWARN_CONTACTFULL].number > 0;
     if (!(rows || contacts) || !grow(!rows)) break;
     m = model_.get();  // another
+  }
+  if (directed_.turn(*m, *data_)) {
+    mj_makeConstraint(m, data_.get());
+    mj_projectConstraint(m, data_.get());
   }
   take_dampers();
   mj_fwdVelocity(m, data_.get());

@@ -17,6 +17,7 @@
 
 #include "physics/description.hpp"
 #include "physics/mujoco/bodies.hpp"
+#include "physics/mujoco/directed_friction.hpp"
 #include "physics/mujoco/model.hpp"
 #include "vsa/physics/physics.hpp"
 
@@ -92,6 +93,7 @@ class MujocoPhysics final : public Physics {
   std::vector<Address> joint_;                  // of a one-axis joint
   std::vector<int> root_;                       // of a link: the joint id of its free root, −1: tied to the world
   std::vector<std::size_t> weightless_;         // links that gravity leaves alone
+  DirectedFriction directed_;
   std::vector<std::string> q_owner_, v_owner_;
   std::vector<double> before_;  // the state, of the last prepare()
   std::vector<mjtNum> pushed_;  // in the last step, by degree of freedom: applied and, without equalities, by constraints
