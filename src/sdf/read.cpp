@@ -95,6 +95,7 @@ description::World read_sdf(const SdfSource& source, const ReadOptions& options,
   read_root(context, root);
   check_urdfs_found(context);
   if (problems.empty()) finish_joints(context);
+  if (problems.empty()) close_loops(context);
   warnings = notes.texts();
   return out;
 }

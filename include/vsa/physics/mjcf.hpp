@@ -14,7 +14,8 @@
 //       <visual shape="mesh" …><vertices>x y z …</vertices><triangles>0 1 2 …</triangles></visual>
 //       <visual shape="heightmap" geom="…" rgba="…"/>                               the MJCF's geom of that name
 //     </link>
-//     <joint name="lab::arm::elbow" kind="hinge" parent="lab::arm::upper" child="…" start="0.1"/>    fixed ones, too
+//     <joint name="lab::arm::elbow" kind="hinge" parent="lab::arm::upper" child="…" start="0.1"/>    fixed ones, too;
+//                            closes="true" place="x y z" axis="x y z": closes a loop, and is the MJCF's connects or weld
 //     <robot model="lab::arm" top_model="lab"><plugin name="vsa::Robot">…</plugin></robot>
 //   </vsa>
 //
