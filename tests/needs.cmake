@@ -6,6 +6,7 @@ set(VSA_NEEDS_SDF_mjcf
   CommittedMjcf.*
   Export.GoesBetweenSnapshots
   Export.KeepsLinksWithoutGravity
+  Export.KeepsWhatClosesLoops
   Export.WritesNamesThatXmlWouldTakeForItsOwn
   Worlds/FromSdfAndFromMjcf.*
 )
@@ -35,6 +36,8 @@ set(VSA_NEEDS_SDF_engine
   SharedTree.ARobotInANestedModelToo
   SharedTree.CopiesSnapshotsAndNumbersGoOnTheSameWay
   SharedTree.TwoRobotsOnItRestAsOneDoes
+  Loops.*
+  LoopsAtRest.*
   Hostile.RunWantsATime
   Hostile.SpansOfTheWrongSizeAreRefused
   Hostile.NumbersThatAreNoneAreRefusedAndTheWorldGoesOn
@@ -85,6 +88,7 @@ set(VSA_NEEDS_SDF_linear_world
   Point.IsWhereTheWorldIsUnlessTold
   Point.TellsWhatIsLeftOut
   Point.RefusesWhatCantBe
+  Point.RefusesWhatALoopHolds
   Release.OfHangingArmsWithoutSupplyRingsAsThePolesTell
   Release.OfProgrammedArmsRingsAsTheSampledPolesTell
 )
