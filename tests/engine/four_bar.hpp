@@ -91,7 +91,8 @@ struct FourBarFile {
   std::map<std::string, std::string> of_axis = {};
   std::map<std::string, std::string> type = {};
   std::string gravity = "0 0 -9.81", more = {};
-  double y = 0;  ///< all of it beside the world's plane
+  std::string post = "world";  ///< what the rocker stands on
+  double y = 0;                ///< all of it beside the world's plane
 };
 
 inline std::string bar(const std::string& name, const FourBar::At& from, const FourBar::At& to, double y, double kg) {
@@ -114,7 +115,7 @@ inline std::string four_bar(const FourBar& f, const FourBarFile& file = {}) {
   std::string out = "<model name='m'><pose>0 0 1 0 0 0</pose>" + bar("crank", {0, 0}, p.a, file.y, f.crank_kg) +
                     bar("coupler", p.a, p.b, file.y, f.coupler_kg) + bar("rocker", {f.ground, 0}, p.b, file.y, f.rocker_kg);
   const std::map<std::string, std::array<std::string, 2>> ends = {
-      {"o", {"world", "crank"}}, {"a", {"crank", "coupler"}}, {"b", {"rocker", "coupler"}}, {"p", {"world", "rocker"}}};
+      {"o", {"world", "crank"}}, {"a", {"crank", "coupler"}}, {"b", {"rocker", "coupler"}}, {"p", {file.post, "rocker"}}};
   for (const std::string& name : file.order) {
     const std::string type = file.type.contains(name) ? file.type.at(name) : "revolute";
     // b is where the rocker ends.

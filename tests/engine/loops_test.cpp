@@ -230,6 +230,23 @@ TEST(Loops, OneThatFliesFreeFallsAsABodyDoes) {
         << j;
 }
 
+TEST(Loops, AStaticLinkHoldsOneAsTheWorldDoes) {
+  const std::string shape = "'><pose>9 0 0 0 0 0</pose><geometry><box><size>1 1 1</size></box></geometry></collision>",
+                    wall = "<model name='wall'><static>true</static><pose>0.1 0 0.2 0 0 1</pose><link name='l'><collision name='c" +
+                           shape + "<collision name='d" + shape + "</link></model>";
+  FourBarFile file = closed_elsewhere({"o", "a", "b"});
+  file.more = wall;
+  World by_world = load(four_bar({}, file));
+  file.post = "wall::l";
+  World by_wall = load(four_bar({}, file));
+  for (World* w : {&by_world, &by_wall}) {
+    EXPECT_EQ(closing(*w), "m::p ");
+    w->run(0.5);
+  }
+  EXPECT_GT(std::abs(angle_of(by_wall, "crank")), 0.1);
+  for (const char* bar : {"crank", "coupler", "rocker"}) EXPECT_EQ(angle_of(by_wall, bar), angle_of(by_world, bar));
+}
+
 TEST(Loops, TheJointThatClosesOneHasNoAngle) {
   World w = load(four_bar({}));
   ASSERT_EQ(w.joints().size(), 4U);
