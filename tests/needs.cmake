@@ -7,6 +7,7 @@ set(VSA_NEEDS_SDF_mjcf
   Export.GoesBetweenSnapshots
   Export.KeepsFrictionWithADirection
   Export.KeepsLinksWithoutGravity
+  Export.KeepsWhatClosesLoops
   Export.WritesNamesThatXmlWouldTakeForItsOwn
   Worlds/FromSdfAndFromMjcf.*
 )
@@ -36,6 +37,8 @@ set(VSA_NEEDS_SDF_engine
   SharedTree.ARobotInANestedModelToo
   SharedTree.CopiesSnapshotsAndNumbersGoOnTheSameWay
   SharedTree.TwoRobotsOnItRestAsOneDoes
+  Loops.*
+  LoopsAtRest.*
   Hostile.RunWantsATime
   Hostile.SpansOfTheWrongSizeAreRefused
   Hostile.NumbersThatAreNoneAreRefusedAndTheWorldGoesOn
@@ -87,6 +90,7 @@ set(VSA_NEEDS_SDF_linear_world
   Point.IsWhereTheWorldIsUnlessTold
   Point.TellsWhatIsLeftOut
   Point.RefusesWhatCantBe
+  Point.RefusesWhatALoopHolds
   Release.OfHangingArmsWithoutSupplyRingsAsThePolesTell
   Release.OfProgrammedArmsRingsAsTheSampledPolesTell
 )

@@ -17,7 +17,7 @@ namespace vsa::python {
 PyWorld::PyWorld(engine::World world) : world_(std::move(world)) {
   for (const engine::ActuatorRef& a : world_.actuators()) actuator_names_.push_back(world_.name_of(a));
   for (const engine::JointInfo& j : world_.joints()) {
-    if (j.type != engine::JointInfo::Type::revolute && j.type != engine::JointInfo::Type::prismatic) continue;
+    if (!j.one_axis()) continue;
     joint_names_.push_back(j.name);
     joints_.push_back(world_.joint(j.name));
   }

@@ -89,6 +89,7 @@ py::list joint_info(PyWorld& w) {
     one["follows"] = j.follows ? py::object(py::str(w.any_thread().joints()[*j.follows].name)) : py::none();
     one["held"] = j.held;
     one["pulled"] = j.pulled;
+    one["closes_loop"] = j.closes_loop;
     out.append(one);
   }
   return out;
@@ -152,7 +153,8 @@ void bind_joints(WorldClass& c) {
            "besides,\n"
            "damping, stiffness about rest, dry_friction (N·m, rad, s), and follows (the joint that it follows, or None). held and "
            "pulled: what\n"
-           "else of an MJCF holds it (\"weld of arm and world\") or acts on it (\"tendon t\"), lists of str.")
+           "else holds it (\"weld of arm and world\", \"the loop that m::j closes\") or acts on it (\"tendon t\"), lists of str.\n"
+           "closes_loop: a constraint holds its links together; it has no angle and isn't among `joints`.")
       .def("joint_angles", &joint_angles, py::arg("out") = py::none(),
            "Angles (rad; m of a prismatic one) of `joints`: ndarray (joints,). out: such an array, which is filled and returned. A "
            "copy\n"

@@ -36,8 +36,7 @@ Batch::Impl::Impl(const engine::World& world, std::size_t copies, std::size_t th
   if (copies == 0) throw InputError(Problem{"", "copies", "0", "there is nothing to step", "1 or more"});
   for (std::size_t k = 0; k < crew.size(); ++k) worlds.push_back(world.clone());
   for (const engine::JointInfo& joint : world.joints())
-    if (joint.type == engine::JointInfo::Type::revolute || joint.type == engine::JointInfo::Type::prismatic)
-      joints.push_back(world.joint(joint.name));
+    if (joint.one_axis()) joints.push_back(world.joint(joint.name));
   first.resize(world.state_size());
   world.save(first);
   for (std::size_t r = 0; r < world.robot_count(); ++r) own_memories = own_memories && world.robot(r).has_own_memories();

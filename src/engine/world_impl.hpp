@@ -68,6 +68,7 @@ struct World::Impl {
   [[nodiscard]] static std::unique_ptr<Impl> load(const reader::SdfSource& source, WorldOptions options);
   void add_robots(const std::string& file, Problems& problems);
   void tell_overlaps();
+  void tell_open_loops();
   void find_substeps(const std::string& file, Problems& problems);
   [[nodiscard]] std::int64_t substep_ns() const { return dt_ns / substeps; }
   [[nodiscard]] double substep_s() const { return static_cast<double>(substep_ns()) * 1e-9; }

@@ -43,10 +43,11 @@ std::string refusal_of(const description::World& world, std::size_t joint) {
   const Joint& j = world.joints[joint];
   const bool follows = std::any_of(world.couplings.begin(), world.couplings.end(),
                                    [&](const description::Coupling& k) { return k.follower == joint; });
-  return j.kind == Joint::Kind::fixed ? "can't move: it is fixed, or its limits leave it no room"
-         : !j.one_axis()              ? "isn't a joint with one axis"
-         : follows                    ? "follows another joint (<mimic> or <equality>)"
-                                      : "";
+  return j.closes                       ? "closes a kinematic loop and has no angle"
+         : j.kind == Joint::Kind::fixed ? "can't move: it is fixed, or its limits leave it no room"
+         : !j.one_axis()                ? "isn't a joint with one axis"
+         : follows                      ? "follows another joint (<mimic> or <equality>)"
+                                        : "";
 }
 
 /// Joints as a plugin in `model` may name them: relative to that model. `index`: of each in the world, which `owner` steps.
@@ -155,6 +156,7 @@ std::unique_ptr<World::Impl> World::Impl::load(const reader::SdfSource& source, 
     const description::Joint& joint = impl->world->joints[j];
     if (joint.one_axis() && joint.axes[0].start) impl->physics->set_joint(j, {*joint.axes[0].start, 0});
   }
+  impl->tell_open_loops();
   impl->tell_overlaps();
   impl->index_names();
   impl->initial = impl->snapshot();

@@ -39,6 +39,7 @@ JointInfo info_of(const Joint& joint) {
   }
   info.held = joint.held;
   info.pulled = joint.pulled;
+  info.closes_loop = joint.closes;
   if (!joint.one_axis()) return info;
   const Axis& axis = joint.axes.front();
   info.range = axis.range;
@@ -100,7 +101,7 @@ bool same(const Joint& a, const Joint& b) {
     return description::alike(x.xyz, y.xyz) && x.range == y.range && x.rest == y.rest;
   };
   const bool same_place = a.kind == Joint::Kind::fixed || alike(a.pose.Pos(), b.pose.Pos());
-  return a.name == b.name && a.kind == b.kind && a.parent == b.parent && a.child == b.child && same_place &&
+  return a.name == b.name && a.kind == b.kind && a.closes == b.closes && a.parent == b.parent && a.child == b.child && same_place &&
          std::equal(a.axes.begin(), a.axes.end(), b.axes.begin(), b.axes.end(), same_axis);
 }
 
@@ -194,8 +195,10 @@ const std::vector<JointInfo>& World::joints() const { return impl_->names->joint
 JointHandle World::joint(std::string_view scoped) const {
   const auto& known = impl_->names->joint;
   const auto it = known.find(scoped);
-  if (it == known.end()) unknown("joint", scoped, "no such joint with one axis", known);
-  return {it->second, impl_->names->tag};
+  if (it != known.end()) return {it->second, impl_->names->tag};
+  const auto closes = [&](const JointInfo& j) { return j.closes_loop && j.name == scoped; };
+  const bool closing = std::any_of(joints().begin(), joints().end(), closes);
+  unknown("joint", scoped, closing ? "closes a kinematic loop and has no angle" : "no such joint with one axis", known);
 }
 
 JointHandle World::joint(const ActuatorRef& ref) const {

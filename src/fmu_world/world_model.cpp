@@ -51,8 +51,8 @@ std::vector<Variable> WorldModel::make_variables() {
   for (const engine::ActuatorRef& ref : world_.actuators()) add_actuator(out, ref, name_of(world_, ref) + ".");
   first_joint_ = static_cast<Reference>(out.size());
   for (const engine::JointInfo& j : world_.joints()) {
-    const bool turns = j.type == engine::JointInfo::Type::revolute, slides = j.type == engine::JointInfo::Type::prismatic;
-    if (j.actuator || !(turns || slides)) continue;
+    const bool turns = j.type == engine::JointInfo::Type::revolute;
+    if (j.actuator || !j.one_axis()) continue;
     joints_.push_back(world_.joint(j.name));
     out.push_back(output(quoted(j.name) + ".position", turns ? "rad" : "m", "of a joint without an actuator"));
     out.push_back(output(quoted(j.name) + ".speed", turns ? "rad/s" : "m/s", "of a joint without an actuator"));

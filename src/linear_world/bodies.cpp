@@ -63,7 +63,7 @@ Whole::Whole(World& w) {
   for (std::size_t j = 0; j < w.joints().size(); ++j) {
     const JointInfo& info = w.joints()[j];
     if (!info.dof) continue;
-    if (one_axis(info)) {
+    if (info.one_axis()) {
       joint[*info.dof] = j;
       stiffness.col(static_cast<Index>(*info.dof)) = slope(w, info.name);
       continue;
@@ -90,8 +90,7 @@ void check(const World& w, const Whole& all, Problems& problems) {
                       "follows " + w.joints()[*joint.follows].name + " (<mimic> or <equality>), which isn't linearised",
                       "joints that move by themselves"});
       for (const std::string& what : joint.held)
-        problems.add({"", joint.name, "", "is held by an <equality> (" + what + "), which isn't linearised",
-                      "joints that move by themselves"});
+        problems.add({"", joint.name, "", "is held by " + what + ", which isn't linearised", "joints that move by themselves"});
     } else if (all.refused[i] != told) {
       told = all.refused[i];
       const bool link = std::any_of(w.links().begin(), w.links().end(), [&](const auto& l) { return l.name == all.refused[i]; });
@@ -131,10 +130,6 @@ void tell_what_is_left_out(const World& w, const Whole& all, std::vector<std::st
 }
 
 }  // namespace
-
-bool one_axis(const JointInfo& joint) noexcept {
-  return joint.type == JointInfo::Type::revolute || joint.type == JointInfo::Type::prismatic;
-}
 
 std::string actuator_name(const World& world, std::size_t actuator) { return world.name_of(world.actuators()[actuator]); }
 

@@ -19,6 +19,5 @@ struct WorldBodies {
 
 /// What the joint's actuator is called among all of the world: its name, or model/name where several have it.
 [[nodiscard]] std::string actuator_name(const engine::World& world, std::size_t actuator);
-[[nodiscard]] bool one_axis(const engine::JointInfo& joint) noexcept;
 
 }  // namespace vsa::linear_world

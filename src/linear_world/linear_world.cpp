@@ -29,7 +29,7 @@ std::optional<std::size_t> find_joint(const World& w, const std::string& name) {
   const auto actuator = find_actuator(w, name);
   for (std::size_t j = 0; j < w.joints().size(); ++j) {
     const JointInfo& joint = w.joints()[j];
-    if (one_axis(joint) && (joint.name == name || (actuator && joint.actuator == actuator))) return j;
+    if (joint.one_axis() && (joint.name == name || (actuator && joint.actuator == actuator))) return j;
   }
   return std::nullopt;
 }
@@ -38,7 +38,7 @@ std::string known(const World& w, bool joints) {
   std::vector<std::string> out;
   for (std::size_t a = 0; a < w.actuators().size(); ++a) out.push_back(actuator_name(w, a));
   for (const JointInfo& j : w.joints())
-    if (joints && one_axis(j) && !j.actuator) out.push_back(j.name);
+    if (joints && j.one_axis() && !j.actuator) out.push_back(j.name);
   return config::join(out);
 }
 
@@ -59,7 +59,7 @@ PerActuator per_actuator(const World& w, const Named& given, const char* key, Pr
 
 void pose(World& w, const Named& angles, Problems& problems) {
   for (const JointInfo& joint : w.joints())
-    if (one_axis(joint)) w.set_joint(joint.name, w.joint_angle(joint.name), 0);
+    if (joint.one_axis()) w.set_joint(joint.name, w.joint_angle(joint.name), 0);
   for (const auto& [name, value] : angles) {
     const auto j = find_joint(w, name);
     if (!j) {

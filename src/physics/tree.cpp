@@ -19,7 +19,8 @@ class Forest {
         edges_(world.links.size() + 1),
         seen_(world.links.size(), false),
         used_(world.joints.size(), false) {
-    for (std::size_t j = 0; j < world.joints.size(); ++j) add(j);
+    for (std::size_t j = 0; j < world.joints.size(); ++j)
+      if (!world.joints[j].closes) add(j);
   }
 
   std::vector<TreeNode> grow() {

@@ -18,7 +18,7 @@ struct TreeNode {
   bool free = false;
 };
 
-/// Parents stand before children. Static links hang on the world. Kinematic loops are problems.
+/// Parents stand before children. Static links hang on the world. Joints that close a loop aren't in it; other loops are problems.
 [[nodiscard]] std::vector<TreeNode> build_tree(const description::World& world, std::string_view file, Problems& problems);
 
 }  // namespace vsa::physics

@@ -67,6 +67,9 @@ void weld(ReadContext& c) {
     if (start != lower)
       c.problems.add({c.file, joint.name + "/initial_position", fmt::format("{}", start), "is outside the joint's limits",
                       range_of(joint.axes[0])});
+    if (lower != 0 && in_loop(c.out, j))
+      c.problems.add({c.file, joint.name, range_of(joint.axes[0]), "leaves no room in a kinematic loop, away from 0",
+                      "limits with room, or a fixed joint"});
     if (lower != 0) pose_beyond(c.out, j, lower);
     c.notes.add("joints whose limits leave no room are welded", fmt::format("{} at {}", joint.name, lower));
     joint.kind = Joint::Kind::fixed;

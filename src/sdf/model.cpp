@@ -8,6 +8,7 @@
 #include "sdf/read_context.hpp"
 #include "vsa/config/older_plugin.hpp"
 #include "vsa/config/plugin_xml.hpp"
+#include "vsa/config/text.hpp"
 #include "vsa/scoped_name.hpp"
 
 namespace vsa::reader {
@@ -33,6 +34,9 @@ void read_plugins(ReadContext& c, const sdf::ElementPtr& element, const ModelSco
                 "a model that isn't static");
     } else {
       c.out.plugins.push_back({scope.name, scope.top, p->ToString("")});
+      for (sdf::ElementPtr a = child(p, "actuator"); a; a = a->GetNextElement("actuator"))
+        if (const sdf::ElementPtr joint = child(a, "joint"); joint && joint->GetValue())
+          c.driven.insert(scoped_name(scope.name, config::trim(joint->GetValue()->GetAsString())));
     }
   }
 }

@@ -96,6 +96,7 @@ description::World read_sdf(const SdfSource& source, const ReadOptions& options,
   check_urdfs_found(context);
   if (problems.empty()) find_direction_frames(context);
   if (problems.empty()) finish_joints(context);
+  if (problems.empty()) close_loops(context);
   warnings = notes.texts();
   return out;
 }

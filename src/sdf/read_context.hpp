@@ -9,6 +9,7 @@
 #include <map>
 #include <sdf/Element.hh>
 #include <sdf/SemanticPose.hh>
+#include <set>
 #include <type_traits>
 #include <utility>
 
@@ -62,6 +63,7 @@ struct ReadContext {
   bool parsed_clean = true;  ///< false: poses may not resolve for reasons already reported
   std::vector<Mimic> mimics{};
   std::vector<DirectionFrame> direction_frames{};
+  std::set<std::string> driven{};              ///< joints that plugins of ours name, scoped
   std::map<std::string, Pose3> model_poses{};  ///< scoped name → its frame in the world
 
   void problem(const sdf::ElementPtr& element, std::string key, std::string value, std::string message, std::string allowed = {});
@@ -99,6 +101,10 @@ void check_sdfs(ReadContext& context, const sdf::ElementPtr& described);
 void read_state(ReadContext& context, const sdf::World& world);
 /// Once all joints are known: welds those without room, finds where each starts, couples followers to leaders.
 void finish_joints(ReadContext& context);
+/// Then: takes a joint out of each kinematic loop, which closes it.
+void close_loops(ReadContext& context);
+/// Whether its two ends hang together without it, too.
+[[nodiscard]] bool in_loop(const description::World& world, std::size_t joint);
 [[nodiscard]] std::optional<Geometry> read_geometry(ReadContext& context, const sdf::Geometry& geometry, const std::string& key,
                                                     bool collides);
 [[nodiscard]] Surface read_surface(ReadContext& context, const sdf::ElementPtr& collision, const std::string& key);

@@ -223,6 +223,20 @@ TEST(Point, RefusesWhatMjcfHoldsByEqualities) {
       << "what holds no joint of the model";
 }
 
+TEST(Point, RefusesWhatALoopHolds) {
+  std::string text = "<sdf version='1.9'><world name='w'><model name='m'>";
+  for (const auto& [name, pose] :
+       std::vector<std::pair<std::string, std::string>>{{"a", "0 0 0"}, {"b", "0 0 0.1"}, {"c", "0.3 0 0.1"}})
+    text += "<link name='" + name + "'><pose>" + pose + " 0 0 0</pose></link>";
+  for (const auto& [parent, child] :
+       std::vector<std::pair<std::string, std::string>>{{"world", "a"}, {"a", "b"}, {"b", "c"}, {"world", "c"}})
+    text += "<joint name='" + parent + child + "' type='revolute'>" +
+            (parent == "world" && child == "c" ? "<pose>0 0 -0.1 0 0 0</pose>" : "") + "<parent>" + parent + "</parent><child>" +
+            child + "</child><axis><xyz>0 1 0</xyz></axis></joint>";
+  text += "<plugin name='vsa::Robot' filename='x'><actuator><joint>worlda</joint><type>sea_example</type></actuator></plugin>";
+  expect_refused(text + "</model></world></sdf>", {}, {"m::ab: is held by the loop that m::bc closes, which isn't linearised"});
+}
+
 TEST(Point, TellsOfForcesThatOnlyMjcfHas) {
   const auto notices = [](const std::string& text) {
     std::string all;

@@ -177,6 +177,46 @@ TEST(Export, KeepsFrictionWithADirection) {
 }
 
 /// The warnings of NAME.sdf that speak of its MJCF.
+/// A linkage askew in the world, closed by a joint of that type; its crank is driven.
+std::string looped(const std::string& type) {
+  const auto link = [](const std::string& name, const std::string& pose) {
+    return "<link name='" + name + "'><pose>" + pose +
+           "</pose><inertial><pose>0.05 0.02 0 0 0 0</pose><mass>0.3</mass><inertia><ixx>0.001</ixx><iyy>0.002</iyy><izz>0.002"
+           "</izz></inertia></inertial></link>";
+  };
+  const auto joint = [](const std::string& name, const std::string& kind, const std::string& ends, const std::string& of_axis) {
+    return "<joint name='" + name + "' type='" + kind + "'>" + ends +
+           (kind == "revolute" ? "<axis><xyz>0 1 0</xyz>" + of_axis + "</axis>" : "") + "</joint>";
+  };
+  const std::string damped = "<dynamics><damping>0.01</damping></dynamics>";
+  return "<sdf version='1.9'><world name='w'><model name='m'><pose>0.1 0.2 1 0.3 -0.2 0.7</pose>" + link("a", "0 0 0 0 0 0") +
+         link("b", "0 0 0.1 0 0.2 0") + link("c", "0.3 0 0.1 0 0.1 0") +
+         joint("o", "revolute", "<parent>world</parent><child>a</child>", damped) +
+         joint("j", "revolute", "<parent>a</parent><child>b</child>", damped) +
+         joint("k", type, "<parent>b</parent><child>c</child>", "") +
+         joint("p", "revolute", "<pose>0 0 -0.1 0 -0.1 0</pose><parent>world</parent><child>c</child>", damped) +
+         "<plugin name='vsa::Robot' filename='libvsa-robot.so'><actuator><joint>o</joint><type>qbmove_maker_pro_6_1</type>"
+         "<bus id='1'>arm</bus></actuator><bus name='arm' baud='2000000' cycle_s='auto'/></plugin></model></world></sdf>";
+}
+
+TEST(Export, KeepsWhatClosesLoops) {
+  for (const char* type : {"revolute", "ball", "fixed"}) {
+    const Scratch scratch;
+    record::spew(scratch.path() / "w.sdf", looped(type));
+    fs::create_directory(scratch.path() / "out");
+    write(export_mjcf(scratch.path() / "w.sdf"), scratch.path() / "out");
+    World sdf = World::load(scratch.path() / "w.sdf"), mjcf = World::load(scratch.path() / "out/w.xml");
+    expect_same_joints(sdf, mjcf);
+    for (World* w : {&sdf, &mjcf}) {
+      EXPECT_TRUE(w->joints()[2].closes_loop) << type;
+      w->command(w->actuators().front(), 0.3, 0.4);
+      w->run(0.3);
+    }
+    EXPECT_EQ(sdf.state_hash(), mjcf.state_hash()) << type;
+    EXPECT_NO_THROW(mjcf.restore(*sdf.snapshot())) << type;
+  }
+}
+
 std::size_t told_of_mjcf(const fs::path& sdf) {
   const World world = World::load(sdf);
   return static_cast<std::size_t>(std::count_if(world.warnings().begin(), world.warnings().end(), [](const std::string& text) {

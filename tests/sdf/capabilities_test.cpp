@@ -157,6 +157,20 @@ TEST(EngineWithLinksWithoutWeight, GetsThem) {
   EXPECT_TRUE(taken.world.links.at(0).weightless) << taken.problems;
 }
 
+TEST(EngineWithLoops, GetsTheJointsThatCloseThem) {
+  const SdfSource loop{kFiles / "loop.sdf", {}};
+  expect_refused(read(loop, with([](Capabilities& can) { can.loops = false; })), "m::j2: closes a kinematic loop");
+  const Outcome taken = read(loop, mujoco_can());
+  ASSERT_EQ(taken.problems, "");
+  std::string closing, held;
+  for (const Joint& j : taken.world.joints) {
+    closing += j.closes ? j.name : "";
+    for (const std::string& what : j.held) held += j.name + ": " + what + "; ";
+  }
+  EXPECT_EQ(closing, "m::j2");
+  EXPECT_EQ(held, "m::j1: the loop that m::j2 closes; m::j3: the loop that m::j2 closes; ");
+}
+
 TEST(EngineWithSoftStops, GetsTheirStiffness) {
   const std::string joint =
       "<joint name='j' type='revolute'><parent>world</parent><child>l</child><axis><xyz>0 0 1</xyz><limit><lower>-1</lower>"

@@ -155,14 +155,31 @@ TEST(BadInput, UnknownAndUnsupportedJointTypesAreNamed) {
   EXPECT_EQ(joint("revolute"), "");
 }
 
-TEST(BadInput, KinematicLoopsAreNamed) {
-  const auto j = [](const std::string& name, const std::string& a, const std::string& b) {
-    return "<joint name='" + name + "' type='revolute'><parent>" + a + "</parent><child>" + b +
-           "</child><axis><xyz>0 0 1</xyz></axis></joint>";
-  };
+TEST(BadInput, LoopsOfJointsThatNoConstraintCanBeAreNamed) {
   const std::string three = link("a", inertial(1, 1)) + link("b", inertial(1, 1)) + link("c", inertial(1, 1));
-  const std::string text = problems_of(model(three + j("ab", "a", "b") + j("bc", "b", "c") + j("ac", "a", "c")));
-  EXPECT_TRUE(has(text, "closes a kinematic loop")) << text;
+  const auto text = [&](const std::string& type, const std::string& of_axis, const std::string& more = "") {
+    const auto j = [&](const std::string& a, const std::string& b) {
+      return "<joint name='" + a + b + "' type='" + type + "'><parent>" + a + "</parent><child>" + b +
+             "</child><axis><xyz>0 0 1</xyz>" + of_axis + "</axis></joint>";
+    };
+    return problems_of(model(three + j("a", "b") + j("b", "c") + j("a", "c") + more));
+  };
+  EXPECT_EQ(text("revolute", ""), "");
+  EXPECT_TRUE(has(text("prismatic", ""), "m::bc: closes a kinematic loop and has a slide"));
+  EXPECT_TRUE(has(text("prismatic", ""), "one of m::ab, m::ac, m::bc that is revolute"));
+  for (const auto& [of_axis, said] : std::vector<std::pair<std::string, std::string>>{
+           {"<limit><lower>-1</lower><upper>1</upper></limit>", "limits"},
+           {"<dynamics><damping>1</damping></dynamics>", "damping"},
+           {"<dynamics><friction>1</friction></dynamics>", "friction"},
+           {"<dynamics><spring_stiffness>1</spring_stiffness></dynamics>", "a spring"},
+           {"<limit><lower>-1</lower><upper>1</upper></limit><dynamics><damping>1</damping></dynamics>", "limits, damping"}})
+    EXPECT_TRUE(has(text("revolute", of_axis), "m::bc: closes a kinematic loop and has " + said + " "))
+        << text("revolute", of_axis);
+  std::string driven;
+  for (const char* j : {"ab", "bc", "ac"})
+    driven += "<actuator><joint> " + std::string(j) + " </joint><type>sea_example</type></actuator>";
+  EXPECT_TRUE(has(text("revolute", "", "<plugin name='vsa::Robot' filename='x'>" + driven + "</plugin>"),
+                  "closes a kinematic loop and has an actuator"));
 }
 
 TEST(BadInput, AJointToALinkThatIsntThereIsNamed) {

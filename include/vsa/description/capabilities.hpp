@@ -23,6 +23,7 @@ struct Capabilities {
   bool concave_meshes = false;         ///< collide as they are; else a mesh is taken for its convex hull
   bool moving_terrain = false;         ///< planes and heightmaps on links that move
   bool followers = false;              ///< World::couplings
+  bool loops = false;                  ///< Joint::closes
   bool collision_masks = false;        ///< Surface::mask
   bool spin_friction = false;          ///< Surface::torsional_m
   bool directional_friction = false;   ///< Surface::mu2

@@ -107,10 +107,13 @@ struct Joint {
   std::optional<std::size_t> child;                                             ///< the link that it moves; none: the world
   Pose3 pose;                                                                   ///< in the world, at the start: where the axes meet
   std::vector<Axis> axes;         ///< hinge, slide: 1; universal: 2, the first fixed in the parent
-  std::vector<std::string> held,  ///< what else of a native file holds it with others or in its place, in words, but for couplings
+  std::vector<std::string> held,  ///< what else holds it with others or in its place, in words, but for couplings
       pulled;                     ///< what else of it acts on it, in words
-  /// Hinge or slide: what an actuator can drive.
-  [[nodiscard]] bool one_axis() const { return kind == Kind::hinge || kind == Kind::slide; }
+  /// Closes a kinematic loop: the other joints form a tree, and this one, a hinge, ball or fixed one with nothing but its place and
+  /// axis, is a constraint of the engine's that holds its ends together. It has no coordinate.
+  bool closes = false;
+  /// Hinge or slide that has a coordinate: what an actuator can drive.
+  [[nodiscard]] bool one_axis() const { return !closes && (kind == Kind::hinge || kind == Kind::slide); }
 };
 
 /// One joint that follows another: q_follower = offset + multiplier·q + c2·q² + c3·q³ + c4·q⁴ with q of the leader; an SDF's and a

@@ -39,8 +39,8 @@ using LinkHandle = Handle<struct LinkKind>;    ///< of a link, static ones too
 struct JointInfo {
   /// Universal: two axes.
   enum class Type { fixed, revolute, prismatic, ball, universal };
-  std::string name;         ///< scoped: "model::joint"
-  Type type = Type::fixed;  ///< only revolute and prismatic ones, with their one axis, have handles, angles and speeds
+  std::string name;                            ///< scoped: "model::joint"
+  Type type = Type::fixed;                     ///< only revolute and prismatic ones have handles, angles and speeds: one_axis()
   std::optional<std::array<double, 2>> range;  ///< of its one axis, rad or m; none: without limits
   std::optional<std::size_t> actuator;         ///< that drives it: an index into World::actuators()
   /// Its first degree of freedom: where it stands in vectors and matrices of World::dof_count(). Revolute, prismatic: 1; universal:
@@ -52,10 +52,14 @@ struct JointInfo {
       rest = 0;                        ///< where its spring rests, rad or m
   double dry_friction = 0;             ///< N·m; N of a prismatic one
   std::optional<std::size_t> follows;  ///< the joint that it follows (`<mimic>`): an index into World::joints()
-  /// What else of an MJCF holds it with others or in its place ("weld of arm and world"), but for the joint that it follows.
+  /// What else holds it with others or in its place ("weld of arm and world", "the loop that m::j closes"), but for the joint that it
+  /// follows.
   std::vector<std::string> held;
   /// What else of an MJCF acts on it ("tendon t"): tendons, MuJoCo's own actuators where they pull at control 0, a fluid.
   std::vector<std::string> pulled;
+  bool closes_loop = false;  ///< a constraint holds its two links together: it has no angle, and no handle
+  /// Revolute or prismatic, and closes no loop: one with a handle, an angle and a speed.
+  [[nodiscard]] bool one_axis() const noexcept { return !closes_loop && (type == Type::revolute || type == Type::prismatic); }
 };
 
 }  // namespace vsa::engine

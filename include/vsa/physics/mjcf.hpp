@@ -16,7 +16,8 @@
 //     </link>
 //     <friction geom="…" mu="0.5" mu2="1" along="0 1 0" of="lab::arm::upper"/>   of a geom whose friction is the larger of the two: mu
 //                                                                             along that unit vector of a body's (else the world's)
-//     <joint name="lab::arm::elbow" kind="hinge" parent="lab::arm::upper" child="…" start="0.1"/>    fixed ones, too
+//     <joint name="lab::arm::elbow" kind="hinge" parent="lab::arm::upper" child="…" start="0.1"/>    fixed ones, too;
+//                            closes="true" place="x y z" axis="x y z": closes a loop, and is the MJCF's connects or weld
 //     <robot model="lab::arm" top_model="lab"><plugin name="vsa::Robot">…</plugin></robot>
 //   </vsa>
 //

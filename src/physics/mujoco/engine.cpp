@@ -55,6 +55,7 @@ description::Capabilities what_it_can() {
   can.shapes = {box, sphere, cylinder, capsule, ellipsoid, plane, heightmap, mesh};
   can.joints = {Joint::Kind::fixed, Joint::Kind::hinge, Joint::Kind::slide, Joint::Kind::ball, Joint::Kind::universal};
   can.followers = true;
+  can.loops = true;
   can.collision_masks = true;
   can.spin_friction = true;
   can.directional_friction = true;

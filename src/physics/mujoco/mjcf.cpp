@@ -67,6 +67,8 @@ class Writer {
                      escaped(names_.joint(k.follower)), escaped(names_.joint(k.leader)), k.offset, k.multiplier, k.higher[0],
                      k.higher[1], k.higher[2]);
     }
+    for (const Joint& j : world_.joints)
+      if (j.closes) closure(j);
     result_.xml += "</equality>\n</mujoco>\n";
     return std::move(result_);
   }
@@ -140,6 +142,39 @@ class Writer {
       if (axis.stiffness > 0) to += fmt::format(" stiffness=\"{}\" springref=\"{}\"", axis.stiffness, axis.rest);
       if (axis.range) to += fmt::format(" limited=\"true\" range=\"{} {}\"", (*axis.range)[0], (*axis.range)[1]);
       to += "/>\n";
+    }
+  }
+
+  [[nodiscard]] bool moves(std::optional<std::size_t> link) const { return link && !world_.links[*link].is_static; }
+
+  /// How far from the joint the link has its mass, or its inertia's.
+  [[nodiscard]] double reach(std::optional<std::size_t> link, const Vec3& from) const {
+    if (!moves(link)) return 0;
+    const Link& l = world_.links[*link];
+    const double gyration_2 = (l.inertia(0, 0) + l.inertia(1, 1) + l.inertia(2, 2)) / (2 * l.mass);
+    return std::sqrt(gyration_2) + ((l.pose * Pose3(l.com, {})).Pos() - from).Length();
+  }
+
+  /// One point holds a ball, two of its axis a hinge: as far apart as the links' masses, or turning would be soft.
+  void closure(const Joint& j) {
+    const bool by_child = moves(j.child);
+    const std::size_t one = by_child ? *j.child : *j.parent;
+    const std::optional<std::size_t> other = by_child ? j.parent : j.child;
+    std::string bodies = fmt::format("body1=\"{}\"", escaped(names_.body(one)));
+    if (moves(other)) bodies += fmt::format(" body2=\"{}\"", escaped(names_.body(*other)));
+    const Vec3 at = j.pose.Pos();
+    const auto connect = [&](const Vec3& point) {
+      fmt::format_to(out(), "<connect {} anchor=\"{}\" solref=\"0.002 1\"/>\n", bodies,
+                     text((world_.links[one].pose.Inverse() * Pose3(point, {})).Pos()));
+    };
+    if (j.kind == Joint::Kind::fixed) {
+      fmt::format_to(out(), "<weld {} solref=\"0.002 1\"/>\n", bodies);
+    } else if (j.kind == Joint::Kind::ball) {
+      connect(at);
+    } else {
+      const Vec3 apart = j.axes[0].xyz * std::max(reach(j.child, at), reach(j.parent, at));
+      connect(at + apart);
+      connect(at - apart);
     }
   }
 

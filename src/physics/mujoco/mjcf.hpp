@@ -12,6 +12,8 @@
 //   joints         no armature; limits, dry friction and joints that follow others as constraints with solref 0.004 s. A limit
 //                  gives way by a share 1 − d of torque times mobility, so that an actuator would press a light finger far
 //                  beyond it: d grows to 0.9999 within 1 mrad
+//   loops          Joint::closes as connects (hinge: two, ball: one) or a weld, solref 0.002 s: MuJoCo's constraints know nothing of
+//                  their own curvature, so that a loop gapes by its acceleration times the square of that time
 #pragma once
 
 #include <array>

@@ -187,9 +187,22 @@ class Reader {
   }
 
   void joint(const XMLElement& e) {
-    only(e, {"name", "kind", "parent", "child", "start"});
-    Beside::Joint out{attribute(e, "name"), attribute(e, "parent"), attribute(e, "child"), named(e, "kind", kKinds), {}};
+    only(e, {"name", "kind", "parent", "child", "start", "closes", "place", "axis"});
+    Beside::Joint out;
+    out.name = attribute(e, "name");
+    out.parent = attribute(e, "parent");
+    out.child = attribute(e, "child");
+    out.kind = named(e, "kind", kKinds);
     if (e.Attribute("start") != nullptr) out.start = all<double>(e, "start", 1)[0];
+    out.closes = flag(e, "closes", false);
+    const auto vector = [&](const char* name) {
+      const std::vector<double> v = all<double>(e, name, 3);
+      return Vec3(v[0], v[1], v[2]);
+    };
+    if (out.closes) out.place = vector("place");
+    if (out.closes && out.kind == Kind::hinge) out.axis = vector("axis");
+    if (out.closes && (out.kind == Kind::slide || out.kind == Kind::universal))
+      problem("joint@closes", out.name, "can't close a loop", "a fixed, hinge or ball joint");
     out_.joints.push_back(std::move(out));
   }
 
@@ -276,6 +289,9 @@ std::string write_beside(const description::World& world) {
     out += fmt::format("  <joint name=\"{}\" kind=\"{}\" parent=\"{}\" child=\"{}\"", escaped(j.name), name_in(kKinds, j.kind),
                        link(j.parent), link(j.child));
     if (j.one_axis() && j.axes[0].start) out += fmt::format(" start=\"{}\"", *j.axes[0].start);
+    const auto vector = [](const Vec3& v) { return fmt::format("{} {} {}", v.X(), v.Y(), v.Z()); };
+    if (j.closes) out += fmt::format(" closes=\"true\" place=\"{}\"", vector(j.pose.Pos()));
+    if (j.closes && j.kind == Kind::hinge) out += fmt::format(" axis=\"{}\"", vector(j.axes[0].xyz));
     out += "/>\n";
   }
   for (const Plugin& p : world.plugins) {

@@ -252,6 +252,14 @@ class Describer {
       joint.parent = find_link(told.name, told.parent);
       joint.child = find_link(told.name, told.child);
       std::array<int, 2> ids{-1, -1};
+      if (told.closes) {
+        joint.closes = true;
+        joint.pose.Pos() = told.place;
+        if (told.kind == Kind::hinge) joint.axes.emplace_back().xyz = told.axis;
+        objects_.joints.push_back(ids);
+        out_.joints.push_back(std::move(joint));
+        continue;
+      }
       if (told.kind != Kind::fixed) ids[0] = mj_name2id(&m_, mjOBJ_JOINT, told.name.c_str());
       if (told.kind == Kind::universal) ids[1] = mj_name2id(&m_, mjOBJ_JOINT, (told.name + "/2").c_str());
       const Kind single = told.kind == Kind::universal ? Kind::hinge : told.kind;

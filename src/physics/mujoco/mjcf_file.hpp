@@ -32,6 +32,8 @@ struct Beside {
     std::string name, parent, child;  ///< parent, child: empty: the world
     description::Joint::Kind kind = description::Joint::Kind::fixed;
     std::optional<double> start;
+    bool closes = false;  ///< a loop; then also:
+    Vec3 place, axis;     ///< in the world; of a hinge
   };
   /// Of a geom: mu along, mu2 across; of: the body in whose axes `along` is, empty: the world.
   struct Friction {

@@ -95,7 +95,7 @@ class Forces {
   void add(std::vector<std::string> Joint::*list, const JointIds& ids, const std::string& what) {
     for (std::size_t j = 0; j < out_.joints.size(); ++j)
       if (std::any_of(objects_.joints[j].begin(), objects_.joints[j].end(), [&](int id) { return ids.contains(id); }))
-        (out_.joints[j].*list).push_back(what);
+        if (std::vector<std::string>& all = out_.joints[j].*list; all.empty() || all.back() != what) all.push_back(what);
   }
 
   void equality(int e) {
