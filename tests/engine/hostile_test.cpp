@@ -132,6 +132,12 @@ TEST(Hostile, NamesThatNobodyHasAreRefused) {
     EXPECT_THROW((void)w.center_of_mass(name), InputError);
     EXPECT_THROW(w.displace_model(name, 0, {}), InputError);
   }
+  EXPECT_FALSE(JointInfo{}.one_axis());
+  for (const JointInfo& joint : w.joints()) {
+    if (!joint.one_axis()) {
+      EXPECT_THROW((void)w.joint(joint.name), InputError) << joint.name;
+    }
+  }
   EXPECT_THROW((void)w.joint("arm::mount"), InputError) << "a fixed joint has no axis";
   EXPECT_THROW(w.displace_model("arm", 0, {}), InputError) << "is tied to the world";
 }

@@ -67,6 +67,30 @@ TEST(LoopsAtRest, ALightOneToo) {
   }
 }
 
+/// At preset 0.1 the unit alone swings on for 10 s, so its loop does, as much as one link with what the loop's inertia amounts to there.
+TEST(LoopsAtRest, ADrivenCrankSwingsAsOneLinkOfTheReducedInertia) {
+  const FourBar f;
+  for (const double step_s : {1e-3, 4e-3})
+    for (const double to : {-0.5, 0.2}) {
+      const std::string link = world("<model name='m'><link name='l'>" + inertial(0.01, f.inertia(to)) + "</link>" +
+                                         hinge("o", "world", "l") + plugin(actuator("o")) + "</model>",
+                                     "0 0 0");
+      std::vector<double> late;
+      for (const std::string& sdf : {link, four_bar(f, {.gravity = "0 0 0", .more = plugin(actuator("o"))})}) {
+        WorldOptions options;
+        options.step_s = step_s;
+        World w = World::load_string(sdf, options);
+        w.command("o", to, 0.1);
+        double sum = 0;
+        int n = 0;
+        for (; w.time_s() < 5; w.step(), ++n) sum += w.time_s() > 4.5 ? std::pow(w.joint_speed("m::o"), 2) : 0;
+        late.push_back(std::sqrt(2 * sum / n));
+      }
+      EXPECT_GT(late[0], 0.03);
+      EXPECT_NEAR(late[1], late[0], 0.1 * late[0]) << step_s << " s, " << to;
+    }
+}
+
 TEST(LoopsAtRest, AnActuatorPutElsewhereIsPulledBackAndBlowsNothingUp) {
   World w = World::load_string(crank_driven({}, "0 0 -9.81", {"o"}));
   w.place("o", 0.2, 0.4);
