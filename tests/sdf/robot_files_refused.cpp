@@ -67,8 +67,8 @@ std::vector<RobotFile> refused_files() {
       {"no_version.sdf", "no_version.sdf:2: sdf@version: is missing (allowed: "},
       {"light_only.sdf", "light_only.sdf: holds no model with a link"},
       {"gazebo_root.sdf",
-       "gazebo_root.sdf:2: gazebo@version = 1.0: is the way that SDF before 1.3 begins (allowed: <sdf version=\"1.0\"> in its "
-       "place"},
+       "gazebo_root.sdf:2: gazebo@version = 1.0: is the way that SDF before 1.3 begins (allowed: <sdf version=\"1.2\"> and "
+       "</sdf> in its place"},
       {"include_missing_merged.sdf", "Unable to find uri[no_such_folder] (allowed: a file in: "},
       {"package.urdf", "package://robot_parts/box.stl: file not found"},
   };
