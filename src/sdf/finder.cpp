@@ -32,9 +32,10 @@ bool take_prefix(std::string_view& text, std::string_view prefix) {
 }  // namespace
 
 SearchPath::SearchPath(const std::vector<fs::path>& more) {
-  for (const char* name :
-       {"SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH"})
+  for (const char* name : {"SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH"})
     add_from_environment(name, directories);
+  add_from_environment("GAZEBO_RESOURCE_PATH", resources);
+  directories.insert(directories.end(), resources.begin(), resources.end());
   for (const char* name : {"AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH"}) add_from_environment(name, prefixes);
   add_from_environment("ROS_PACKAGE_PATH", packages);
   // A world that brings all its own is read without them.
@@ -90,8 +91,10 @@ fs::path Finder::find(std::string_view uri, const fs::path& base) const {
   take_prefix(uri, "file://");
   if (const fs::path path(uri); path.is_absolute()) return seen_.asks(path) ? path : fs::path{};
   if (fs::path path = base / uri; seen_.asks(path)) return path;
-  for (const fs::path& directory : path_.directories) {
-    if (fs::path path = directory / uri; seen_.asks(path)) return path;
+  for (const auto* places : {&path_.resources, &path_.directories}) {
+    for (const fs::path& directory : *places) {
+      if (fs::path path = directory / uri; seen_.asks(path)) return path;
+    }
   }
   return {};
 }
@@ -113,6 +116,7 @@ std::string Finder::searched(std::string_view uri, const fs::path& base) const {
   };
   if (plain) {
     add({base}, "");
+    add(path_.resources, "");
     add(path_.directories, "");
     return text;
   }
