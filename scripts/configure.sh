@@ -13,7 +13,8 @@ if [ "$(printf '%s\n%s\n' "$needed" "$version" | sort -V | head -n 1)" != "$need
 fi
 preset=$1
 shift
-said=$(mktemp)
+said=$(mktemp 2>/dev/null) ||
+  { echo "configure.sh: TMPDIR = ${TMPDIR:-/tmp}: no file can be written there (allowed: a folder with space)" >&2; exit 1; }
 trap 'rm -f "$said"' EXIT
 cmake --preset "$preset" "$@" >"$said"
 sed -n 's/^-- \(.*: left out: .*\)/configure: \1/p' "$said"

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Installs what building, testing and running vsasim needs on Debian 12, Debian 13, Ubuntu 22.04 and 24.04.
+# Installs what building, testing and running vsasim needs on Debian 12 and 13; its lists for Ubuntu 22.04 and 24.04, which don't
+# package MuJoCo, were never tried.
 # Idempotent: when every package is present it touches neither the network nor the package manager.
 set -eu
 
@@ -69,6 +70,10 @@ fi
 [ "$tried" = yes ] || echo "setup.sh: the list of packages was never tried on this system (${codename:-unknown}; tried: bookworm, trixie)" >&2
 echo "setup: installing$missing"
 export DEBIAN_FRONTEND=noninteractive
-$sudo apt-get update -qq
+failed() {
+  echo "setup.sh: apt-get $1 failed: without a network, or another source of packages, these can't be installed:$missing" >&2
+  exit 1
+}
+$sudo apt-get update -qq || failed update
 # shellcheck disable=SC2086 # the list is words on purpose
-$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null
+$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null || failed install

@@ -12,6 +12,7 @@
 #include "doctor/checks.hpp"
 #include "doctor/doctor.hpp"
 #include "terminal/exit_codes.hpp"
+#include "terminal/interrupt.hpp"
 #include "terminal/old_spellings.hpp"
 #include "vsa/config/plugin_xml.hpp"
 #include "vsa/errors.hpp"
@@ -72,7 +73,9 @@ int main(int argc, char** argv) {
     vsa::app::tell_old_spellings("vsa-doctor");
     vsa::app::DoctorOptions options;
     options.world = first;
-    return vsa::app::run_doctor(options, vsa::app::read_elements);
+    const int code = vsa::app::run_doctor(options, vsa::app::read_elements);
+    vsa::app::see_all_written();
+    return code;
   } catch (const vsa::InputError& error) {
     for (const auto& problem : error.problems()) std::cerr << "vsa-doctor: " << problem.text() << '\n';
     return vsa::app::kBadInput;

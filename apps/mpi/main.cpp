@@ -269,7 +269,10 @@ int main(int argc, char** argv) {
     if (!identifies->parsed()) return run(*job, searches->parsed() ? to_search : options);
     if (first_does(*job, check_mixture) != kDone) return kBadInput;
     check_mixture();
-    return to_identify->compare.file.empty() ? run_identify_job(*job, *to_identify) : run_compare_job(*job, to_identify->compare);
+    const bool compares = !to_identify->compare.file.empty();
+    const int code = compares ? run_compare_job(*job, to_identify->compare) : run_identify_job(*job, *to_identify);
+    see_all_written();
+    return code;
   } catch (const std::exception& error) {
     std::cerr << "vsa-mpi: " << (job ? "rank " + std::to_string(job->rank()) + ": " : "") << error.what() << '\n';
     if (job && job->size() > 1) job->abort();

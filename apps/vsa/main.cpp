@@ -5,7 +5,6 @@
 #include <array>
 #include <exception>
 #include <iostream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -79,7 +78,7 @@ bool tell_about(const CLI::App& app, const std::vector<std::string>& arguments) 
   } else {
     return false;
   }
-  if (!std::cout.flush()) throw std::runtime_error("can't write to standard output");
+  vsa::app::see_all_written();
   return true;
 }
 
@@ -123,9 +122,10 @@ int run_application(int argc, char** argv) {
     return vsa::app::kBadInput;
   } catch (const CLI::ParseError& error) {
     if (app.exit(error) != 0) return vsa::app::kBadInput;
-    if (!std::cout.flush()) throw std::runtime_error("can't write to standard output");
+    vsa::app::see_all_written();
     return vsa::app::kDone;
   }
+  vsa::app::see_all_written();
   return exit_code;
 }
 

@@ -91,8 +91,10 @@ fs::path Finder::find(std::string_view uri, const fs::path& base) const {
   take_prefix(uri, "file://");
   if (const fs::path path(uri); path.is_absolute()) return seen_.asks(path) ? path : fs::path{};
   if (fs::path path = base / uri; seen_.asks(path)) return path;
-  for (const fs::path& directory : path_.resources) {
-    if (fs::path path = directory / uri; seen_.asks(path)) return path;
+  for (const auto* places : {&path_.resources, &path_.directories}) {
+    for (const fs::path& directory : *places) {
+      if (fs::path path = directory / uri; seen_.asks(path)) return path;
+    }
   }
   return {};
 }
@@ -115,6 +117,7 @@ std::string Finder::searched(std::string_view uri, const fs::path& base) const {
   if (plain) {
     add({base}, "");
     add(path_.resources, "");
+    add(path_.directories, "");
     return text;
   }
   add(path_.directories, "");

@@ -18,8 +18,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Prints elements on the lines that they have in the file, so that what is said of the print is true of the file.
+class LinePrinter final : public tinyxml2::XMLPrinter {
+ public:
+  LinePrinter() : XMLPrinter(nullptr, true) {}
+  bool VisitEnter(const tinyxml2::XMLDocument& document) override { return XMLPrinter::VisitEnter(document); }
+  bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute* attribute) override {
+    count();
+    for (; line_ < element.GetLineNum(); ++line_) Putc('\n');  // in the start tag before it, where that is open still
+    counted_ = length();
+    return XMLPrinter::VisitEnter(element, attribute);
+  }
+
+ private:
+  [[nodiscard]] std::size_t length() const { return static_cast<std::size_t>(CStrSize()) - 1; }
+  void count() {
+    const char* text = CStr();
+    line_ += static_cast<int>(std::count(text + counted_, text + length(), '\n'));
+  }
+
+  std::size_t counted_ = 0;
+  int line_ = 1;
+};
+
 std::string printed(const tinyxml2::XMLDocument& xml) {
-  tinyxml2::XMLPrinter printer;
+  LinePrinter printer;
   xml.Print(&printer);
   return printer.CStr();
 }
@@ -29,7 +52,16 @@ bool mend(tinyxml2::XMLElement& root, const std::string& label, ReadContext& c) 
   if (is_unexpanded(root, label, c.problems)) return false;
   check_plugin_places(root, label, c.problems);
   const std::string_view name = root.Name();
-  if (name == "sdf") return mend_sdf(root, label, c.notes, c.problems);
+  if (name == "gazebo" && root.Attribute("version") != nullptr) {
+    const std::string version = root.Attribute("version");
+    c.problems.add({line_of(root, label), "gazebo@version", version, "is the way that SDF before 1.3 begins",
+                    "<sdf version=\"1.2\"> and </sdf> in its place, with SDF 1.2's elements"});
+    return false;
+  }
+  if (name == "sdf") {
+    c.files.newer = c.files.newer || is_newer(root);
+    return mend_sdf(root, label, c.notes, c.problems);
+  }
   if (name != "robot") return false;
   c.files.urdfs.push_back(mend_urdf(root, label, c.files.urdfs.size(), c.notes, c.problems));
   return true;
@@ -148,6 +180,7 @@ bool prepare_files(const SdfSource& source, ReadContext& context) {
                                             : xml->LoadFile(source.path.c_str()) == tinyxml2::XML_SUCCESS;
   if (readable && walk.document(*xml, source.label(), context.base)) context.files.top = printed(*xml);
   context.files.top_is_urdf = readable && xml->RootElement() != nullptr && is(*xml->RootElement(), "robot");
+  context.files.top_is_sdf = readable && xml->RootElement() != nullptr && is(*xml->RootElement(), "sdf");
   if (readable) context.files.keep(source.label(), std::move(xml));
   return context.problems.list().size() == before;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "sdf/xml_place.hpp"
@@ -45,6 +46,10 @@ fs::path InputFiles::stand_in(const fs::path& file) const {
 std::string InputFiles::original(const std::string& path) const {
   const auto it = original_of_.find(path);
   return it == original_of_.end() ? path : it->second;
+}
+
+bool InputFiles::is_urdf(const std::string& file) const {
+  return std::any_of(urdfs.begin(), urdfs.end(), [&](const Urdf& urdf) { return urdf.file == file; });
 }
 
 std::string InputFiles::with_originals(std::string text) const {

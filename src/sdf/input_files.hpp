@@ -38,9 +38,12 @@ class InputFiles {
   [[nodiscard]] std::string original(const std::string& path) const;
   /// A text of libsdformat's with its copies' names replaced by those of the files.
   [[nodiscard]] std::string with_originals(std::string text) const;
+  /// Lines that libsdformat tells of what it got are those of an SDF, not of a URDF: that it converts.
+  [[nodiscard]] bool is_urdf(const std::string& file) const;
 
   std::optional<std::string> top;  ///< stands in for the world's own file
-  bool top_is_urdf = false;
+  bool top_is_urdf = false, top_is_sdf = false;
+  bool newer = false;         ///< one is of a version after SDF 1.9, read as that
   std::vector<Urdf> urdfs;    ///< of all files; <vsa:urdf id="…"> of a model is an index into them
   std::vector<SdfText> sdfs;  ///< of all files
 

@@ -182,7 +182,7 @@ void read_joint(ReadContext& c, const sdf::Joint& joint, const ModelScope& scope
   out.pose = scope.pose * c.resolve(joint.SemanticPose(), "__model__", joint.Element(), key);
   const bool ends = find_end(c, joint, false, scope, out.parent) && find_end(c, joint, true, scope, out.child);
   for (unsigned int i = 0; i < axes_of(*kind); ++i) read_axis(c, joint, i, key, out);
-  if (joint.SensorCount() > 0) c.notes.add("sensors are left out", key);
+  if (joint.SensorCount() > 0 || child(joint.Element(), "vsa:sensor")) c.notes.add("sensors are left out", key);
   if (child(joint.Element(), "physics")) c.notes.add("<physics> of joints is left out", key);
   if (ends && out.axes.size() == axes_of(*kind)) c.out.joints.push_back(std::move(out));
 }

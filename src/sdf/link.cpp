@@ -91,7 +91,7 @@ void read_flags(ReadContext& c, const sdf::Link& link, const std::string& key, L
       c.problem(d, key + "/velocity_decay/" + name, d->Get<std::string>(), "isn't supported", "0 or absent");
     }
   }
-  if (link.SensorCount() > 0) c.notes.add("sensors are left out", key);
+  if (link.SensorCount() > 0 || child(e, "vsa:sensor")) c.notes.add("sensors are left out", key);
   if (link.ParticleEmitterCount() > 0) c.notes.add("particle emitters are left out", key);
   for (const char* name : {"audio_sink", "audio_source", "battery", "projector"}) {
     if (child(e, name)) c.notes.add("batteries, projectors and audio are left out", key);

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string_view>
 
 #include "sdf/xml_place.hpp"
+#include "vsa/config/text.hpp"
 
 namespace vsa::reader {
 namespace {
@@ -24,7 +26,11 @@ class Mender {
     for (XMLElement *e = parent.FirstChildElement(), *next = nullptr; e != nullptr; e = next) {
       next = e->NextSiblingElement();
       if (is(*e, "plugin")) continue;
-      if (newer_ && drop(parent, *e)) {
+      if (is(parent, "joint") && lacks_direction(*e)) {
+        refuse_or_drop_axis(parent, *e);
+        continue;
+      }
+      if (hollow(parent, *e) || (newer_ ? drop(parent, *e) : drop_colour(parent, *e))) {
         changed_ = true;
         continue;
       }
@@ -37,15 +43,32 @@ class Mender {
   [[nodiscard]] bool changed() const { return changed_; }
 
  private:
+  /// What is left out anyway, but with a word that libsdformat's reading gives rise to, stays as an empty element of our name: it may
+  /// hold what libsdformat refuses.
+  static bool hollow(const XMLElement& parent, XMLElement& e) {
+    const bool sensor = is(e, "sensor") && (is(parent, "link") || is(parent, "joint"));
+    if (!sensor && !(is(parent, "material") && (is(e, "script") || is(e, "pbr")))) return false;
+    e.SetName((std::string("vsa:") + e.Name()).c_str());
+    e.DeleteChildren();
+    while (const XMLAttribute* a = e.FirstAttribute()) e.DeleteAttribute(a->Name());
+    return true;
+  }
+
+  static bool drop_colour(XMLElement& parent, XMLElement& e) {
+    if (!is(parent, "material") || is(e, "diffuse")) return false;
+    parent.DeleteChild(&e);
+    return true;
+  }
+
   /// What is left out anyway may hold what 1.9 doesn't know.
   bool drop(XMLElement& parent, XMLElement& e) {
+    if (drop_colour(parent, e)) return true;
     if (is(e, "sensor")) {
       notes_.add("sensors are left out", path_of(e));
     } else if (is(e, "visual") && holds_cone(e)) {
       notes_.add("visuals that can't be shown are left out (a cone)", path_of(e));
-    } else if (is(parent, "material") ? is(e, "diffuse")
-                                      : !is(e, "light") && !is(e, "gui") && !is(e, "scene") && !is(e, "density") &&
-                                            !is(e, "auto_inertia_params") && !is(e, "convex_decomposition")) {
+    } else if (!is(e, "light") && !is(e, "gui") && !is(e, "scene") && !is(e, "density") && !is(e, "auto_inertia_params") &&
+               !is(e, "convex_decomposition")) {
       return false;
     }
     parent.DeleteChild(&e);
@@ -55,6 +78,30 @@ class Mender {
   static bool holds_cone(const XMLElement& e) {
     const XMLElement* geometry = e.FirstChildElement("geometry");
     return geometry != nullptr && geometry->FirstChildElement("cone") != nullptr;
+  }
+
+  /// <axis> with an <xyz> of three zeros: libsdformat tells of it without the joint.
+  static bool lacks_direction(const XMLElement& e) {
+    const XMLElement* xyz = is(e, "axis") || is(e, "axis2") ? e.FirstChildElement("xyz") : nullptr;
+    if (xyz == nullptr) return false;
+    std::istringstream in(texts_of(*xyz));
+    std::size_t zeros = 0;
+    for (std::string word; in >> word; ++zeros)
+      if (config::parse_number(word) != 0.0) return false;
+    return zeros == 3;
+  }
+
+  /// On a joint that turns about no axis of its own it means nothing.
+  void refuse_or_drop_axis(XMLElement& joint, XMLElement& axis) {
+    const char* type = joint.Attribute("type");
+    if (type == nullptr || (std::string_view(type) != "fixed" && std::string_view(type) != "ball")) {
+      const XMLElement& xyz = *axis.FirstChildElement("xyz");
+      problems_.add({line_of(xyz, file_), path_of(xyz), std::string(config::trim(texts_of(xyz))), "has no direction",
+                     "a vector other than zero"});
+      return;
+    }
+    joint.DeleteChild(&axis);
+    changed_ = true;
   }
 
   /// Elements of our own name pass libsdformat.
@@ -120,11 +167,21 @@ const XMLElement* find_unexpanded(const XMLElement& e) {
 
 }  // namespace
 
-bool mend_sdf(XMLElement& sdf, const std::string& file, Notes& notes, Problems& problems) {
+bool is_newer(const XMLElement& sdf) {
   constexpr std::array<std::string_view, 3> kNewer{"1.10", "1.11", "1.12"};
   const char* version = sdf.Attribute("version");
-  const bool newer = version != nullptr && std::find(kNewer.begin(), kNewer.end(), version) != kNewer.end();
-  if (version != nullptr && !newer && !known(version)) {
+  return version != nullptr && std::find(kNewer.begin(), kNewer.end(), version) != kNewer.end();
+}
+
+bool mend_sdf(XMLElement& sdf, const std::string& file, Notes& notes, Problems& problems) {
+  const char* version = sdf.Attribute("version");
+  const bool newer = is_newer(sdf);
+  if (version == nullptr) {
+    problems.add({line_of(sdf, file), "sdf@version", "", "is missing",
+                  "<sdf version=\"1.9\">, or what the file is written for: " + std::string(kVersions)});
+    return false;
+  }
+  if (!newer && !known(version)) {
     problems.add({file, "sdf@version", version, "isn't a version that can be read", kVersions});
     return false;
   }

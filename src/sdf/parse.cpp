@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <sdf/Console.hh>
 #include <sdf/Error.hh>
@@ -61,7 +63,7 @@ std::string without_copying(std::string text) {
   return text;
 }
 
-/// "Error Code 9: [/sdf/model:FILE:L3]: Msg: text", of an included file. Lines are the copy's where one stood in.
+/// "Error Code 9: [/sdf/model:FILE:L3]: Msg: text", of an included file.
 std::optional<Message> from_included(const std::string& line, const ReadContext& c) {
   const std::size_t open = line.find('['), text = line.find("]: Msg: ");
   if (!starts(line, "Error Code ") || open == std::string::npos || text == std::string::npos) return std::nullopt;
@@ -70,7 +72,7 @@ std::optional<Message> from_included(const std::string& line, const ReadContext&
   Message out{c.file, place, without_copying(line.substr(text + 8)), true};
   if (number == std::string::npos || colon == std::string::npos) return out;
   const std::string file = place.substr(colon + 1, number - colon - 1), original = c.files.original(file);
-  out.file = original == file ? fmt::format("{}:{}", file, place.substr(number + 2)) : original;
+  out.file = c.files.is_urdf(original) ? original : fmt::format("{}:{}", original, place.substr(number + 2));
   out.key = place.substr(0, colon);
   return out;
 }
@@ -106,6 +108,15 @@ bool only_follows(const sdf::Error& error) {
   return starts(error.Message(), "Failed to load a") || starts(error.Message(), "Unable to read");
 }
 
+/// What all that speaks of a model's parts comes to where an <include> brought none.
+bool follows_lost_include(const sdf::Error& error) {
+  using enum sdf::ErrorCode;
+  constexpr std::array kFollows{MODEL_WITHOUT_LINK,        MODEL_CANONICAL_LINK_INVALID, JOINT_CHILD_LINK_INVALID,
+                                JOINT_PARENT_LINK_INVALID, FRAME_ATTACHED_TO_INVALID,    FRAME_ATTACHED_TO_GRAPH_ERROR,
+                                POSE_RELATIVE_TO_INVALID,  POSE_RELATIVE_TO_GRAPH_ERROR, MODEL_PLACEMENT_FRAME_INVALID};
+  return std::find(kFollows.begin(), kFollows.end(), error.Code()) != kFollows.end();
+}
+
 /// "Unable to find uri[model://x]" → model://x
 std::string uri_in(const std::string& message) {
   const std::size_t open = message.find("uri["), close = message.find(']', open);
@@ -116,12 +127,10 @@ Problem to_problem(const sdf::Error& error, const ReadContext& c) {
   Problem p;
   p.file = c.files.original(error.FilePath().value_or(c.file));
   if (p.file.empty() || p.file.front() == '<' || p.file == "data-string" || p.file == "urdf file") p.file = c.file;
-  // A text that stands in for the file has other lines.
-  const bool own_lines = p.file != c.file || !c.files.top;
-  if (error.LineNumber() && own_lines && c.files.stand_in(p.file) == p.file) p.file += fmt::format(":{}", *error.LineNumber());
+  if (error.LineNumber() && !c.files.is_urdf(p.file)) p.file += fmt::format(":{}", *error.LineNumber());
   p.key = error.XmlPath().value_or("");
   p.message = without_copying(c.files.with_originals(error.Message()));
-  if (c.files.top && holds(p.message, "not defined in SDF")) p.allowed = "elements of SDF 1.9, as which newer files are read";
+  if (c.files.newer && holds(p.message, "not defined in SDF")) p.allowed = "elements of SDF 1.9, as which newer files are read";
   if (error.Code() == sdf::ErrorCode::URI_LOOKUP) p.allowed = c.finder.searched(uri_in(p.message), c.base);
   return p;
 }
@@ -130,9 +139,11 @@ void report(const sdf::Errors& errors, std::vector<Message> printed, ReadContext
   const std::size_t before = c.problems.list().size();
   bool reading = false;  // within a chain from the innermost element outwards
   bool left_to_readers = false;
+  const bool lost =
+      std::any_of(errors.begin(), errors.end(), [](const sdf::Error& e) { return e.Code() == sdf::ErrorCode::URI_LOOKUP; });
   for (const sdf::Error& error : errors) {
     left_to_readers = left_to_readers || reported_by_readers(error);
-    if (reported_by_readers(error) || only_follows(error)) continue;
+    if (reported_by_readers(error) || only_follows(error) || (lost && follows_lost_include(error))) continue;
     Problem p = to_problem(error, c);
     const bool outer = starts(p.message, "Error reading element");
     if (outer && (reading || (printed.empty() && c.problems.list().size() > before))) continue;
@@ -191,7 +202,8 @@ void parse_sdf(const SdfSource& source, ReadContext& c, sdf::Root& root) {
     c.parsed_clean = c.parsed_clean && error.Code() == sdf::ErrorCode::LINK_INERTIA_INVALID;
   }
   std::vector<Message> said = messages(printed, c);
-  if (!errors.empty() || (root.WorldCount() == 0 && root.Model() == nullptr)) {
+  // Of an SDF without either the reader says what it lacks.
+  if (!errors.empty() || (!c.files.top_is_sdf && root.WorldCount() == 0 && root.Model() == nullptr)) {
     report(errors, std::move(said), c);
     return;
   }

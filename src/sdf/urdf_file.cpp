@@ -27,6 +27,14 @@ double mimic_number(const XMLElement& mimic, const char* name, double fallback, 
   return value.value_or(fallback);
 }
 
+bool is_zero(const char* numbers) {
+  std::istringstream in(numbers == nullptr ? "" : numbers);
+  double number = 0;
+  while (in >> number)
+    if (number != 0) return false;
+  return in.eof();
+}
+
 UrdfJoint read_joint(const XMLElement& e, const Urdf& urdf, Notes& notes, Problems& problems) {
   UrdfJoint joint{attribute(&e, "name"),
                   attribute(&e, "type"),
@@ -41,6 +49,10 @@ UrdfJoint read_joint(const XMLElement& e, const Urdf& urdf, Notes& notes, Proble
                       (free ? "; floating between a link \"world\" that has no other joint and the root, without an <origin>"
                             : "; a plane is two prismatic joints and a revolute")});
   }
+  const XMLElement* axis = e.FirstChildElement("axis");
+  if (const std::string xyz = attribute(axis, "xyz"); joint.type != "fixed" && !config::trim(xyz).empty() && is_zero(xyz.c_str()))
+    problems.add(
+        {line_of(*axis, urdf.file), "joint[" + joint.name + "]/axis@xyz", xyz, "has no direction", "a vector other than zero"});
   const XMLElement* mimic = e.FirstChildElement("mimic");
   if (mimic == nullptr) return joint;
   if (joint.type == "fixed") {
@@ -67,14 +79,6 @@ void tell_of_limits(const XMLElement& e, const UrdfJoint& joint, const std::stri
 bool is_true(const char* text) {
   const std::string word(config::trim(text == nullptr ? "" : text));
   return word == "true" || word == "True" || word == "TRUE" || word == "yes" || word == "1";
-}
-
-bool is_zero(const char* numbers) {
-  std::istringstream in(numbers == nullptr ? "" : numbers);
-  double number = 0;
-  while (in >> number)
-    if (number != 0) return false;
-  return in.eof();
 }
 
 /// MuJoCo's way of saying that a robot floats: a floating joint between a link "world" that is nothing else and the root. Without both

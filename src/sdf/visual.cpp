@@ -112,8 +112,9 @@ void colour(ReadContext& c, const sdf::Visual& visual, const std::string& key, s
     shape.rgba = {d.R(), d.G(), d.B(), d.A()};
   }
   shape.rgba[3] *= 1 - visual.Transparency();
-  if (material != nullptr && (child(material->Element(), "script") || child(material->Element(), "pbr"))) {
-    c.notes.add("materials are shown by their diffuse colour only", key);
+  for (const char* more : {"script", "vsa:script", "vsa:pbr"}) {
+    if (material != nullptr && child(material->Element(), more))
+      c.notes.add("materials are shown by their diffuse colour only", key);
   }
 }
 

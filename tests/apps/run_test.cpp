@@ -85,6 +85,24 @@ TEST(Run, HelpThatCantBeWrittenIsAFailure) {
     EXPECT_EQ(run_vsa(arguments, full).exit_code, 1) << arguments.front();
 }
 
+TEST(Run, AnyCommandsResultsThatCantBeWrittenAreAFailureThatSaysSo) {
+  vsa::test::Surroundings full;
+  full.full_stdout = true;
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"actuators"},
+                                                    {"actuators", "qbmove_maker_pro"},
+                                                    {"actuators", "--laws"},
+                                                    {"characterize", "qbmove_maker_pro"},
+                                                    {"datasheet", "qbmove_maker_pro"},
+                                                    {"doctor"},
+                                                    {"linearize", "qbmove_maker_pro_6_1"},
+                                                    {"emulate", "qbmove_maker_pro", "--duration-s", "0.01"}}) {
+    const auto result = run_vsa(arguments, full);
+    EXPECT_EQ(result.exit_code, 1) << arguments.front();
+    EXPECT_NE(result.err.find("vsa: can't write to standard output\n"), std::string::npos)
+        << arguments.front() << ": " << result.err;
+  }
+}
+
 TEST(Run, ARefusedOneLeavesAnEarlierRecordAsItWas) {
   const Scratch scratch;
   const auto run = [&] {

@@ -34,6 +34,27 @@ stand_in cmake "cmake version 3.25.1
 [ "$(with sh "$root/scripts/configure.sh" release 2>&1)" = "configure: topics: left out: no library found" ] ||
   fail "configuring says: $(with sh "$root/scripts/configure.sh" release 2>&1)"
 
+TMPDIR="$work/nowhere" && export TMPDIR
+! with sh "$root/scripts/configure.sh" release >"$work/out" 2>&1 || fail "a TMPDIR that isn't there is taken"
+unset TMPDIR
+grep -qF "TMPDIR = $work/nowhere: " "$work/out" || fail "a TMPDIR that isn't there: $(cat "$work/out")"
+
+# No network: one line says what can be done, after what the tool says itself.
+printf '#!/bin/sh\necho "$*" >>"%s/asked"\nexit 1\n' "$work" >"$work/bin/npm" && chmod +x "$work/bin/npm"
+! sh "$root/web/fetch.sh" "$work/bin/npm" "$work" >"$work/out" 2>&1 || fail "npm's failure is none"
+grep -q "^web: .*registry once.*make dist" "$work/out" || fail "npm fails: $(cat "$work/out")"
+grep -q -- "--fetch-retries=1 " "$work/asked" || fail "npm tries for minutes: $(cat "$work/asked")"
+rm "$work/bin/npm"
+for at in update install; do
+  printf '#!/bin/sh\n[ "$1" != %s ]\n' "$at" >"$work/bin/apt-get"
+  printf '#!/bin/sh\nexec "$@"\n' >"$work/bin/sudo"
+  stand_in dpkg-query ""
+  chmod +x "$work/bin/apt-get" "$work/bin/sudo"
+  ! with sh "$root/scripts/setup.sh" >"$work/out" 2>&1 || fail "apt-get $at fails, setup.sh doesn't"
+  grep -q "^setup.sh: apt-get $at failed: .* cmake " "$work/out" || fail "apt-get $at fails: $(cat "$work/out")"
+done
+rm "$work/bin/apt-get" "$work/bin/sudo" "$work/bin/dpkg-query"
+
 # A tree without a repository, below another's: its sources are found, and no archive is made of it.
 tree="$work/a tree"
 mkdir -p "$tree/scripts" "$tree/src/build" "$tree/build" "$tree/.hidden" "$tree/web/node_modules"
@@ -101,6 +122,13 @@ for line in "old: libold-dev (found 8.3, needed 9.1)" "nosuch: libnosuch-dev" "n
   grep -qx "    $line" "$work/out" || fail "not told: $line: $(cat "$work/out")"
 done
 ! grep -q "libthere-dev" "$work/out" || fail "told of a library that is there: $(cat "$work/out")"
+
+# A package that dpkg has as installed, and whose files are gone: setup.sh alone doesn't bring them back.
+! grep -q reinstall "$work/out" || fail "told to install again what never was: $(cat "$work/out")"
+mkdir "$work/dpkg"
+printf '#!/bin/sh\n[ "$3" = libnosuch-dev ] && printf "install ok installed"\n' >"$work/dpkg/dpkg-query" && chmod +x "$work/dpkg/dpkg-query"
+! PATH="$work/dpkg:$PATH" cmake -S "$work/needs" -B "$work/needs/again" >"$work/out" 2>&1 || fail "configuring without libraries"
+grep -qx "    apt-get install --reinstall libnosuch-dev" "$work/out" || fail "of a package that is broken: $(cat "$work/out")"
 
 # make -f from elsewhere does its work where the Makefile stands.
 mkdir "$tree/out"

@@ -10,6 +10,16 @@ cmp "$source/apps/vsa/vsa.bash" "$work/prefix/share/bash-completion/completions/
 cmake -S "$source/examples/library" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null 2> "$work/warnings"
 if [ -s "$work/warnings" ]; then echo "consumer.sh: find_package(vsasim) warns a user of what isn't his:" >&2; cat "$work/warnings" >&2; exit 1; fi
 cmake --build "$work/build"
+# Components are rooms; one that there isn't is named, with those that there are.
+mkdir "$work/components"
+printf '%s\n' 'cmake_minimum_required(VERSION 3.18)' 'project(asks CXX)' 'find_package(vsasim REQUIRED COMPONENTS ${ROOMS})' > "$work/components/CMakeLists.txt"
+cmake -S "$work/components" -B "$work/components/engine" -DCMAKE_PREFIX_PATH="$work/prefix" "-DROOMS=engine;record" > /dev/null 2>&1 ||
+  { echo "consumer.sh: find_package(vsasim COMPONENTS engine record) fails" >&2; exit 1; }
+if cmake -S "$work/components" -B "$work/components/none" -DCMAKE_PREFIX_PATH="$work/prefix" "-DROOMS=engine;nonsense" > /dev/null 2> "$work/components/said"; then
+  echo "consumer.sh: a component that there isn't is found" >&2; exit 1
+fi
+tr -s '\n ' '  ' < "$work/components/said" | grep -q 'no component nonsense (allowed: actuator, .*engine' ||
+  { echo "consumer.sh: of a component that there isn't CMake says:" >&2; cat "$work/components/said" >&2; exit 1; }
 if [ "${VSA_TOPICS:-yes}" = yes ]; then
   cmake -Wno-dev -S "$source/examples/snake_gait_topics" -B "$work/topics" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" > /dev/null
   cmake --build "$work/topics"

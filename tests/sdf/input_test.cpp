@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -135,6 +136,32 @@ TEST(BadInput, AnInertiaThatViolatesTheTriangleInequalityIsNamed) {
   EXPECT_TRUE(has(text, "m::a/inertial/inertia")) << text;
   EXPECT_TRUE(has(text, "triangle")) << text;
   EXPECT_TRUE(has(text, "m::b/inertial/inertia")) << text;
+}
+
+TEST(BadInput, ALinkThatMovesAndIsTooLightForTheEngineIsNamed) {
+  const auto b = [](double mass, double moment) {
+    const auto tag = [](const std::string& name, double value) {
+      std::ostringstream text;
+      text << '<' << name << '>' << value << "</" << name << '>';
+      return text.str();
+    };
+    return link("b", "<inertial>" + tag("mass", mass) + "<inertia>" + tag("ixx", moment) + tag("iyy", moment) + tag("izz", moment) +
+                         "</inertia></inertial>");
+  };
+  const auto joint = [](const char* type, const std::string& ends) {
+    return "<joint name='" + ends + "' type='" + type + "'><parent>" + ends[0] + "</parent><child>" + ends[1] +
+           "</child><axis><xyz>0 0 1</xyz></axis></joint>";
+  };
+  const std::string a = link("a", inertial(1, 1)), hinge = joint("revolute", "ab");
+  std::string text = problems_of(model(a + b(1e-20, 1) + hinge));
+  EXPECT_TRUE(has(text, "m::b/inertial/mass = 1e-20: is too little for MuJoCo in a link that moves (allowed: ≥ 1e-15 kg)")) << text;
+  text = problems_of(model(a + b(1, 1e-20) + hinge));
+  EXPECT_TRUE(has(text, "m::b/inertial/inertia = smallest principal moment 1e-20")) << text;
+  EXPECT_FALSE(has(text, "mjMINVAL")) << text;
+  EXPECT_TRUE(has(problems_of(model(b(1e-20, 1))), "m::b/inertial/mass")) << "a free one";
+  EXPECT_EQ(problems_of(model(a + b(1e-20, 1e-20) + joint("fixed", "ab"))), "");
+  EXPECT_EQ(problems_of(model(a + b(1e-20, 1e-20) + hinge + link("c", inertial(1, 1)) + joint("fixed", "bc"))), "")
+      << "what is fixed to it has mass";
 }
 
 TEST(BadInput, AThinPlateAtTheEdgeOfTheTriangleInequalityIsAccepted) {

@@ -62,6 +62,15 @@ std::vector<RobotFile> refused_files() {
       {"plugin_in_visual.sdf",
        "plugin_in_visual.sdf:8: world[w]/model[m]/link[a]/visual[v]/plugin[vsa::Robot]: belongs to a model"},
       {"plugin_in_link.urdf", "plugin_in_link.urdf:8: gazebo/visual/plugin[vsa::Robot]: belongs to a model"},
+      {"foreign_unknown_tag.sdf", "foreign_unknown_tag.sdf:10: /sdf/world[@name=\"w\"]/model[@name=\"m\"]/frictoin"},
+      {"zero_axis.sdf", "zero_axis.sdf:8: world[w]/model[m]/joint[j1]/axis/xyz = 0 0.0 -0: has no direction (allowed: "},
+      {"zero_axis.urdf", "zero_axis.urdf:5: joint[j1]/axis@xyz = 0 0 0: has no direction (allowed: "},
+      {"no_version.sdf", "no_version.sdf:2: sdf@version: is missing (allowed: "},
+      {"light_only.sdf", "light_only.sdf: holds no model with a link"},
+      {"gazebo_root.sdf",
+       "gazebo_root.sdf:2: gazebo@version = 1.0: is the way that SDF before 1.3 begins (allowed: <sdf version=\"1.2\"> and "
+       "</sdf> in its place"},
+      {"include_missing_merged.sdf", "Unable to find uri[no_such_folder] (allowed: a file in: "},
       {"package.urdf", "package://robot_parts/box.stl: file not found"},
   };
 }

@@ -244,6 +244,40 @@ TEST(RobotFiles, TheUsersOwnSunAndGroundComeFirst) {
   EXPECT_EQ(load("sun_and_ground.sdf", options).links().front().name, "sun::disc");
 }
 
+TEST(RobotFiles, AMaterialsDiffuseColourIsKeptWhateverElseItHolds) {
+  EXPECT_EQ(load("foreign_material.sdf").links().front().visuals.at(0).rgba, (std::array<float, 4>{1, 0, 0, 1}));
+}
+
+TEST(RobotFiles, AFolderByItsPlainNameIsFoundBesideTheFileAndThenWhereModelsAre) {
+  const TempDir dir("plain");
+  const auto model = [&](const std::string& place, const std::string& link) {
+    dir.write(place + "/x500/model.config", "<model><sdf version='1.7'>model.sdf</sdf></model>");
+    dir.write(place + "/x500/model.sdf",
+              "<sdf version='1.7'><model name='x'><link name='" + link + "'>" + inertial(1, 1) + "</link></model></sdf>");
+  };
+  dir.write("here/w.sdf", world("<include><uri>x500</uri></include>"));
+  const auto link = [&] { return World::load(dir.path() / "here/w.sdf").links().front().name; };
+  model("models", "far");
+  for (const char* name : {"GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "SDF_PATH"}) {
+    setenv(name, (dir.path() / "models").c_str(), 1);
+    EXPECT_EQ(link(), "x::far") << name;
+    unsetenv(name);
+  }
+  setenv("GZ_SIM_RESOURCE_PATH", (dir.path() / "models").c_str(), 1);
+  model("here", "near");
+  EXPECT_EQ(link(), "x::near");
+  unsetenv("GZ_SIM_RESOURCE_PATH");
+}
+
+TEST(RobotFiles, OfAnIncludeThatIsntFoundThereIsOneError) {
+  try {
+    static_cast<void>(load("include_missing_merged.sdf"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().size(), 1u) << error.what();
+  }
+}
+
 /// A chain of n modules hanging from the world, each a link with an actuator.
 std::string chain(int n) {
   std::string model = "<model name='m'><link name='l0'>" + inertial(1, 1e-3) +

@@ -100,7 +100,7 @@ int run_gallery(const DatasheetOptions& options) {
     std::cout << table.title << '\n' << table_text(rows, terminal_width()) << '\n';
   }
   std::cout << "written: " << (folder / kGalleryFile).string() << ", " << kComparisonFile << " and a sheet of each\n";
-  return std::cout.flush() ? kDone : kFailed;
+  return kDone;
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ int run_datasheet(const DatasheetOptions& options) {
   tell_notices(data.simulated.preset_step, console);
   report::write_report(data_sheet_report(data, command_of(options)), file);
   std::cout << data_sheet_text(data) << "written: " << file.string() << '\n';
-  return std::cout.flush() ? kDone : kFailed;
+  return kDone;
 }
 
 void setup_datasheet(CLI::App& app, int& exit_code) {

@@ -55,7 +55,7 @@ int report(const Findings& of_world, const Findings& of_machine) {
     std::cout << (width == 0 ? plain(f) : pretty(f, width, colour));
   }
   std::cout << fmt::format("{}, {}\n", count(problems, "problem"), count(notes, "note"));
-  return std::cout.flush() && problems == 0 ? kDone : kFailed;
+  return problems == 0 ? kDone : kFailed;
 }
 
 /// Every actuator type as `vsa actuators` would read it.

@@ -110,7 +110,7 @@ int write_results(const Asked& asked, Identification r, Console& console) {
   for (const std::string& w : asked.beyond_the_grid()) console.line("warning: " + w);
   std::cout << identification_text(r) << "written: " << (out / "report.html").string() << ", results.json";
   std::cout << (determined ? ", " + r.name + ".toml\n" : "; no type, as the data don't determine it\n");
-  return std::cout.flush() && determined ? kDone : kFailed;
+  return determined ? kDone : kFailed;
 }
 
 }  // namespace

@@ -170,7 +170,8 @@ void add_world(Flags& flags) {
 void setup_run(CLI::App& app, int& exit_code) {
   CLI::App* sub = app.add_subcommand("run", "Run a world");
   auto flags = std::make_shared<Flags>(*sub);
-  sub->add_option("WORLD", flags->options.world, "SDF file, a built-in world's name, or a scenario: a TOML file")->required();
+  sub->add_option("WORLD", flags->options.world, "SDF, URDF or MJCF file, a built-in world's name, or a scenario: a TOML file")
+      ->required();
   flags->value("--duration-s", &RunOptions::duration_s, "Simulated seconds to run; default: until Ctrl-C")->check(number_given());
   flags->value("--step-s", &RunOptions::step_s, "Simulated seconds per step; default: what the world says")->check(number_given());
   CLI::Option* realtime =

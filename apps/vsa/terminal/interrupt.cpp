@@ -6,6 +6,8 @@
 
 #include <atomic>
 #include <csignal>
+#include <iostream>
+#include <stdexcept>
 
 namespace vsa::app {
 namespace {
@@ -39,6 +41,10 @@ void survive_broken_pipes() {
   // A reader that went away, or a file at its size limit, is then an error of that write, not the end of the run.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void see_all_written() {
+  if (!std::cout.flush()) throw std::runtime_error("can't write to standard output");
 }
 
 int interrupted() noexcept { return noted.load(std::memory_order_relaxed); }

@@ -11,6 +11,8 @@ void survive_broken_pipes();
 /// Standard input, output and error that the caller has closed are /dev/null, for reading only: else the first files that are opened get
 /// their numbers, and messages are written into them. What can't be written is an error still.
 void fill_closed_standard_files();
+/// Throws std::runtime_error where standard output didn't take all of what was written: call last.
+void see_all_written();
 
 /// The signal that was noted, 0 for none.
 [[nodiscard]] int interrupted() noexcept;

@@ -237,7 +237,6 @@ int run_emulate(const EmulateOptions& options) {
     std::cout << fmt::format("{:<20}{:.3f} s in {:.3f} s of wall time\n", "simulated time", runner.simulated_s(), runner.wall_s())
               << port_report(port.counters(), emulation.line().lost(), emulation.line().wrong_rate().bytes);
   }
-  if (!std::cout.flush()) return kFailed;
   return signal != 0 && options.duration_s ? kSignalled + signal : kDone;
 }
 

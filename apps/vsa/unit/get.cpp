@@ -98,7 +98,7 @@ int run_get(const GetOptions& options) {
   } else {
     std::cout << table_text(rows, 0);
   }
-  return std::cout.flush() ? code : kFailed;
+  return code;
 }
 
 void setup_get(CLI::App& app, int& exit_code) {

@@ -7,7 +7,8 @@
 //   $AMENT_PREFIX_PATH, $COLCON_PREFIX_PATH, $CMAKE_PREFIX_PATH      PREFIX/share/NAME, PREFIX/NAME/share/NAME
 //   $ROS_PACKAGE_PATH                                                DIR/NAME, DIR itself, or a package NAME up to 3 folders below
 //   model://sun and model://ground_plane of our own
-// file://… and plain paths are taken from the naming file's directory, then from $GAZEBO_RESOURCE_PATH.
+// file://… and plain paths are taken from the naming file's directory, then from $GAZEBO_RESOURCE_PATH, then, as Gazebo does, from
+// the places of the first two lines.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +29,7 @@ struct SearchPath {
   std::vector<std::filesystem::path> directories,  ///< DIR/NAME is looked for
       prefixes,                                    ///< PREFIX/share/NAME and the like
       packages,                                    ///< $ROS_PACKAGE_PATH
-      resources,                                   ///< of plain paths
+      resources,                                   ///< of plain paths, before `directories`
       last;                                        ///< our own, after all others
 };
 

@@ -1,7 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // From a description to MuJoCo's model, and what of a description MuJoCo can honour.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 
 #include "physics/mujoco/mjcf.hpp"
 #include "physics/mujoco/mjcf_file.hpp"
@@ -63,6 +66,45 @@ description::Capabilities what_it_can() {
   return can;
 }
 
+/// MuJoCo's condition for a body that moves: mass and moments of its own, or of one that is fixed to it.
+class Weights {
+ public:
+  Weights(const description::World& world, const std::vector<TreeNode>& tree) : world_(world), tree_(tree) {}
+
+  void check(std::string_view file, Problems& problems) const {
+    for (const TreeNode& node : tree_) {
+      if (!moves(node) || suffices(node.link)) continue;
+      const Link& link = world_.links[node.link];
+      const bool light = link.mass < mjMINVAL;
+      problems.add({std::string(file), link.name + (light ? "/inertial/mass" : "/inertial/inertia"),
+                    light ? fmt::format("{}", link.mass) : fmt::format("smallest principal moment {:.6g}", least_moment(link)),
+                    "is too little for MuJoCo in a link that moves",
+                    light ? fmt::format("≥ {} kg", mjMINVAL) : fmt::format("principal moments ≥ {} kg·m²", mjMINVAL)});
+    }
+  }
+
+ private:
+  [[nodiscard]] bool moves(const TreeNode& node) const {
+    return node.free || (node.joint && world_.joints[*node.joint].kind != Joint::Kind::fixed);
+  }
+  static double least_moment(const Link& link) {
+    std::array<mjtNum, 9> inertia{}, axes{};
+    std::array<mjtNum, 4> turn{};
+    std::array<mjtNum, 3> moments{};
+    for (std::size_t i = 0; i < 9; ++i) inertia[i] = link.inertia(i / 3, i % 3);
+    mju_eig3(moments.data(), axes.data(), turn.data(), inertia.data());
+    return *std::min_element(moments.begin(), moments.end());
+  }
+  [[nodiscard]] bool suffices(std::size_t link) const {
+    if (world_.links[link].mass >= mjMINVAL && least_moment(world_.links[link]) >= mjMINVAL) return true;
+    return std::any_of(tree_.begin(), tree_.end(),
+                       [&](const TreeNode& n) { return n.parent == link && !moves(n) && suffices(n.link); });
+  }
+
+  const description::World& world_;
+  const std::vector<TreeNode>& tree_;
+};
+
 class Mujoco final : public Engine {
  public:
   const description::Capabilities& capabilities() const override { return can_; }
@@ -76,6 +118,7 @@ class Mujoco final : public Engine {
       return std::make_shared<CompiledMujoco>(std::move(model), description, own->objects);
     }
     const std::vector<TreeNode> tree = build_tree(world, file, problems);
+    Weights(world, tree).check(file, problems);
     if (!problems.empty()) return nullptr;
     const Mjcf mjcf = write_mjcf(world, tree, step_s, capacity_for(world));
     std::string reason;
