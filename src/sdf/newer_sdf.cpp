@@ -30,7 +30,7 @@ class Mender {
         refuse_or_drop_axis(parent, *e);
         continue;
       }
-      if (hollow(parent, *e) || (newer_ ? drop(parent, *e) : drop_colour(parent, *e))) {
+      if (hollow(parent, *e) || (newer_ ? drop(parent, *e) : !plain_colour(*e) && drop_colour(parent, *e))) {
         changed_ = true;
         continue;
       }
@@ -52,6 +52,16 @@ class Mender {
     e.DeleteChildren();
     while (const XMLAttribute* a = e.FirstAttribute()) e.DeleteAttribute(a->Name());
     return true;
+  }
+
+  /// Four numbers of 0 … 1: libsdformat takes them, and taking them out would cost a copy of the file.
+  static bool plain_colour(const XMLElement& e) {
+    if (!is(e, "ambient") && !is(e, "specular") && !is(e, "emissive")) return false;
+    std::istringstream text(e.GetText() == nullptr ? "" : e.GetText());
+    int count = 0;
+    for (double value = 0; text >> value; ++count)
+      if (!(value >= 0 && value <= 1)) return false;
+    return text.eof() && count == 4;
   }
 
   static bool drop_colour(XMLElement& parent, XMLElement& e) {
