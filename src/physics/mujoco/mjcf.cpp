@@ -312,7 +312,8 @@ std::vector<FrictionDirection> directions_of(const description::World& world) {
           along = link.pose.Rot() * along;
         }
       }
-      along = along.Normalized();
+      const double most = std::max({std::abs(along.X()), std::abs(along.Y()), std::abs(along.Z())});
+      along = (along / most).Normalized();  // of any length, without overflow
       d.along = {along.X(), along.Y(), along.Z()};
       out.push_back(d);
     }

@@ -2,7 +2,8 @@
 //
 // Physics on MuJoCo (versions.hpp tells of which). A step is its pipeline without mj_step's silent repair (which resets a bad state and goes on):
 //
-//   prepare()  mj_fwdPosition, mj_fwdVelocity          poses, M = LᵀDL, contacts; nothing of it is computed twice
+//   prepare()  mj_fwdPosition, mj_fwdVelocity          poses, M = LᵀDL, contacts; nothing of it is computed twice, but constraints
+//                                                      where contacts get a direction of friction
 //   foresee()  M⁻¹ of forces, or with equalities mj_fwdConstraint, with what pushed in the last step
 //   advance()  mj_fwdActuation … mj_fwdConstraint      v̇ with the applied torques
 //              check, mj_Euler, check                  v' = v + dt·(M + dt·B)⁻¹M v̇ with joint damping B; q' = q + dt·v'
