@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "physics/mujoco/mjcf.hpp"
+#include "physics/mujoco/versions.hpp"
 #include "physics/tree.hpp"
 #include "vsa/files.hpp"
 #include "vsa/physics/mjcf.hpp"
