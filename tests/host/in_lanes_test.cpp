@@ -209,6 +209,25 @@ TEST(InLanes, NobodyCanTell) {
     for (unsigned seed = 1; seed < 5; ++seed) compare(types, seed);
 }
 
+/// From steps that are whole, which leave the units in lanes, to one that the type's substep_max_s cuts although no tick lies inside.
+TEST(InLanes, AStepThatIsCutSetsOutFromWhatTheyHold) {
+  for (const char* types : {"sss", "ssss|", "aasss"}) {
+    Bench quiet(types), fresh(types);
+    for (Bench* b : {&quiet, &fresh}) {
+      ASSERT_TRUE(b->robot.command(1, 0.6, 0.5));
+      b->step(1'000'000);  // takes the command, which a restore would drop
+    }
+    for (int round = 0; round < 20; ++round) {
+      for (const std::int64_t dt_ns : {250'000, 250'000, 500'000, 250'000, 250'000, 250'000, 250'000, 1'000'000}) {
+        fresh.robot.restore(*fresh.robot.snapshot());
+        for (Bench* b : {&quiet, &fresh}) b->step(dt_ns);
+        ASSERT_EQ(quiet.torque, fresh.torque) << types << ", round " << round << ", a step of " << dt_ns << " ns";
+      }
+    }
+    EXPECT_EQ(quiet.robot.state_hash(), fresh.robot.state_hash()) << types;
+  }
+}
+
 /// What a robot went back to, and what it was given, is what counts, not what its lanes still hold.
 TEST(InLanes, WhatIsGoneIsGone) {
   Bench one("aaaaaaaaaaaa|aaaaaaaa"), other("aaaaaaaaaaaa|aaaaaaaa");
