@@ -67,6 +67,8 @@ class ModelRobots {
   void remove(ModelRobot& robot);
   /// Steps all, but where another has done so since this one asked last.
   void step(const ModelRobot& asking, std::int64_t time_ns, std::int64_t dt_ns);
+  /// The trees are found anew: a robot's joints are others than they were.
+  void find_anew() noexcept { joined_ = false; }
   /// The next step is the first: after a reset.
   void forget() noexcept;
 

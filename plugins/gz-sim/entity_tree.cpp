@@ -39,6 +39,9 @@ bool falls([[maybe_unused]] sim::Entity link, [[maybe_unused]] const sim::Entity
 #endif
 }
 
+/// What an actuator has whose joint is gone: no other joint feels it.
+constexpr TreeBody kNobody{.joint = TreeBody::Joint::revolute, .axis = {0, 0, 1}, .inertia_kgm2 = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+
 /// The link that a joint names, seen from the joint's own model; null: the world, or unknown.
 sim::Entity named_link(sim::Entity joint, const std::string& name, const sim::EntityComponentManager& ecm) {
   const auto found = sim::entitiesFromScopedName(name, ecm, ecm.ParentEntity(joint));
@@ -56,6 +59,11 @@ EntityTree::EntityTree(sim::Entity model, const ModelRobot::Joints& driven, sim:
   if (!build(links, joints, bodies)) return;
   std::vector<std::size_t> body_of;
   for (const sim::Entity joint : driven) {
+    if (joint == sim::kNullEntity) {
+      body_of.push_back(bodies.size());
+      bodies.push_back(kNobody);
+      continue;
+    }
     const auto at = std::find_if(items_.begin(), items_.end(), [&](const Item& item) { return item.joint == joint; });
     if (at == items_.end()) return;
     body_of.push_back(static_cast<std::size_t>(at - items_.begin()));
@@ -148,7 +156,7 @@ void EntityTree::feel() {
 /// A robot that goes has its neighbours' trees found anew by itself, when it is called.
 bool EntityTree::are_there() const {
   const auto gone = [this](sim::Entity e) { return !ecm_.HasEntity(e); };
-  if (std::any_of(driven_.begin(), driven_.end(), gone)) return true;
+  if (std::any_of(driven_.begin(), driven_.end(), [&](sim::Entity e) { return e != sim::kNullEntity && gone(e); })) return true;
   return std::none_of(items_.begin(), items_.end(), [&](const Item& item) { return gone(item.link); });
 }
 

@@ -72,6 +72,7 @@ void SimRobot::PreUpdate(const sim::UpdateInfo& info, sim::EntityComponentManage
   faults_.look(*seat_);
 #endif
   const auto time_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(info.simTime).count();
+  let_go();
   if (info.paused) {
     seat_->publish_paused(time_ns);
     if (watch_) watch_->paused();
@@ -88,11 +89,25 @@ std::unique_ptr<LinkTrees> SimRobot::link_trees(Links links, const Joints& drive
   return std::make_unique<EntityTree>(links == Links::of_own_model ? model_ : sim::topLevelModel(model_, *ecm_), driven, *ecm_);
 }
 
+/// Joints that went with a model nested in this one: from then on their units hold shafts that stand where those were.
+void SimRobot::let_go() {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (joints_[i] == sim::kNullEntity || ecm_->HasEntity(joints_[i])) continue;
+    joints_[i] = sim::kNullEntity;
+    seat_->in()[i].speed_rad_per_s = 0;
+    robots_->find_anew();
+    const std::string text = name_ + ": the joint of its actuator '" + seat_->robot().config().actuators[i].name +
+                             "' went with its model; the others go on";
+    VSA_ERROR << "vsa::Robot: " << text << std::endl;
+  }
+}
+
 void SimRobot::tell(std::int64_t time_ns) {
   if (!ecm_->HasEntity(model_)) return;  // it will learn of it when it is called itself
   if (steps_ <= kPhysicsSteps && steps_++ == kPhysicsSteps && !any_filled<components::JointPosition>(joints_, *ecm_))
     VSA_ERROR << "vsa::Robot: " << name_ + kNoPhysics << std::endl;  // in one piece: colours go around each
   for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (!ecm_->HasEntity(joints_[i])) continue;  // components of what is gone are errors on the log
     seat_->in()[i].angle_rad = first_number<components::JointPosition>(joints_[i], *ecm_);
     seat_->in()[i].speed_rad_per_s = first_number<components::JointVelocity>(joints_[i], *ecm_);
   }
@@ -105,7 +120,8 @@ void SimRobot::apply() {
     const std::string text = name_ + ": its actuators have stopped and give no torque; -v 2 shows why";
     VSA_ERROR << "vsa::Robot: " << text << std::endl;
   }
-  for (std::size_t i = 0; i < joints_.size(); ++i) set_force(joints_[i], seat_->torques()[i], *ecm_);
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    if (ecm_->HasEntity(joints_[i])) set_force(joints_[i], seat_->torques()[i], *ecm_);
 }
 
 #ifdef VSA_HAS_PARAMETERS

@@ -30,7 +30,7 @@ namespace vsa::plugins {
 /// isn't one of hinges, sliders and fixed joints.
 class EntityTree final : public LinkTrees {
  public:
-  /// `driven`: the actuators' joints, by their entities.
+  /// `driven`: the actuators' joints, by their entities; null for one that is gone.
   EntityTree(sim::Entity model, const ModelRobot::Joints& driven, sim::EntityComponentManager& ecm);
   void look() override;
   void feel() override;
@@ -79,6 +79,7 @@ class SimRobot : public sim::System,
  private:
   void attach(const sdf::Element& element, sim::EntityComponentManager& ecm);
   void leave();
+  void let_go();
   [[nodiscard]] const Joints& driven() const noexcept override { return joints_; }
   [[nodiscard]] std::unique_ptr<LinkTrees> link_trees(Links links, const Joints& driven) override;
   void tell(std::int64_t time_ns) override;
@@ -87,7 +88,7 @@ class SimRobot : public sim::System,
   sim::Entity model_ = sim::kNullEntity;
   sim::EntityComponentManager* ecm_ = nullptr;
   std::string name_;  ///< scoped, without the world's
-  Joints joints_;     ///< of the actuators
+  Joints joints_;     ///< of the actuators; null: gone
   std::unique_ptr<seat::Seat> seat_;
   std::unique_ptr<ModelWatch> watch_;
   std::shared_ptr<ModelRobots> robots_;  ///< of its outermost model

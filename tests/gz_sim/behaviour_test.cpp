@@ -155,6 +155,42 @@ TEST(GzSim, ARemovedModelTakesItsRobotWithItAndTheOthersGoOn) {
   expect_hanging(w.angle("stays"));
 }
 
+/// Two driven links, and beside them a model nested in theirs, the first of whose joints the same plug-in drives.
+std::string arm_and_another() {
+  const auto link = [](const std::string& name, const std::string& z) {
+    return "<link name='" + name + "'><pose>0 0 " + z + " 0 0 0</pose><inertial><pose>0 0 -0.05 0 0 0</pose><mass>0.05</mass>" +
+           "<inertia><ixx>1e-4</ixx><iyy>1e-4</iyy><izz>1e-4</izz></inertia></inertial></link>";
+  };
+  const auto joint = [](const std::string& name, const std::string& parent, const std::string& child) {
+    return "<joint name='" + name + "' type='revolute'><parent>" + parent + "</parent><child>" + child +
+           "</child><axis><xyz>0 1 0</xyz></axis></joint>";
+  };
+  std::string s = "<model name='m'>" + link("l0", "0") + joint("j0", "world", "l0") + link("l1", "-0.1") + joint("j1", "l0", "l1") +
+                  "<model name='goes'><pose>1 0 0 0 0 0</pose>" + link("l2", "0") + link("l3", "-0.1") +
+                  joint("j2", "world", "l2") + joint("j3", "l2", "l3") +
+                  "</model><plugin name='vsa::Robot' filename='libvsa-robot.so'><bus name='b'/>";
+  for (const char* driven : {"j0", "j1", "goes::j2"})
+    s += std::string("<actuator><joint>") + driven + "</joint><type>qbmove_maker_pro_6_1</type><bus>b</bus></actuator>";
+  return s + "</plugin></model>";
+}
+
+TEST(GzSim, ADrivenJointThatGoesWithANestedModelLeavesTheOthersMoving) {
+  SimWorld whole(sdf_text(world_text(arm_and_another()))), w(sdf_text(world_text(arm_and_another())));
+  for (SimWorld* each : {&whole, &w}) each->set_angle("m", 0.4, "j0");
+  testing::internal::CaptureStderr();
+  whole.run(200);
+  w.run(100);
+  w.ecm().RequestRemoveEntity(*sim::entitiesFromScopedName("m::goes", w.ecm()).begin(), true);
+  w.run(100);
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(count(log, "the joint of its actuator 'goes::j2' went with its model; the others go on"), 1u) << log;
+  EXPECT_EQ(count(log, "\n"), 1u) << log;
+  for (const char* joint : {"j0", "j1"}) {
+    EXPECT_GT(std::abs(w.angle("m", joint)), 0.002) << joint;
+    EXPECT_NEAR(w.angle("m", joint), whole.angle("m", joint), 1e-5) << joint;
+  }
+}
+
 TEST(GzSim, AStepTooLongForTheUnitsStopsThemWithOneLine) {
   testing::internal::CaptureStderr();
   SimWorld w(sdf_text(world_text(bench("bench", kLevel), {.step_s = 0.02})));
