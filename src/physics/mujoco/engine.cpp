@@ -17,14 +17,15 @@ namespace {
 
 class CompiledMujoco final : public CompiledWorld {
  public:
-  CompiledMujoco(ModelPtr model, std::shared_ptr<const description::World> world, LinkObjects objects)
-      : model_(std::move(model)), world_(std::move(world)), objects_(std::move(objects)) {}
-  std::unique_ptr<Physics> start() const override { return std::make_unique<MujocoPhysics>(model_, *world_, objects_); }
+  CompiledMujoco(ModelPtr model, std::shared_ptr<const description::World> world, LinkObjects objects, Coriolis coriolis)
+      : model_(std::move(model)), world_(std::move(world)), objects_(std::move(objects)), coriolis_(coriolis) {}
+  std::unique_ptr<Physics> start() const override { return std::make_unique<MujocoPhysics>(model_, *world_, objects_, coriolis_); }
 
  private:
   std::shared_ptr<mjModel> model_;
   std::shared_ptr<const description::World> world_;
   LinkObjects objects_;
+  Coriolis coriolis_;
 };
 
 LinkObjects objects_of(const mjModel& m, const description::World& world) {
@@ -107,6 +108,7 @@ class Weights {
 
 class Mujoco final : public Engine {
  public:
+  explicit Mujoco(Coriolis coriolis) : coriolis_(coriolis) {}
   const description::Capabilities& capabilities() const override { return can_; }
 
   std::shared_ptr<const CompiledWorld> compile(const std::shared_ptr<const description::World>& description, double step_s,
@@ -115,7 +117,7 @@ class Mujoco final : public Engine {
     if (const auto* own = dynamic_cast<const MjcfFile*>(world.native.get())) {
       ModelPtr model(mj_copyModel(nullptr, own->model.get()));
       model->opt.timestep = step_s;
-      return std::make_shared<CompiledMujoco>(std::move(model), description, own->objects);
+      return std::make_shared<CompiledMujoco>(std::move(model), description, own->objects, coriolis_);
     }
     const std::vector<TreeNode> tree = build_tree(world, file, problems);
     Weights(world, tree).check(file, problems);
@@ -134,15 +136,16 @@ class Mujoco final : public Engine {
       for (const double height : map.heights) *to++ = static_cast<float>(height / scale);
     }
     LinkObjects objects = objects_of(*model, world);
-    return std::make_shared<CompiledMujoco>(std::move(model), description, std::move(objects));
+    return std::make_shared<CompiledMujoco>(std::move(model), description, std::move(objects), coriolis_);
   }
 
  private:
+  Coriolis coriolis_;
   description::Capabilities can_ = what_it_can();
 };
 
 }  // namespace
 
-std::shared_ptr<const Engine> mujoco() { return std::make_shared<Mujoco>(); }
+std::shared_ptr<const Engine> mujoco(Coriolis coriolis) { return std::make_shared<Mujoco>(coriolis); }
 
 }  // namespace vsa::physics

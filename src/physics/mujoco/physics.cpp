@@ -34,7 +34,8 @@ const char* warning_text(int kind) {
 
 }  // namespace
 
-MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, LinkObjects objects)
+MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, LinkObjects objects,
+                             Coriolis coriolis)
     : model_(std::move(model)), objects_(std::move(objects)), joint_(world.joints.size()), root_(world.links.size(), -1) {
   const mjModel* m = model_.get();
   q_owner_.resize(static_cast<std::size_t>(m->nq));
@@ -58,6 +59,7 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::
     if (world.links[l].weightless && !objects_.is_static[l] && !switched_off(*m, {"Gravity"})) weightless_.push_back(l);
   }
   directed_ = DirectedFriction(objects_.directions, *m);
+  centered_ = CenteredBias(*m, coriolis);
   unit_.resize(static_cast<std::size_t>(m->nv));
   pushed_.resize(unit_.size());
   column_.resize(unit_.size());
@@ -84,14 +86,12 @@ bool MujocoPhysics::grow(bool contacts_only) {
   ModelPtr larger(mj_copyModel(nullptr, model_.get()));
   if (!larger) throw SimulationError("MuJoCo: no memory for a larger world");
   if (!grow_memory(*larger, contacts_only)) return false;
-  std::vector<double> state(state_size());
-  save(state);
   model_ = std::move(larger);
   own_ = true;
   data_.reset();  // before the new ones: they are large
   view_.reset();
   make_data();
-  restore(state);
+  restore(before_);  // mj_fwdPosition has made quaternions units, and would find others if it did so again
   return true;
 }
 
@@ -113,6 +113,7 @@ void MujocoPhysics::prepare() {
   take_dampers();
   mj_fwdVelocity(m, data_.get());
   hold_up(*data_, data_->qfrc_passive, 1);
+  centered_.set(*m, *data_, pushed_.data());
   mju_zero(data_->qfrc_applied, m->nv);
 }
 

@@ -3,14 +3,16 @@
 // Physics on MuJoCo (versions.hpp tells of which). A step is its pipeline without mj_step's silent repair (which resets a bad state and goes on):
 //
 //   prepare()  mj_fwdPosition, mj_fwdVelocity          poses, M = LᵀDL, contacts; nothing of it is computed twice, but constraints
-//                                                      where contacts get a direction of friction
+//                                                      where contacts get a direction of friction, and Coriolis torques
+//                                                      (centered_bias.hpp)
 //   foresee()  M⁻¹ of forces, or with equalities mj_fwdConstraint, with what pushed in the last step
 //   advance()  mj_fwdActuation … mj_fwdConstraint      v̇ with the applied torques
 //              check, mj_Euler, check                  v' = v + dt·(M + dt·B)⁻¹M v̇ with joint damping B; q' = q + dt·v'
 //
 // Contacts live in fixed arrays: where they overflow, prepare() doubles them and starts again, so the result is as if they had been
 // that large from the beginning.
-// State: qpos, qvel, qacc_warmstart (the solver's first guess), and what pushed in the last step. There are no activations.
+// State: qpos, qvel, qacc_warmstart (v̇ of the last step, the solver's first guess), and what pushed in the last step. There are no
+// activations.
 #pragma once
 
 #include <string>
@@ -18,15 +20,17 @@
 
 #include "physics/description.hpp"
 #include "physics/mujoco/bodies.hpp"
+#include "physics/mujoco/centered_bias.hpp"
 #include "physics/mujoco/directed_friction.hpp"
 #include "physics/mujoco/model.hpp"
+#include "vsa/physics/mujoco.hpp"
 #include "vsa/physics/physics.hpp"
 
 namespace vsa::physics {
 
 class MujocoPhysics final : public Physics {
  public:
-  MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, LinkObjects objects);
+  MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, LinkObjects objects, Coriolis coriolis);
 
   void prepare() override;
   std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const override;
@@ -95,6 +99,7 @@ class MujocoPhysics final : public Physics {
   std::vector<int> root_;                       // of a link: the joint id of its free root, −1: tied to the world
   std::vector<std::size_t> weightless_;         // links that gravity leaves alone
   DirectedFriction directed_;
+  CenteredBias centered_;
   std::vector<std::string> q_owner_, v_owner_;
   std::vector<double> before_;  // the state, of the last prepare()
   std::vector<mjtNum> pushed_;  // in the last step, by degree of freedom: applied and, without equalities, by constraints

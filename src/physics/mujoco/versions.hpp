@@ -55,6 +55,15 @@ inline void full_mass(const mjModel& m, const mjData& d, mjtNum* out) {
 #endif
 }
 
+/// Whether qfrc_bias is more than mj_rne() tells: what tendons with an armature add.
+inline bool bias_has_more([[maybe_unused]] const mjModel& m) {
+#if mjVERSION_HEADER >= 327
+  return std::any_of(m.tendon_armature, m.tendon_armature + m.ntendon, [](mjtNum a) { return a > 0; });
+#else
+  return false;
+#endif
+}
+
 /// Whether an equality holds from the start.
 inline bool starts_active(const mjModel& m, int equality) {
 #if mjVERSION_HEADER >= 300
