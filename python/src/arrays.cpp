@@ -131,10 +131,11 @@ py::array_t<double> copied(const std::vector<double>& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-void fill(const py::array& to, const py::object& value, const char* name) {
+std::vector<double> spread(const py::object& value, const std::vector<py::ssize_t>& shape, const char* name) {
   const py::array given = array_of(value, name);
   const char kind = given ? given.dtype().kind() : 'O';
   if (kind != 'f' && kind != 'i' && kind != 'u') throw py::type_error(std::string(name) + ": isn't real numbers");
+  const py::array_t<double> to(shape);
   try {
     to[py::ellipsis()] = given;
   } catch (py::error_already_set& error) {
@@ -142,6 +143,7 @@ void fill(const py::array& to, const py::object& value, const char* name) {
     throw InputError({"", name, "shape " + text(given.attr("shape")), "has another shape",
                       text(to.attr("shape")) + " or what broadcasts to it"});
   }
+  return {to.data(), to.data() + to.size()};
 }
 
 std::size_t index_of(const py::handle& which, std::size_t count, const std::string& one) {

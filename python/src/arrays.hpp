@@ -48,8 +48,8 @@ template <std::size_t N>
 /// A copy, (n,).
 [[nodiscard]] py::array_t<double> copied(const std::vector<double>& values);
 
-/// `to` := what broadcasts to it. TypeError for what is no real numbers, InputError for another shape.
-void fill(const py::array& to, const py::object& value, const char* name);
+/// `value` broadcast to `shape`, by rows. TypeError for what is no real numbers, InputError for another shape.
+[[nodiscard]] std::vector<double> spread(const py::object& value, const std::vector<py::ssize_t>& shape, const char* name);
 
 /// One of `count` things by its index, some of them by indices or by a mask, None: all. `one` is what messages call it: "copy".
 /// TypeError, IndexError; InputError with `which`.

@@ -20,9 +20,8 @@ py::array state(PyWorld& w, const py::object& out) {
 }
 
 void restore_state(PyWorld& w, const py::object& given) {
-  engine::World& world = w.get();
-  const auto numbers = state_numbers(given, world.state_size());
-  world.restore(std::span(numbers.data(), static_cast<std::size_t>(numbers.size())));
+  const auto numbers = state_numbers(given, w.any_thread().state_size());
+  w.get().restore(std::span(numbers.data(), static_cast<std::size_t>(numbers.size())));
   w.sample();
 }
 
