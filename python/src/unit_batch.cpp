@@ -96,6 +96,7 @@ void reset(PyUnitBatch& b, const py::object& which, const py::object& equilibriu
   const auto at = shaft.is_none() ? q : numbers(shaft, those.size(), "shaft_rad", true);
   const auto v = numbers(speed, those.size(), "shaft_speed_rad_per_s", true);
   LeverBatch& levers = b.get();
+  for (std::size_t k = 0; k < those.size(); ++k) levers.check_reset(those[k], q[k], p[k], at[k], v[k]);
   for (std::size_t k = 0; k < those.size(); ++k) levers.reset(those[k], q[k], p[k], at[k], v[k]);
 }
 
@@ -193,7 +194,7 @@ constexpr const char* kReset =
     "the\n"
     "shaft at shaft_rad (default: the equilibrium) with that speed. (k,) or one number each. What stands in `equilibrium` and "
     "`preset`\n"
-    "is commanded with the next step as ever.";
+    "is commanded with the next step as ever. InputError, IndexError: none of them was reset.";
 
 constexpr const char* kRead =
     "What the units are doing at the end of the last step, as Unit.readings() tells of one: structured ndarray (units,), with two\n"
