@@ -3,6 +3,8 @@
 import collections
 import gc
 import math
+import pathlib
+import tempfile
 import types
 import unittest
 
@@ -268,6 +270,19 @@ class Identification(unittest.TestCase):
         read = vsasim.identify.read_recording(self.FILES[1], "qbmove_maker_pro")
         self.assertEqual(read["preset"], 0.6903)
         self.assertEqual(read["branches"]["torque_Nm"].shape, read["branches"]["falling_rad"].shape)
+
+    def test_samples_are_read_on_the_grid_of_the_load_that_they_were_taken_with(self):
+        time = np.arange(0, 76.0, 0.02)
+        torque = 50 * np.sin(2 * np.pi * time / 38)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "stiffness_preset_0.3000rad_samples.csv"
+            rows = "".join(f"{t},{x},{x / 100}\n" for t, x in zip(time, torque))
+            file.write_text("time_s,load_torque_Nm,deflection_rad\n" + rows, encoding="utf-8")
+            read = vsasim.identify.read_recording(str(file), "qbmove_maker_pro", load_kg=36.0)
+            self.assertGreater(np.nanmax(read["branches"]["torque_Nm"]), 40)
+            for load_kg, text in ((1.0, "load_torque_Nm"), (0.0, "load_kg"), (math.nan, "load_kg")):
+                with self.assertRaisesRegex(vsasim.InputError, text):
+                    vsasim.identify.read_recording(str(file), "qbmove_maker_pro", load_kg=load_kg)
 
     def test_a_fit_is_nearer_to_the_recordings_than_its_start(self):
         parameters = "elastic.k1_Nm=elastic.k2_Nm,shaft.friction_Nm"
