@@ -145,6 +145,8 @@ class Errors(unittest.TestCase):
             ({"firmware": "asleep"}, ("firmware = asleep", "frozen", "sampled")),
             ({"friction": "none"}, ("friction = none", "stuck")),
             ({"shaft_rad": 1.5}, ("motor 1 voltage",)),
+            ({"shaft_rad": 0.1, "load_Nm": 0.2}, ("load_Nm = 0.2", "shaft_rad")),
+            ({"shaft_rad": 0.1, "load_Nm": float("nan")}, ("load_Nm = nan",)),
         ):
             with self.assertRaises(vsasim.InputError) as raised:
                 type.linearize(**arguments)
