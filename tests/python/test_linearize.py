@@ -169,6 +169,9 @@ class Errors(unittest.TestCase):
         with self.assertRaises(vsasim.InputError) as raised:
             vsasim.World.load("snake_flat").linearize()
         self.assertIn("flies free", str(raised.exception))
+        for preset in (float("nan"), {"joint_2": float("inf")}):
+            with self.assertRaisesRegex(vsasim.InputError, "joint_2: preset = (nan|inf): is out of range"):
+                world.linearize(preset=preset)
         with self.assertRaises(TypeError):
             world.linearize(preset="soft")
 
