@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "batch/batch_impl.hpp"
+#include "vsa/checks.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::batch {
@@ -74,8 +75,8 @@ void Batch::Impl::check_commands(std::span<const std::size_t> which) const {
   Problems problems;
   const auto look = [&](const char* key, const std::vector<double>& values, std::size_t copy) {
     for (std::size_t a = 0; a < actuators(); ++a)
-      if (std::isinf(values[copy * actuators() + a]))
-        problems.add({"", "copy " + std::to_string(copy) + ", " + worlds.front().actuators()[a].name + ": " + key, "inf",
+      if (const double v = values[copy * actuators() + a]; std::isinf(v))
+        problems.add({"", "copy " + std::to_string(copy) + ", " + worlds.front().actuators()[a].name + ": " + key, Checks::text(v),
                       "isn't finite", "a number, or NaN to leave it"});
   };
   for (const std::size_t copy : which) {

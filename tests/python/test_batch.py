@@ -281,9 +281,10 @@ class Failures(unittest.TestCase):
 
     def test_commands_that_are_no_numbers_or_do_not_fit_are_told(self):
         batch = vsasim.Batch(loaded(), 2)
-        batch.equilibrium[1, 2] = np.inf
-        with self.assertRaisesRegex(vsasim.InputError, "copy 1, joint_3: equilibrium.*inf"):
-            batch.step()
+        for infinite in (np.inf, -np.inf):
+            batch.equilibrium[1, 2] = infinite
+            with self.assertRaisesRegex(vsasim.InputError, f"copy 1, joint_3: equilibrium = {infinite}: isn't finite"):
+                batch.step()
         self.assertEqual(batch.time_s[0], batch.time_s[1])
         batch.equilibrium = 0.25
         self.assertTrue(np.all(batch.equilibrium == 0.25))
