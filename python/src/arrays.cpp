@@ -154,6 +154,15 @@ std::size_t index_of(const py::handle& which, std::size_t count, const std::stri
   return py::cast<std::size_t>(index);
 }
 
+std::uint64_t whole_number(const py::handle& given, std::uint64_t most, const char* name) {
+  if (!py::hasattr(given, "__index__"))
+    throw py::type_error(std::string(name) + ": " + text(py::type::handle_of(given)) + " (allowed: int)");
+  const py::object number = given.attr("__index__")();
+  if (number < py::int_(0) || number > py::int_(most))
+    throw InputError({"", name, text(number), "out of range", "0 … " + std::to_string(most)});
+  return py::cast<std::uint64_t>(number);
+}
+
 std::vector<std::size_t> chosen(const py::object& which, std::size_t count, const std::string& one) {
   std::vector<std::size_t> out;
   if (which.is_none()) {

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -55,6 +57,13 @@ template <std::size_t N>
 /// TypeError, IndexError; InputError with `which`.
 [[nodiscard]] std::size_t index_of(const py::handle& which, std::size_t count, const std::string& one);
 [[nodiscard]] std::vector<std::size_t> chosen(const py::object& which, std::size_t count, const std::string& one);
+
+/// A whole number, 0 … most: int, or what has an __index__. TypeError for anything else, InputError out of range.
+[[nodiscard]] std::uint64_t whole_number(const py::handle& given, std::uint64_t most, const char* name);
+template <class Number>
+[[nodiscard]] Number whole_number(const py::handle& given, const char* name) {
+  return static_cast<Number>(whole_number(given, std::numeric_limits<Number>::max(), name));
+}
 
 /// Fields of a struct, for a structured dtype: `length` doubles (or whatever `format` says) at an offset.
 struct Field {

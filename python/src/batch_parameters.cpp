@@ -92,7 +92,8 @@ batch::Spread spread_of(const PyBatch& b, const py::handle& key, const py::handl
   return out;
 }
 
-void randomize(PyBatch& b, std::uint64_t seed, const py::dict& what, const py::object& which) {
+void randomize(PyBatch& b, const py::object& given_seed, const py::dict& what, const py::object& which) {
+  const auto seed = whole_number<std::uint64_t>(given_seed, "seed");
   std::vector<batch::Spread> spreads;
   for (const auto& [key, draw] : what) spreads.push_back(spread_of(b, key, draw));
   const std::vector<std::size_t> copies = b.chosen(which);

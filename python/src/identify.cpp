@@ -185,12 +185,13 @@ void bind_fit(py::module_& m) {
   m.def(
       "fit",
       [](const std::vector<std::string>& recordings, const std::string& type, const std::string& parameters, const py::object& set,
-         const std::string& model, const std::string& weights, int starts, unsigned seed, int iterations, bool global_search,
-         double period_s, std::optional<double> amplitude_rad, double cycles, unsigned threads, double load_kg) {
-        Options o{model, weights, {period_s, amplitude_rad, cycles}, {}, threads};
+         const std::string& model, const std::string& weights, int starts, const py::object& seed, int iterations,
+         bool global_search, double period_s, std::optional<double> amplitude_rad, double cycles, const py::object& threads,
+         double load_kg) {
+        Options o{model, weights, {period_s, amplitude_rad, cycles}, {}, whole_number<unsigned>(threads, "threads")};
         o.sweep.load_share = load_kg;  // of 1 kg
         o.fit.starts = starts;
-        o.fit.seed = seed;
+        o.fit.seed = whole_number<unsigned>(seed, "seed");
         o.fit.iterations = iterations;
         o.fit.global = global_search;
         return fit(recordings, type, parameters, set, std::move(o));
@@ -206,11 +207,10 @@ void bind_fit(py::module_& m) {
 void bind_identify(py::module_& m) {
   py::module_ s = m.def_submodule("identify", "Parameters from recordings.");
   bind_fit(s);
-  s.def(
-      "read_recording", &read_recording, py::arg("file"), py::arg("type"), py::arg("load_kg") = 1.0,
-      "A load-test recording as fit() with that load_kg sees it: dict of name, preset and branches, a dict of ndarrays (n,):\n"
-      "torque_Nm, rising_rad, falling_rad (deflections; NaN without samples) and their scatters sd_rising_rad, sd_falling_rad.\n"
-      "InputError.");
+  s.def("read_recording", &read_recording, py::arg("file"), py::arg("type"), py::arg("load_kg") = 1.0,
+        "A load-test recording as fit() with that load_kg sees it: dict of name, preset and branches, a dict of ndarrays (n,):\n"
+        "torque_Nm, rising_rad, falling_rad (deflections; NaN without samples) and their scatters sd_rising_rad, sd_falling_rad.\n"
+        "InputError.");
 }
 
 }  // namespace vsa::python

@@ -82,7 +82,9 @@ py::object result_dict(const std::shared_ptr<Characterization>& c) {
 
 py::object characterize(const std::string& type, const std::vector<std::string>& experiments, const py::object& presets,
                         std::optional<double> period_s, std::optional<double> amplitude_rad, std::optional<int> cycles,
-                        const py::object& set, std::optional<double> step_s, const py::object& progress, unsigned threads) {
+                        const py::object& set, std::optional<double> step_s, const py::object& progress,
+                        const py::object& given_threads) {
+  const auto threads = whole_number<unsigned>(given_threads, "threads");
   study::CharacterizationOptions options;
   options.specimen.type = type;
   options.specimen.overrides = settings(set);

@@ -260,6 +260,9 @@ class Studies(unittest.TestCase):
         self.assertGreaterEqual(len(caught.exception.problems), 2)
         with self.assertRaisesRegex(vsasim.InputError, "preset-step"):
             vsasim.study.characterize("qbmove_maker_pro", experiments=["strength"])
+        for threads, error in ((-1, vsasim.InputError), (2**70, vsasim.InputError), (0.5, TypeError)):
+            with self.assertRaisesRegex(error, "threads"):
+                vsasim.study.characterize("qbmove_maker_pro", threads=threads)
 
 
 class Identification(unittest.TestCase):
@@ -321,6 +324,9 @@ class Identification(unittest.TestCase):
             ({"amplitude_rad": math.nan}, "amplitude_rad"),
             ({"amplitude_rad": -1.0, "model": "quasi-static"}, "amplitude_rad"),
             ({"amplitude_rad": 1e9, "model": "quasi-static"}, "amplitude_rad"),
+            ({"seed": -1}, "seed = -1"),
+            ({"seed": 2**32}, "seed"),
+            ({"threads": -1}, "threads = -1"),
         ):
             arguments = {"recordings": self.FILES, "type": "qbmove_maker_pro_paper", "parameters": "shaft.friction_Nm"}
             with self.assertRaisesRegex(vsasim.InputError, text):

@@ -223,8 +223,10 @@ class Parameters(unittest.TestCase):
         ):
             with self.subTest(what=what), self.assertRaisesRegex(error, text):
                 batch.randomize(1, what)
-        with self.assertRaises(TypeError):
-            batch.randomize(-1, {})
+        for seed, error in ((-1, vsasim.InputError), (2**64, vsasim.InputError), (0.5, TypeError), ("1", TypeError)):
+            with self.subTest(seed=seed), self.assertRaisesRegex(error, "seed"):
+                batch.randomize(seed, {})
+        batch.randomize(2**64 - 1, {})
         np.testing.assert_array_equal(batch.values("drive.friction_Nm"), before)
         world = vsasim.World.load("bench_load")
         with self.assertRaisesRegex(vsasim.InputError, "mass_kg"):
