@@ -49,7 +49,11 @@ void check_range(const char* name, double value, double min, double max) {
 id::Task read_task(const std::vector<std::string>& recordings, const config::ActuatorType& type, const std::string& parameters,
                    const std::string& weights, double load_kg) {
   id::Task task;
-  task.parameters = id::parse_parameters(parameters, type);
+  try {
+    task.parameters = id::parse_parameters(parameters, type);
+  } catch (const InputError& error) {
+    rethrow_with_arguments(error, {{"--parameters", "parameters"}});
+  }
   for (const std::string& file : recordings) task.observations.push_back(id::read_observation(file, type, load_kg));
   if (weights == "scatter") id::weigh_by_scatter(task.observations);
   return task;

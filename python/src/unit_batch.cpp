@@ -78,7 +78,7 @@ Shared make(const PyActuatorType& type, py::ssize_t units, const py::object& ine
 void step(PyUnitBatch& b, py::ssize_t n, double dt_s) {
   LeverBatch& levers = b.get();
   if (n < 1 || n > 1'000'000'000) throw InputError({"", "n", std::to_string(n), "out of range", "1 … 1000000000 steps"});
-  if (!(dt_s > 0) || dt_s > 0.016) throw InputError({"", "dt_s", text(py::float_(dt_s)), "out of range", "above 0 … 0.016 s"});
+  if (!(dt_s >= 1e-9 && dt_s <= 0.016)) throw InputError({"", "dt_s", text(py::float_(dt_s)), "out of range", "1e-09 … 0.016 s"});
   const Mark stepping(b.stepping);
   OthersRun others;
   levers.step(static_cast<int>(n), std::llround(dt_s * 1e9), [&] { others.look(); });
@@ -223,7 +223,7 @@ void bind_unit_batch(py::module_& m) {
   c.def(py::init(&make), py::arg("type"), py::arg("units"), py::arg("inertia_kgm2") = 1e-3, py::arg("damping_Nms_per_rad") = 0.0,
         py::arg("gravity_Nm") = 0.0, py::arg("instructions") = "", kInit)
       .def("step", &step, py::arg("n") = 1, py::arg("dt_s") = 1e-3,
-           "n steps of dt_s (at most 16 ms); `equilibrium`, `preset` and `push` are taken as it begins. Other threads of Python "
+           "n steps of dt_s (1 ns to 16 ms); `equilibrium`, `preset` and `push` are taken as it begins. Other threads of Python "
            "run\n"
            "meanwhile; Ctrl-C ends it between two steps of all. InputError: out of range, commands beyond ±1e6; and where a lever\n"
            "would fly beyond 1e6 rad or rad/s: it stays where it was, the others have made that step, and none follows.")

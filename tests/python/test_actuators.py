@@ -260,6 +260,13 @@ class Studies(unittest.TestCase):
         self.assertGreaterEqual(len(caught.exception.problems), 2)
         with self.assertRaisesRegex(vsasim.InputError, "preset-step"):
             vsasim.study.characterize("qbmove_maker_pro", experiments=["strength"])
+        for wrong, text in (
+            ({"cycles": 0}, "^cycles = 0: "),
+            ({"presets": [9.0]}, "^presets = 9: "),
+            ({"experiments": ["speed"], "period_s": 20.0}, "^period_s: .*allowed: experiments stiffness"),
+        ):
+            with self.assertRaisesRegex(vsasim.InputError, text):
+                vsasim.study.characterize("qbmove_maker_pro", **wrong)
         for threads, error in ((-1, vsasim.InputError), (2**70, vsasim.InputError), (0.5, TypeError)):
             with self.assertRaisesRegex(error, "threads"):
                 vsasim.study.characterize("qbmove_maker_pro", threads=threads)
@@ -316,7 +323,7 @@ class Identification(unittest.TestCase):
 
     def test_wrong_parameters_files_and_words_are_refused(self):
         for change, text in (
-            ({"parameters": "elastic.nothing"}, "elastic.nothing"),
+            ({"parameters": "elastic.nothing"}, "^parameters: elastic.nothing"),
             ({"recordings": []}, "recordings"),
             ({"recordings": ["/nowhere/preset_0.1rad.csv"]}, "/nowhere"),
             ({"model": "guess"}, "model.*bench"),

@@ -215,6 +215,9 @@ class UnitBatch(unittest.TestCase):
         ):
             with self.assertRaises(vsasim.InputError):
                 call()
+        for dt_s in (1e-10, 0.0, 0.017):
+            with self.assertRaisesRegex(vsasim.InputError, f"dt_s = {dt_s}: out of range"):
+                units.step(1, dt_s)
         with self.assertRaises(IndexError):
             units.reset([3])
         with self.assertRaisesRegex(IndexError, "unit 9223372036854775813: there are 3"):
