@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,13 +22,9 @@ std::unique_ptr<Batch> make(PyWorld& world, py::ssize_t copies, py::ssize_t thre
   const auto most = static_cast<py::ssize_t>(Batch::kMostThreads);
   if (threads < 0 || threads > most)
     throw InputError({"", "threads", std::to_string(threads), "out of range", "0 … " + std::to_string(most)});
-  try {
-    return world.alone([&](const engine::World& of, OthersRun&) {
-      return std::make_unique<Batch>(of, static_cast<std::size_t>(copies), static_cast<std::size_t>(threads));
-    });
-  } catch (const std::length_error&) {
-    throw std::bad_alloc();  // Python's MemoryError: so many numbers no machine has room for
-  }
+  return world.alone([&](const engine::World& of, OthersRun&) {
+    return std::make_unique<Batch>(of, static_cast<std::size_t>(copies), static_cast<std::size_t>(threads));
+  });
 }
 
 }  // namespace
