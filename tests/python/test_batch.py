@@ -467,6 +467,8 @@ class StateOfAWorld(unittest.TestCase):
             self.assertEqual(world.state().tobytes(), then.tobytes())
             with self.assertRaisesRegex(vsasim.InputError, "then.state.*another world"):
                 vsasim.World.load("bench_load").restore_file(folder + "/then.state")
+            with self.assertRaisesRegex(vsasim.InputError, "then.state.*other kinds"):
+                vsasim.World.load("manipulator_3r", type="sea_example").restore_file(folder + "/then.state")
             with self.assertRaisesRegex(vsasim.InputError, "can't be read"):
                 world.restore_file(folder + "/none.state")
             with self.assertRaises(vsasim.OutputError):
