@@ -216,10 +216,9 @@ void bind_law(Class& c) {
 constexpr const char* kLinearize =
     "The type about a point of rest, as `vsa linearize TYPE` does: Linearization. Equilibrium and preset are attained ones; the "
     "shaft\n"
-    "stands at shaft_rad, or where load_Nm puts it. inertia_kgm2: of all that the shaft turns; None: the type's flange. firmware:\n"
-    "\"frozen\" (inputs are the motors' voltages), \"averaged\" or \"sampled\" (their references). friction: \"sliding\" (dry "
-    "friction\n"
-    "left out) or \"stuck\" (its presliding). InputError: what the command refuses, with its texts.";
+    "stands at shaft_rad, or where load_Nm puts it: one of the two. inertia_kgm2: of all that the shaft turns; None: the type's\n"
+    "flange. firmware: \"frozen\" (inputs are the motors' voltages), \"averaged\" or \"sampled\" (their references). friction:\n"
+    "\"sliding\" (dry friction left out) or \"stuck\" (its presliding). InputError: what the command refuses, with its texts.";
 
 void bind_linearize(Class& c) {
   c.def(

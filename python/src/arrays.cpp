@@ -131,10 +131,11 @@ py::array_t<double> copied(const std::vector<double>& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-void fill(const py::array& to, const py::object& value, const char* name) {
+std::vector<double> spread(const py::object& value, const std::vector<py::ssize_t>& shape, const char* name) {
   const py::array given = array_of(value, name);
   const char kind = given ? given.dtype().kind() : 'O';
   if (kind != 'f' && kind != 'i' && kind != 'u') throw py::type_error(std::string(name) + ": isn't real numbers");
+  const py::array_t<double> to(shape);
   try {
     to[py::ellipsis()] = given;
   } catch (py::error_already_set& error) {
@@ -142,6 +143,7 @@ void fill(const py::array& to, const py::object& value, const char* name) {
     throw InputError({"", name, "shape " + text(given.attr("shape")), "has another shape",
                       text(to.attr("shape")) + " or what broadcasts to it"});
   }
+  return {to.data(), to.data() + to.size()};
 }
 
 std::size_t index_of(const py::handle& which, std::size_t count, const std::string& one) {
@@ -150,6 +152,15 @@ std::size_t index_of(const py::handle& which, std::size_t count, const std::stri
   if (index < py::int_(0) || index >= py::int_(count))
     throw py::index_error(one + " " + text(index) + ": there are " + std::to_string(count) + ", from 0");
   return py::cast<std::size_t>(index);
+}
+
+std::uint64_t whole_number(const py::handle& given, std::uint64_t most, const char* name) {
+  if (!py::hasattr(given, "__index__"))
+    throw py::type_error(std::string(name) + ": " + text(py::type::handle_of(given)) + " (allowed: int)");
+  const py::object number = given.attr("__index__")();
+  if (number < py::int_(0) || number > py::int_(most))
+    throw InputError({"", name, text(number), "out of range", "0 … " + std::to_string(most)});
+  return py::cast<std::uint64_t>(number);
 }
 
 std::vector<std::size_t> chosen(const py::object& which, std::size_t count, const std::string& one) {

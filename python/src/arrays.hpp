@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -48,13 +50,20 @@ template <std::size_t N>
 /// A copy, (n,).
 [[nodiscard]] py::array_t<double> copied(const std::vector<double>& values);
 
-/// `to` := what broadcasts to it. TypeError for what is no real numbers, InputError for another shape.
-void fill(const py::array& to, const py::object& value, const char* name);
+/// `value` broadcast to `shape`, by rows. TypeError for what is no real numbers, InputError for another shape.
+[[nodiscard]] std::vector<double> spread(const py::object& value, const std::vector<py::ssize_t>& shape, const char* name);
 
 /// One of `count` things by its index, some of them by indices or by a mask, None: all. `one` is what messages call it: "copy".
 /// TypeError, IndexError; InputError with `which`.
 [[nodiscard]] std::size_t index_of(const py::handle& which, std::size_t count, const std::string& one);
 [[nodiscard]] std::vector<std::size_t> chosen(const py::object& which, std::size_t count, const std::string& one);
+
+/// A whole number, 0 … most: int, or what has an __index__. TypeError for anything else, InputError out of range.
+[[nodiscard]] std::uint64_t whole_number(const py::handle& given, std::uint64_t most, const char* name);
+template <class Number>
+[[nodiscard]] Number whole_number(const py::handle& given, const char* name) {
+  return static_cast<Number>(whole_number(given, std::numeric_limits<Number>::max(), name));
+}
 
 /// Fields of a struct, for a structured dtype: `length` doubles (or whatever `format` says) at an offset.
 struct Field {

@@ -3,8 +3,8 @@
 // vsasim.Batch: many copies of a world, their commands and readings as NumPy's views of the C++ memory.
 #include "batch.hpp"
 
+#include <algorithm>
 #include <memory>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,13 +22,9 @@ std::unique_ptr<Batch> make(PyWorld& world, py::ssize_t copies, py::ssize_t thre
   const auto most = static_cast<py::ssize_t>(Batch::kMostThreads);
   if (threads < 0 || threads > most)
     throw InputError({"", "threads", std::to_string(threads), "out of range", "0 … " + std::to_string(most)});
-  try {
-    return world.alone([&](const engine::World& of, OthersRun&) {
-      return std::make_unique<Batch>(of, static_cast<std::size_t>(copies), static_cast<std::size_t>(threads));
-    });
-  } catch (const std::length_error&) {
-    throw std::bad_alloc();  // Python's MemoryError: so many numbers no machine has room for
-  }
+  return world.alone([&](const engine::World& of, OthersRun&) {
+    return std::make_unique<Batch>(of, static_cast<std::size_t>(copies), static_cast<std::size_t>(threads));
+  });
 }
 
 }  // namespace
@@ -65,22 +61,22 @@ py::array view_of(const Shared& b, Span&& numbers, const std::vector<std::size_t
 }
 
 py::array state(PyBatch& b, const py::object& which, const py::object& out) {
-  const std::span<const double> numbers = b.get().state(b.copy(which));
-  py::array to = into(out, float64(), {static_cast<py::ssize_t>(numbers.size())});
+  const std::size_t copy = b.copy(which);
+  py::array to = into(out, float64(), {static_cast<py::ssize_t>(b.any_thread().state(copy).size())});
+  const std::span<const double> numbers = b.get().state(copy);
   std::copy(numbers.begin(), numbers.end(), static_cast<double*>(to.mutable_data()));
   return to;
 }
 
 void restore(PyBatch& b, const py::object& which, const py::object& given) {
-  Batch& to = b.get();
   const std::size_t copy = b.copy(which);
-  const auto numbers = state_numbers(given, to.state(copy).size());
-  to.restore(copy, std::span(numbers.data(), static_cast<std::size_t>(numbers.size())));
+  const auto numbers = state_numbers(given, b.any_thread().state(copy).size());
+  b.get().restore(copy, std::span(numbers.data(), static_cast<std::size_t>(numbers.size())));
 }
 
 py::array_t<bool> status(PyBatch& b) {
+  py::array_t<bool> out(static_cast<py::ssize_t>(b.any_thread().size()));
   const Batch& batch = b.get();
-  py::array_t<bool> out(static_cast<py::ssize_t>(batch.size()));
   for (std::size_t c = 0; c < batch.size(); ++c) out.mutable_data()[c] = batch.status(c) == batch::Status::failed;
   return out;
 }
@@ -89,7 +85,11 @@ using Commands = std::span<double> (Batch::*)();
 
 void bind_commands(BatchClass& c, const char* name, Commands which, const char* doc) {
   const auto get = [which](const Shared& b) { return view_of(b, (b->get().*which)(), {b->actuators.size()}, true); };
-  const auto set = [get, name](const Shared& b, const py::object& value) { fill(get(b), value, name); };
+  const auto set = [which, name](const Shared& b, const py::object& value) {
+    const auto copies = static_cast<py::ssize_t>(b->any_thread().size()), actuators = static_cast<py::ssize_t>(b->actuators.size());
+    const std::vector<double> given = spread(value, {copies, actuators}, name);
+    std::copy(given.begin(), given.end(), (b->get().*which)().begin());
+  };
   c.def_property(name, get, set, doc);
 }
 
@@ -175,8 +175,12 @@ void bind_batch(py::module_& m) {
            "A copy's state as numbers, as World.state: ndarray (n,). out: such an array, which is filled and returned. A copy.")
       .def_property_readonly("status", &status, "Which copies have failed: ndarray (copies,) of bool, True: failed. A copy.")
       .def(
-          "failure", [](PyBatch& b, const py::object& copy) { return b.get().failure(b.copy(copy)); }, py::arg("copy"),
-          "Why that copy failed: str; empty: it didn't.");
+          "failure",
+          [](PyBatch& b, const py::object& which) {
+            const std::size_t copy = b.copy(which);
+            return b.get().failure(copy);
+          },
+          py::arg("copy"), "Why that copy failed: str; empty: it didn't.");
   bind_batch_parameters(m, c);
   bind_names(c);
   bind_commands(

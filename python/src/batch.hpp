@@ -17,7 +17,7 @@ class PyBatch {
  public:
   PyBatch(PyWorld& world, py::ssize_t copies, py::ssize_t threads);
 
-  /// Throws Python's RuntimeError while another thread steps.
+  /// Throws Python's RuntimeError while another thread steps. To be asked after the arguments are converted, as PyWorld's.
   [[nodiscard]] batch::Batch& get();
   [[nodiscard]] const batch::Batch& any_thread() const noexcept { return *batch_; }
   void step(py::ssize_t n, const py::object& which);

@@ -42,19 +42,8 @@ std::vector<double> spread_out(const py::object& value, std::size_t copies, std:
     throw InputError(
         {"", "value", "shape " + std::string(py::str(given.attr("shape"))), "could be for copies as well as for owners",
          "a number, or an array of shape (copies, owners): (" + std::to_string(copies) + ", " + std::to_string(owners) + ")"});
-  std::vector<double> out(copies * owners);
-  py::array to(float64(),
-               one ? std::vector<py::ssize_t>{static_cast<py::ssize_t>(copies)}
-                   : std::vector<py::ssize_t>{static_cast<py::ssize_t>(copies), static_cast<py::ssize_t>(owners)},
-               out.data(), py::none());
-  try {
-    to[py::ellipsis()] = given;
-  } catch (py::error_already_set& error) {
-    if (!error.matches(PyExc_ValueError)) throw;
-    throw InputError({"", "value", "shape " + std::string(py::str(given.attr("shape"))), "has another shape",
-                      std::string(py::str(to.attr("shape"))) + " or what broadcasts to it"});
-  }
-  return out;
+  const auto k = static_cast<py::ssize_t>(copies), n = static_cast<py::ssize_t>(owners);
+  return spread(given, one ? std::vector{k} : std::vector{k, n}, "value");
 }
 
 void set(PyBatch& b, const py::object& which, const py::object& who, const std::string& key, const py::object& value) {
@@ -77,9 +66,10 @@ void set(PyBatch& b, const py::object& which, const py::object& who, const std::
 
 py::array values(PyBatch& b, const std::string& key, const py::object& who) {
   const std::string name = who_of(b, who);
-  const Batch& batch = b.get();
-  const auto copies = static_cast<py::ssize_t>(batch.size()), owners = static_cast<py::ssize_t>(batch.owners(name, key).size());
+  const auto copies = static_cast<py::ssize_t>(b.any_thread().size()),
+             owners = static_cast<py::ssize_t>(b.get().owners(name, key).size());
   py::array_t<double> out(name.empty() ? std::vector<py::ssize_t>{copies, owners} : std::vector<py::ssize_t>{copies});
+  const Batch& batch = b.get();
   double* to = out.mutable_data();
   for (std::size_t c = 0; c < batch.size(); ++c)
     for (const double v : batch.values(c, name, key)) *to++ = v;
@@ -102,7 +92,8 @@ batch::Spread spread_of(const PyBatch& b, const py::handle& key, const py::handl
   return out;
 }
 
-void randomize(PyBatch& b, std::uint64_t seed, const py::dict& what, const py::object& which) {
+void randomize(PyBatch& b, const py::object& given_seed, const py::dict& what, const py::object& which) {
+  const auto seed = whole_number<std::uint64_t>(given_seed, "seed");
   std::vector<batch::Spread> spreads;
   for (const auto& [key, draw] : what) spreads.push_back(spread_of(b, key, draw));
   const std::vector<std::size_t> copies = b.chosen(which);
@@ -175,13 +166,18 @@ void bind_batch_parameters(py::module_& m, BatchClass& c) {
           "Names of the actuators or links that have a key, in the order of values(): list of str.")
       .def(
           "text",
-          [](PyBatch& b, const py::object& copy, const py::object& who, const std::string& key) {
-            return b.get().text(b.copy(copy), who_of(b, who), key);
+          [](PyBatch& b, const py::object& which, const py::object& who, const std::string& key) {
+            const std::size_t copy = b.copy(which);
+            const std::string name = who_of(b, who);
+            return b.get().text(copy, name, key);
           },
           py::arg("copy"), py::arg("who"), py::arg("key"), "A parameter of one actuator or link as text: str.")
       .def(
           "give_parameters",
-          [](PyBatch& b, const py::object& copy, PyWorld& world) { world.get().set_parameters(*b.get().parameters(b.copy(copy))); },
+          [](PyBatch& b, const py::object& which, PyWorld& world) {
+            const std::size_t copy = b.copy(which);
+            world.get().set_parameters(*b.get().parameters(copy));
+          },
           py::arg("copy"), py::arg("world"), "A World of the same file gets all parameters that the copy has.")
       .def("reset", &reset, py::arg("which") = py::none(), py::arg("parameters") = false, kReset);
 }

@@ -8,11 +8,15 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <initializer_list>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "vsa/actuator/ledger.hpp"
 #include "vsa/config/actuator_type.hpp"
+#include "vsa/errors.hpp"
 
 namespace vsa::python {
 
@@ -27,6 +31,10 @@ void bind_world(py::module_& m);
 void bind_batch(py::module_& m);
 void bind_study(py::module_& m);
 void bind_identify(py::module_& m);
+
+/// The library's problems with the names of the function's arguments for the command's flags: {{"--cycles", "cycles"}}.
+[[noreturn]] void rethrow_with_arguments(const InputError& error,
+                                         std::initializer_list<std::pair<std::string_view, std::string_view>> names);
 
 /// A dict, or its copy of any other Mapping. TypeError for anything else.
 [[nodiscard]] py::dict dict_of(const py::object& mapping, const char* name);

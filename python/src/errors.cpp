@@ -52,6 +52,16 @@ PyObject* add(py::module_& m, const char* name, const char* doc, PyObject* base)
 
 }  // namespace
 
+void rethrow_with_arguments(const InputError& error, std::initializer_list<std::pair<std::string_view, std::string_view>> names) {
+  std::vector<Problem> problems = error.problems();
+  for (Problem& p : problems)
+    for (std::string* const text : {&p.file, &p.key, &p.allowed})
+      for (const auto& [flag, argument] : names)
+        for (std::size_t at = 0; (at = text->find(flag, at)) != std::string::npos; at += argument.size())
+          text->replace(at, flag.size(), argument);
+  throw InputError(std::move(problems));
+}
+
 void bind_errors(py::module_& m) {
   input_error = add(m, "InputError", kInputError, PyExc_ValueError);
   py::handle(input_error).attr("problems") = py::tuple();

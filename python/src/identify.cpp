@@ -18,6 +18,8 @@ namespace {
 
 namespace id = vsa::identify;
 
+constexpr double kLeastLoad_kg = 1e-3, kMostLoad_kg = 1e3;
+
 struct Options {
   std::string model, weights;
   id::SweepOptions sweep;
@@ -47,7 +49,11 @@ void check_range(const char* name, double value, double min, double max) {
 id::Task read_task(const std::vector<std::string>& recordings, const config::ActuatorType& type, const std::string& parameters,
                    const std::string& weights, double load_kg) {
   id::Task task;
-  task.parameters = id::parse_parameters(parameters, type);
+  try {
+    task.parameters = id::parse_parameters(parameters, type);
+  } catch (const InputError& error) {
+    rethrow_with_arguments(error, {{"--parameters", "parameters"}});
+  }
   for (const std::string& file : recordings) task.observations.push_back(id::read_observation(file, type, load_kg));
   if (weights == "scatter") id::weigh_by_scatter(task.observations);
   return task;
@@ -132,7 +138,7 @@ py::dict fit(const std::vector<std::string>& recordings, const std::string& type
   check_range("iterations", o.fit.iterations, 1, 1000);
   check_range("period_s", o.sweep.period_s, 1, 3600);
   if (o.sweep.amplitude_rad) check_range("amplitude_rad", *o.sweep.amplitude_rad, 0.01, 3);
-  check_range("load_kg", o.sweep.load_share, 1e-3, 1e3);
+  check_range("load_kg", o.sweep.load_share, kLeastLoad_kg, kMostLoad_kg);
   if (recordings.empty()) throw InputError({"", "recordings", "", "there is none", "one or more files"});
   experiment::Specimen specimen;
   specimen.type = type;
@@ -158,8 +164,9 @@ py::dict branch_dict(const experiment::Branches& b) {
                   py::arg("sd_falling_rad") = copied(b.sd_falling_rad));
 }
 
-py::dict read_recording(const std::string& file, const std::string& type) {
-  const id::Observation o = id::read_observation(file, config::TypeLibrary().load(type));
+py::dict read_recording(const std::string& file, const std::string& type, double load_kg) {
+  check_range("load_kg", load_kg, kLeastLoad_kg, kMostLoad_kg);
+  const id::Observation o = id::read_observation(file, config::TypeLibrary().load(type), load_kg);
   return py::dict(py::arg("name") = o.name, py::arg("preset") = o.preset, py::arg("branches") = branch_dict(o.data));
 }
 
@@ -182,12 +189,13 @@ void bind_fit(py::module_& m) {
   m.def(
       "fit",
       [](const std::vector<std::string>& recordings, const std::string& type, const std::string& parameters, const py::object& set,
-         const std::string& model, const std::string& weights, int starts, unsigned seed, int iterations, bool global_search,
-         double period_s, std::optional<double> amplitude_rad, double cycles, unsigned threads, double load_kg) {
-        Options o{model, weights, {period_s, amplitude_rad, cycles}, {}, threads};
+         const std::string& model, const std::string& weights, int starts, const py::object& seed, int iterations,
+         bool global_search, double period_s, std::optional<double> amplitude_rad, double cycles, const py::object& threads,
+         double load_kg) {
+        Options o{model, weights, {period_s, amplitude_rad, cycles}, {}, whole_number<unsigned>(threads, "threads")};
         o.sweep.load_share = load_kg;  // of 1 kg
         o.fit.starts = starts;
-        o.fit.seed = seed;
+        o.fit.seed = whole_number<unsigned>(seed, "seed");
         o.fit.iterations = iterations;
         o.fit.global = global_search;
         return fit(recordings, type, parameters, set, std::move(o));
@@ -203,10 +211,10 @@ void bind_fit(py::module_& m) {
 void bind_identify(py::module_& m) {
   py::module_ s = m.def_submodule("identify", "Parameters from recordings.");
   bind_fit(s);
-  s.def(
-      "read_recording", &read_recording, py::arg("file"), py::arg("type"),
-      "A load-test recording as fit() sees it: dict of name, preset and branches, a dict of ndarrays (n,): torque_Nm, rising_rad,\n"
-      "falling_rad (deflections; NaN without samples) and their scatters sd_rising_rad, sd_falling_rad. InputError.");
+  s.def("read_recording", &read_recording, py::arg("file"), py::arg("type"), py::arg("load_kg") = 1.0,
+        "A load-test recording as fit() with that load_kg sees it: dict of name, preset and branches, a dict of ndarrays (n,):\n"
+        "torque_Nm, rising_rad, falling_rad (deflections; NaN without samples) and their scatters sd_rising_rad, sd_falling_rad.\n"
+        "InputError.");
 }
 
 }  // namespace vsa::python

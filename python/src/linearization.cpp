@@ -182,6 +182,9 @@ void matrix_property(py::class_<Of>& c, const char* name, const char* doc, Get g
 
 study::Linearization linearized(const PyActuatorType& type, const linear::OperatingPoint& point, const std::string& firmware,
                                 const std::string& friction) {
+  if (point.shaft_rad && point.load_Nm != 0)
+    throw InputError({"", "load_Nm", config::number_text(point.load_Nm),
+                      "isn't free: what holds the shaft at shaft_rad is the load", "0, or no shaft_rad"});
   study::LinearizationOptions options;
   options.specimen.type = type.name;
   options.specimen.overrides = type.overrides;

@@ -25,11 +25,12 @@ class PyRecorder {
   using Page = std::optional<std::filesystem::path>;
   Page finish(const py::object& summary, const std::string& note) {
     if (finished_) return page_;
-    (void)world_->get();
     std::vector<record::Statistic> statistics;
     if (!summary.is_none()) {
       for (const auto& [label, value] : dict_of(summary, "summary")) statistics.push_back({py::str(label), py::str(value)});
     }
+    (void)world_->get();
+    if (finished_) return page_;  // by another thread, while `summary` became texts
     world_->detach(recorder_);
     finished_ = true;
     auto page = recorder_->finish(statistics, note);

@@ -80,9 +80,23 @@ py::object result_dict(const std::shared_ptr<Characterization>& c) {
   return out;
 }
 
+Characterization planned(const study::CharacterizationOptions& options) {
+  try {
+    return study::plan_characterization(options);
+  } catch (const InputError& error) {
+    rethrow_with_arguments(error, {{"--experiment", "experiments"},
+                                   {"--preset-rad", "presets"},
+                                   {"--period-s", "period_s"},
+                                   {"--amplitude-rad", "amplitude_rad"},
+                                   {"--cycles", "cycles"}});
+  }
+}
+
 py::object characterize(const std::string& type, const std::vector<std::string>& experiments, const py::object& presets,
                         std::optional<double> period_s, std::optional<double> amplitude_rad, std::optional<int> cycles,
-                        const py::object& set, std::optional<double> step_s, const py::object& progress, unsigned threads) {
+                        const py::object& set, std::optional<double> step_s, const py::object& progress,
+                        const py::object& given_threads) {
+  const auto threads = whole_number<unsigned>(given_threads, "threads");
   study::CharacterizationOptions options;
   options.specimen.type = type;
   options.specimen.overrides = settings(set);
@@ -95,7 +109,7 @@ py::object characterize(const std::string& type, const std::vector<std::string>&
   std::shared_ptr<Characterization> done;
   {
     OthersRun others;
-    auto found = study::run(study::plan_characterization(options), asking(progress, others), threads);
+    auto found = study::run(planned(options), asking(progress, others), threads);
     if (found) done = std::make_shared<Characterization>(std::move(*found));
   }
   return done ? result_dict(done) : py::none();

@@ -32,6 +32,7 @@ struct PyUnit {
   std::int64_t time_ns = 0;
   bool stepping = false;  ///< read and written with the GIL
 
+  /// To be called after the arguments are converted: that runs Python, and another thread may step then.
   void refuse_others() const {
     if (stepping) throw std::runtime_error("the unit is being stepped in another thread: wait for that");
   }
@@ -83,7 +84,6 @@ double step(PyUnit& u, double dt_s, double q, double v, double inverse_inertia) 
 
 /// One step an entry; Ctrl-C ends it between two.
 py::array_t<double> follow(PyUnit& u, double dt_s, const py::object& shaft, const py::object& speed) {
-  u.refuse_others();
   Problems problems;
   const std::int64_t dt_ns = step_ns(dt_s, problems);
   problems.throw_if_any();
@@ -95,6 +95,7 @@ py::array_t<double> follow(PyUnit& u, double dt_s, const py::object& shaft, cons
   }
   problems.throw_if_any();
   std::vector<double> torque(q.size());
+  u.refuse_others();
   {
     const Mark stepping(u.stepping);
     OthersRun others;
@@ -111,6 +112,7 @@ py::array pair(const std::array<double, 2>& values) { return py::array(py::cast(
 py::dict readings(const PyUnit& u) {
   u.refuse_others();
   const device::UnitReading r = device::read(u.unit, u.state);
+  const auto measured = device::measured(u.unit, u.state);
   py::dict out;
   out["equilibrium_rad"] = r.equilibrium_rad;
   out["preset"] = r.preset;
@@ -124,7 +126,6 @@ py::dict readings(const PyUnit& u) {
   out["motor_speed_rad_per_s"] = pair(r.motor_speed_rad_per_s);
   out["motor_torque_Nm"] = pair(r.motor_torque_Nm);
   out["current_A"] = pair(r.current_A);
-  const auto measured = device::measured(u.unit, u.state);
   out["measured_ticks"] = py::array_t<std::int16_t>(3, std::array{measured[0].value, measured[1].value, measured[2].value}.data());
   return out;
 }
@@ -201,7 +202,8 @@ void bind_state(Class& c) {
           "ledger",
           [](const PyUnit& u) {
             u.refuse_others();
-            return ledger_dict(u.state.actuator.ledger);
+            const actuator::Ledger now = u.state.actuator.ledger;
+            return ledger_dict(now);
           },
           "Energy ledger since the start, J: dict, see World.ledger.")
       .def(
@@ -223,8 +225,10 @@ void bind_state(Class& c) {
       .def(
           "restore_state",
           [](PyUnit& u, const py::object& state) {
+            const TimedState at = unit_state_of(state);
             u.refuse_others();
-            restore_unit_state(u.state, u.time_ns, state);
+            u.state = at.state;
+            u.time_ns = at.time_ns;
           },
           py::arg("state"), kRestoreState)
       .def_property_readonly(

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // vsasim.UnitBatch: units with a lever on each shaft (device::LeverBatch), as NumPy's views of the C++ memory.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -29,6 +30,7 @@ struct PyUnitBatch {
   device::Unit unit;      // reads states
   bool stepping = false;  // read and written with the GIL
 
+  /// To be asked after the arguments are converted: that runs Python, and another thread may step then.
   [[nodiscard]] LeverBatch& get() {
     if (stepping) throw std::runtime_error("the units are being stepped in another thread: wait for that");
     return levers;
@@ -40,9 +42,11 @@ using Class = py::class_<PyUnitBatch, Shared>;
 
 std::string text(const py::handle& thing) { return py::str(thing); }
 
-void set_levers(LeverBatch& to, const py::object& inertia, const py::object& damping, const py::object& gravity) {
-  const auto j = numbers(inertia, to.size(), "inertia_kgm2", true), d = numbers(damping, to.size(), "damping_Nms_per_rad", true),
-             g = numbers(gravity, to.size(), "gravity_Nm", true);
+void set_levers(PyUnitBatch& b, const py::object& inertia, const py::object& damping, const py::object& gravity) {
+  const std::size_t n = b.levers.size();
+  const auto j = numbers(inertia, n, "inertia_kgm2", true), d = numbers(damping, n, "damping_Nms_per_rad", true),
+             g = numbers(gravity, n, "gravity_Nm", true);
+  LeverBatch& to = b.get();
   std::vector<Lever> before;
   for (std::size_t i = 0; i < to.size(); ++i) before.push_back(to.lever(i));
   for (std::size_t i = 0; i < to.size(); ++i) {
@@ -67,14 +71,14 @@ Shared make(const PyActuatorType& type, py::ssize_t units, const py::object& ine
     made = std::make_shared<PyUnitBatch>(
         PyUnitBatch{LeverBatch(config, static_cast<std::size_t>(units), Lever{}, instructions), device::Unit(config)});
   }
-  set_levers(made->levers, inertia, damping, gravity);
+  set_levers(*made, inertia, damping, gravity);
   return made;
 }
 
 void step(PyUnitBatch& b, py::ssize_t n, double dt_s) {
   LeverBatch& levers = b.get();
   if (n < 1 || n > 1'000'000'000) throw InputError({"", "n", std::to_string(n), "out of range", "1 … 1000000000 steps"});
-  if (!(dt_s > 0) || dt_s > 0.016) throw InputError({"", "dt_s", text(py::float_(dt_s)), "out of range", "above 0 … 0.016 s"});
+  if (!(dt_s >= 1e-9 && dt_s <= 0.016)) throw InputError({"", "dt_s", text(py::float_(dt_s)), "out of range", "1e-09 … 0.016 s"});
   const Mark stepping(b.stepping);
   OthersRun others;
   levers.step(static_cast<int>(n), std::llround(dt_s * 1e9), [&] { others.look(); });
@@ -82,9 +86,8 @@ void step(PyUnitBatch& b, py::ssize_t n, double dt_s) {
 
 void reset(PyUnitBatch& b, const py::object& which, const py::object& equilibrium, const py::object& preset,
            const py::object& shaft, const py::object& speed) {
-  LeverBatch& levers = b.get();
-  const std::vector<std::size_t> those = chosen(which, levers.size(), "unit");
-  std::vector<bool> seen(levers.size());
+  const std::vector<std::size_t> those = chosen(which, b.levers.size(), "unit");
+  std::vector<bool> seen(b.levers.size());
   for (const std::size_t i : those) {
     if (seen[i]) throw InputError({"", "which", std::to_string(i), "is named twice", "each unit once"});
     seen[i] = true;
@@ -92,16 +95,15 @@ void reset(PyUnitBatch& b, const py::object& which, const py::object& equilibriu
   const auto q = numbers(equilibrium, those.size(), "equilibrium_rad", true), p = numbers(preset, those.size(), "preset", true);
   const auto at = shaft.is_none() ? q : numbers(shaft, those.size(), "shaft_rad", true);
   const auto v = numbers(speed, those.size(), "shaft_speed_rad_per_s", true);
+  LeverBatch& levers = b.get();
+  for (std::size_t k = 0; k < those.size(); ++k) levers.check_reset(those[k], q[k], p[k], at[k], v[k]);
   for (std::size_t k = 0; k < those.size(); ++k) levers.reset(those[k], q[k], p[k], at[k], v[k]);
 }
 
 void restore(PyUnitBatch& b, const py::object& which, const py::object& given) {
-  LeverBatch& levers = b.get();
-  const std::size_t unit = index_of(which, levers.size(), "unit");
-  device::UnitState state;
-  std::int64_t time_ns = 0;
-  restore_unit_state(state, time_ns, given);
-  levers.restore(unit, state, time_ns);
+  const std::size_t unit = index_of(which, b.levers.size(), "unit");
+  const TimedState at = unit_state_of(given);
+  b.get().restore(unit, at.state, at.time_ns);
 }
 
 /// Of read(): what device::read() tells, and what Unit.readings() adds to that.
@@ -138,8 +140,8 @@ py::dtype reading_dtype() {
 static_assert(offsetof(Row, now) == 0 && sizeof(Row) == sizeof(device::UnitReading) + 16, "offsets of `now` are the row's");
 
 py::array read(PyUnitBatch& b, const py::object& out) {
+  py::array rows = into(out, reading_dtype(), {static_cast<py::ssize_t>(b.levers.size())});
   const LeverBatch& levers = b.get();
-  py::array rows = into(out, reading_dtype(), {static_cast<py::ssize_t>(levers.size())});
   auto* to = static_cast<Row*>(rows.mutable_data());
   for (std::size_t i = 0; i < levers.size(); ++i) {
     const device::UnitState state = levers.state(i);
@@ -156,7 +158,10 @@ void bind_commands(Class& c, const char* name, Get which, const char* doc) {
     const std::span<double> numbers = (b->get().*which)();
     return view(float64(), {static_cast<py::ssize_t>(numbers.size())}, numbers.data(), b, true);
   };
-  const auto set = [get, name](const Shared& b, const py::object& value) { fill(get(b), value, name); };
+  const auto set = [which, name](const Shared& b, const py::object& value) {
+    const std::vector<double> given = spread(value, {static_cast<py::ssize_t>(b->levers.size())}, name);
+    std::copy(given.begin(), given.end(), (b->get().*which)().begin());
+  };
   c.def_property(name, get, set, doc);
 }
 
@@ -189,7 +194,7 @@ constexpr const char* kReset =
     "the\n"
     "shaft at shaft_rad (default: the equilibrium) with that speed. (k,) or one number each. What stands in `equilibrium` and "
     "`preset`\n"
-    "is commanded with the next step as ever.";
+    "is commanded with the next step as ever. InputError, IndexError: none of them was reset.";
 
 constexpr const char* kRead =
     "What the units are doing at the end of the last step, as Unit.readings() tells of one: structured ndarray (units,), with two\n"
@@ -218,23 +223,21 @@ void bind_unit_batch(py::module_& m) {
   c.def(py::init(&make), py::arg("type"), py::arg("units"), py::arg("inertia_kgm2") = 1e-3, py::arg("damping_Nms_per_rad") = 0.0,
         py::arg("gravity_Nm") = 0.0, py::arg("instructions") = "", kInit)
       .def("step", &step, py::arg("n") = 1, py::arg("dt_s") = 1e-3,
-           "n steps of dt_s (at most 16 ms); `equilibrium`, `preset` and `push` are taken as it begins. Other threads of Python "
+           "n steps of dt_s (1 ns to 16 ms); `equilibrium`, `preset` and `push` are taken as it begins. Other threads of Python "
            "run\n"
            "meanwhile; Ctrl-C ends it between two steps of all. InputError: out of range, commands beyond ±1e6; and where a lever\n"
            "would fly beyond 1e6 rad or rad/s: it stays where it was, the others have made that step, and none follows.")
       .def("reset", &reset, py::arg("which") = py::none(), py::arg("equilibrium_rad") = 0.0, py::arg("preset") = 0.0,
            py::arg("shaft_rad") = py::none(), py::arg("shaft_speed_rad_per_s") = 0.0, kReset)
-      .def(
-          "set_levers",
-          [](PyUnitBatch& b, const py::object& j, const py::object& d, const py::object& g) { set_levers(b.get(), j, d, g); },
-          py::arg("inertia_kgm2"), py::arg("damping_Nms_per_rad") = 0.0, py::arg("gravity_Nm") = 0.0,
-          "Other levers from the next step on: (units,) or one number each.")
+      .def("set_levers", &set_levers, py::arg("inertia_kgm2"), py::arg("damping_Nms_per_rad") = 0.0, py::arg("gravity_Nm") = 0.0,
+           "Other levers from the next step on: (units,) or one number each.")
       .def("read", &read, py::arg("out") = py::none(), kRead)
       .def(
           "state",
           [](PyUnitBatch& b, const py::object& unit, const py::object& out) {
+            const std::size_t which = index_of(unit, b.levers.size(), "unit");
             const LeverBatch& levers = b.get();
-            return unit_state(levers.state(index_of(unit, levers.size(), "unit")), levers.units().time_ns(), out);
+            return unit_state(levers.state(which), levers.units().time_ns(), out);
           },
           py::arg("unit"), py::arg("out") = py::none(), kState)
       .def("restore", &restore, py::arg("unit"), py::arg("state"), kRestore)

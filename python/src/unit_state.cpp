@@ -40,15 +40,16 @@ py::array unit_state(const device::UnitState& state, std::int64_t time_ns, const
   return to;
 }
 
-void restore_unit_state(device::UnitState& state, std::int64_t& time_ns, const py::object& given) {
+TimedState unit_state_of(const py::object& given) {
   const auto numbers = state_numbers(given, size());
   const std::span in(numbers.data(), static_cast<std::size_t>(numbers.size()));
   UnitClock clock;
   state::Reader reader(in);
   state::walk_fields(reader, clock);
   throw_if_any(reader.fault(), layout());
-  device::Unit::restore(state, in.subspan(kClockSize));
-  time_ns = clock.time_ns;
+  TimedState out{{}, clock.time_ns};
+  device::Unit::restore(out.state, in.subspan(kClockSize));
+  return out;
 }
 
 py::list unit_state_layout() { return layout_list(layout()); }

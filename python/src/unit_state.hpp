@@ -10,8 +10,12 @@ namespace vsa::python {
 
 /// (n,): into `out`, a new one where it is None.
 [[nodiscard]] py::array unit_state(const device::UnitState& state, std::int64_t time_ns, const py::object& out);
-/// All or nothing. TypeError, InputError.
-void restore_unit_state(device::UnitState& state, std::int64_t& time_ns, const py::object& given);
+struct TimedState {
+  device::UnitState state;
+  std::int64_t time_ns = 0;
+};
+/// From unit_state()'s numbers. TypeError, InputError.
+[[nodiscard]] TimedState unit_state_of(const py::object& given);
 [[nodiscard]] py::list unit_state_layout();
 
 constexpr const char* kUnitLayout =

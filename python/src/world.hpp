@@ -17,7 +17,8 @@ class PyWorld {
  public:
   explicit PyWorld(engine::World world);
 
-  /// Throws Python's RuntimeError while another thread steps.
+  /// Throws Python's RuntimeError while another thread steps. To be asked after the arguments are converted, and after anything
+  /// else that runs Python or makes its objects: another thread may begin to step then.
   [[nodiscard]] engine::World& get();
   /// work(World&, OthersRun&) without the GIL; all but commands is refused meanwhile.
   template <class Work>

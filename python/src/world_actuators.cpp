@@ -47,14 +47,15 @@ void put(void* to, const ActuatorReading& reading) {
 }
 
 py::object read(PyWorld& w, const py::object& actuator, const py::object& out) {
-  const engine::World& world = w.get();
-  const auto& all = world.actuators();
+  const auto& all = w.any_thread().actuators();
   if (!actuator.is_none()) {
     py::array one = into(out, reading_dtype(), {});
-    put(one.mutable_data(), world.read(w.actuator(actuator)));
+    const engine::ActuatorRef& which = w.actuator(actuator);
+    put(one.mutable_data(), w.get().read(which));
     return out.is_none() ? py::object(one[py::tuple()]) : py::object(one);
   }
   py::array many = into(out, reading_dtype(), {static_cast<py::ssize_t>(all.size())});
+  const engine::World& world = w.get();
   auto* to = static_cast<ActuatorReading*>(many.mutable_data());
   for (std::size_t i = 0; i < all.size(); ++i) put(to + i, world.read(all[i]));
   return many;
@@ -87,7 +88,8 @@ void command_all(PyWorld& w, const py::object& equilibrium, const py::object& pr
 }
 
 void place(PyWorld& w, const py::object& which, double angle, double preset, double speed, const Maybe& equilibrium) {
-  w.get().place(w.actuator(which), {angle, preset, speed, equilibrium});
+  const engine::ActuatorRef& a = w.actuator(which);
+  w.get().place(a, {angle, preset, speed, equilibrium});
 }
 
 void command_direct(PyWorld& w, const py::object& which, double first, double second) {
@@ -115,19 +117,18 @@ py::list actuator_info(PyWorld& w) {
   return out;
 }
 
-py::list take_notices(PyWorld& w) {
-  py::list out;
+std::vector<std::string> take_notices(PyWorld& w) {
+  std::vector<std::string> out;
   engine::World& world = w.get();
   for (std::size_t r = 0; r < world.robot_count(); ++r)
-    for (const host::Notice& n : world.robot(r).take_notices()) out.append(n.text);
+    for (const host::Notice& n : world.robot(r).take_notices()) out.push_back(n.text);
   return out;
 }
 
 py::dict ledger(PyWorld& w, const py::object& which) {
-  const engine::World& world = w.get();
-  if (which.is_none()) return ledger_dict(world.ledger());
+  if (which.is_none()) return ledger_dict(w.get().ledger());
   const engine::ActuatorRef& a = w.actuator(which);
-  return ledger_dict(world.robot(a.robot).ledger(a.index));
+  return ledger_dict(w.get().robot(a.robot).ledger(a.index));
 }
 
 constexpr const char* kRead =

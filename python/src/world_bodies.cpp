@@ -26,10 +26,9 @@ py::array contacts(PyWorld& w) {
 }
 
 py::array poses(PyWorld& w, const py::object& out) {
-  const engine::World& world = w.get();
-  const std::size_t n = world.links().size();
+  const std::size_t n = w.any_thread().links().size();
   py::array to = into(out, float64(), {static_cast<py::ssize_t>(n), 7});
-  world.poses({static_cast<scene::Pose*>(to.mutable_data()), n});
+  w.get().poses({static_cast<scene::Pose*>(to.mutable_data()), n});
   return to;
 }
 
@@ -57,8 +56,8 @@ py::list link_info(PyWorld& w) {
 
 template <class Read>
 py::array of_joints(PyWorld& w, const py::object& out, const Read& read) {
-  const engine::World& world = w.get();
   py::array to = into(out, float64(), {static_cast<py::ssize_t>(w.joints().size())});
+  const engine::World& world = w.get();
   auto* values = static_cast<double*>(to.mutable_data());
   for (std::size_t i = 0; i < w.joints().size(); ++i) values[i] = read(world, w.joints()[i]);
   return to;
@@ -107,7 +106,7 @@ PyPull make_pull(const std::string& link, const py::object& target, const py::ob
 }
 
 void pull(PyWorld& w, const py::args& hands) {
-  engine::World& world = w.get();
+  const engine::World& world = w.any_thread();
   std::vector<scene::Pull> pulls;
   for (const auto& given : hands) {
     if (!py::isinstance<PyPull>(given)) throw py::type_error("pull: takes vsasim.Pull only");
@@ -115,7 +114,7 @@ void pull(PyWorld& w, const py::args& hands) {
     pulls.push_back(hand.pull);
     pulls.back().link = world.link(hand.link).index();
   }
-  world.pull(std::move(pulls));
+  w.get().pull(std::move(pulls));
 }
 
 void bind_links(WorldClass& c) {
@@ -172,7 +171,8 @@ void bind_joints(WorldClass& c) {
       .def(
           "displace_model",
           [](PyWorld& w, const std::string& model, double yaw, const py::object& translation) {
-            w.get().displace_model(model, yaw, numbers<3>(translation, "translation_m"));
+            const auto by = numbers<3>(translation, "translation_m");
+            w.get().displace_model(model, yaw, by);
           },
           py::arg("model"), py::arg("yaw_rad"), py::arg("translation_m"),
           "Moves a model that isn't fixed: adds a yaw about the world's z axis and a translation (3,) in m.");

@@ -13,25 +13,24 @@ namespace {
 using Fill = void (engine::World::*)(std::span<double>) const;
 
 py::array filled(PyWorld& w, const py::object& out, Fill fill, bool matrix) {
-  const engine::World& world = w.get();
-  const auto n = static_cast<py::ssize_t>(world.dof_count());
+  const auto n = static_cast<py::ssize_t>(w.any_thread().dof_count());
   py::array to = into(out, float64(), matrix ? std::vector<py::ssize_t>{n, n} : std::vector<py::ssize_t>{n});
-  (world.*fill)({static_cast<double*>(to.mutable_data()), static_cast<std::size_t>(to.size())});
+  (w.get().*fill)({static_cast<double*>(to.mutable_data()), static_cast<std::size_t>(to.size())});
   return to;
 }
 
 py::array jacobian(PyWorld& w, const std::string& link, const py::object& point, const py::object& out) {
-  const engine::World& world = w.get();
   const auto at = numbers<3>(point, "point_m");
-  py::array to = into(out, float64(), {6, static_cast<py::ssize_t>(world.dof_count())});
+  py::array to = into(out, float64(), {6, static_cast<py::ssize_t>(w.any_thread().dof_count())});
+  const engine::World& world = w.get();
   world.jacobian(world.link(link), at, {static_cast<double*>(to.mutable_data()), static_cast<std::size_t>(to.size())});
   return to;
 }
 
 void apply_wrench(PyWorld& w, const std::string& link, const py::object& force, const py::object& torque, const py::object& point) {
+  const engine::Wrench wrench{numbers<3>(force, "force_N"), numbers<3>(torque, "torque_Nm"), numbers<3>(point, "point_m")};
   engine::World& world = w.get();
-  world.apply_wrench(world.link(link),
-                     {numbers<3>(force, "force_N"), numbers<3>(torque, "torque_Nm"), numbers<3>(point, "point_m")});
+  world.apply_wrench(world.link(link), wrench);
 }
 
 py::dict energy(PyWorld& w) {

@@ -1,6 +1,7 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // What a World's actuators and links may change between steps.
+#include <array>
 #include <optional>
 
 #include "actuator_type.hpp"
@@ -25,11 +26,13 @@ py::dict link_parameters(PyWorld& w, const std::string& link) {
 
 void set_link_parameters(PyWorld& w, const std::string& name, std::optional<double> mass_kg, const py::object& inertia_kgm2,
                          std::optional<double> friction) {
+  std::optional<std::array<double, 3>> moments;
+  if (!inertia_kgm2.is_none()) moments = numbers<3>(inertia_kgm2, "inertia_kgm2");
   engine::World& world = w.get();
   const engine::LinkHandle link = world.link(name);
   engine::LinkParameters p = world.link_parameters(link);
   if (mass_kg) p.mass_kg = *mass_kg;
-  if (!inertia_kgm2.is_none()) p.inertia_kgm2 = numbers<3>(inertia_kgm2, "inertia_kgm2");
+  if (moments) p.inertia_kgm2 = *moments;
   if (friction) p.friction = friction;
   world.set_link_parameters(link, p);
 }

@@ -20,9 +20,8 @@ py::array state(PyWorld& w, const py::object& out) {
 }
 
 void restore_state(PyWorld& w, const py::object& given) {
-  engine::World& world = w.get();
-  const auto numbers = state_numbers(given, world.state_size());
-  world.restore(std::span(numbers.data(), static_cast<std::size_t>(numbers.size())));
+  const auto numbers = state_numbers(given, w.any_thread().state_size());
+  w.get().restore(std::span(numbers.data(), static_cast<std::size_t>(numbers.size())));
   w.sample();
 }
 
@@ -35,18 +34,20 @@ constexpr const char* kState =
     "is\n"
     "under way than the layout has room for (a trajectory of many knots, a long speech on a bus); snapshot() takes that, too.";
 constexpr const char* kRestore =
-    "Back to the numbers of state(), bit by bit: (n,) of float64. InputError: another shape, or numbers that no state has, with "
-    "the\n"
-    "name of the first one. TypeError: another dtype. Then nothing has changed.";
+    "Back to the numbers of state(), bit by bit: (n,) of float64. Numbers don't tell whose they are: those of another actuator "
+    "type\n"
+    "are taken where its layout is the same, and mean something else; snapshot() and save_file() tell. InputError: another shape, "
+    "or\n"
+    "numbers that no state has, with the name of the first one. TypeError: another dtype. Then nothing has changed.";
 constexpr const char* kLayout =
     "What the numbers of state() are, in order and without gaps: list of dicts of name (\"robot[0]/elbow/unit.…\"), unit (\"\": a\n"
     "number), kind (real, single, whole, wide, flag, choice or bytes), offset and count.";
 constexpr const char* kSaveFile =
-    "Writes state() into a file that tells version and layout, too. OutputError: it can't be written; what was there stays.";
+    "Writes state() into a file that tells version, layout and kinds of actuators, too. OutputError: it can't be written; what was "
+    "there stays.";
 constexpr const char* kRestoreFile =
-    "Back to the state in a file of save_file(). InputError: a file of another layout, version or length, a damaged one or none; "
-    "then\n"
-    "nothing has changed.";
+    "Back to the state in a file of save_file(). InputError: a file of another layout, version or length, of other kinds of\n"
+    "actuators (as restore()), a damaged one or none; then nothing has changed.";
 
 }  // namespace
 

@@ -3,11 +3,14 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <new>
 #include <numeric>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
 #include "batch/batch_impl.hpp"
+#include "vsa/checks.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::batch {
@@ -23,6 +26,26 @@ std::size_t thread_count(std::size_t asked, std::size_t copies) {
   return std::min(there, std::max<std::size_t>(copies, 1));
 }
 
+/// std::bad_alloc that says of what.
+class NoMemory : public std::bad_alloc {
+ public:
+  NoMemory(std::size_t copies, std::size_t threads)
+      : text_("no memory for a batch of copies = " + std::to_string(copies) + " on threads = " + std::to_string(threads)) {}
+  [[nodiscard]] const char* what() const noexcept override { return text_.what(); }
+
+ private:
+  std::runtime_error text_;  // whose copies can't fail
+};
+
+/// A clone doesn't step: what the engine fails at is memory.
+engine::World clone_of(const engine::World& world) {
+  try {
+    return world.clone();
+  } catch (const engine::SimulationError&) {
+    throw std::bad_alloc();
+  }
+}
+
 /// Never empty: an empty failure is none.
 std::string reason(const std::exception& error) {
   const std::string text = error.what();
@@ -34,7 +57,7 @@ std::string reason(const std::exception& error) {
 Batch::Impl::Impl(const engine::World& world, std::size_t copies, std::size_t threads)
     : crew(thread_count(threads, copies)), book(world) {
   if (copies == 0) throw InputError(Problem{"", "copies", "0", "there is nothing to step", "1 or more"});
-  for (std::size_t k = 0; k < crew.size(); ++k) worlds.push_back(world.clone());
+  for (std::size_t k = 0; k < crew.size(); ++k) worlds.push_back(clone_of(world));
   for (const engine::JointInfo& joint : world.joints())
     if (joint.one_axis()) joints.push_back(world.joint(joint.name));
   first.resize(world.state_size());
@@ -74,8 +97,8 @@ void Batch::Impl::check_commands(std::span<const std::size_t> which) const {
   Problems problems;
   const auto look = [&](const char* key, const std::vector<double>& values, std::size_t copy) {
     for (std::size_t a = 0; a < actuators(); ++a)
-      if (std::isinf(values[copy * actuators() + a]))
-        problems.add({"", "copy " + std::to_string(copy) + ", " + worlds.front().actuators()[a].name + ": " + key, "inf",
+      if (const double v = values[copy * actuators() + a]; std::isinf(v))
+        problems.add({"", "copy " + std::to_string(copy) + ", " + worlds.front().actuators()[a].name + ": " + key, Checks::text(v),
                       "isn't finite", "a number, or NaN to leave it"});
   };
   for (const std::size_t copy : which) {
@@ -195,8 +218,18 @@ void Batch::Impl::restore(std::size_t copy, std::span<const double> from) {
   failure[copy].clear();
 }
 
+std::unique_ptr<Batch::Impl> Batch::Impl::made(const engine::World& world, std::size_t copies, std::size_t threads) {
+  try {
+    return std::make_unique<Impl>(world, copies, threads);
+  } catch (const std::bad_alloc&) {
+    throw NoMemory(copies, thread_count(threads, copies));
+  } catch (const std::length_error&) {  // more numbers than any machine has room for
+    throw NoMemory(copies, thread_count(threads, copies));
+  }
+}
+
 Batch::Batch(const engine::World& world, std::size_t copies, std::size_t threads)
-    : impl_("vsa::batch::Batch", std::make_unique<Impl>(world, copies, threads)) {}
+    : impl_("vsa::batch::Batch", Impl::made(world, copies, threads)) {}
 Batch::~Batch() = default;
 Batch::Batch(Batch&&) noexcept = default;
 Batch& Batch::operator=(Batch&&) noexcept = default;

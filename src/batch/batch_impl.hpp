@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace vsa::batch {
 
 struct Batch::Impl {
   Impl(const engine::World& world, std::size_t copies, std::size_t threads);
+  [[nodiscard]] static std::unique_ptr<Impl> made(const engine::World& world, std::size_t copies, std::size_t threads);
 
   [[nodiscard]] std::size_t copies() const noexcept { return failure.size(); }
   [[nodiscard]] std::size_t actuators() const { return worlds.front().actuators().size(); }

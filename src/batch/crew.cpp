@@ -8,16 +8,23 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "vsa/errors.hpp"
+
 namespace vsa::batch {
 
 struct Crew::Team {
-  explicit Team(std::size_t count) {
+  explicit Team(std::size_t count) try {
     for (std::size_t k = 1; k < count; ++k)
       threads.emplace_back([this, k](const std::stop_token& stop) { wait_and_work(stop, k); });
+  } catch (const std::system_error& refused) {
+    throw InputError(
+        Problem{"", "threads", std::to_string(count), "the system doesn't start as many: " + refused.code().message(), "fewer"});
   }
   ~Team() {
     for (std::jthread& t : threads) t.request_stop();

@@ -16,7 +16,7 @@ namespace vsa::batch {
 
 class Crew {
  public:
-  /// `count` in all: the caller of run() is one of them.
+  /// `count` in all: the caller of run() is one of them. InputError "threads": the system starts fewer.
   explicit Crew(std::size_t count);
   ~Crew();
   Crew(const Crew&) = delete;

@@ -128,11 +128,16 @@ void LeverBatch::step(int steps, std::int64_t dt_ns, const std::function<void()>
   }
 }
 
-void LeverBatch::reset(std::size_t i, double equilibrium_rad, double preset, double shaft_rad, double speed_rad_per_s) {
+void LeverBatch::check_reset(std::size_t i, double equilibrium_rad, double preset, double shaft_rad,
+                             double speed_rad_per_s) const {
   (void)lever(i);
   for (const auto& [key, value] : {std::pair{"equilibrium_rad", equilibrium_rad}, std::pair{"preset", preset},
                                    std::pair{"shaft_rad", shaft_rad}, std::pair{"speed_rad_per_s", speed_rad_per_s}})
     check_near(key, i, value);
+}
+
+void LeverBatch::reset(std::size_t i, double equilibrium_rad, double preset, double shaft_rad, double speed_rad_per_s) {
+  check_reset(i, equilibrium_rad, preset, shaft_rad, speed_rad_per_s);
   UnitState state = unit_.initial(equilibrium_rad, preset, shaft_rad);
   firmware::Program::shift_time(state.program, units_.time_ns());
   units_.set(i, state);

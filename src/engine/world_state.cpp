@@ -12,6 +12,7 @@
 #include "engine/world_impl.hpp"
 #include "vsa/bits.hpp"
 #include "vsa/files.hpp"
+#include "vsa/host/unit_kind.hpp"
 #include "vsa/output_file.hpp"
 #include "vsa/state_io.hpp"
 
@@ -29,8 +30,19 @@ struct WorldClock {
 constexpr std::size_t kClockSize = 4;
 
 constexpr std::string_view kMagic = "VSASTATE";
-constexpr std::uint64_t kVersion = 1;
-constexpr std::size_t kHeaderNumbers = 5;  // magic, version, layout, count, hash of the numbers
+constexpr std::uint64_t kVersion = 2;  // 1: without the kinds
+constexpr std::size_t kLeastHeader = 5;
+
+/// Magic, version, layout, count, hash of the numbers; kinds.
+std::size_t header_numbers(std::uint64_t version) { return version == 1 ? kLeastHeader : kLeastHeader + 1; }
+
+/// Of all actuators' units: other types may have the same layout, and a state means something else to them.
+std::uint64_t hash_of_kinds(const World& world) {
+  std::vector<double> kinds;
+  for (const ActuatorRef& a : world.actuators())
+    for (const int word : host::kind_of(world.robot(a.robot).config().actuators[a.index].unit)) kinds.push_back(word);
+  return vsa::state_hash(kinds);
+}
 
 /// Eight bytes, the lowest first, on every machine.
 void put_word(std::string& out, std::uint64_t word) {
@@ -131,7 +143,8 @@ void World::save_file(const std::filesystem::path& file) const {
   std::vector<double> numbers(state_size());
   save(numbers);
   std::string text(kMagic);
-  for (const std::uint64_t word : {kVersion, state_layout().hash(), std::uint64_t{numbers.size()}, vsa::state_hash(numbers)})
+  for (const std::uint64_t word :
+       {kVersion, state_layout().hash(), std::uint64_t{numbers.size()}, vsa::state_hash(numbers), hash_of_kinds(*this)})
     put_word(text, word);
   for (const double v : numbers) put_word(text, bits_as<std::uint64_t>(v));
   write_whole(file, text);
@@ -141,17 +154,22 @@ void World::restore_file(const std::filesystem::path& file) {
   const StateLayout ours = state_layout();
   const std::optional<std::string> text = read_file(file);
   if (!text) refuse(file, "", "", std::string("can't be read: ") + std::generic_category().message(errno), "a file of save_file()");
-  if (text->size() < 8 * kHeaderNumbers || text->compare(0, kMagic.size(), kMagic) != 0)
+  if (text->size() < 8 * kLeastHeader || text->compare(0, kMagic.size(), kMagic) != 0)
     refuse(file, "", fmt::format("{} bytes", text->size()), "is no world's state", "a file of save_file()");
   const std::uint64_t version = word_at(*text, 1), layout = word_at(*text, 2), count = word_at(*text, 3);
-  if (version != kVersion) refuse(file, "version", fmt::format("{}", version), "isn't known", fmt::format("{}", kVersion));
+  if (version < 1 || version > kVersion)
+    refuse(file, "version", fmt::format("{}", version), "isn't known", fmt::format("1 … {}", kVersion));
+  const std::size_t header = header_numbers(version);
   if (layout != ours.hash() || count != ours.size())
     refuse(file, "layout", fmt::format("{:016x}, {} numbers", layout, count), "is of another world",
            fmt::format("{:016x}, {} numbers", ours.hash(), ours.size()));
-  if (text->size() != 8 * (kHeaderNumbers + count))
-    refuse(file, "", fmt::format("{} bytes", text->size()), "has another length", fmt::format("{}", 8 * (kHeaderNumbers + count)));
+  if (text->size() != 8 * (header + count))
+    refuse(file, "", fmt::format("{} bytes", text->size()), "has another length", fmt::format("{}", 8 * (header + count)));
+  if (header > kLeastHeader && word_at(*text, kLeastHeader) != hash_of_kinds(*this))
+    refuse(file, "actuators", "", "are of other kinds than this world's",
+           "the same controllers, firmware models and dialects, and numbers of motors");
   std::vector<double> numbers(count);
-  for (std::size_t k = 0; k < count; ++k) numbers[k] = bits_as<double>(word_at(*text, kHeaderNumbers + k));
+  for (std::size_t k = 0; k < count; ++k) numbers[k] = bits_as<double>(word_at(*text, header + k));
   if (vsa::state_hash(numbers) != word_at(*text, 4)) refuse(file, "", "", "is damaged", "numbers with the hash of its header");
   try {
     restore(numbers);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/robot_impl.hpp"
+#include "vsa/host/unit_kind.hpp"
 
 namespace vsa::host {
 namespace {
@@ -42,12 +43,6 @@ std::shared_ptr<const actuator::Actuator> prepared(const UnitConfig& config, std
   return std::make_shared<const actuator::Actuator>(unit.physics());
 }
 
-/// Servo, model, dialect, number of motors.
-std::array<int, 4> kind_of(const UnitConfig& u) noexcept {
-  return {u.servo ? static_cast<int>(u.servo->kind) : -1, static_cast<int>(u.program.model), static_cast<int>(u.program.dialect),
-          u.actuator.transmission->motor_count()};
-}
-
 void take_unit(ActuatorConfig& to, const ActuatorConfig& from) {
   to.unit = from.unit;
   to.changed = from.changed;
@@ -56,6 +51,11 @@ void take_unit(ActuatorConfig& to, const ActuatorConfig& from) {
 }
 
 }  // namespace
+
+std::array<int, 4> kind_of(const UnitConfig& u) noexcept {
+  return {u.servo ? static_cast<int>(u.servo->kind) : -1, static_cast<int>(u.program.model), static_cast<int>(u.program.dialect),
+          u.actuator.transmission->motor_count()};
+}
 
 /// A batch whose copies have parameters of their own asks at every step: words are for where something is wrong.
 void check_kind(const std::string& name, const UnitConfig& from, const UnitConfig& to, Problems& problems) {

@@ -127,8 +127,12 @@ std::vector<linear::MountedUnit> mount(const World& w, const WorldBodies& b, con
     unit.point.preset = presets[*joint.actuator].value_or(point.preset.value_or(there));
     unit.point.shaft_rad = q;
     const double torque = asked(joint, q, b.gravity[j]);
-    const auto carried =
-        equilibria[*joint.actuator] ? equilibria[*joint.actuator] : elastic::equilibrium_for(law, q, torque, unit.point.preset);
+    std::optional<double> carried = equilibria[*joint.actuator];
+    if (!carried && std::abs(unit.point.preset) <= unit.unit.preset_max) {
+      carried = elastic::equilibrium_for(law, q, torque, unit.point.preset);
+    } else if (!carried) {
+      carried = 0.0;  // linear::linearize() says what is wrong with the preset
+    }
     if (carried) {
       unit.point.equilibrium_rad = *carried;
     } else {

@@ -231,6 +231,10 @@ TEST(LeverBatch, RefusesLeversAndCommandsThatAreNone) {
   levers.preset()[0] = std::numeric_limits<double>::infinity();
   EXPECT_THROW(levers.step(1), InputError);
   EXPECT_THROW(levers.reset(0, std::nan(""), 0, 0), InputError);
+  EXPECT_THROW(levers.check_reset(0, 0, 0, 1e7), InputError);
+  EXPECT_THROW(levers.check_reset(2, 0, 0, 0), InputError);
+  EXPECT_NO_THROW(levers.check_reset(1, 0.1, 0.2, 0.3, -1));
+  EXPECT_EQ(levers.shaft_rad()[1], 0) << "it only looks";
   EXPECT_EQ(levers.time_s(), 0);
 }
 

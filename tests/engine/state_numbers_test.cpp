@@ -154,7 +154,7 @@ TEST_F(StateFile, BringsAWorldBack) {
   move(w, 30);
   w.save_file(file);
   const Numbers at = numbers_of(w);
-  EXPECT_EQ(std::filesystem::file_size(file), 40 + 8 * at.size());
+  EXPECT_EQ(std::filesystem::file_size(file), 48 + 8 * at.size());
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1) << "nothing else is left";
   move(w, 30);
   w.restore_file(file);
@@ -175,9 +175,9 @@ TEST_F(StateFile, IsRefusedWhereItDoesntFit) {
     return out;
   };
   std::string other_version = good, damaged = good, poisoned = good;
-  other_version[8] = 2;
+  other_version[8] = 3;
   damaged[60] = static_cast<char>(damaged[60] ^ 1);
-  EXPECT_NE(said(other_version).find("version = 2"), std::string::npos);
+  EXPECT_NE(said(other_version).find("version = 3"), std::string::npos);
   EXPECT_NE(said(damaged).find("damaged"), std::string::npos);
   EXPECT_NE(said(good.substr(0, good.size() - 8)).find("another length"), std::string::npos);
   EXPECT_NE(said(good.substr(0, 30)).find("no world's state"), std::string::npos);
@@ -185,6 +185,38 @@ TEST_F(StateFile, IsRefusedWhereItDoesntFit) {
   EXPECT_NE(what_of([&] { w.restore_file(folder / "none"); }).find("can't be read"), std::string::npos);
   write(good);
   EXPECT_EQ(what_of([&] { w.restore_file(file); }), "");
+}
+
+TEST_F(StateFile, OfActuatorsOfAnotherKindIsRefusedAsTheirSnapshotIs) {
+  const auto of = [](const char* type) {
+    WorldOptions options;
+    options.actuator.type = type;
+    return World::load_string(arm(), options);
+  };
+  const World w = of("qbmove_maker_pro_6_1");
+  w.save_file(file);
+  World alike = of("qbmove_maker_pro_paper");
+  EXPECT_EQ(what_of([&] { alike.restore_file(file); }), "");
+  World other = of("sea_example");
+  const Numbers before = numbers_of(other);
+  ASSERT_EQ(other.state_layout().hash(), w.state_layout().hash());
+  EXPECT_NE(what_of([&] { other.restore(*w.snapshot()); }).find("number of motors"), std::string::npos);
+  EXPECT_NE(what_of([&] { other.restore_file(file); }).find("are of other kinds"), std::string::npos);
+  EXPECT_EQ(first_difference(numbers_of(other), before), std::nullopt);
+}
+
+TEST_F(StateFile, OfTheFirstVersionIsStillRead) {
+  World w = World::load_string(arm());
+  move(w, 30);
+  w.save_file(file);
+  const Numbers at = numbers_of(w);
+  std::string first = text();
+  first[8] = 1;
+  first.erase(40, 8);  // the kinds
+  write(first);
+  move(w, 30);
+  w.restore_file(file);
+  EXPECT_EQ(first_difference(numbers_of(w), at), std::nullopt);
 }
 
 TEST_F(StateFile, ThatCantBeWrittenLeavesWhatWasThere) {

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "engine/arm.hpp"
 #include "vsa/errors.hpp"
@@ -145,6 +146,21 @@ TEST(Point, IsWhereTheWorldIsUnlessTold) {
   for (auto& side : other.actuator.side) side.motor.inertia_kgm2 *= 2;
   w.robot(0).set_parameters(0, other);
   EXPECT_NE(linear_world::linearize(w, {}, Firmware::frozen).model.a, now.model.a);
+}
+
+TEST(Point, SaysOfAPresetThatNoUnitTakesThatItIsThePreset) {
+  const World w = World::load_string(driven_arm());
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  for (const WorldPoint& point :
+       {WorldPoint{{}, nan}, WorldPoint{{}, infinity}, WorldPoint{{}, -1e300}, WorldPoint{{}, {}, {{"lower", nan}}}}) {
+    try {
+      (void)linear_world::linearize(w, point, Firmware::frozen);
+      ADD_FAILURE() << "it linearises";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.problems().back().key, "lower: preset");
+      EXPECT_EQ(error.problems().back().message, "is out of range");
+    }
+  }
 }
 
 TEST(Point, TellsWhatIsLeftOut) {

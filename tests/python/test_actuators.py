@@ -3,6 +3,8 @@
 import collections
 import gc
 import math
+import pathlib
+import tempfile
 import types
 import unittest
 
@@ -258,6 +260,16 @@ class Studies(unittest.TestCase):
         self.assertGreaterEqual(len(caught.exception.problems), 2)
         with self.assertRaisesRegex(vsasim.InputError, "preset-step"):
             vsasim.study.characterize("qbmove_maker_pro", experiments=["strength"])
+        for wrong, text in (
+            ({"cycles": 0}, "^cycles = 0: "),
+            ({"presets": [9.0]}, "^presets = 9: "),
+            ({"experiments": ["speed"], "period_s": 20.0}, "^period_s: .*allowed: experiments stiffness"),
+        ):
+            with self.assertRaisesRegex(vsasim.InputError, text):
+                vsasim.study.characterize("qbmove_maker_pro", **wrong)
+        for threads, error in ((-1, vsasim.InputError), (2**70, vsasim.InputError), (0.5, TypeError)):
+            with self.assertRaisesRegex(error, "threads"):
+                vsasim.study.characterize("qbmove_maker_pro", threads=threads)
 
 
 class Identification(unittest.TestCase):
@@ -268,6 +280,19 @@ class Identification(unittest.TestCase):
         read = vsasim.identify.read_recording(self.FILES[1], "qbmove_maker_pro")
         self.assertEqual(read["preset"], 0.6903)
         self.assertEqual(read["branches"]["torque_Nm"].shape, read["branches"]["falling_rad"].shape)
+
+    def test_samples_are_read_on_the_grid_of_the_load_that_they_were_taken_with(self):
+        time = np.arange(0, 76.0, 0.02)
+        torque = 50 * np.sin(2 * np.pi * time / 38)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "stiffness_preset_0.3000rad_samples.csv"
+            rows = "".join(f"{t},{x},{x / 100}\n" for t, x in zip(time, torque))
+            file.write_text("time_s,load_torque_Nm,deflection_rad\n" + rows, encoding="utf-8")
+            read = vsasim.identify.read_recording(str(file), "qbmove_maker_pro", load_kg=36.0)
+            self.assertGreater(np.nanmax(read["branches"]["torque_Nm"]), 40)
+            for load_kg, text in ((1.0, "load_torque_Nm"), (0.0, "load_kg"), (math.nan, "load_kg")):
+                with self.assertRaisesRegex(vsasim.InputError, text):
+                    vsasim.identify.read_recording(str(file), "qbmove_maker_pro", load_kg=load_kg)
 
     def test_a_fit_is_nearer_to_the_recordings_than_its_start(self):
         parameters = "elastic.k1_Nm=elastic.k2_Nm,shaft.friction_Nm"
@@ -298,7 +323,7 @@ class Identification(unittest.TestCase):
 
     def test_wrong_parameters_files_and_words_are_refused(self):
         for change, text in (
-            ({"parameters": "elastic.nothing"}, "elastic.nothing"),
+            ({"parameters": "elastic.nothing"}, "^parameters: elastic.nothing"),
             ({"recordings": []}, "recordings"),
             ({"recordings": ["/nowhere/preset_0.1rad.csv"]}, "/nowhere"),
             ({"model": "guess"}, "model.*bench"),
@@ -306,6 +331,9 @@ class Identification(unittest.TestCase):
             ({"amplitude_rad": math.nan}, "amplitude_rad"),
             ({"amplitude_rad": -1.0, "model": "quasi-static"}, "amplitude_rad"),
             ({"amplitude_rad": 1e9, "model": "quasi-static"}, "amplitude_rad"),
+            ({"seed": -1}, "seed = -1"),
+            ({"seed": 2**32}, "seed"),
+            ({"threads": -1}, "threads = -1"),
         ):
             arguments = {"recordings": self.FILES, "type": "qbmove_maker_pro_paper", "parameters": "shaft.friction_Nm"}
             with self.assertRaisesRegex(vsasim.InputError, text):

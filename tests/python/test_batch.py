@@ -223,8 +223,10 @@ class Parameters(unittest.TestCase):
         ):
             with self.subTest(what=what), self.assertRaisesRegex(error, text):
                 batch.randomize(1, what)
-        with self.assertRaises(TypeError):
-            batch.randomize(-1, {})
+        for seed, error in ((-1, vsasim.InputError), (2**64, vsasim.InputError), (0.5, TypeError), ("1", TypeError)):
+            with self.subTest(seed=seed), self.assertRaisesRegex(error, "seed"):
+                batch.randomize(seed, {})
+        batch.randomize(2**64 - 1, {})
         np.testing.assert_array_equal(batch.values("drive.friction_Nm"), before)
         world = vsasim.World.load("bench_load")
         with self.assertRaisesRegex(vsasim.InputError, "mass_kg"):
@@ -281,9 +283,10 @@ class Failures(unittest.TestCase):
 
     def test_commands_that_are_no_numbers_or_do_not_fit_are_told(self):
         batch = vsasim.Batch(loaded(), 2)
-        batch.equilibrium[1, 2] = np.inf
-        with self.assertRaisesRegex(vsasim.InputError, "copy 1, joint_3: equilibrium.*inf"):
-            batch.step()
+        for infinite in (np.inf, -np.inf):
+            batch.equilibrium[1, 2] = infinite
+            with self.assertRaisesRegex(vsasim.InputError, f"copy 1, joint_3: equilibrium = {infinite}: isn't finite"):
+                batch.step()
         self.assertEqual(batch.time_s[0], batch.time_s[1])
         batch.equilibrium = 0.25
         self.assertTrue(np.all(batch.equilibrium == 0.25))
@@ -304,7 +307,7 @@ class Failures(unittest.TestCase):
         for copies, threads, text in ((0, 0, "copies"), (-3, 0, "copies"), (1, -1, "threads"), (1, 1025, "threads")):
             with self.assertRaisesRegex(vsasim.InputError, text):
                 vsasim.Batch(world, copies, threads)
-        with self.assertRaises(MemoryError):
+        with self.assertRaisesRegex(MemoryError, f"copies = {2**60} "):
             vsasim.Batch(world, 2**60)
         batch = vsasim.Batch(world, 2)
         for n in (0, -1, 10**9 + 1):
@@ -314,6 +317,34 @@ class Failures(unittest.TestCase):
             for copy, error in ((2, IndexError), (-1, IndexError), (10**30, IndexError), (0.5, TypeError), ("a", TypeError)):
                 with self.subTest(copy=copy), self.assertRaises(error):
                     call(copy)
+
+
+# In a process of its own, as the system lets nobody take a limit back whole.
+SHORT_OF_MEMORY = """
+import resource
+import vsasim
+
+world = vsasim.World.load("frank_table")
+with open("/proc/self/statm", encoding="ascii") as statm:
+    now = int(statm.read().split()[0]) * resource.getpagesize()
+for more_MB, copies, threads in ((1, 2, 1), (256, 2000, 1000), (256, 10**6, 1)):
+    resource.setrlimit(resource.RLIMIT_AS, (now + more_MB * 2**20, resource.RLIM_INFINITY))
+    try:
+        vsasim.Batch(world, copies, threads)
+        print("made")
+    except Exception as error:
+        print(type(error).__name__, error)
+"""
+
+
+class Shortage(unittest.TestCase):
+    def test_what_the_system_hasnt_got_is_told_with_how_many_of_what(self):
+        ran = subprocess.run([sys.executable, "-c", SHORT_OF_MEMORY], capture_output=True, text=True, timeout=120)
+        self.assertEqual(ran.stderr, "")
+        worlds, threads, copies = ran.stdout.splitlines()
+        self.assertRegex(threads, "^InputError threads = 1000: the system doesn't start as many: ")
+        self.assertEqual(copies, "MemoryError no memory for a batch of copies = 1000000 on threads = 1")
+        self.assertEqual(worlds, "MemoryError no memory for a batch of copies = 2 on threads = 1")
 
 
 class Views(unittest.TestCase):
@@ -436,6 +467,8 @@ class StateOfAWorld(unittest.TestCase):
             self.assertEqual(world.state().tobytes(), then.tobytes())
             with self.assertRaisesRegex(vsasim.InputError, "then.state.*another world"):
                 vsasim.World.load("bench_load").restore_file(folder + "/then.state")
+            with self.assertRaisesRegex(vsasim.InputError, "then.state.*other kinds"):
+                vsasim.World.load("manipulator_3r", type="sea_example").restore_file(folder + "/then.state")
             with self.assertRaisesRegex(vsasim.InputError, "can't be read"):
                 world.restore_file(folder + "/none.state")
             with self.assertRaises(vsasim.OutputError):

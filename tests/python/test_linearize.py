@@ -145,6 +145,8 @@ class Errors(unittest.TestCase):
             ({"firmware": "asleep"}, ("firmware = asleep", "frozen", "sampled")),
             ({"friction": "none"}, ("friction = none", "stuck")),
             ({"shaft_rad": 1.5}, ("motor 1 voltage",)),
+            ({"shaft_rad": 0.1, "load_Nm": 0.2}, ("load_Nm = 0.2", "shaft_rad")),
+            ({"shaft_rad": 0.1, "load_Nm": float("nan")}, ("load_Nm = nan",)),
         ):
             with self.assertRaises(vsasim.InputError) as raised:
                 type.linearize(**arguments)
@@ -167,6 +169,9 @@ class Errors(unittest.TestCase):
         with self.assertRaises(vsasim.InputError) as raised:
             vsasim.World.load("snake_flat").linearize()
         self.assertIn("flies free", str(raised.exception))
+        for preset in (float("nan"), {"joint_2": float("inf")}):
+            with self.assertRaisesRegex(vsasim.InputError, "joint_2: preset = (nan|inf): is out of range"):
+                world.linearize(preset=preset)
         with self.assertRaises(TypeError):
             world.linearize(preset="soft")
 

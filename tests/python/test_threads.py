@@ -1,8 +1,10 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 """Other threads of Python: they run while C++ works, and a daemon thread in C++ doesn't take the process with it when Python ends."""
+import pathlib
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -125,6 +127,116 @@ class Meanwhile(unittest.TestCase):
         thread.join()
         self.assertEqual(len(refused), len(calls))
         self.assertAlmostEqual(unit.time_s, 1000.0)
+
+
+class Late:
+    """An argument whose conversion waits until another thread steps `of`, which goes on until the process ends."""
+
+    def __init__(self, of, step, value):
+        self.of, self.step, self.value = of, step, value
+
+    def begin(self):
+        threading.Thread(target=self.step, args=(self.of,), daemon=True).start()
+        while True:
+            try:
+                self.of.time_s
+            except RuntimeError:
+                return self.value
+            time.sleep(0.001)
+
+    def __array__(self, dtype=None, copy=None):
+        return np.asarray(self.begin())
+
+
+class LateIndex(Late):
+    def __index__(self):
+        return self.begin()
+
+
+def world():
+    return vsasim.World.load("manipulator_3r")
+
+
+KEY = "drive.friction_Nm"
+# What makes one, what steps it, and the calls: each with what makes a late argument of a value.
+CONVERTING = {
+    "World": (
+        world,
+        lambda w: w.run(1e6),
+        {
+            "restore_state": lambda w, late: w.restore_state(late(w.state())),
+            "apply_wrench": lambda w, late: w.apply_wrench(w.links[1], torque_Nm=late([1, 0, 0])),
+            "jacobian": lambda w, late: w.jacobian(w.links[1], late([0, 0, 0])),
+            "displace_model": lambda w, late: w.displace_model("qbmove_manipulator_3r", 0.0, late([0, 0, 0])),
+            "set_link_parameters": lambda w, late: w.set_link_parameters(w.links[2], inertia_kgm2=late([1e-3] * 3)),
+            "place": lambda w, late: w.place(late(0), 0.1, 0.1),
+            "read": lambda w, late: w.read(late(0)),
+            "ledger": lambda w, late: w.ledger(late(0)),
+        },
+    ),
+    "Batch": (
+        lambda: vsasim.Batch(world(), 2, threads=1),
+        lambda b: b.step(10**8),
+        {
+            "restore": lambda b, late: b.restore(0, late(b.state(0))),
+            "restore of a late copy": lambda b, late: b.restore(late(0), b.state(0)),
+            "state": lambda b, late: b.state(late(0)),
+            "failure": lambda b, late: b.failure(late(0)),
+            "text": lambda b, late: b.text(late(0), 0, KEY),
+            "values": lambda b, late: b.values(KEY, late(0)),
+            "give_parameters": lambda b, late: b.give_parameters(late(0), world()),
+            "set": lambda b, late: b.set(None, 0, KEY, late(0.5)),
+            "reset": lambda b, late: b.reset(late([0])),
+            "equilibrium": lambda b, late: setattr(b, "equilibrium", late(0.1)),
+            "preset": lambda b, late: setattr(b, "preset", late([0.1, 0.2, 0.3])),
+        },
+    ),
+    "UnitBatch": (
+        lambda: vsasim.UnitBatch(vsasim.ActuatorType.load(PRO), 64),
+        lambda b: b.step(10**8),
+        {
+            "reset which": lambda b, late: b.reset(late([1, 2])),
+            "reset preset": lambda b, late: b.reset(preset=late(0.1)),
+            "reset shaft_rad": lambda b, late: b.reset(shaft_rad=late(0.1)),
+            "set_levers": lambda b, late: b.set_levers(late(1e-3)),
+            "restore": lambda b, late: b.restore(0, late(b.state(0))),
+            "restore of a late unit": lambda b, late: b.restore(late(0), b.state(0)),
+            "state": lambda b, late: b.state(late(0)),
+            "equilibrium": lambda b, late: setattr(b, "equilibrium", late(0.1)),
+            "push": lambda b, late: setattr(b, "push", late(0.0)),
+        },
+    ),
+    "Unit": (
+        lambda: vsasim.Unit(vsasim.ActuatorType.load(PRO)),
+        lambda u: u.follow(1e-3, np.zeros(10**7)),
+        {
+            "restore_state": lambda u, late: u.restore_state(late(u.state())),
+            "follow": lambda u, late: u.follow(1e-3, late(np.zeros(3))),
+            "follow at a late speed": lambda u, late: u.follow(1e-3, [0.0], late(0.0)),
+        },
+    ),
+}
+
+
+def tell_what_goes_on_beside_a_step(kind):
+    make, step, calls = CONVERTING[kind]
+    for name, call in calls.items():
+        of = make()
+        try:
+            call(of, lambda value: (LateIndex if isinstance(value, int) else Late)(of, step, value))
+            print(name, "went on beside the step")
+        except RuntimeError as error:
+            if "stepped in another thread" not in str(error):
+                print(name, error)
+
+
+class WhileArgumentsConvert(unittest.TestCase):
+    def test_what_another_thread_begins_to_step_meanwhile_is_refused(self):
+        for kind in CONVERTING:
+            with self.subTest(kind):
+                program = f"import test_threads; test_threads.tell_what_goes_on_beside_a_step('{kind}')"
+                ran = subprocess.run([sys.executable, "-c", program], cwd=pathlib.Path(__file__).parent, capture_output=True, text=True, timeout=120)
+                self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (0, "", ""))
 
 
 if __name__ == "__main__":

@@ -186,9 +186,12 @@ class UnitBatch(unittest.TestCase):
             lambda: units.reset(equilibrium_rad=1e300),
             lambda: units.reset(shaft_speed_rad_per_s=-1e300),
             lambda: units.reset([1, 1], [0.1, 0.2]),
+            lambda: units.reset(shaft_rad=[0.1, 1e7]),
+            lambda: units.reset(preset=[0.1, 1e7], shaft_rad=0.2),
         ):
             with self.assertRaises(vsasim.InputError):
                 refused()
+        self.assertEqual(units.shaft_rad.tolist(), [0, 0])
         units.push[1] = 1e300
         with self.assertRaises(vsasim.InputError):
             units.step()
@@ -212,6 +215,9 @@ class UnitBatch(unittest.TestCase):
         ):
             with self.assertRaises(vsasim.InputError):
                 call()
+        for dt_s in (1e-10, 0.0, 0.017):
+            with self.assertRaisesRegex(vsasim.InputError, f"dt_s = {dt_s}: out of range"):
+                units.step(1, dt_s)
         with self.assertRaises(IndexError):
             units.reset([3])
         with self.assertRaisesRegex(IndexError, "unit 9223372036854775813: there are 3"):

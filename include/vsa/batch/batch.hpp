@@ -38,8 +38,8 @@ enum class Status { running, failed };
 class Batch {
  public:
   /// Copies of the world as it is, its hands (pulls, wrenches, torques) and parameters included. threads: how many step, the caller
-  /// one of them; 0: as many as the machine has. InputError: no copies, more than kMostThreads, a state without numbers
-  /// (engine::World::save).
+  /// one of them; 0: as many as the machine has. InputError: no copies, more than kMostThreads or than the system starts, a state
+  /// without numbers (engine::World::save). std::bad_alloc: no memory for that many copies and threads, as its text says.
   Batch(const engine::World& world, std::size_t copies, std::size_t threads = 0);
   ~Batch();
   Batch(Batch&&) noexcept;

@@ -52,6 +52,8 @@ class LeverBatch {
   /// At rest on its references for (equilibrium, preset), on for long, the shaft where it is said to be. What stands in equilibrium()
   /// and preset() is commanded with the next step as ever. InputError: no such unit, numbers beyond ±1e6.
   void reset(std::size_t unit, double equilibrium_rad, double preset, double shaft_rad, double speed_rad_per_s = 0);
+  /// InputError as reset(): for several, all of which are to be looked at before the first goes back.
+  void check_reset(std::size_t unit, double equilibrium_rad, double preset, double shaft_rad, double speed_rad_per_s = 0) const;
 
   /// A unit's state at the end of the last step, its shaft where the lever has it. Not in it: the lever, and commands that no step
   /// has taken. InputError: no such unit.
