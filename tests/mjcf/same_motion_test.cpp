@@ -217,6 +217,25 @@ TEST(Export, KeepsWhatClosesLoops) {
   }
 }
 
+TEST(Export, HasRoomForTheRowsOfAllItsLoops) {
+  const Scratch scratch;
+  constexpr int kMany = 40;
+  std::string all = looped("revolute");
+  const std::size_t from = all.find("<model"), to = all.find("<plugin");
+  const std::string model = all.substr(from, to - from) + "</model>";
+  for (int i = 0; i < kMany; ++i) {
+    std::string one = model;
+    one.replace(one.find("'m'"), 3, "'m" + std::to_string(i) + "'");
+    all.replace(all.find("</world>"), 0, one);
+  }
+  record::spew(scratch.path() / "w.sdf", all);
+  const std::string mjcf = export_mjcf(scratch.path() / "w.sdf").front().bytes;
+  const std::size_t at = mjcf.find("njmax=\"");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_GE(std::stoi(mjcf.substr(at + 7)), 6 * (kMany + 1)) << "what plain MuJoCo has: it leaves out constraints beyond";
+}
+
+/// The warnings of NAME.sdf that speak of its MJCF.
 std::size_t told_of_mjcf(const fs::path& sdf) {
   const World world = World::load(sdf);
   return static_cast<std::size_t>(std::count_if(world.warnings().begin(), world.warnings().end(), [](const std::string& text) {

@@ -323,11 +323,29 @@ std::vector<FrictionDirection> directions_of(const description::World& world) {
 
 double heightmap_scale(const Heightmap& map) { return std::max(map.highest(), 1e-6); }
 
+namespace {
+
+/// Of constraints that are there at every moment, or may be: loops, mimics, dry friction, limits.
+int standing_rows(const description::World& world) {
+  auto rows = static_cast<int>(world.couplings.size());
+  for (const Joint& j : world.joints) {
+    if (j.closes) {
+      rows += j.kind == Joint::Kind::ball ? 3 : 6;
+      continue;
+    }
+    for (const Axis& axis : j.axes) rows += (axis.friction > 0 ? 1 : 0) + (axis.range ? 1 : 0);
+  }
+  return rows;
+}
+
+}  // namespace
+
 Capacity capacity_for(const description::World& world) {
+  constexpr int kSpareRows = 50;
   int moving = 0;
   for (const Link& l : world.links) moving += l.is_static ? 0 : static_cast<int>(l.collisions.size());
   const int contacts = 16 + 2 * std::min(moving, 100);
-  return {contacts, 3 * contacts + 100};
+  return {contacts, 3 * contacts + std::max(100, standing_rows(world) + kSpareRows)};
 }
 
 Mjcf write_mjcf(const description::World& world, const std::vector<TreeNode>& tree, double step_s, Capacity capacity) {
