@@ -176,7 +176,23 @@ TEST(Export, KeepsFrictionWithADirection) {
     EXPECT_NE(beside.find("<friction geom=\"" + std::string(geom) + "::l/collision[c]\" mu=\"0.3\""), std::string::npos) << beside;
 }
 
-/// The warnings of NAME.sdf that speak of its MJCF.
+TEST(Export, TellsThePluginsReaderThatFrictionHadADirectionOfAnMjcfToo) {
+  const Scratch scratch;
+  const std::string unit = "<inertial><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial>";
+  record::spew(scratch.path() / "w.sdf",
+               "<sdf version='1.9'><world name='w'><model name='m'><link name='a'>" + unit +
+                   "<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry><surface><friction><ode><mu>0.3"
+                   "</mu><mu2>0.7</mu2><fdir1>1 2 0</fdir1></ode></friction></surface></collision></link><joint name='j' "
+                   "type='revolute'><parent>world</parent><child>a</child><axis><xyz>0 1 0</xyz></axis></joint><plugin "
+                   "name='vsa::Robot' filename='libvsa-robot.so'><actuator><joint>j</joint><type>qbmove_maker_pro_6_1</type><bus "
+                   "id='1'>arm</bus></actuator><bus name='arm'/></plugin></model></world></sdf>");
+  write(export_mjcf(scratch.path() / "w.sdf"), scratch.path());
+  const std::vector<std::string> of_sdf = export_plugin_mjcf(scratch.path() / "w.sdf").notes;
+  ASSERT_EQ(of_sdf.size(), 1u);
+  EXPECT_NE(of_sdf[0].find("<fdir1> isn't told to MuJoCo"), std::string::npos) << of_sdf[0];
+  EXPECT_EQ(export_plugin_mjcf(scratch.path() / "w.xml").notes, of_sdf);
+}
+
 /// A linkage askew in the world, closed by a joint of that type; its crank is driven.
 std::string looped(const std::string& type) {
   const auto link = [](const std::string& name, const std::string& pose) {

@@ -176,6 +176,14 @@ class Describer {
       if (geom < 0) problem("friction@geom", f.geom, "no such geom in the MJCF", "its geoms");
       if (body < 0) problem("friction@of", f.of, "no such body in the MJCF", "its bodies, or none for the world");
       objects_.directions.push_back({geom, body, f.along, f.mu, f.mu2});
+      // The direction itself is only MuJoCo's objects'.
+      for (Link& link : out_.links) {
+        for (Collision& shape : link.collisions) {
+          if (shape.name != f.geom) continue;
+          shape.surface.mu = f.mu;
+          shape.surface.mu2 = f.mu2;
+        }
+      }
     }
   }
 
