@@ -339,5 +339,41 @@ TEST(Loops, AHingeThatClosesOneInSpaceKeepsItsAxis) {
   }
 }
 
+/// A beam of 10 kg whose one end may slide up, down and along x: only the hinge about x at its other end, itself in a loop, holds it
+/// level. `bracket`: the hinge's link, or the beam.
+std::string held_level(const std::string& bracket, const std::string& at) {
+  const auto joint = [](const std::string& name, const std::string& type, const std::string& parent, const std::string& child,
+                        const std::string& axes) {
+    return "<joint name='" + name + "' type='" + type + "'><parent>" + parent + "</parent><child>" + child + "</child>" + axes +
+           "</joint>";
+  };
+  const std::string closing = "<joint name='h' type='revolute'><pose>" + at + "</pose><parent>world</parent><child>" +
+                              (bracket.empty() ? "beam" : "bracket") + "</child><axis><xyz>1 0 0</xyz></axis></joint>";
+  return world("<model name='m'><link name='a'>" + inertial(1, 0.01) + "</link><link name='b'>" + inertial(1, 0.01) +
+               "</link><link name='beam'>" + inertial(10, 0.8, "0.5 0 0 0 0 0") + "</link>" + bracket +
+               joint("along", "prismatic", "world", "a", "<axis><xyz>1 0 0</xyz></axis>") +
+               joint("up", "prismatic", "a", "b", "<axis><xyz>0 0 1</xyz></axis>") +
+               joint("u", "universal", "b", "beam", "<axis><xyz>0 1 0</xyz></axis><axis2><xyz>0 0 1</xyz></axis2>") + closing +
+               "</model>");
+}
+
+TEST(Loops, AHingeAtALightBracketHoldsAHeavyBeamAsOneAtTheBeamDoes) {
+  const auto dip = [](const std::string& sdf) {
+    World w = load(sdf);
+    EXPECT_EQ(closing(w), "m::h ");
+    w.run(1.0);
+    return distance(turned(pose_of(w, "m::beam"), {1, 0, 0}), {1, 0, 0});
+  };
+  constexpr double kAsIf_rad = 2e-5;
+  EXPECT_LT(dip(held_level("", "1 0 0 0 0 0")), kAsIf_rad);
+  for (const auto& [mass, moment] : {std::pair{1.0, 0.01}, std::pair{0.01, 2e-6}, std::pair{0.002, 1.1e-6}}) {
+    const double with =
+        dip(held_level("<link name='bracket'><pose>1 0 0 0 0 0</pose>" + inertial(mass, moment) +
+                           "</link><joint name='f' type='fixed'><parent>beam</parent><child>bracket</child></joint>",
+                       "0 0 0 0 0 0"));
+    EXPECT_LT(with, kAsIf_rad) << mass << " kg";
+  }
+}
+
 }  // namespace
 }  // namespace vsa::engine::testing

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <set>
 
+#include "physics/mujoco/rigid.hpp"
+
 namespace vsa::physics {
 namespace {
 
@@ -147,15 +149,7 @@ class Writer {
 
   [[nodiscard]] bool moves(std::optional<std::size_t> link) const { return link && !world_.links[*link].is_static; }
 
-  /// How far from the joint the link has its mass, or its inertia's.
-  [[nodiscard]] double reach(std::optional<std::size_t> link, const Vec3& from) const {
-    if (!moves(link)) return 0;
-    const Link& l = world_.links[*link];
-    const double gyration_2 = (l.inertia(0, 0) + l.inertia(1, 1) + l.inertia(2, 2)) / (2 * l.mass);
-    return std::sqrt(gyration_2) + ((l.pose * Pose3(l.com, {})).Pos() - from).Length();
-  }
-
-  /// One point holds a ball, two of its axis a hinge: as far apart as the links' masses, or turning would be soft.
+  /// One point holds a ball, two of its axis a hinge: as far apart as the masses that hang on it rigidly, or turning would be soft.
   void closure(const Joint& j) {
     const bool by_child = moves(j.child);
     const std::size_t one = by_child ? *j.child : *j.parent;
@@ -172,7 +166,7 @@ class Writer {
     } else if (j.kind == Joint::Kind::ball) {
       connect(at);
     } else {
-      const Vec3 apart = j.axes[0].xyz * std::max(reach(j.child, at), reach(j.parent, at));
+      const Vec3 apart = j.axes[0].xyz * std::max(rigid_.reach(j.child, at), rigid_.reach(j.parent, at));
       connect(at + apart);
       connect(at - apart);
     }
@@ -273,6 +267,7 @@ class Writer {
   const std::vector<TreeNode>& tree_;
   std::string file_;
   MjcfNames names_;
+  RigidGroups rigid_{world_};
   std::vector<std::vector<std::size_t>> children_;  // of a link, into tree_
   std::vector<std::size_t> roots_;
   ContactKinds kinds_;
