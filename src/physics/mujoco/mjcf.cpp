@@ -16,7 +16,6 @@ namespace {
 
 using Back = std::back_insert_iterator<std::string>;
 
-constexpr double kSmallestMu = 1e-5;     // MuJoCo's own lower bound; below it a contact has no friction at all
 constexpr std::size_t kBodiesDeep = 64;  // in each other, in one file; Debian's tinyxml2 takes some 100 elements
 constexpr double kHeightmapBase = 0.1;   // m of ground below the lowest point
 

@@ -174,6 +174,8 @@ class Describer {
       const int geom = mj_name2id(&m_, mjOBJ_GEOM, f.geom.c_str()),
                 body = f.of.empty() ? 0 : mj_name2id(&m_, mjOBJ_BODY, f.of.c_str());
       if (geom < 0) problem("friction@geom", f.geom, "no such geom in the MJCF", "its geoms");
+      if (geom >= 0 && m_.geom_condim[geom] == 1)
+        problem("friction@geom", f.geom, "has condim 1 in the MJCF, no friction", "geoms of condim 3 or more");
       if (body < 0) problem("friction@of", f.of, "no such body in the MJCF", "its bodies, or none for the world");
       objects_.directions.push_back({geom, body, f.along, f.mu, f.mu2});
       // The direction itself is only MuJoCo's objects'.
@@ -264,6 +266,7 @@ class Describer {
         joint.closes = true;
         joint.pose.Pos() = told.place;
         if (told.kind == Kind::hinge) joint.axes.emplace_back().xyz = told.axis;
+        check_closing(joint);
         objects_.joints.push_back(ids);
         out_.joints.push_back(std::move(joint));
         continue;
@@ -279,6 +282,19 @@ class Describer {
       add_joint(std::move(joint), ids);
       if (told.start && out_.joints.back().one_axis()) out_.joints.back().axes[0].start = told.start;
     }
+  }
+
+  /// That it is a constraint of the MJCF's, and nothing else.
+  void check_closing(const Joint& joint) {
+    if (mj_name2id(&m_, mjOBJ_JOINT, joint.name.c_str()) >= 0)
+      return problem("joint@closes", joint.name, "is a joint of the MJCF, which has a coordinate", "closes=\"false\"");
+    const auto body = [&](std::optional<std::size_t> link) { return link ? objects_.body[*link] : 0; };
+    const Kind kind = joint.kind;
+    if (closures_of(m_, *data_, joint, body(joint.parent), body(joint.child)) < (kind == Kind::hinge ? 2 : 1))
+      problem("joint@closes", joint.name, "no such equality between its links in the MJCF",
+              kind == Kind::fixed  ? "a <weld>"
+              : kind == Kind::ball ? "a <connect> at its place"
+                                   : "two <connect> on its axis");
   }
 
   void couplings() {
