@@ -272,6 +272,15 @@ TEST(Loops, TheJointThatClosesOneHasNoAngle) {
   }
 }
 
+TEST(Loops, TheJointThatClosesOneIsntOfferedToAnActuator) {
+  const std::string told = problems_of(four_bar({}, {.more = plugin(actuator("elbow"))}));
+  EXPECT_NE(told.find("the model has no such joint (allowed: o, a, p)"), std::string::npos) << told;
+  const std::string named = problems_of(four_bar({}, {.more = "<joint name='rod' type='fixed'><parent>crank</parent><child>end"
+                                                              "</child></joint><link name='end'>" +
+                                                              inertial(0.1, 1e-4) + "</link>" + plugin(actuator("rod"))}));
+  EXPECT_NE(named.find("can't move: it is fixed"), std::string::npos) << named;
+}
+
 TEST(Loops, AnActuatedJointStaysInTheTree) {
   for (const char* driven : {"o", "a", "b", "p"}) {
     World w = load(four_bar({}, {.more = plugin(actuator(driven))}));
