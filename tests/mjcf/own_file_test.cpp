@@ -139,6 +139,12 @@ TEST(OwnMjcf, MakesUpNoNameThatIsThere) {
   });
   EXPECT_NE(twice.find("arm::upper"), std::string::npos) << twice;
   EXPECT_NE(twice.find("is there twice"), std::string::npos) << twice;
+  const std::string alike = message_of<InputError>([] {
+    (void)World::load_string(with(arm(), "<body name=\"base\">",
+                                  "<body name=\"a b::x\"><geom size=\"0.1\"/></body><body name=\"a_b::x\"><geom size=\"0.1\"/>"
+                                  "</body><body>"));
+  });
+  EXPECT_NE(alike.find("a_b::x: is there twice: \"a b::x\" and \"a_b::x\" are both called so here"), std::string::npos) << alike;
 }
 
 TEST(OwnMjcf, IsNoUrdfWithAnotherEnding) {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <map>
 
 #include "physics/mujoco/mjcf_file.hpp"
 #include "physics/mujoco/versions.hpp"
@@ -58,19 +58,21 @@ class Describer {
   /// is called so, "body_3_", and so on.
   template <class Counts>
   [[nodiscard]] std::vector<std::string> names_of(int type, int count, const char* kind, Counts&& counts) {
-    std::set<std::string> taken;
+    std::map<std::string, std::string> taken;  // by whom of the file
     std::vector<std::string> out;
     for (int id = 0; id < count; ++id) {
       const std::string own = counts(id) ? name_of(m_, type, id) : "";
       out.push_back(own.empty() ? "" : scoped(own));
-      if (!own.empty() && !taken.insert(out.back()).second)
-        problem(kind, out.back(), "is there twice, once with the model's name before it", "names of their own");
+      if (own.empty()) continue;
+      if (const auto [at, is_new] = taken.emplace(out.back(), own); !is_new)
+        problem(kind, out.back(), fmt::format("is there twice: \"{}\" and \"{}\" are both called so here", at->second, own),
+                "names of their own");
     }
     for (int id = 0; id < count; ++id) {
       std::string& name = out[static_cast<std::size_t>(id)];
       if (!name.empty()) continue;
       name = scoped(fmt::format("{}_{}", kind, id));
-      while (!taken.insert(name).second) name += '_';
+      while (!taken.emplace(name, "").second) name += '_';
     }
     return out;
   }
