@@ -384,5 +384,34 @@ TEST(Loops, AHingeAtALightBracketHoldsAHeavyBeamAsOneAtTheBeamDoes) {
   }
 }
 
+TEST(Loops, ASavedStateMayTurnABallOnlyWhereItClosesOne) {
+  const FourBar f;
+  const auto saved = [&](const FourBarFile& file, const std::vector<std::string>& bars) {
+    const FourBar::Posture zero = f.at(0), to = f.at(0.4);
+    const std::map<std::string, std::array<double, 3>> at = {{"crank", {0, 0, 0.4}},
+                                                             {"coupler", {to.a.x, to.a.z, to.coupler - zero.coupler}},
+                                                             {"rocker", {f.ground, 0, to.rocker - zero.rocker}}};
+    std::string state = "<state world_name='w'><model name='m'><pose>0 0 1 0 0 0</pose>";
+    for (const std::string& bar : bars) {
+      const auto& [x, z, turn] = at.at(bar);
+      char pose[200];
+      std::snprintf(pose, sizeof pose, "%.17g 0 %.17g 0 %.17g 0", x, 1 + z, turn);
+      state += "<link name='" + bar + "'><pose>" + pose + "</pose></link>";
+    }
+    std::string all = four_bar(f, file);
+    return all.replace(all.find("</world>"), 0, state + "</model></state>");
+  };
+  FourBarFile one;
+  one.type["b"] = "ball";
+  World w = load(saved(one, {"crank", "coupler", "rocker"}));
+  EXPECT_EQ(closing(w), "m::b ");
+  EXPECT_TRUE(w.warnings().empty()) << w.warnings()[0];
+  EXPECT_NEAR(w.joint_angle("m::o"), 0.4, 1e-9);
+  FourBarFile two = one;
+  two.type["a"] = "ball";
+  const std::string told = problems_of(saved(two, {"crank", "coupler", "rocker"}));
+  EXPECT_NE(told.find("m::a can't start turned: it isn't one with one axis"), std::string::npos) << told;
+}
+
 }  // namespace
 }  // namespace vsa::engine::testing
