@@ -315,7 +315,7 @@ void check_joints(const host::RobotConfig& config, const std::vector<std::string
     if (std::find(joints.begin(), joints.end(), a.joint) != joints.end()) continue;
     problems.add({std::string(where), "actuator[" + a.name + "]/joint", '"' + a.joint + '"',
                   "the model has no such joint" + did_you_mean(a.joint, joints),
-                  joints.empty() ? "the model has no joints" : join(joints)});
+                  joints.empty() ? "the model has none that an actuator can drive" : join(joints)});
   }
   check_motor_joints(config, joints, where, problems);
 }

@@ -228,6 +228,14 @@ bool in_loop(const description::World& world, std::size_t joint) {
   return !unite(world.joints[joint]);
 }
 
-void close_loops(ReadContext& c) { Loops(c).close(); }
+void close_loops(ReadContext& c) {
+  Loops(c).close();
+  for (const TurnedJoint& t : c.turned) {
+    const Joint& joint = c.out.joints[t.joint];
+    if (!joint.closes)
+      c.problem(t.element, t.key, "", fmt::format("joint {} can't start turned: it isn't one with one axis", joint.name),
+                "links' poses that leave it as the model has it");
+  }
+}
 
 }  // namespace vsa::reader

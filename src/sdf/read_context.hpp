@@ -48,6 +48,13 @@ struct DirectionFrame {
   sdf::ElementPtr element;
 };
 
+/// A joint without one axis that a <state> has turned, before it is known which joints close loops.
+struct TurnedJoint {
+  std::size_t joint = 0;
+  std::string key;
+  sdf::ElementPtr element;
+};
+
 struct ReadContext {
   description::World& out;
   Problems& problems;
@@ -63,6 +70,7 @@ struct ReadContext {
   bool parsed_clean = true;  ///< false: poses may not resolve for reasons already reported
   std::vector<Mimic> mimics{};
   std::vector<DirectionFrame> direction_frames{};
+  std::vector<TurnedJoint> turned{};
   std::set<std::string> driven{};              ///< joints that plugins of ours name, scoped
   std::map<std::string, Pose3> model_poses{};  ///< scoped name → its frame in the world
 
@@ -101,7 +109,7 @@ void check_sdfs(ReadContext& context, const sdf::ElementPtr& described);
 void read_state(ReadContext& context, const sdf::World& world);
 /// Once all joints are known: welds those without room, finds where each starts, couples followers to leaders.
 void finish_joints(ReadContext& context);
-/// Then: takes a joint out of each kinematic loop, which closes it.
+/// Then: takes a joint out of each kinematic loop, which closes it. Of the others those without one axis start unturned.
 void close_loops(ReadContext& context);
 /// Whether its two ends hang together without it, too.
 [[nodiscard]] bool in_loop(const description::World& world, std::size_t joint);

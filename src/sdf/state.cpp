@@ -4,7 +4,8 @@
 //
 //   model/pose          moves the model
 //   model/joint/angle   where a joint with one axis starts
-//   model/link/pose     in the world; joints start where these poses have them, and poses that no joints reach are refused
+//   model/link/pose     in the world; joints start where these poses have them, and poses that no joints reach are refused. Of a ball
+//                       or two axes there is no such start: only where it closes a loop, whose other joints turn it, may it be turned
 // Speeds, accelerations and forces are left out, with a warning.
 #include <fmt/format.h>
 
@@ -136,6 +137,12 @@ class ModelState {
       } else {
         reached.Rot() = Quat::about(axis, start);
       }
+    }
+    const bool turns = j.kind == Joint::Kind::ball || j.kind == Joint::Kind::universal;
+    if (turns && turn.Pos().Length() <= kPoseTolerance) {
+      if (distance(turn) > kPoseTolerance)
+        c_.turned.push_back({static_cast<std::size_t>(&j - c_.out.joints.data()), key_ + "/link", element_});
+      return;
     }
     if (distance(reached.Inverse() * turn) > kPoseTolerance)
       return problem(element_, "/link", "", "poses that joint " + j.name + " can't reach", "poses of a saved world");

@@ -146,8 +146,9 @@ void find_direction_frames(ReadContext& c) {
         const std::string name = scoped_name(scope_of(link.name), d.frame);
         const auto it = std::find_if(c.out.links.begin(), c.out.links.end(), [&](const Link& l) { return l.name == name; });
         if (it == c.out.links.end())
-          return c.problem(d.element, d.collision + kFriction + "/ode/fdir1@expressed_in", d.frame, "no such link in its model",
-                           "a link's name");
+          return c.problem(d.element,
+                           fmt::format("{}{}/{}/fdir1@expressed_in", d.collision, kFriction, d.element->GetParent()->GetName()),
+                           d.frame, "no such link in its model", "a link's name");
         shape.surface.first_of = static_cast<std::size_t>(it - c.out.links.begin());
       }
     }

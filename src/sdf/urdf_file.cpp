@@ -171,6 +171,7 @@ Urdf mend_urdf(XMLElement& robot, const std::string& file, std::size_t id, Notes
   }
   join_robot_elements(robot, id);
   mend_gazebo_elements(robot, urdf, notes, problems);
+  keep_gravity_apart(robot, urdf, notes);
   mend_massless_links(robot, urdf, notes, problems);
   return urdf;
 }

@@ -3,6 +3,7 @@
 // URDF before and after libsdformat 12 turns it into SDF, which by itself, and without a word to the user,
 //   leaves out a link of no mass (none given, or up to 1e-6 kg) and everything that hangs on it, by whatever joints;
 //   drops <mimic>;
+//   takes the gravity of all links that it lumps into one where one of them is without;
 //   lets a second <gazebo> for the whole robot undo the <static> of the first.
 // So the text is mended first, and the result compared with what the file says: a link may be missing only where a chain of fixed
 // joints lumps it into one that is there.
@@ -51,6 +52,9 @@ struct Urdf {
 
 /// <gazebo> elements: ROS 1 leftovers, and what only some engines understand.
 void mend_gazebo_elements(tinyxml2::XMLElement& robot, const Urdf& urdf, Notes& notes, Problems& problems);
+
+/// Links with gravity aren't lumped with links without: what joins them stays.
+void keep_gravity_apart(tinyxml2::XMLElement& robot, Urdf& urdf, Notes& notes);
 
 /// Gives links without mass a little where the tree needs them, or refuses them.
 void mend_massless_links(tinyxml2::XMLElement& robot, const Urdf& urdf, Notes& notes, Problems& problems);

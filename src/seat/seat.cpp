@@ -21,8 +21,13 @@ const Joint* find(const Model& model, const std::string& name) {
 }
 
 void check_joints(const host::RobotConfig& config, const Model& model, Problems& problems) {
-  std::vector<std::string> names;
-  for (const Joint& joint : model.joints) names.push_back(joint.name);
+  const auto is_named = [&](const Joint& joint) {
+    return std::any_of(config.actuators.begin(), config.actuators.end(),
+                       [&](const host::ActuatorConfig& a) { return a.joint == joint.name; });
+  };
+  std::vector<std::string> names;  // those that messages may offer, and those of which there is more to say
+  for (const Joint& joint : model.joints)
+    if (joint.refusal.empty() || is_named(joint)) names.push_back(joint.name);
   config::check_joints(config, names, model.where, problems);
   for (const host::ActuatorConfig& a : config.actuators) {
     const Joint* joint = find(model, a.joint);

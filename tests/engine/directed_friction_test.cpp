@@ -154,6 +154,12 @@ TEST(DirectedFriction, IsOfTheLinkThatItIsExpressedIn) {
                               surface("1", "0.5", " gz:expressed_in='ghost'>1 0 0") + "</collision></link></model>"))
                 .find("ode/fdir1@expressed_in = ghost: no such link"),
             std::string::npos);
+  const std::string of_bullet = problems_of(
+      world("<model name='m'><link name='l'>" + inertial(1, 1) +
+            "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry><surface><friction><bullet><friction>1"
+            "</friction><friction2>0.5</friction2><fdir1 gz:expressed_in='ghost'>1 0 0</fdir1></bullet></friction></surface>"
+            "</collision></link></model>"));
+  EXPECT_NE(of_bullet.find("bullet/fdir1@expressed_in = ghost: no such link"), std::string::npos) << of_bullet;
 }
 
 }  // namespace

@@ -272,6 +272,15 @@ TEST(Loops, TheJointThatClosesOneHasNoAngle) {
   }
 }
 
+TEST(Loops, TheJointThatClosesOneIsntOfferedToAnActuator) {
+  const std::string told = problems_of(four_bar({}, {.more = plugin(actuator("elbow"))}));
+  EXPECT_NE(told.find("the model has no such joint (allowed: o, a, p)"), std::string::npos) << told;
+  const std::string named = problems_of(four_bar({}, {.more = "<joint name='rod' type='fixed'><parent>crank</parent><child>end"
+                                                              "</child></joint><link name='end'>" +
+                                                              inertial(0.1, 1e-4) + "</link>" + plugin(actuator("rod"))}));
+  EXPECT_NE(named.find("can't move: it is fixed"), std::string::npos) << named;
+}
+
 TEST(Loops, AnActuatedJointStaysInTheTree) {
   for (const char* driven : {"o", "a", "b", "p"}) {
     World w = load(four_bar({}, {.more = plugin(actuator(driven))}));
@@ -337,6 +346,71 @@ TEST(Loops, AHingeThatClosesOneInSpaceKeepsItsAxis) {
     EXPECT_LT(m, step_s > 2e-3 ? 1e-3 : 2e-4) << step_s;
     EXPECT_LT(rad, step_s > 2e-3 ? 1e-2 : 2e-3) << step_s;
   }
+}
+
+/// A beam of 10 kg whose one end may slide up, down and along x: only the hinge about x at its other end, itself in a loop, holds it
+/// level. `bracket`: the hinge's link, or the beam.
+std::string held_level(const std::string& bracket, const std::string& at) {
+  const auto joint = [](const std::string& name, const std::string& type, const std::string& parent, const std::string& child,
+                        const std::string& axes) {
+    return "<joint name='" + name + "' type='" + type + "'><parent>" + parent + "</parent><child>" + child + "</child>" + axes +
+           "</joint>";
+  };
+  const std::string closing = "<joint name='h' type='revolute'><pose>" + at + "</pose><parent>world</parent><child>" +
+                              (bracket.empty() ? "beam" : "bracket") + "</child><axis><xyz>1 0 0</xyz></axis></joint>";
+  return world("<model name='m'><link name='a'>" + inertial(1, 0.01) + "</link><link name='b'>" + inertial(1, 0.01) +
+               "</link><link name='beam'>" + inertial(10, 0.8, "0.5 0 0 0 0 0") + "</link>" + bracket +
+               joint("along", "prismatic", "world", "a", "<axis><xyz>1 0 0</xyz></axis>") +
+               joint("up", "prismatic", "a", "b", "<axis><xyz>0 0 1</xyz></axis>") +
+               joint("u", "universal", "b", "beam", "<axis><xyz>0 1 0</xyz></axis><axis2><xyz>0 0 1</xyz></axis2>") + closing +
+               "</model>");
+}
+
+TEST(Loops, AHingeAtALightBracketHoldsAHeavyBeamAsOneAtTheBeamDoes) {
+  const auto dip = [](const std::string& sdf) {
+    World w = load(sdf);
+    EXPECT_EQ(closing(w), "m::h ");
+    w.run(1.0);
+    return distance(turned(pose_of(w, "m::beam"), {1, 0, 0}), {1, 0, 0});
+  };
+  constexpr double kAsIf_rad = 2e-5;
+  EXPECT_LT(dip(held_level("", "1 0 0 0 0 0")), kAsIf_rad);
+  for (const auto& [mass, moment] : {std::pair{1.0, 0.01}, std::pair{0.01, 2e-6}, std::pair{0.002, 1.1e-6}}) {
+    const double with =
+        dip(held_level("<link name='bracket'><pose>1 0 0 0 0 0</pose>" + inertial(mass, moment) +
+                           "</link><joint name='f' type='fixed'><parent>beam</parent><child>bracket</child></joint>",
+                       "0 0 0 0 0 0"));
+    EXPECT_LT(with, kAsIf_rad) << mass << " kg";
+  }
+}
+
+TEST(Loops, ASavedStateMayTurnABallOnlyWhereItClosesOne) {
+  const FourBar f;
+  const auto saved = [&](const FourBarFile& file, const std::vector<std::string>& bars) {
+    const FourBar::Posture zero = f.at(0), to = f.at(0.4);
+    const std::map<std::string, std::array<double, 3>> at = {{"crank", {0, 0, 0.4}},
+                                                             {"coupler", {to.a.x, to.a.z, to.coupler - zero.coupler}},
+                                                             {"rocker", {f.ground, 0, to.rocker - zero.rocker}}};
+    std::string state = "<state world_name='w'><model name='m'><pose>0 0 1 0 0 0</pose>";
+    for (const std::string& bar : bars) {
+      const auto& [x, z, turn] = at.at(bar);
+      char pose[200];
+      std::snprintf(pose, sizeof pose, "%.17g 0 %.17g 0 %.17g 0", x, 1 + z, turn);
+      state += "<link name='" + bar + "'><pose>" + pose + "</pose></link>";
+    }
+    std::string all = four_bar(f, file);
+    return all.replace(all.find("</world>"), 0, state + "</model></state>");
+  };
+  FourBarFile one;
+  one.type["b"] = "ball";
+  World w = load(saved(one, {"crank", "coupler", "rocker"}));
+  EXPECT_EQ(closing(w), "m::b ");
+  EXPECT_TRUE(w.warnings().empty()) << w.warnings()[0];
+  EXPECT_NEAR(w.joint_angle("m::o"), 0.4, 1e-9);
+  FourBarFile two = one;
+  two.type["a"] = "ball";
+  const std::string told = problems_of(saved(two, {"crank", "coupler", "rocker"}));
+  EXPECT_NE(told.find("m::a can't start turned: it isn't one with one axis"), std::string::npos) << told;
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ const std::string kArm = R"(<mujoco model="arm">
   <custom><text name="vsa::Robot" data="PLUGIN"/></custom>
   <worldbody>
     <geom name="floor" type="plane" size="2 3 1" pos="0 0 -1"/>
-    <body name="base"><geom name="stand" type="box" size="0.1 0.1 0.02"/>
+    <body name="base"><geom name="stand" type="box" size="0.1 0.1 0.02" condim="1"/>
       <body name="upper" pos="0 0 0.1">
         <joint name="shoulder" axis="0 0 1" range="-2 2" limited="true" damping="0.01"/>
         <geom type="capsule" size="0.02 0.1" rgba="1 0 0 1"/>
@@ -139,6 +139,12 @@ TEST(OwnMjcf, MakesUpNoNameThatIsThere) {
   });
   EXPECT_NE(twice.find("arm::upper"), std::string::npos) << twice;
   EXPECT_NE(twice.find("is there twice"), std::string::npos) << twice;
+  const std::string alike = message_of<InputError>([] {
+    (void)World::load_string(with(arm(), "<body name=\"base\">",
+                                  "<body name=\"a b::x\"><geom size=\"0.1\"/></body><body name=\"a_b::x\"><geom size=\"0.1\"/>"
+                                  "</body><body>"));
+  });
+  EXPECT_NE(alike.find("a_b::x: is there twice: \"a b::x\" and \"a_b::x\" are both called so here"), std::string::npos) << alike;
 }
 
 TEST(OwnMjcf, IsNoUrdfWithAnotherEnding) {
@@ -240,30 +246,46 @@ TEST_P(WrongBeside, IsRefusedWithFileKeyAndWhatIsAllowed) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, WrongBeside,
-    testing::Values(Wrong{"broken", "<vsa", "an XML file"}, Wrong{"root", "<other/>", "<vsa>"},
-                    Wrong{"element", "<vsa><bone/></vsa>", "world, link, joint"},
-                    Wrong{"link", "<vsa><link name=\"forearm\"/></vsa>", "no such body in the MJCF"},
-                    Wrong{"unlisted", "<vsa><link name=\"base\"/></vsa>", "isn't among the links"},
-                    Wrong{"moves", "<vsa><link name=\"base\"/><link name=\"upper\" static=\"true\"/></vsa>", "can move"},
-                    Wrong{"joint", "<vsa><joint name=\"elbow\" kind=\"hinge\"/></vsa>", "no such joint of that kind"},
-                    Wrong{"kind", "<vsa><joint name=\"shoulder\" kind=\"screw\"/></vsa>", "fixed, hinge, slide, ball, universal"},
-                    Wrong{"end", "<vsa><joint name=\"shoulder\" kind=\"hinge\" parent=\"hand\"/></vsa>", "no such link"},
-                    Wrong{"shape", "<vsa><link name=\"base\"><visual shape=\"cone\"/></link></vsa>", "box, sphere, cylinder"},
-                    Wrong{"numbers", "<vsa><link name=\"base\"><visual shape=\"box\" pose=\"0 0 zero\"/></link></vsa>",
-                          "7 numbers"},
-                    Wrong{"start", "<vsa><joint name=\"shoulder\" kind=\"hinge\" start=\"up\"/></vsa>", "1 number"},
-                    Wrong{"closes", "<vsa><joint name=\"k\" kind=\"slide\" closes=\"true\" place=\"0 0 0\"/></vsa>",
-                          "a fixed, hinge or ball joint"},
-                    Wrong{"place", "<vsa><joint name=\"k\" kind=\"ball\" closes=\"true\"/></vsa>", "3 numbers"},
-                    Wrong{"axis", "<vsa><joint name=\"k\" kind=\"hinge\" closes=\"true\" place=\"0 0 0\"/></vsa>", "joint@axis"},
-                    Wrong{"unknown", "<vsa><link name=\"base\" masss_kg=\"1\"/></vsa>", "name, model, static, mass_kg, gravity"},
-                    Wrong{"child", "<vsa><link name=\"base\"><visaul/></link></vsa>", "link/visaul"},
-                    Wrong{"flag", "<vsa><link name=\"base\" static=\"yes\"/></vsa>", "true, false"},
-                    Wrong{"friction", "<vsa><friction geom=\"x\" mu=\"1\" mu2=\"2\" along=\"1 0 0\"/></vsa>", "no such geom"},
-                    Wrong{"direction", "<vsa><friction geom=\"x\" mu=\"1\" mu2=\"2\" along=\"1 1 0\"/></vsa>", "a unit vector"},
-                    Wrong{"mu", "<vsa><friction geom=\"x\" mu=\"-1\" mu2=\"2\" along=\"1 0 0\"/></vsa>", "not both 0"},
-                    Wrong{"gravity", "<vsa><link name=\"base\" gravity=\"off\"/></vsa>", "link@gravity"},
-                    Wrong{"robot", "<vsa><robot model=\"arm\"/></vsa>", "<plugin>"}),
+    testing::Values(
+        Wrong{"broken", "<vsa", "an XML file"}, Wrong{"root", "<other/>", "<vsa>"},
+        Wrong{"element", "<vsa><bone/></vsa>", "world, link, joint"},
+        Wrong{"link", "<vsa><link name=\"forearm\"/></vsa>", "no such body in the MJCF"},
+        Wrong{"unlisted", "<vsa><link name=\"base\"/></vsa>", "isn't among the links"},
+        Wrong{"moves", "<vsa><link name=\"base\"/><link name=\"upper\" static=\"true\"/></vsa>", "can move"},
+        Wrong{"joint", "<vsa><joint name=\"elbow\" kind=\"hinge\"/></vsa>", "no such joint of that kind"},
+        Wrong{"kind", "<vsa><joint name=\"shoulder\" kind=\"screw\"/></vsa>", "fixed, hinge, slide, ball, universal"},
+        Wrong{"end", "<vsa><joint name=\"shoulder\" kind=\"hinge\" parent=\"hand\"/></vsa>", "no such link"},
+        Wrong{"shape", "<vsa><link name=\"base\"><visual shape=\"cone\"/></link></vsa>", "box, sphere, cylinder"},
+        Wrong{"numbers", "<vsa><link name=\"base\"><visual shape=\"box\" pose=\"0 0 zero\"/></link></vsa>", "7 numbers"},
+        Wrong{"start", "<vsa><joint name=\"shoulder\" kind=\"hinge\" start=\"up\"/></vsa>", "1 number"},
+        Wrong{"closes", "<vsa><joint name=\"k\" kind=\"slide\" closes=\"true\" place=\"0 0 0\"/></vsa>",
+              "a fixed, hinge or ball joint"},
+        Wrong{"place", "<vsa><joint name=\"k\" kind=\"ball\" closes=\"true\"/></vsa>", "3 numbers"},
+        Wrong{"axis", "<vsa><joint name=\"k\" kind=\"hinge\" closes=\"true\" place=\"0 0 0\"/></vsa>", "joint@axis"},
+        Wrong{"unknown", "<vsa><link name=\"base\" masss_kg=\"1\"/></vsa>", "name, model, static, mass_kg, gravity"},
+        Wrong{"child", "<vsa><link name=\"base\"><visaul/></link></vsa>", "link/visaul"},
+        Wrong{"flag", "<vsa><link name=\"base\" static=\"yes\"/></vsa>", "true, false"},
+        Wrong{"friction", "<vsa><friction geom=\"x\" mu=\"1\" mu2=\"2\" along=\"1 0 0\"/></vsa>", "no such geom"},
+        Wrong{"direction", "<vsa><friction geom=\"x\" mu=\"1\" mu2=\"2\" along=\"1 1 0\"/></vsa>", "a unit vector"},
+        Wrong{"mu", "<vsa><friction geom=\"x\" mu=\"-1\" mu2=\"2\" along=\"1 0 0\"/></vsa>", "not both 0"},
+        Wrong{"gravity", "<vsa><link name=\"base\" gravity=\"off\"/></vsa>", "link@gravity"},
+        Wrong{"coordinate",
+              "<vsa><joint name=\"shoulder\" kind=\"hinge\" child=\"arm::upper\" closes=\"true\" place=\"0 0 0\" "
+              "axis=\"0 0 1\"/></vsa>",
+              "is a joint of the MJCF, which has a coordinate"},
+        Wrong{"equality", "<vsa><joint name=\"k\" kind=\"ball\" child=\"arm::upper\" closes=\"true\" place=\"0 0 0\"/></vsa>",
+              "no such equality between its links in the MJCF (allowed: a <connect> at its place)"},
+        Wrong{"no_direction", "<vsa><joint name=\"k\" kind=\"hinge\" closes=\"true\" place=\"0 0 0\" axis=\"0 0 0\"/></vsa>",
+              "a unit vector"},
+        Wrong{"long_axis", "<vsa><joint name=\"k\" kind=\"hinge\" closes=\"true\" place=\"0 0 0\" axis=\"0 0 7\"/></vsa>",
+              "a unit vector"},
+        Wrong{"frictions",
+              "<vsa><friction geom=\"floor\" mu=\"1\" mu2=\"2\" along=\"1 0 0\"/><friction geom=\"floor\" mu=\"1\" "
+              "mu2=\"3\" along=\"1 0 0\"/></vsa>",
+              "friction@geom = floor: has several"},
+        Wrong{"slippery", "<vsa><friction geom=\"stand\" mu=\"1\" mu2=\"2\" along=\"1 0 0\"/></vsa>", "has condim 1 in the MJCF"},
+        Wrong{"weightless", "<vsa><link name=\"base\" static=\"true\" gravity=\"false\"/></vsa>", "is static and has no weight"},
+        Wrong{"robot", "<vsa><robot model=\"arm\"/></vsa>", "<plugin>"}),
     [](const auto& of) { return std::string(of.param.name); });
 
 TEST(BuiltInWorlds, AreThereWithAndWithoutSdf) {

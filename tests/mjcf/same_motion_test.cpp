@@ -176,7 +176,23 @@ TEST(Export, KeepsFrictionWithADirection) {
     EXPECT_NE(beside.find("<friction geom=\"" + std::string(geom) + "::l/collision[c]\" mu=\"0.3\""), std::string::npos) << beside;
 }
 
-/// The warnings of NAME.sdf that speak of its MJCF.
+TEST(Export, TellsThePluginsReaderThatFrictionHadADirectionOfAnMjcfToo) {
+  const Scratch scratch;
+  const std::string unit = "<inertial><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial>";
+  record::spew(scratch.path() / "w.sdf",
+               "<sdf version='1.9'><world name='w'><model name='m'><link name='a'>" + unit +
+                   "<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry><surface><friction><ode><mu>0.3"
+                   "</mu><mu2>0.7</mu2><fdir1>1 2 0</fdir1></ode></friction></surface></collision></link><joint name='j' "
+                   "type='revolute'><parent>world</parent><child>a</child><axis><xyz>0 1 0</xyz></axis></joint><plugin "
+                   "name='vsa::Robot' filename='libvsa-robot.so'><actuator><joint>j</joint><type>qbmove_maker_pro_6_1</type><bus "
+                   "id='1'>arm</bus></actuator><bus name='arm'/></plugin></model></world></sdf>");
+  write(export_mjcf(scratch.path() / "w.sdf"), scratch.path());
+  const std::vector<std::string> of_sdf = export_plugin_mjcf(scratch.path() / "w.sdf").notes;
+  ASSERT_EQ(of_sdf.size(), 1u);
+  EXPECT_NE(of_sdf[0].find("<fdir1> isn't told to MuJoCo"), std::string::npos) << of_sdf[0];
+  EXPECT_EQ(export_plugin_mjcf(scratch.path() / "w.xml").notes, of_sdf);
+}
+
 /// A linkage askew in the world, closed by a joint of that type; its crank is driven.
 std::string looped(const std::string& type) {
   const auto link = [](const std::string& name, const std::string& pose) {
@@ -217,6 +233,25 @@ TEST(Export, KeepsWhatClosesLoops) {
   }
 }
 
+TEST(Export, HasRoomForTheRowsOfAllItsLoops) {
+  const Scratch scratch;
+  constexpr int kMany = 40;
+  std::string all = looped("revolute");
+  const std::size_t from = all.find("<model"), to = all.find("<plugin");
+  const std::string model = all.substr(from, to - from) + "</model>";
+  for (int i = 0; i < kMany; ++i) {
+    std::string one = model;
+    one.replace(one.find("'m'"), 3, "'m" + std::to_string(i) + "'");
+    all.replace(all.find("</world>"), 0, one);
+  }
+  record::spew(scratch.path() / "w.sdf", all);
+  const std::string mjcf = export_mjcf(scratch.path() / "w.sdf").front().bytes;
+  const std::size_t at = mjcf.find("njmax=\"");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_GE(std::stoi(mjcf.substr(at + 7)), 6 * (kMany + 1)) << "what plain MuJoCo has: it leaves out constraints beyond";
+}
+
+/// The warnings of NAME.sdf that speak of its MJCF.
 std::size_t told_of_mjcf(const fs::path& sdf) {
   const World world = World::load(sdf);
   return static_cast<std::size_t>(std::count_if(world.warnings().begin(), world.warnings().end(), [](const std::string& text) {

@@ -158,6 +158,13 @@ TEST(RobotFiles, AMassOfALumpedLinkIsKept) {
   EXPECT_NEAR(mass, 2.2, 1e-9);
 }
 
+TEST(RobotFiles, ALinkWithoutGravityTakesNothingOfTheWeightOfWhatIsFixedToIt) {
+  World w = load("gravity_off_lumped.urdf");
+  w.run(0.5);
+  const double all_kg = 8, with_kg = 1, fallen_m = 9.8 / 2 * 0.5 * 0.5 * with_kg / all_kg;
+  EXPECT_NEAR(pose_of(w, "r::foot").position[2], -fallen_m, 0.01 * fallen_m) << "1 of 8 kg pulls";
+}
+
 TEST(RobotFiles, CollisionsOfLumpedLinksAreKept) {
   EXPECT_EQ(load("lumped_collisions.urdf").links().front().visuals.size(), 5u) << "without visuals, collisions are shown";
 }

@@ -9,12 +9,13 @@
 #include <iterator>
 #include <set>
 
+#include "physics/mujoco/rigid.hpp"
+
 namespace vsa::physics {
 namespace {
 
 using Back = std::back_insert_iterator<std::string>;
 
-constexpr double kSmallestMu = 1e-5;     // MuJoCo's own lower bound; below it a contact has no friction at all
 constexpr std::size_t kBodiesDeep = 64;  // in each other, in one file; Debian's tinyxml2 takes some 100 elements
 constexpr double kHeightmapBase = 0.1;   // m of ground below the lowest point
 
@@ -147,15 +148,7 @@ class Writer {
 
   [[nodiscard]] bool moves(std::optional<std::size_t> link) const { return link && !world_.links[*link].is_static; }
 
-  /// How far from the joint the link has its mass, or its inertia's.
-  [[nodiscard]] double reach(std::optional<std::size_t> link, const Vec3& from) const {
-    if (!moves(link)) return 0;
-    const Link& l = world_.links[*link];
-    const double gyration_2 = (l.inertia(0, 0) + l.inertia(1, 1) + l.inertia(2, 2)) / (2 * l.mass);
-    return std::sqrt(gyration_2) + ((l.pose * Pose3(l.com, {})).Pos() - from).Length();
-  }
-
-  /// One point holds a ball, two of its axis a hinge: as far apart as the links' masses, or turning would be soft.
+  /// One point holds a ball, two of its axis a hinge: as far apart as the masses that hang on it rigidly, or turning would be soft.
   void closure(const Joint& j) {
     const bool by_child = moves(j.child);
     const std::size_t one = by_child ? *j.child : *j.parent;
@@ -172,7 +165,7 @@ class Writer {
     } else if (j.kind == Joint::Kind::ball) {
       connect(at);
     } else {
-      const Vec3 apart = j.axes[0].xyz * std::max(reach(j.child, at), reach(j.parent, at));
+      const Vec3 apart = j.axes[0].xyz * std::max(rigid_.reach(j.child, at), rigid_.reach(j.parent, at));
       connect(at + apart);
       connect(at - apart);
     }
@@ -273,6 +266,7 @@ class Writer {
   const std::vector<TreeNode>& tree_;
   std::string file_;
   MjcfNames names_;
+  RigidGroups rigid_{world_};
   std::vector<std::vector<std::size_t>> children_;  // of a link, into tree_
   std::vector<std::size_t> roots_;
   ContactKinds kinds_;
@@ -323,11 +317,29 @@ std::vector<FrictionDirection> directions_of(const description::World& world) {
 
 double heightmap_scale(const Heightmap& map) { return std::max(map.highest(), 1e-6); }
 
+namespace {
+
+/// Of constraints that are there at every moment, or may be: loops, mimics, dry friction, limits.
+int standing_rows(const description::World& world) {
+  auto rows = static_cast<int>(world.couplings.size());
+  for (const Joint& j : world.joints) {
+    if (j.closes) {
+      rows += j.kind == Joint::Kind::ball ? 3 : 6;
+      continue;
+    }
+    for (const Axis& axis : j.axes) rows += (axis.friction > 0 ? 1 : 0) + (axis.range ? 1 : 0);
+  }
+  return rows;
+}
+
+}  // namespace
+
 Capacity capacity_for(const description::World& world) {
+  constexpr int kSpareRows = 50;
   int moving = 0;
   for (const Link& l : world.links) moving += l.is_static ? 0 : static_cast<int>(l.collisions.size());
   const int contacts = 16 + 2 * std::min(moving, 100);
-  return {contacts, 3 * contacts + 100};
+  return {contacts, 3 * contacts + std::max(100, standing_rows(world) + kSpareRows)};
 }
 
 Mjcf write_mjcf(const description::World& world, const std::vector<TreeNode>& tree, double step_s, Capacity capacity) {

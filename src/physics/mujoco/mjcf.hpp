@@ -26,6 +26,8 @@
 
 namespace vsa::physics {
 
+inline constexpr double kSmallestMu = 1e-5;  ///< MuJoCo's own lower bound; below it a contact has no friction at all
+
 struct Capacity {
   int contacts = 0, rows = 0;
 };

@@ -128,6 +128,8 @@ class Reader {
     out.info.model = e.Attribute("model") != nullptr ? attribute(e, "model") : std::string(outermost(out.info.name));
     out.info.is_static = flag(e, "static", false);
     out.weightless = !flag(e, "gravity", true);
+    if (out.info.is_static && out.weightless)
+      problem("link@gravity", out.info.name, "is static and has no weight", "no gravity=\"false\", or a link that moves");
     if (e.Attribute("mass_kg") != nullptr) out.info.mass_kg = all<double>(e, "mass_kg", 1)[0];
     for (const XMLElement* v = e.FirstChildElement(); v != nullptr; v = v->NextSiblingElement()) {
       if (std::string_view(v->Name()) != "visual") {
@@ -186,6 +188,18 @@ class Reader {
     return out;
   }
 
+  Vec3 vector(const XMLElement& e, const char* name) {
+    const std::vector<double> v = all<double>(e, name, 3);
+    return {v[0], v[1], v[2]};
+  }
+
+  Vec3 unit_vector(const XMLElement& e, const char* name) {
+    const Vec3 v = vector(e, name);
+    if (!(std::abs(std::hypot(v.X(), v.Y(), v.Z()) - 1) < 1e-6))
+      problem(std::string(e.Name()) + "@" + name, attribute(e, name), "isn't that", "a unit vector");
+    return v;
+  }
+
   void joint(const XMLElement& e) {
     only(e, {"name", "kind", "parent", "child", "start", "closes", "place", "axis"});
     Beside::Joint out;
@@ -195,12 +209,8 @@ class Reader {
     out.kind = named(e, "kind", kKinds);
     if (e.Attribute("start") != nullptr) out.start = all<double>(e, "start", 1)[0];
     out.closes = flag(e, "closes", false);
-    const auto vector = [&](const char* name) {
-      const std::vector<double> v = all<double>(e, name, 3);
-      return Vec3(v[0], v[1], v[2]);
-    };
-    if (out.closes) out.place = vector("place");
-    if (out.closes && out.kind == Kind::hinge) out.axis = vector("axis");
+    if (out.closes) out.place = vector(e, "place");
+    if (out.closes && out.kind == Kind::hinge) out.axis = unit_vector(e, "axis");
     if (out.closes && (out.kind == Kind::slide || out.kind == Kind::universal))
       problem("joint@closes", out.name, "can't close a loop", "a fixed, hinge or ball joint");
     out_.joints.push_back(std::move(out));
@@ -209,12 +219,13 @@ class Reader {
   void friction(const XMLElement& e) {
     only(e, {"geom", "mu", "mu2", "along", "of"});
     Beside::Friction out{attribute(e, "geom"), attribute(e, "of"), {}, all<double>(e, "mu", 1)[0], all<double>(e, "mu2", 1)[0]};
-    const std::vector<double> along = all<double>(e, "along", 3);
-    std::copy_n(along.begin(), 3, out.along.begin());
+    const Vec3 along = unit_vector(e, "along");
+    out.along = {along.X(), along.Y(), along.Z()};
     if (!(out.mu >= 0 && out.mu2 >= 0 && std::isfinite(out.mu + out.mu2) && out.mu + out.mu2 > 0))
       problem("friction@mu, mu2", fmt::format("{}, {}", out.mu, out.mu2), "out of range", "finite, 0 or more, not both 0");
-    if (const double length = std::hypot(along[0], along[1], along[2]); !(std::abs(length - 1) < 1e-6))
-      problem("friction@along", attribute(e, "along"), "isn't that", "a unit vector");
+    const auto same = [&](const Beside::Friction& other) { return other.geom == out.geom; };
+    if (std::any_of(out_.frictions.begin(), out_.frictions.end(), same))
+      problem("friction@geom", out.geom, "has several", "one <friction> a geom");
     out_.frictions.push_back(std::move(out));
   }
 
@@ -279,6 +290,7 @@ std::string write_beside(const description::World& world) {
   }
   const MjcfNames names{world, true};
   for (const FrictionDirection& d : directions_of(world)) {
+    if (d.mu < kSmallestMu && d.mu2 < kSmallestMu) continue;  // a geom that has none
     out += fmt::format("  <friction geom=\"{}\" mu=\"{}\" mu2=\"{}\" along=\"{}\"", escaped(names.geom(d.link, d.collision)), d.mu,
                        d.mu2, fmt::join(d.along, " "));
     if (d.of) out += fmt::format(" of=\"{}\"", escaped(names.body(*d.of)));

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <map>
 
 #include "physics/mujoco/mjcf_file.hpp"
 #include "physics/mujoco/versions.hpp"
@@ -58,19 +58,21 @@ class Describer {
   /// is called so, "body_3_", and so on.
   template <class Counts>
   [[nodiscard]] std::vector<std::string> names_of(int type, int count, const char* kind, Counts&& counts) {
-    std::set<std::string> taken;
+    std::map<std::string, std::string> taken;  // by whom of the file
     std::vector<std::string> out;
     for (int id = 0; id < count; ++id) {
       const std::string own = counts(id) ? name_of(m_, type, id) : "";
       out.push_back(own.empty() ? "" : scoped(own));
-      if (!own.empty() && !taken.insert(out.back()).second)
-        problem(kind, out.back(), "is there twice, once with the model's name before it", "names of their own");
+      if (own.empty()) continue;
+      if (const auto [at, is_new] = taken.emplace(out.back(), own); !is_new)
+        problem(kind, out.back(), fmt::format("is there twice: \"{}\" and \"{}\" are both called so here", at->second, own),
+                "names of their own");
     }
     for (int id = 0; id < count; ++id) {
       std::string& name = out[static_cast<std::size_t>(id)];
       if (!name.empty()) continue;
       name = scoped(fmt::format("{}_{}", kind, id));
-      while (!taken.insert(name).second) name += '_';
+      while (!taken.emplace(name, "").second) name += '_';
     }
     return out;
   }
@@ -174,8 +176,18 @@ class Describer {
       const int geom = mj_name2id(&m_, mjOBJ_GEOM, f.geom.c_str()),
                 body = f.of.empty() ? 0 : mj_name2id(&m_, mjOBJ_BODY, f.of.c_str());
       if (geom < 0) problem("friction@geom", f.geom, "no such geom in the MJCF", "its geoms");
+      if (geom >= 0 && m_.geom_condim[geom] == 1)
+        problem("friction@geom", f.geom, "has condim 1 in the MJCF, no friction", "geoms of condim 3 or more");
       if (body < 0) problem("friction@of", f.of, "no such body in the MJCF", "its bodies, or none for the world");
       objects_.directions.push_back({geom, body, f.along, f.mu, f.mu2});
+      // The direction itself is only MuJoCo's objects'.
+      for (Link& link : out_.links) {
+        for (Collision& shape : link.collisions) {
+          if (shape.name != f.geom) continue;
+          shape.surface.mu = f.mu;
+          shape.surface.mu2 = f.mu2;
+        }
+      }
     }
   }
 
@@ -256,6 +268,7 @@ class Describer {
         joint.closes = true;
         joint.pose.Pos() = told.place;
         if (told.kind == Kind::hinge) joint.axes.emplace_back().xyz = told.axis;
+        check_closing(joint);
         objects_.joints.push_back(ids);
         out_.joints.push_back(std::move(joint));
         continue;
@@ -271,6 +284,19 @@ class Describer {
       add_joint(std::move(joint), ids);
       if (told.start && out_.joints.back().one_axis()) out_.joints.back().axes[0].start = told.start;
     }
+  }
+
+  /// That it is a constraint of the MJCF's, and nothing else.
+  void check_closing(const Joint& joint) {
+    if (mj_name2id(&m_, mjOBJ_JOINT, joint.name.c_str()) >= 0)
+      return problem("joint@closes", joint.name, "is a joint of the MJCF, which has a coordinate", "closes=\"false\"");
+    const auto body = [&](std::optional<std::size_t> link) { return link ? objects_.body[*link] : 0; };
+    const Kind kind = joint.kind;
+    if (closures_of(m_, *data_, joint, body(joint.parent), body(joint.child)) < (kind == Kind::hinge ? 2 : 1))
+      problem("joint@closes", joint.name, "no such equality between its links in the MJCF",
+              kind == Kind::fixed  ? "a <weld>"
+              : kind == Kind::ball ? "a <connect> at its place"
+                                   : "two <connect> on its axis");
   }
 
   void couplings() {

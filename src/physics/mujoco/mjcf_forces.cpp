@@ -64,15 +64,6 @@ JointIds joints_of_tendon(const mjModel& m, int tendon) {
   return out;
 }
 
-/// Of a weld or a connect: its sides may be sites. A template, so that what only later versions have can be asked for.
-template <class Model>
-int body_of(const Model& m, int equality, int object) {
-  if constexpr (requires { m.eq_objtype; }) {
-    if (m.eq_objtype[equality] == mjOBJ_SITE) return m.site_bodyid[object];
-  }
-  return object;
-}
-
 class Forces {
  public:
   Forces(const mjModel& m, const LinkObjects& objects, description::World& out) : m_(m), objects_(objects), out_(out) {}
@@ -101,7 +92,7 @@ class Forces {
   void equality(int e) {
     const int one = m_.eq_obj1id[e], two = m_.eq_obj2id[e];
     const auto bodies = [&](const char* kind) {
-      const int a = body_of(m_, e, one), b = body_of(m_, e, two);
+      const int a = body_held(m_, e, one), b = body_held(m_, e, two);
       add(&Joint::held, joints_between(m_, {a, b}), fmt::format("{} of {} and {}", kind, body_name(m_, a), body_name(m_, b)));
     };
     switch (m_.eq_type[e]) {

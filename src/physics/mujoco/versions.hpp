@@ -73,6 +73,17 @@ inline bool starts_active(const mjModel& m, int equality) {
 #endif
 }
 
+/// Of a weld or a connect, whose sides may be sites. Templates, so that what only later versions have can be asked for.
+template <class Model>
+bool holds_sites(const Model& m, int equality) {
+  if constexpr (requires { m.eq_objtype; }) return m.eq_objtype[equality] == mjOBJ_SITE;
+  return false;
+}
+template <class Model>
+int body_held(const Model& m, int equality, int object) {
+  return holds_sites(m, equality) ? m.site_bodyid[object] : object;
+}
+
 /// What `<option><flag>` switches off, by MuJoCo's words: where its versions have several for one thing, all of them.
 inline bool switched_off(const mjModel& m, std::initializer_list<std::string_view> words) {
   for (int bit = 0; bit < mjNDISABLE; ++bit)
