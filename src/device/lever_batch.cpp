@@ -128,8 +128,7 @@ void LeverBatch::step(int steps, std::int64_t dt_ns, const std::function<void()>
   }
 }
 
-void LeverBatch::check_reset(std::size_t i, double equilibrium_rad, double preset, double shaft_rad,
-                             double speed_rad_per_s) const {
+void LeverBatch::check_reset(std::size_t i, double equilibrium_rad, double preset, double shaft_rad, double speed_rad_per_s) const {
   (void)lever(i);
   for (const auto& [key, value] : {std::pair{"equilibrium_rad", equilibrium_rad}, std::pair{"preset", preset},
                                    std::pair{"shaft_rad", shaft_rad}, std::pair{"speed_rad_per_s", speed_rad_per_s}})

@@ -226,11 +226,11 @@ class World : public motion::Stage, public host::Simulation {
   /// the same layout. They go on bit for bit where the parameters are the same, too: those are no part of it, nor are hands, nor
   /// commands that no step has taken. save() and restore() allocate nothing but an error's text.
   ///   save     throws InputError where more is under way than the layout has room for (host/robot.hpp), as snapshot() never does
-  ///   restore  throws InputError for another size and for numbers that no state has; whose they are (host/unit_kind.hpp) it can't see
+  ///   restore  throws InputError for another size and for numbers that no state has, and nothing has changed
   [[nodiscard]] StateLayout state_layout() const;
   [[nodiscard]] std::size_t state_size() const;    ///< how many numbers save() gives
   void save(std::span<double> out) const;          ///< fills state_size() numbers
-  void restore(std::span<const double> in);        ///< as restore() of a snapshot, from numbers that save() gave
+  void restore(std::span<const double> in);        ///< as of a snapshot; kinds of units (host/unit_kind.hpp) go unseen
   [[nodiscard]] std::uint64_t state_hash() const;  ///< of the numbers that save() gives; allocates
   /// The numbers behind 48 bytes that tell version, layout and kinds of units. restore_file throws InputError where those are others,
   /// for another length and a damaged one, and nothing has changed; save_file OutputError, and what was there stays.
