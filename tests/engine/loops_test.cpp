@@ -4,6 +4,7 @@
 // it.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 
 #include "arm.hpp"
@@ -183,8 +184,10 @@ TEST(Loops, WithoutDampingEnergyStays) {
         least = std::min(least, total() - begun);
         fastest = std::max(fastest, w.energy().kinetic);
       }
+      std::printf("closed by %sstep %g s: gain %.2f %%, loss %.2f %%\n", closing(w).c_str(), step_s, 100 * most / fastest,
+                  -100 * least / fastest);
       EXPECT_LT(most, (step_s > 2e-3 ? 0.01 : 0.005) * fastest) << closing(w) << step_s;
-      EXPECT_GT(least, (step_s > 2e-3 ? -0.4 : -0.06) * fastest) << closing(w) << step_s;
+      EXPECT_GT(least, (step_s > 2e-3 ? -0.4 : -0.015) * fastest) << closing(w) << step_s;
     }
   }
 }
