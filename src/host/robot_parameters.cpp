@@ -54,7 +54,7 @@ void take_unit(ActuatorConfig& to, const ActuatorConfig& from) {
 
 std::array<int, 4> kind_of(const UnitConfig& u) noexcept {
   return {u.servo ? static_cast<int>(u.servo->kind) : -1, static_cast<int>(u.program.model), static_cast<int>(u.program.dialect),
-          u.actuator.transmission->motor_count()};
+          u.actuator.transmission ? u.actuator.transmission->motor_count() : 0};
 }
 
 /// A batch whose copies have parameters of their own asks at every step: words are for where something is wrong.

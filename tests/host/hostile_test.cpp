@@ -19,6 +19,7 @@
 #include "vsa/host/topics.hpp"
 #include "vsa/host/tree_foresight.hpp"
 #include "vsa/host/tree_inertia.hpp"
+#include "vsa/host/unit_kind.hpp"
 #include "vsa/state_io.hpp"
 
 namespace {
@@ -490,6 +491,14 @@ TEST(HostileTree, ForesightOfOtherBodiesOrWithoutNumbersTellsNothingWrong) {
   memory.forget();
   two.foresee(bodies, inertia, q, v, 1e-3, memory, out);
   EXPECT_TRUE(std::isnan(out[0]));
+}
+
+TEST(HostileKind, AUnitWithoutALawHasNoMotors) {
+  vsa::device::UnitConfig unit;
+  EXPECT_EQ(vsa::host::kind_of(unit)[3], 0);
+  unit.actuator.transmission = vsa::test::maker_pro().actuator.transmission;
+  EXPECT_EQ(vsa::host::kind_of(unit), vsa::host::kind_of(vsa::test::maker_pro()));
+  EXPECT_EQ(vsa::host::kind_of(unit)[3], 2);
 }
 
 TEST(HostileTree, AStepThatIsNoNumberResolvesNothingWrong) {

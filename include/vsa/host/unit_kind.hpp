@@ -9,7 +9,7 @@
 
 namespace vsa::host {
 
-/// Controller (−1: the qbmove's program), firmware's model and dialect, number of motors.
+/// Controller (−1: the qbmove's program), firmware's model and dialect, number of motors (0: it has no law).
 [[nodiscard]] std::array<int, 4> kind_of(const device::UnitConfig& unit) noexcept;
 
 }  // namespace vsa::host
