@@ -60,7 +60,9 @@ struct World::Impl {
   std::vector<Pull> pulls;
   std::vector<std::pair<std::size_t, Wrench>> wrenches;  ///< by link
   std::vector<std::pair<std::size_t, double>> torques;   ///< by joint
-  std::int64_t dt_ns = 0, time_ns = 0, steps = 0;        ///< dt_ns: of a step of `substeps`
+  bool loops = false;                                    ///< some joint closes one
+  std::vector<std::size_t> put_here;               ///< joints that were since the last step: they stay where their loops go along
+  std::int64_t dt_ns = 0, time_ns = 0, steps = 0;  ///< dt_ns: of a step of `substeps`
   int substeps = 1;
   std::shared_ptr<const Snapshot> initial;
   std::vector<double> before;  ///< physics: the step under way, where physics takes back only the last of its substeps
@@ -84,6 +86,8 @@ struct World::Impl {
   void forget_mobility();                  ///< something was moved
   void placed(std::size_t joint);          ///< somebody put it there
   void set_followers(std::size_t leader);  ///< to where it is
+  /// Puts a joint somewhere, and its loops and followers with it. False: its loops don't get there, and nothing has changed.
+  [[nodiscard]] bool put(std::size_t joint, physics::JointState state);
   void apply_hands();
   void let_go();
   void index_names();

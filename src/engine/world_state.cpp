@@ -124,6 +124,7 @@ void World::Impl::restore(std::span<const double> in) {
   each_robot(1, [](seat::Seat& seat, std::span<const double> numbers) { seat.check(numbers); });
   each_robot(0, [](seat::Seat& seat, std::span<const double> numbers) { seat.restore(numbers); });
   physics->restore(bodies);
+  put_here.clear();
   time_ns = clock.time_ns;
   steps = clock.steps;
 }

@@ -104,6 +104,7 @@ void World::Impl::go_back() {
 
 void World::Impl::step() {
   const std::int64_t begin_ns = time_ns;
+  put_here.clear();
   keep();
   for (int k = 0; k < substeps; ++k) {
     const std::optional<physics::Refusal> fault = substep();
@@ -130,6 +131,7 @@ std::shared_ptr<const World::Snapshot> World::Impl::snapshot() const {
 
 void World::Impl::restore(const Snapshot& s) {
   physics->restore(s.physics);
+  put_here.clear();
   time_ns = s.time_ns;
   steps = s.steps;
   for (std::size_t i = 0; i < robots.size(); ++i) robots[i].seat->restore(*s.robots[i]);

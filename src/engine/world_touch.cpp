@@ -1,6 +1,8 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
 // How a user or a gait touches a World: commands, joints, hands; and its clones.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "engine/world_check.hpp"
@@ -66,10 +68,34 @@ void World::place(const ActuatorRef& ref, const host::Placement& to) {
     throw InputError(Problem{"", ref.name + ": angle_rad", fmt::format("{}", to.angle_rad),
                              "beyond the limits of " + joints()[joint].name, fmt::format("{} … {}", (*range)[0], (*range)[1])});
   }
-  impl_->robots[ref.robot].robot().place(ref.index, to, impl_->substep_s());
-  impl_->physics->set_joint(joint, {to.angle_rad, to.speed_rad_per_s});
-  impl_->set_followers(joint);
+  RobotSlot& slot = impl_->robots[ref.robot];
+  const auto before = impl_->loops ? slot.seat->snapshot() : nullptr;
+  slot.robot().place(ref.index, to, impl_->substep_s());
+  if (!impl_->put(joint, {to.angle_rad, to.speed_rad_per_s})) {
+    slot.seat->restore(*before);
+    throw InputError(Problem{"", ref.name + ": angle_rad", fmt::format("{}", to.angle_rad),
+                             "isn't reached: " + list(joints()[joint].held) + " would open",
+                             "an angle that its loops reach from where they are, or set_joint() of all their joints"});
+  }
   impl_->forget_mobility();
+}
+
+bool World::Impl::put(std::size_t joint, physics::JointState state) {
+  if (!loops) {
+    physics->set_joint(joint, state);
+    set_followers(joint);
+    return true;
+  }
+  std::vector<double> were;
+  for (const std::size_t j : driven) were.push_back(physics->joint(j).position);
+  std::vector<std::size_t> held = put_here;
+  if (std::find(held.begin(), held.end(), joint) == held.end()) held.push_back(joint);
+  if (!physics->set_in_loops(joint, state, held)) return false;
+  set_followers(joint);
+  put_here = std::move(held);
+  for (std::size_t k = 0; k < driven.size(); ++k)
+    if (driven[k] != joint && physics->joint(driven[k]).position != were[k]) placed(driven[k]);
+  return true;
 }
 
 void World::Impl::set_followers(std::size_t leader) {
@@ -142,8 +168,11 @@ void World::set_joint(JointHandle joint, double angle, double speed) {
   } else if (const auto& range = joints()[index].range) {
     check_limits(joints()[index], *range, now.position, angle);
   }
-  impl_->physics->set_joint(index, {angle, speed});
-  impl_->set_followers(index);
+  if (!impl_->put(index, {angle, speed})) {  // others may be about to be set, too: the loop is pulled together
+    impl_->physics->set_joint(index, {angle, speed});
+    impl_->set_followers(index);
+    impl_->put_here.push_back(index);
+  }
   impl_->placed(index);
 }
 
@@ -191,6 +220,8 @@ World World::clone() const {
   to->pulls = impl_->pulls;
   to->wrenches = impl_->wrenches;
   to->torques = impl_->torques;
+  to->loops = impl_->loops;
+  to->put_here = impl_->put_here;
   to->dt_ns = impl_->dt_ns;
   to->substeps = impl_->substeps;
   to->time_ns = impl_->time_ns;

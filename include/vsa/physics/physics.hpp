@@ -124,6 +124,14 @@ class Physics {
                                                                   std::span<const scene::LinkParameters> links) = 0;
   /// Goes on with those; the state stays. InputError, here and above: of another world.
   virtual void use(std::shared_ptr<const Bodies> bodies) = 0;
+
+  /// set_joint() in a world with kinematic loops: the joints that aren't `held` go along, positions and speeds, so that the loops stay
+  /// closed. False: they don't get there from where they are, and nothing has changed. An engine without loops has none to close.
+  [[nodiscard]] virtual bool set_in_loops(std::size_t joint, JointState state, std::span<const std::size_t> held) {
+    static_cast<void>(held);
+    set_joint(joint, state);
+    return true;
+  }
 };
 
 /// What an engine makes of a description, the same for all who step it; never changed.
