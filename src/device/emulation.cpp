@@ -39,7 +39,7 @@ std::vector<std::shared_ptr<Unit>> checked(const std::vector<EmulatedUnit>& give
 }  // namespace
 
 Emulation::Emulation(std::vector<EmulatedUnit> units, const LineConfig& line,
-                     std::function<bus::SerialLine::Clock::time_point()> now)
+                     std::function<bus::SerialLine::Clock::time_point()> now, std::string_view instructions)
     : units_(checked(units)),
       states_([&] {
         std::vector<UnitState> states;
@@ -53,12 +53,20 @@ Emulation::Emulation(std::vector<EmulatedUnit> units, const LineConfig& line,
         }
         return states;
       }()),
+      trials_(units.size(), 0, instructions),
       chain_(line, stations()),
       port_(chain_, std::move(now)) {
-  for (std::size_t i = 0; i < units.size(); ++i)
-    shafts_.push_back({units[i].shaft_rad, 0, units[i].held ? 0.0 : 1.0 / units_[i]->config().actuator.shaft_inertia_kgm2});
   plans_.resize(units.size());
   inputs_.resize(units.size());
+  torques_.resize(units.size());
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    shafts_.push_back({units[i].shaft_rad, 0, units[i].held ? 0.0 : 1.0 / units_[i]->config().actuator.shaft_inertia_kgm2});
+    order_.push_back(i);
+  }
+  // Equal units become neighbours, by the first of their kind.
+  const auto kind = [this](std::size_t i) { return std::find(units_.begin(), units_.end(), units_[i]) - units_.begin(); };
+  std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return kind(a) < kind(b); });
+  for (const std::size_t i : order_) joints_.push_back({units_[i].get(), &states_[i], &plans_[i]});
 }
 
 std::vector<Station> Emulation::stations() {
@@ -85,10 +93,10 @@ void Emulation::step() {
     }
   });
   constexpr double dt = static_cast<double>(firmware::kTickNs) * 1e-9;
-  for (std::size_t i = 0; i < units_.size(); ++i) {
-    Shaft& shaft = shafts_[i];
-    const double torque = units_[i]->end_step(states_[i], plans_[i]);
-    if (shaft.inverse_inertia > 0) shaft.speed += dt * shaft.inverse_inertia * torque;
+  trials_.solve_each(joints_, torques_);
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    Shaft& shaft = shafts_[order_[k]];
+    if (shaft.inverse_inertia > 0) shaft.speed += dt * shaft.inverse_inertia * torques_[k];
     shaft.angle += dt * shaft.speed;
   }
   now_ns_ += firmware::kTickNs;

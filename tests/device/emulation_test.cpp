@@ -9,6 +9,7 @@
 
 #include "support/one_joint.hpp"
 #include "vsa/bus/client.hpp"
+#include "vsa/device/unit_batch.hpp"
 
 namespace {
 
@@ -218,6 +219,43 @@ TEST(Emulation, WakesWhenAStoreIsDone) {
   }
   EXPECT_EQ(answer.size(), 6U);
   EXPECT_FALSE(bench.emulation.line().wake());
+}
+
+/// Units of two types in turns, some held, some off, some at fault, after commands to one after the other; all that they do.
+std::vector<double> mixed_line(std::string_view instructions) {
+  auto other = test::maker_pro();
+  other.actuator.transmission = std::make_shared<elastic::TwoSinh>(elastic::TwoSinhParams{{0.03, 0.02}, {6.0, 6.5}});
+  std::vector<device::EmulatedUnit> units;
+  for (int id = 1; id <= 23; ++id) units.push_back({id % 3 == 0 ? other : test::maker_pro(), id, id % 5 == 0, 0.1 * (id % 4)});
+  device::Emulation e(std::move(units), {}, [] { return Clock::time_point{}; }, instructions);
+  device::Faults fault;
+  fault.motor_unplugged[0] = true;
+  fault.encoder[1].noise_rad = 0.01;
+  e.set_faults(3, fault);
+  std::vector<double> out;
+  std::vector<std::uint8_t> answer;
+  for (int n = 0; n < 600; ++n) {
+    const auto id = static_cast<std::uint8_t>(1 + n % 23);
+    if (n < 23 && id % 7 != 0) e.line().exchange(bus::encode_request({}, id, bus::Activate{3}).view(), answer);
+    if (n > 400 && n % 23 == 8) e.line().exchange(bus::encode_request({}, 9, bus::Activate{0}).view(), answer);
+    const auto x = static_cast<std::int16_t>(9000.0 * std::sin(0.01 * n)), y = static_cast<std::int16_t>(n % 2 == 0 ? x : -x);
+    e.line().exchange(bus::encode_request({}, id, bus::SetInputs{{Ticks{x}, Ticks{y}}}).view(), answer);
+    e.line().exchange(bus::encode_request({}, id, bus::GetMeasurements{}).view(), answer);
+    e.advance((n + 1) * 1'000'000);
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      const auto r = e.read(i);
+      out.insert(out.end(), {r.motor_rad[0], r.motor_rad[1], r.shaft_rad, r.shaft_speed_rad_per_s, r.torque_Nm});
+    }
+  }
+  out.insert(out.end(), answer.begin(), answer.end());
+  return out;
+}
+
+TEST(Emulation, UnitsSideBySideDoToTheLastBitWhatEachDoesByItself) {
+  const std::vector<double> alone = mixed_line("none");
+  EXPECT_GT(std::count_if(alone.begin(), alone.end(), [](double x) { return std::abs(x) > 0.2; }), 10'000) << "they move";
+  EXPECT_EQ(mixed_line(""), alone);
+  for (const std::string_view set : device::UnitBatch::instruction_sets()) EXPECT_EQ(mixed_line(set), alone) << set;
 }
 
 TEST(Emulation, AHeldShaftStays) {

@@ -13,9 +13,11 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "vsa/device/chain.hpp"
+#include "vsa/device/joint_trials.hpp"
 #include "vsa/device/port_line.hpp"
 #include "vsa/device/unit.hpp"
 
@@ -41,9 +43,11 @@ struct EmulatedUnit {
 /// Units on a line without a robot, each shaft free or held, which a client meets as if they were hardware (`vsa emulate`).
 class Emulation {
  public:
-  /// Throws InputError: no unit, an id out of range or given twice, a shaft that isn't a number.
+  /// Equal units are stepped side by side; `instructions` as JointTrials has them, which change no bit. Throws InputError: no unit, an
+  /// id out of range or given twice, a shaft that isn't a number.
   explicit Emulation(std::vector<EmulatedUnit> units, const LineConfig& line = {},
-                     std::function<bus::SerialLine::Clock::time_point()> now = bus::SerialLine::Clock::now);
+                     std::function<bus::SerialLine::Clock::time_point()> now = bus::SerialLine::Clock::now,
+                     std::string_view instructions = {});
 
   [[nodiscard]] std::size_t size() const noexcept { return units_.size(); }  ///< units
   [[nodiscard]] PortLine& line() noexcept { return port_; }                  ///< for a serial port's thread
@@ -81,6 +85,10 @@ class Emulation {
   std::vector<Shaft> shafts_;
   std::vector<StepPlan> plans_;
   std::vector<firmware::TickInputs> inputs_;
+  std::vector<std::size_t> order_;  // units, equal ones together: of joints_ and torques_
+  std::vector<JointInStep> joints_;
+  std::vector<double> torques_;
+  JointTrials trials_;
   Chain chain_;
   PortLine port_;
   std::int64_t now_ns_ = 0;
