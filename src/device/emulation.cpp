@@ -29,7 +29,7 @@ std::vector<std::shared_ptr<Unit>> checked(const std::vector<EmulatedUnit>& give
   problems.throw_if_any();
   std::vector<std::shared_ptr<Unit>> units;
   for (const EmulatedUnit& unit : given) {
-    const auto equal = [&](const std::shared_ptr<Unit>& other) { return other->config() == unit.config; };
+    const auto equal = [&](const std::shared_ptr<Unit>& other) { return alike(other->config(), unit.config); };
     const auto known = std::find_if(units.begin(), units.end(), equal);
     units.push_back(known != units.end() ? *known : std::make_shared<Unit>(unit.config));
   }
