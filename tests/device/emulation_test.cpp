@@ -227,7 +227,8 @@ std::vector<double> mixed_line(std::string_view instructions) {
   other.actuator.transmission = std::make_shared<elastic::TwoSinh>(elastic::TwoSinhParams{{0.03, 0.02}, {6.0, 6.5}});
   std::vector<device::EmulatedUnit> units;
   for (int id = 1; id <= 23; ++id) units.push_back({id % 3 == 0 ? other : test::maker_pro(), id, id % 5 == 0, 0.1 * (id % 4)});
-  device::Emulation e(std::move(units), {}, [] { return Clock::time_point{}; }, instructions);
+  device::Emulation e(
+      std::move(units), {}, [] { return Clock::time_point{}; }, instructions);
   device::Faults fault;
   fault.motor_unplugged[0] = true;
   fault.encoder[1].noise_rad = 0.01;
