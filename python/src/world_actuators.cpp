@@ -147,7 +147,9 @@ constexpr const char* kPlace =
     "Puts an actuator and its joint somewhere as if it had been there for long, without a kick: shaft at angle_rad with a speed "
     "in\n"
     "rad/s, pulleys, frictions and program to match. equilibrium_rad: commanded; default: where the springs give no torque.\n"
-    "InputError: beyond the joint's limits or the program's.";
+    "Its kinematic loops go along, other actuators of theirs only where the loops leave no other way; joints that were put\n"
+    "since the last step stay. InputError: beyond the joint's limits or the program's, where its loops don't get there, and\n"
+    "where they would take another joint beyond its limits.";
 
 }  // namespace
 

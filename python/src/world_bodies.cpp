@@ -167,7 +167,10 @@ void bind_joints(WorldClass& c) {
           "Sets a joint's angle and speed, and those of joints that follow it (<mimic> or <equality>); its actuator stays behind, "
           "which is a "
           "kick.\n"
-          "place() moves that along. InputError: beyond the joint's limits, and a follower elsewhere than its leader has it.")
+          "place() moves that along. Its kinematic loops go along as in place(); where they don't, the joint alone is set and the\n"
+          "constraint pulls the loop together, so that all its joints may be set one by one. InputError: beyond the joint's "
+          "limits,\n"
+          "and a follower elsewhere than its leader has it.")
       .def(
           "displace_model",
           [](PyWorld& w, const std::string& model, double yaw, const py::object& translation) {

@@ -60,7 +60,6 @@ struct World::Impl {
   std::vector<Pull> pulls;
   std::vector<std::pair<std::size_t, Wrench>> wrenches;  ///< by link
   std::vector<std::pair<std::size_t, double>> torques;   ///< by joint
-  bool loops = false;                                    ///< some joint closes one
   std::vector<std::size_t> put_here;               ///< joints that were since the last step: they stay where their loops go along
   std::int64_t dt_ns = 0, time_ns = 0, steps = 0;  ///< dt_ns: of a step of `substeps`
   int substeps = 1;
@@ -86,8 +85,14 @@ struct World::Impl {
   void forget_mobility();                  ///< something was moved
   void placed(std::size_t joint);          ///< somebody put it there
   void set_followers(std::size_t leader);  ///< to where it is
-  /// Puts a joint somewhere, and its loops and followers with it. False: its loops don't get there, and nothing has changed.
-  [[nodiscard]] bool put(std::size_t joint, physics::JointState state);
+  /// Where a joint's loops go along once it is put there, or why they don't; nothing has changed.
+  struct Along {
+    std::optional<physics::LoopPosture> posture;
+    std::string refused;  ///< where there is none
+  };
+  [[nodiscard]] Along along(std::size_t joint, physics::JointState state);
+  /// Puts a joint somewhere, its loops as found by along(), and its followers with it.
+  void put(std::size_t joint, physics::JointState state, const physics::LoopPosture& posture);
   void apply_hands();
   void let_go();
   void index_names();

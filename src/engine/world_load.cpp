@@ -152,7 +152,6 @@ std::unique_ptr<World::Impl> World::Impl::load(const reader::SdfSource& source, 
   impl->physics = compiled->start();
   impl->before.resize(impl->physics->state_size());
   impl->join_trees();
-  impl->loops = std::any_of(impl->world->joints.begin(), impl->world->joints.end(), [](const Joint& j) { return j.closes; });
   for (std::size_t j = 0; j < impl->world->joints.size(); ++j) {
     const description::Joint& joint = impl->world->joints[j];
     if (joint.one_axis() && joint.axes[0].start) impl->physics->set_joint(j, {*joint.axes[0].start, 0});

@@ -44,7 +44,6 @@ Gap gap_of(const Joint& joint, const Pose3& parent, const Pose3& child) {
 }  // namespace
 
 void World::Impl::tell_open_loops() {
-  if (!loops) return;
   const auto moved = [&](std::optional<std::size_t> link) {
     if (!link) return Pose3();
     const scene::Pose now = physics->pose(*link);

@@ -22,9 +22,12 @@ void put(std::vector<std::pair<std::size_t, Value>>& list, std::size_t key, cons
 }
 
 /// Limits give way, and what a recording has of a joint that hit them may be set; a joint beyond them may be set to where it is.
-void check_limits(const JointInfo& joint, const std::array<double, 2>& range, double now, double angle) {
+bool within(const JointInfo& joint, const std::array<double, 2>& range, double now, double angle) {
   const double soft = joint.type == JointInfo::Type::prismatic ? 5e-3 : 0.05;  // m, rad
-  if (angle >= std::min(range[0] - soft, now) && angle <= std::max(range[1] + soft, now)) return;
+  return angle >= std::min(range[0] - soft, now) && angle <= std::max(range[1] + soft, now);
+}
+void check_limits(const JointInfo& joint, const std::array<double, 2>& range, double now, double angle) {
+  if (within(joint, range, now, angle)) return;
   throw InputError(Problem{"", joint.name + ": angle", fmt::format("{}", angle), "beyond the joint's limits",
                            fmt::format("{} … {}", range[0], range[1])});
 }
@@ -68,34 +71,55 @@ void World::place(const ActuatorRef& ref, const host::Placement& to) {
     throw InputError(Problem{"", ref.name + ": angle_rad", fmt::format("{}", to.angle_rad),
                              "beyond the limits of " + joints()[joint].name, fmt::format("{} … {}", (*range)[0], (*range)[1])});
   }
-  RobotSlot& slot = impl_->robots[ref.robot];
-  const auto before = impl_->loops ? slot.seat->snapshot() : nullptr;
-  slot.robot().place(ref.index, to, impl_->substep_s());
-  if (!impl_->put(joint, {to.angle_rad, to.speed_rad_per_s})) {
-    slot.seat->restore(*before);
-    throw InputError(Problem{"", ref.name + ": angle_rad", fmt::format("{}", to.angle_rad),
-                             "isn't reached: " + list(joints()[joint].held) + " would open",
-                             "an angle that its loops reach from where they are, or set_joint() of all their joints"});
+  const physics::JointState state{to.angle_rad, to.speed_rad_per_s};
+  const Impl::Along along = impl_->along(joint, state);
+  if (!along.posture) {
+    throw InputError(Problem{"", ref.name + ": angle_rad", fmt::format("{}", to.angle_rad), along.refused,
+                             "a place that its loops reach from where they are, or set_joint() of all their joints"});
   }
+  impl_->robots[ref.robot].robot().place(ref.index, to, impl_->substep_s());
+  impl_->put(joint, state, *along.posture);
   impl_->forget_mobility();
 }
 
-bool World::Impl::put(std::size_t joint, physics::JointState state) {
-  if (!loops) {
-    physics->set_joint(joint, state);
-    set_followers(joint);
-    return true;
-  }
-  std::vector<double> were;
-  for (const std::size_t j : driven) were.push_back(physics->joint(j).position);
+World::Impl::Along World::Impl::along(std::size_t joint, physics::JointState state) {
+  // First with all actuators where they are, where the loops have the freedoms for it.
   std::vector<std::size_t> held = put_here;
-  if (std::find(held.begin(), held.end(), joint) == held.end()) held.push_back(joint);
-  if (!physics->set_in_loops(joint, state, held)) return false;
+  held.insert(held.end(), driven.begin(), driven.end());
+  for (std::vector<std::size_t>* some : {&held, &put_here})
+    some->erase(std::remove(some->begin(), some->end(), joint), some->end());
+  std::optional<physics::LoopPosture> posture = physics->loops_with(joint, state, held);
+  if (!posture && held.size() > put_here.size()) posture = physics->loops_with(joint, state, put_here);
+  if (!posture) {
+    std::string kept;
+    for (const std::size_t j : put_here) kept += (kept.empty() ? "" : ", ") + names->joints[j].name;
+    return {std::nullopt, "isn't reached: " + engine::list(names->joints[joint].held) + " would open" +
+                              (kept.empty() ? "" : " (" + kept + ", put elsewhere since the last step, stays)")};
+  }
+  for (const auto& [j, to] : posture->along) {
+    const JointInfo& info = names->joints[j];
+    const auto& range = info.range;
+    if (!range || within(info, *range, physics->joint(j).position, to.position)) continue;
+    return {std::nullopt,
+            fmt::format("takes {} along, to {:.6g}, beyond its limits {} … {}", info.name, to.position, (*range)[0], (*range)[1])};
+  }
+  return {std::move(posture), ""};
+}
+
+void World::Impl::put(std::size_t joint, physics::JointState state, const physics::LoopPosture& posture) {
+  if (posture.numbers.empty()) {
+    physics->set_joint(joint, state);
+  } else {
+    put_here.push_back(joint);
+    constexpr double kMoved = 1e-9;
+    for (const auto& [j, to] : posture.along) {
+      const physics::JointState now = physics->joint(j);
+      const bool moves = std::abs(to.position - now.position) > kMoved || std::abs(to.speed - now.speed) > kMoved;
+      if (moves && std::find(driven.begin(), driven.end(), j) != driven.end()) placed(j);
+    }
+    physics->take(posture);
+  }
   set_followers(joint);
-  put_here = std::move(held);
-  for (std::size_t k = 0; k < driven.size(); ++k)
-    if (driven[k] != joint && physics->joint(driven[k]).position != were[k]) placed(driven[k]);
-  return true;
 }
 
 void World::Impl::set_followers(std::size_t leader) {
@@ -163,15 +187,16 @@ void World::set_joint(JointHandle joint, double angle, double speed) {
   const physics::JointState now = impl_->physics->joint(index);
   const auto own = [index](const description::Coupling& c) { return c.follower == index; };
   const auto coupling = std::find_if(impl_->world->couplings.begin(), impl_->world->couplings.end(), own);
+  const physics::JointState to{angle, speed};
   if (coupling != impl_->world->couplings.end()) {
-    check_follower(*coupling, joints(), {now, impl_->physics->joint(coupling->leader), {angle, speed}});
-  } else if (const auto& range = joints()[index].range) {
-    check_limits(joints()[index], *range, now.position, angle);
-  }
-  if (!impl_->put(index, {angle, speed})) {  // others may be about to be set, too: the loop is pulled together
-    impl_->physics->set_joint(index, {angle, speed});
-    impl_->set_followers(index);
-    impl_->put_here.push_back(index);
+    check_follower(*coupling, joints(), {now, impl_->physics->joint(coupling->leader), to});
+    impl_->put(index, to, {});
+  } else {
+    if (const auto& range = joints()[index].range) check_limits(joints()[index], *range, now.position, angle);
+    const Impl::Along along = impl_->along(index, to);
+    impl_->put(index, to, along.posture.value_or(physics::LoopPosture{}));
+    // Others may be about to be set, too: the loop is pulled together.
+    if (!along.posture) impl_->put_here.push_back(index);
   }
   impl_->placed(index);
 }
@@ -220,7 +245,6 @@ World World::clone() const {
   to->pulls = impl_->pulls;
   to->wrenches = impl_->wrenches;
   to->torques = impl_->torques;
-  to->loops = impl_->loops;
   to->put_here = impl_->put_here;
   to->dt_ns = impl_->dt_ns;
   to->substeps = impl_->substeps;

@@ -119,8 +119,10 @@ class World : public motion::Stage, public host::Simulation {
   /// world: InputError, here and below.
   bool command(std::string_view actuator, double equilibrium_rad, double preset);
   bool command(const ActuatorRef& actuator, double equilibrium_rad, double preset);  ///< by reference
-  /// Puts an actuator and its joint somewhere without a kick: see host::Robot::place. Its kinematic loops go along, as in set_joint().
-  /// InputError beyond the joint's limits, too, and where its loops don't get there.
+  /// Puts an actuator and its joint somewhere without a kick: see host::Robot::place. Its kinematic loops go along, other actuators of
+  /// theirs only where the loops leave no other way; joints that were put since the last step stay. InputError beyond the joint's limits,
+  /// where its loops don't get there from where they are (a dead centre counts as not reached where there is a speed), and where they
+  /// would take another joint beyond its limits; nothing has changed then.
   void place(std::string_view actuator, double angle_rad, double preset, double speed_rad_per_s = 0);
   void place(const ActuatorRef& actuator, const host::Placement& at);           ///< by reference
   [[nodiscard]] host::ActuatorReading read(std::string_view actuator) const;    ///< at the end of the last step
@@ -146,9 +148,10 @@ class World : public motion::Stage, public host::Simulation {
   [[nodiscard]] double joint_speed(std::string_view scoped_joint) const;  ///< rad/s, or m/s of a prismatic one
   [[nodiscard]] double joint_speed(JointHandle joint) const;              ///< by handle: no search
   /// Sets a one-axis joint's angle and speed (kicks, initial conditions), ±1e12, and those of joints that follow it (`<mimic>`); other
-  /// state stays, its actuator's too: place() moves that along. The joints of its kinematic loops go along, but for those that were set
-  /// since the last step, so that all may be set one by one; where they don't get there, the loop is pulled together. InputError: an angle farther beyond the joint's limits than it is now
-  /// (or than 0.05 rad, 5e-3 m), and a follower elsewhere than its leader has it (0.02 and 0.1 of speed are let pass).
+  /// state stays, its actuator's too: place() moves that along. Its kinematic loops go along as in place(); where they don't, the joint
+  /// alone is set and the constraint pulls the loop together, so that all its joints may be set one by one. The others' speeds are those of
+  /// half a step before, as the engine has them. InputError: an angle farther beyond the joint's limits than it is now (or than 0.05 rad,
+  /// 5e-3 m), and a follower elsewhere than its leader has it (0.02 and 0.1 of speed are let pass).
   void set_joint(std::string_view scoped_joint, double angle, double speed);
   void set_joint(JointHandle joint, double angle, double speed);  ///< by handle: no search
   [[nodiscard]] Pose pose(LinkHandle link) const;                 ///< now, in the world

@@ -17,6 +17,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "vsa/errors.hpp"
@@ -38,6 +39,12 @@ namespace vsa::physics {
 struct JointState {
   double position = 0,  ///< rad or m
       speed = 0;        ///< rad/s or m/s
+};
+
+/// Where kinematic loops are (Physics::loops_with).
+struct LoopPosture {
+  std::vector<std::pair<std::size_t, JointState>> along;  ///< joints with one axis that go along, and where they are then
+  std::vector<double> numbers;                            ///< the engine's; none: the joint is in no loop, set_joint() is all
 };
 
 /// Why a step was refused.
@@ -125,13 +132,14 @@ class Physics {
   /// Goes on with those; the state stays. InputError, here and above: of another world.
   virtual void use(std::shared_ptr<const Bodies> bodies) = 0;
 
-  /// set_joint() in a world with kinematic loops: the joints that aren't `held` go along, positions and speeds, so that the loops stay
-  /// closed. False: they don't get there from where they are, and nothing has changed. An engine without loops has none to close.
-  [[nodiscard]] virtual bool set_in_loops(std::size_t joint, JointState state, std::span<const std::size_t> held) {
-    static_cast<void>(held);
-    set_joint(joint, state);
-    return true;
+  /// Where a joint's kinematic loops are once it is put somewhere and the joints that aren't `held` go along; nothing has changed yet.
+  /// None: they don't get there from where they are. An engine without loops has none to take along.
+  [[nodiscard]] virtual std::optional<LoopPosture> loops_with(std::size_t joint, JointState state,
+                                                              std::span<const std::size_t> held) {
+    static_cast<void>(joint), static_cast<void>(state), static_cast<void>(held);
+    return LoopPosture{};
   }
+  virtual void take(const LoopPosture& posture) { static_cast<void>(posture); }  ///< one of loops_with() at this state
 };
 
 /// What an engine makes of a description, the same for all who step it; never changed.

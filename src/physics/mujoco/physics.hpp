@@ -66,7 +66,8 @@ class MujocoPhysics final : public Physics {
   std::shared_ptr<const Bodies> bodies() const override { return bodies_; }
   std::shared_ptr<const Bodies> bodies_with(const Bodies& base, std::span<const scene::LinkParameters> links) override;
   void use(std::shared_ptr<const Bodies> bodies) override;
-  bool set_in_loops(std::size_t joint, JointState state, std::span<const std::size_t> held) override;
+  std::optional<LoopPosture> loops_with(std::size_t joint, JointState state, std::span<const std::size_t> held) override;
+  void take(const LoopPosture& posture) override;
 
  private:
   MujocoPhysics(const MujocoPhysics& other);
