@@ -45,7 +45,8 @@ std::string gimbals() {
 }
 /// A free base with two wheels, one of them out of balance.
 std::string satellite() {
-  return "<model name='s'>" + link("l", "0 0 3 0 0 0", 1, {2e-3, 3e-3, 4e-3}) + link("u", "0.1 0 3 0 0 0", 0.2, {2e-4, 1e-4, 1e-4}) +
+  return "<model name='s'>" + link("l", "0 0 3 0 0 0", 1, {2e-3, 3e-3, 4e-3}) +
+         link("u", "0.1 0 3 0 0 0", 0.2, {2e-4, 1e-4, 1e-4}) +
          link("v", "0 0.1 3 0 0 0", 0.2, {1e-4, 2e-4, 1e-4}, "0.02 0 0 0 0 0") + turning("a", "l", "u", "1 0 0") +
          turning("b", "l", "v", "0 1 0") + "</model>";
 }
@@ -53,7 +54,8 @@ std::string satellite() {
 std::string mimic() {
   return "<model name='pair'><pose>0 8 1 0 0 0</pose>" + link("a", "0 0 0 0 0 0", 0.1, {1e-3, 1e-3, 1e-3}) +
          link("b", "0.1 0 0 0 0 0", 0.1, {1e-3, 1e-3, 1e-3}) + turning("x", "world", "a", "0 1 0") +
-         "<joint name='y' type='revolute'><parent>world</parent><child>b</child><axis><xyz>0 1 0</xyz><mimic joint='x'><multiplier>1"
+         "<joint name='y' type='revolute'><parent>world</parent><child>b</child><axis><xyz>0 1 0</xyz><mimic "
+         "joint='x'><multiplier>1"
          "</multiplier><offset>0</offset><reference>0</reference></mimic></axis></joint></model>";
 }
 std::string rods(int count) {
@@ -162,7 +164,8 @@ TEST(Spinning, WheelsInGimbalsAndOnAFreeBaseKeepTheirEnergy) {
   for (const double speed : {20.0, 50.0, 100.0, 200.0}) {
     for (const double step_s : {1e-3, 2e-3, 4e-3}) {
       const std::vector<Start> wheel = {{"joint g::y", {speed}}},
-                               wheels = {{"link s::l", {0, 0, 0, 1, 2, -1}}, {"joint s::a", {speed}}, {"joint s::b", {-0.7 * speed}}};
+                               wheels = {
+                                   {"link s::l", {0, 0, 0, 1, 2, -1}}, {"joint s::a", {speed}}, {"joint s::b", {-0.7 * speed}}};
       const std::string in_gimbals = world(gimbals()), free = world(satellite(), "0 0 0");
       const Drift a = drift(begun(in_gimbals, step_s, wheel), 3), b = drift(begun(free, step_s, wheels), 3);
       show("gimbals", speed, step_s, a, drift(begun(in_gimbals, step_s, wheel, physics::Coriolis::as_in_mj_step), 3));
