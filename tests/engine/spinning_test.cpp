@@ -160,6 +160,23 @@ TEST(Spinning, AHeavyTopOnABallKeepsItsEnergy) {
   }
 }
 
+TEST(Spinning, Scratch) {
+  const std::string arm = "<model name='s'>" + link("l", "0 0 3 0 0 0", 0.5, {1e-3, 1e-3, 2e-3}) +
+                          link("u", "0.1 0 3 0 0 0", 0.02, {2e-6, 2e-6, 2e-6}, "0.02 0 0.01 0 0 0") + turning("a", "l", "u", "0 1 0") + "</model>";
+  const std::string chain = "<model name='s'>" + link("l", "0 0 1 0.3 0 0", 0.5, {2e-4, 2e-4, 4e-4}, "0 0 0.1 0 0 0") +
+                            link("u", "0 -0.06 1.19 0.3 0 0", 0.1, {2e-5, 2e-5, 4e-5}, "0 0 0.05 0 0 0") +
+                            "<joint name='b' type='ball'><parent>world</parent><child>l</child></joint>" +
+                            "<joint name='c' type='ball'><parent>l</parent><child>u</child></joint></model>";
+  for (const double speed : {20.0, 50.0, 100.0, 200.0, 400.0}) {
+    for (const double step_s : {1e-3, 2e-3, 4e-3}) {
+      show("disc and arm", speed, step_s, drift(begun(world(arm, "0 0 0"), step_s, {{"link s::l", {0, 0, 0, 0.01*speed, 0, speed}}}), 3), drift(begun(world(arm, "0 0 0"), step_s, {{"link s::l", {0, 0, 0, 0.5*speed, 0, speed}}}), 3));
+      show("balls", speed, step_s, drift(begun(world(chain), step_s, {{"joint s::b", {0, 0, speed}}, {"joint s::c", {0, 0, speed}}}), 2), drift(begun(world(chain), step_s, {{"joint s::b", {0, 0, speed}}}), 2));
+      const std::string body = "<model name='s'>" + link("l", "0 0 3 0 0 0", 0.5, {1e-3, 2e-3, 2.8e-3}, "0.03 0.01 0.02 0.1 0.2 0.3") + "</model>";
+      show("asym", 10*speed, step_s, drift(begun(world(body, "0 0 0"), step_s, {{"link s::l", {0, 0, 0, speed, speed * 10, speed}}}), 3), {});
+    }
+  }
+}
+
 TEST(Spinning, WheelsInGimbalsAndOnAFreeBaseKeepTheirEnergy) {
   for (const double speed : {20.0, 50.0, 100.0, 200.0}) {
     for (const double step_s : {1e-3, 2e-3, 4e-3}) {

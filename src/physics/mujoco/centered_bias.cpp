@@ -94,6 +94,38 @@ class Rotor {
   Matrix3 inertia_, mobility_;  // I, W
 };
 
+/// r × v, turned on with v for a time h.
+void swept(mjtNum* out, const mjtNum* v, const mjtNum* r, double h) {
+  mjtNum axis[3], turn[4], across[3];
+  mju_copy3(axis, v);
+  const mjtNum speed = mju_normalize3(axis);
+  mju_axisAngle2Quat(turn, axis, speed * h);
+  mju_cross(across, v, r);
+  mju_rotVecQuat(out, across, turn);
+}
+
+/// What must push a free body's centre of mass, beside M·a + c(v'): M keeps its momentum for small turns in a step only.
+///   m·δ,  δ = (E(−v·h)(v × r) − E(v"·h)(v" × r))/dt + α × r + v' × (v' × r)
+/// with v" = v + dt·α the next speed, E what turns, r from the body's origin to the centre of mass.
+void keep_momentum(const mjModel& m, const mjData& d, int first, const mjtNum* v, const mjtNum* centered, mjtNum* out) {
+  const int body = m.jnt_bodyid[m.dof_jntid[first]];
+  const double half_s = 0.5 * m.opt.timestep;
+  mjtNum in_world[3], r[3], change[3], next[3], before[3], after[3], a[3], b[3], force[3];
+  mju_sub3(in_world, d.subtree_com + 3 * body, d.xpos + 3 * body);
+  turned_back(r, in_world, d.xmat + 9 * body);
+  mju_sub3(change, centered, v);
+  mju_scl3(change, change, 1 / half_s);
+  mju_addScl3(next, v, change, m.opt.timestep);
+  swept(before, v, r, -half_s);
+  swept(after, next, r, half_s);
+  mju_cross(a, change, r);
+  mju_cross(b, centered, r);
+  mju_cross(force, centered, b);
+  for (int i = 0; i < 3; ++i) force[i] = m.body_subtreemass[body] * ((before[i] - after[i]) / m.opt.timestep + a[i] + force[i]);
+  mju_rotVecMat(out, force, d.xmat + 9 * body);
+  mju_cross(out + 3, r, force);
+}
+
 /// Of speeds, √ Σ M_ii x_i².
 double size(const mjModel& m, mjData& d, int first, int count, const mjtNum* x) {
   double sum = 0;
@@ -106,7 +138,8 @@ double size(const mjModel& m, mjData& d, int first, int count, const mjtNum* x) 
 CenteredBias::CenteredBias(const mjModel& model, Coriolis coriolis)
     : left_(coriolis == Coriolis::as_in_mj_step || bias_has_more(model)),
       before_(static_cast<std::size_t>(model.nv)),
-      change_(before_) {
+      change_(before_),
+      kept_(before_) {
   for (int v = 0; v < model.nv; ++v) {
     if (model.dof_parentid[v] < 0) trees_.push_back({v, 0, -1});
     ++trees_.back().count;
@@ -138,7 +171,10 @@ bool CenteredBias::turn(const mjModel& m, mjData& d, const Tree& tree, bool damp
     mju_subFrom3(b, by_itself);
     return false;
   }
-  if (tree.count > 3) mju_addToScl3(d.qvel + tree.first, change_.data() + tree.first, half_s * part);
+  if (tree.count > 3) {
+    mju_addToScl3(d.qvel + tree.first, change_.data() + tree.first, half_s * part);
+    keep_momentum(m, d, tree.first, v, found, kept_.data() + tree.first);
+  }
   mju_copy3(v, found);
   return true;
 }
@@ -150,6 +186,7 @@ void CenteredBias::set(const mjModel& m, mjData& d, const TiedTrees& trees, cons
   mju_addTo(change, pushed, m.nv);
   mj_solveM(&m, &d, change, change, 1);
   mju_copy(before_.data(), d.qvel, m.nv);
+  mju_zero(kept_.data(), m.nv);
   const double half_s = 0.5 * m.opt.timestep;
   for (const Tree& tree : trees_) {
     if (trees.tied(tree.first))
@@ -161,6 +198,7 @@ void CenteredBias::set(const mjModel& m, mjData& d, const TiedTrees& trees, cons
   }
   mj_comVel(&m, &d);
   mj_rne(&m, &d, 0, d.qfrc_bias);
+  mju_subFrom(d.qfrc_bias, kept_.data(), m.nv);
   mju_copy(d.qvel, before_.data(), m.nv);
 }
 

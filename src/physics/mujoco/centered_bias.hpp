@@ -40,7 +40,8 @@ class CenteredBias {
 
   bool left_ = true;  // as MuJoCo has it
   std::vector<Tree> trees_;
-  std::vector<mjtNum> before_, change_;  // speeds
+  std::vector<mjtNum> before_, change_;  // speeds, accelerations
+  std::vector<mjtNum> kept_;             // what is added to forces, for the momentum of free bodies
 };
 
 }  // namespace vsa::physics
