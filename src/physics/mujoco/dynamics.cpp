@@ -18,6 +18,7 @@ MujocoPhysics::MujocoPhysics(const MujocoPhysics& other)
       root_(other.root_),
       weightless_(other.weightless_),
       directed_(other.directed_),
+      trees_(other.trees_),
       centered_(other.centered_),
       q_owner_(other.q_owner_),
       v_owner_(other.v_owner_),

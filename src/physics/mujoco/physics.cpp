@@ -59,6 +59,7 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::
     if (world.links[l].weightless && !objects_.is_static[l] && !switched_off(*m, {"Gravity"})) weightless_.push_back(l);
   }
   directed_ = DirectedFriction(objects_.directions, *m);
+  trees_ = TiedTrees(*m);
   centered_ = CenteredBias(*m, coriolis);
   unit_.resize(static_cast<std::size_t>(m->nv));
   pushed_.resize(unit_.size());
@@ -113,7 +114,8 @@ void MujocoPhysics::prepare() {
   take_dampers();
   mj_fwdVelocity(m, data_.get());
   hold_up(*data_, data_->qfrc_passive, 1);
-  centered_.set(*m, *data_, pushed_.data());
+  trees_.look(*m, *data_);
+  centered_.set(*m, *data_, trees_, pushed_.data(), damped_);
   mju_zero(data_->qfrc_applied, m->nv);
 }
 
@@ -202,23 +204,24 @@ void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<doub
   tie(joints, out);
 }
 
-/// Equalities answer to what joint speeds do at once, so where there are any all constraints are solved as in advance().
+/// Equalities answer to what joint speeds do at once, so where they tie one of the joints all constraints are solved as in advance().
 void MujocoPhysics::foresee(std::span<const std::size_t> joints, std::span<double> out) {
   const mjModel* m = model_.get();
   mjData* d = data_.get();
+  const auto tied = [&](std::size_t joint) { return trees_.tied(joint_[joint].v); };
   mj_fwdActuation(m, d);
-  if (d->ne > 0) {
+  mju_sub(unit_.data(), d->qfrc_passive, d->qfrc_bias, m->nv);
+  mju_addTo(unit_.data(), d->qfrc_actuator, m->nv);
+  mju_addTo(unit_.data(), pushed_.data(), m->nv);
+  mj_solveM(m, d, column_.data(), unit_.data(), 1);
+  mju_zero(unit_.data(), m->nv);
+  if (std::any_of(joints.begin(), joints.end(), tied)) {
     mju_copy(d->qfrc_applied, pushed_.data(), m->nv);
     mj_fwdAcceleration(m, d);
     mj_fwdConstraint(m, d);
     mju_zero(d->qfrc_applied, m->nv);
-    mju_copy(column_.data(), d->qacc, m->nv);
-  } else {
-    mju_sub(unit_.data(), d->qfrc_passive, d->qfrc_bias, m->nv);
-    mju_addTo(unit_.data(), d->qfrc_actuator, m->nv);
-    mju_addTo(unit_.data(), pushed_.data(), m->nv);
-    mj_solveM(m, d, column_.data(), unit_.data(), 1);
-    mju_zero(unit_.data(), m->nv);
+    for (int v = 0; v < m->nv; ++v)
+      if (trees_.tied(v)) column_[v] = d->qacc[v];
   }
   std::transform(joints.begin(), joints.end(), out.begin(),
                  [&](std::size_t joint) { return column_[static_cast<std::size_t>(joint_[joint].v)]; });
@@ -267,7 +270,8 @@ std::optional<Refusal> MujocoPhysics::advance() {
     give_dampers_back();
     mj_Euler(m, d);
     mju_copy(pushed_.data(), d->qfrc_applied, m->nv);
-    if (d->ne == 0) mju_addTo(pushed_.data(), d->qfrc_constraint, m->nv);
+    for (int v = 0; v < m->nv; ++v)
+      if (!trees_.tied(v)) pushed_[v] += d->qfrc_constraint[v];
     fault = check(d->qvel, m->nv, false, "speed");
     if (!fault) fault = check(d->qpos, m->nq, true, "position");
     if (!fault) fault = find_fault();

@@ -5,7 +5,7 @@
 //   prepare()  mj_fwdPosition, mj_fwdVelocity          poses, M = LᵀDL, contacts; nothing of it is computed twice, but constraints
 //                                                      where contacts get a direction of friction, and Coriolis torques
 //                                                      (centered_bias.hpp)
-//   foresee()  M⁻¹ of forces, or with equalities mj_fwdConstraint, with what pushed in the last step
+//   foresee()  M⁻¹ of forces, or in trees with equalities mj_fwdConstraint, with what pushed in the last step
 //   advance()  mj_fwdActuation … mj_fwdConstraint      v̇ with the applied torques
 //              check, mj_Euler, check                  v' = v + dt·(M + dt·B)⁻¹M v̇ with joint damping B; q' = q + dt·v'
 //
@@ -101,10 +101,11 @@ class MujocoPhysics final : public Physics {
   std::vector<int> root_;                       // of a link: the joint id of its free root, −1: tied to the world
   std::vector<std::size_t> weightless_;         // links that gravity leaves alone
   DirectedFriction directed_;
+  TiedTrees trees_;
   CenteredBias centered_;
   std::vector<std::string> q_owner_, v_owner_;
   std::vector<double> before_;  // the state, of the last prepare()
-  std::vector<mjtNum> pushed_;  // in the last step, by degree of freedom: applied and, without equalities, by constraints
+  std::vector<mjtNum> pushed_;  // in the last step: applied and, in trees without equalities, by constraints
   std::vector<mjtNum> unit_, column_, jacobian_, mobility_, mass_matrix_;
   std::vector<mjtNum> row_, tied_, ties_, of_joint_;  // of equalities; row_ is 0
   bool damped_ = false;                               // some joint has damping
