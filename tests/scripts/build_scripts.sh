@@ -53,7 +53,37 @@ for at in update install; do
   ! with sh "$root/scripts/setup.sh" >"$work/out" 2>&1 || fail "apt-get $at fails, setup.sh doesn't"
   grep -q "^setup.sh: apt-get $at failed: .* cmake " "$work/out" || fail "apt-get $at fails: $(cat "$work/out")"
 done
-rm "$work/bin/apt-get" "$work/bin/sudo" "$work/bin/dpkg-query"
+
+# setup.sh knows systems by their os-release: on_system TEXT GROUP… says what it would install there.
+mkdir -p "$work/system/scripts"
+sed "s|/etc/os-release|$work/os-release|" "$root/scripts/setup.sh" >"$work/system/scripts/setup.sh"
+printf '#!/bin/sh\nexit 0\n' >"$work/bin/apt-get"
+on_system() {
+  printf '%s\n' "$1" >"$work/os-release" && shift
+  with sh "$work/system/scripts/setup.sh" "$@" >"$work/out" 2>&1
+}
+on_system 'VERSION_CODENAME=noble' fuzz || fail "setup.sh on Ubuntu 24.04: $(cat "$work/out")"
+grep -q "^setup: installing .* libmujoco-dev .* clang-18 " "$work/out" || fail "setup.sh on Ubuntu 24.04: $(cat "$work/out")"
+! grep -q "never tried" "$work/out" || fail "setup.sh on Ubuntu 24.04, which was tried: $(cat "$work/out")"
+on_system 'NAME="Linux Mint"
+VERSION_CODENAME=wilma
+UBUNTU_CODENAME="noble"' && grep -q " libmujoco-dev" "$work/out" || fail "setup.sh on a derivative of Ubuntu 24.04: $(cat "$work/out")"
+code=0 && on_system "UBUNTU_CODENAME='jammy'" || code=$?
+[ "$code" -eq 2 ] && [ "$(wc -l <"$work/out")" -eq 1 ] && grep -q "jammy.*no MuJoCo.*(allowed: " "$work/out" ||
+  fail "setup.sh on Ubuntu 22.04 ends with $code: $(cat "$work/out")"
+on_system 'VERSION_CODENAME=bookworm
+PRETTY_NAME="Debian GNU/Li' && grep -q " libsdformat-dev" "$work/out" || fail "an os-release that was cut: $(cat "$work/out")"
+on_system 'NAME="some' && grep -q "never tried.*unknown" "$work/out" || fail "an unknown system: $(cat "$work/out")"
+
+# A package that apt doesn't know is named. Where it knows none, its lists are what is missing.
+printf '#!/bin/sh\n[ "$1" != install ]\n' >"$work/bin/apt-get"
+printf '#!/bin/sh\n[ "$2" != libpagmo-dev ]\n' >"$work/bin/apt-cache" && chmod +x "$work/bin/apt-cache"
+! on_system 'VERSION_CODENAME=trixie' || fail "a package that apt doesn't know is installed"
+grep -q "^setup.sh: apt knows no package of these names: libpagmo-dev: " "$work/out" || fail "an unknown package: $(cat "$work/out")"
+printf '#!/bin/sh\nexit 100\n' >"$work/bin/apt-cache"
+! on_system 'VERSION_CODENAME=trixie' || fail "packages that apt doesn't know are installed"
+grep -q "^setup.sh: apt-get install failed: without a network" "$work/out" || fail "no lists of packages: $(cat "$work/out")"
+rm "$work/bin/apt-get" "$work/bin/apt-cache" "$work/bin/sudo" "$work/bin/dpkg-query"
 
 # A tree without a repository, below another's: its sources are found, and no archive is made of it.
 tree="$work/a tree"
