@@ -44,7 +44,23 @@ printf '#!/bin/sh\necho "$*" >>"%s/asked"\nexit 1\n' "$work" >"$work/bin/npm" &&
 ! sh "$root/web/fetch.sh" "$work/bin/npm" "$work" >"$work/out" 2>&1 || fail "npm's failure is none"
 grep -q "^web: .*registry once.*make dist" "$work/out" || fail "npm fails: $(cat "$work/out")"
 grep -q -- "--fetch-retries=1 " "$work/asked" || fail "npm tries for minutes: $(cat "$work/asked")"
-rm "$work/bin/npm"
+
+# A home that can't be written: npm gets a cache of its own, beside what it fetches. A full disk is told as that.
+grep -q -- "--cache" "$work/asked" && fail "npm's own cache isn't used: $(cat "$work/asked")"
+: >"$work/no_folder"
+! HOME="$work/no_folder" npm_config_cache="" sh "$root/web/fetch.sh" "$work/bin/npm" "$work" >"$work/out" 2>&1 || fail "npm's failure is none"
+grep -q -- "--cache $work/cache --logs-max=0 " "$work/asked" || fail "no cache for npm: $(cat "$work/asked")"
+printf '#!/bin/sh\necho "npm ERR! code ENOSPC" >&2\nexit 1\n' >"$work/bin/npm"
+! sh "$root/web/fetch.sh" "$work/bin/npm" "$work" >"$work/out" 2>&1 || fail "npm's failure is none"
+grep -q "^npm ERR! code ENOSPC" "$work/out" && grep -q "^web: $work: no space for the pages' packages" "$work/out" ||
+  fail "npm meets a full disk: $(cat "$work/out")"
+! grep -q "registry" "$work/out" || fail "a full disk is told as a registry: $(cat "$work/out")"
+stand_in df "Filesystem 1024-blocks Used Available Capacity Mounted on
+disk 1000000 997952 2048 99% /"
+printf '#!/bin/sh\ntouch "%s/was_asked"\n' "$work" >"$work/bin/npm"
+! with sh "$root/web/fetch.sh" "$work/bin/npm" "$work" >"$work/out" 2>&1 || fail "npm is asked on a full disk"
+grep -q "no space .* 2 MB are free: they need " "$work/out" && [ ! -e "$work/was_asked" ] || fail "a full disk: $(cat "$work/out")"
+rm "$work/bin/npm" "$work/bin/df"
 for at in update install; do
   printf '#!/bin/sh\n[ "$1" != %s ]\n' "$at" >"$work/bin/apt-get"
   printf '#!/bin/sh\nexec "$@"\n' >"$work/bin/sudo"
