@@ -145,6 +145,18 @@ said=$(cant "$root/packaging/prepare.py" --version "$version" --release 1 --main
 said=$(cant "$root/packaging/manual.py" --out "$work/manual")
 echo "$said" | grep -qx "manual.py: $work/manual/.*: File too large" || fail "manual.py: $said"
 
+# Arguments that are missing, and a build that fails, are a line too.
+code=0 && python3 -B "$root/packaging/sbom.py" "$work" >"$work/out" 2>&1 || code=$?
+[ "$code" -eq 2 ] && grep -q "^sbom.py: not PACKAGES BUILD" "$work/out" || fail "sbom.py without a build ends with $code: $(cat "$work/out")"
+if python3 -c "import setuptools" 2>/dev/null; then
+  printf '#!/bin/sh\nexit 3\n' >"$work/bin/cmake"
+  ! (cd "$work" && env -u VSA_BUILD_DIR PATH="$work/bin:$PATH" python3 -B "$root/setup.py" -q build_ext --build-temp "$work/pip" >"$work/out" 2>&1) ||
+    fail "setup.py doesn't fail where CMake does"
+  grep -q "^setup.py: cmake -S .*: exit code 3" "$work/out" || fail "setup.py where CMake fails: $(cat "$work/out")"
+  ! grep -q Traceback "$work/out" || fail "setup.py where CMake fails: $(cat "$work/out")"
+  rm "$work/bin/cmake"
+fi
+
 # Missing libraries are told all at once, with what brings them.
 mkdir "$work/needs"
 cat >"$work/needs/CMakeLists.txt" <<EOF
