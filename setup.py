@@ -18,6 +18,16 @@ from setuptools.command.build_ext import build_ext
 ROOT = pathlib.Path(__file__).resolve().parent
 
 
+def build_step(*command):
+    """What went wrong was told by the command itself; of our own there is a line, no traceback."""
+    try:
+        subprocess.run(command, check=True)
+    except OSError as error:
+        raise SystemExit(f"setup.py: {command[0]}: {error.strerror}") from None
+    except subprocess.CalledProcessError as error:
+        raise SystemExit(f"setup.py: {shlex.join(command)}: exit code {error.returncode}") from None
+
+
 class CMakeBuild(build_ext):
     def run(self):
         given = os.environ.get("VSA_BUILD_DIR")
@@ -30,9 +40,9 @@ class CMakeBuild(build_ext):
         options += [f"-DPython3_EXECUTABLE={sys.executable}", *arguments]
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         if not given:
-            subprocess.run(["cmake", "-S", str(ROOT), "-B", str(tree), *generator, *options], check=True)
+            build_step("cmake", "-S", str(ROOT), "-B", str(tree), *generator, *options)
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
-        subprocess.run(["cmake", "--build", str(tree), "--parallel", jobs, "--target", "vsasim_python"], check=True)
+        build_step("cmake", "--build", str(tree), "--parallel", jobs, "--target", "vsasim_python")
         module = pathlib.Path(self.get_ext_fullpath("vsasim._vsasim"))
         package = module.parent
         modules = {file.name for file in (tree / "python" / "vsasim").glob("_vsasim*")}

@@ -55,8 +55,8 @@ if(VSA_SIMULATOR AND NOT VSA_TOPICS STREQUAL "OFF")
 endif()
 
 # What the configure step and `vsa doctor` say where one is missing.
-set(VSA_SDF_REMEDY "install libsdformat-dev of Debian 12, or libsdformat12-dev or later of Gazebo's archive for Ubuntu, and build again (Debian 13 has none)")
-set(VSA_TOPICS_REMEDY "install libignition-transport-dev and libignition-msgs-dev of Debian 12, or libgz-transport13-dev of Gazebo's archive for Ubuntu, and build again (Debian 13 has none)")
+set(VSA_SDF_REMEDY "install libsdformat-dev of Debian 12, or libsdformat14-dev of Gazebo's archive for Ubuntu 24.04, and build again (Debian 13 and Ubuntu 24.04 themselves have none)")
+set(VSA_TOPICS_REMEDY "install libignition-transport-dev and libignition-msgs-dev of Debian 12, or libgz-transport13-dev of Gazebo's archive for Ubuntu 24.04, and build again (Debian 13 and Ubuntu 24.04 themselves have none)")
 set(VSA_SDF_NAME "reader of SDF and URDF")
 set(VSA_TOPICS_NAME "topics")
 foreach(feature SDF TOPICS)

@@ -191,11 +191,15 @@ def add_package(document, deb, builds, ours, tree):
 
 
 def main():
+    if len(sys.argv) < 3:
+        print("sbom.py: not PACKAGES BUILD…: the folder of the packages, the build trees that they were made in", file=sys.stderr)
+        sys.exit(2)
     folder, debian = pathlib.Path(sys.argv[1]), Debian()
     builds = [Build(pathlib.Path(b), debian) for b in sys.argv[2:]]
     debs = sorted(folder.glob("*.deb"))
-    if not debs or not builds:
-        sys.exit(__doc__)
+    if not debs:
+        print(f"sbom.py: PACKAGES = {folder}: no .deb is there (allowed: a folder with packages)", file=sys.stderr)
+        sys.exit(2)
     version, epoch = prepare.newest()
     ours = {output("dpkg-deb", "-f", d, "Package").strip() for d in debs}
     document = Document(version, epoch)

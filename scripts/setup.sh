@@ -1,10 +1,13 @@
 #!/bin/sh
-# Installs what building, testing and running vsasim needs on Debian 12 and 13; its lists for Ubuntu 22.04 and 24.04, which don't
-# package MuJoCo, were never tried.
+# Installs what building, testing and running vsasim needs on Debian 12 and 13 and on Ubuntu 24.04 (docs/reference/systems.md).
 # Idempotent: when every package is present it touches neither the network nor the package manager.
 set -eu
 
-codename=$([ ! -r /etc/os-release ] || { . /etc/os-release && echo "${VERSION_CODENAME:-}"; })
+# Read, not sourced: a file that was cut in the middle is no error of the shell's here.
+of_system() { sed -n "s/^$1=[\"']\{0,1\}\([A-Za-z0-9._-]*\).*/\1/p" /etc/os-release 2>/dev/null | tail -n 1; }
+# Ubuntu's derivatives (Mint) have names of their own, and say whose packages they take.
+codename=$(of_system UBUNTU_CODENAME)
+[ -n "$codename" ] || codename=$(of_system VERSION_CODENAME)
 
 packages="
   build-essential cmake ninja-build pkg-config ca-certificates
@@ -27,9 +30,16 @@ case "$codename" in
     packages="$packages libmujoco-dev"
     clang=19
     ;;
-  # Never tried. Without MuJoCo, which Ubuntu doesn't package: a release of it belongs where CMake looks. Gazebo's archive has SDF and topics.
-  jammy) packages="$packages libassimp-dev libbullet-extras-dev" browser="" tried=no ;;
-  noble) packages="$packages libassimp-dev libbullet-extras-dev" browser="" clang=18 tried=no ;;
+  # No browser: Ubuntu's is a snap.
+  noble)
+    packages="$packages libmujoco-dev libassimp-dev libbullet-extras-dev"
+    browser=""
+    clang=18
+    ;;
+  jammy)
+    echo "setup.sh: Ubuntu 22.04 (jammy) packages no MuJoCo, lodepng, toml++ and pagmo, and too old a pybind11 (2.9; needed: 2.10) and Node.js (12; needed: 18) (allowed: Ubuntu 24.04, Debian 12, Debian 13)" >&2
+    exit 2
+    ;;
   *) tried=no ;;
 esac
 
@@ -67,10 +77,18 @@ if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null 2>&1 || { echo "setup.sh: needs root or sudo to install:$missing" >&2; exit 1; }
   sudo="sudo"
 fi
-[ "$tried" = yes ] || echo "setup.sh: the list of packages was never tried on this system (${codename:-unknown}; tried: bookworm, trixie)" >&2
+[ "$tried" = yes ] || echo "setup.sh: the list of packages was never tried on this system (${codename:-unknown}; tried: bookworm, trixie, noble)" >&2
 echo "setup: installing$missing"
 export DEBIAN_FRONTEND=noninteractive
 failed() {
+  unknown=""
+  if [ "$1" = install ]; then
+    for p in $missing; do apt-cache show "$p" >/dev/null 2>&1 || unknown="$unknown $p"; done
+  fi
+  if [ -n "$unknown" ] && [ "$unknown" != "$missing" ]; then
+    echo "setup.sh: apt knows no package of these names:$unknown: this system's sources lack them (Ubuntu: universe is needed), so nothing was installed of:$missing" >&2
+    exit 1
+  fi
   echo "setup.sh: apt-get $1 failed: without a network, or another source of packages, these can't be installed:$missing" >&2
   exit 1
 }

@@ -8,7 +8,8 @@ viewers of the page that come, vanish and send garbage; commands by topics; faul
 
 Looks at memory, descriptors and threads of the three, at answers and round trips of the port's clients, and at whether equal runs gave
 equal bytes. Ctrl-C or SIGTERM ends it earlier, and what it has seen until then is judged. Writes OUT/soak.html and OUT/soak.json; prints the
-verdicts; exit code 1 where one is broken, 2 for wrong use.
+verdicts; exit code 1 where one is broken, 2 for wrong use
+and for what can't be written.
 """
 import hashlib
 import importlib.util
@@ -249,6 +250,18 @@ def verdicts(soak, subjects, idle, ends):
     return out
 
 
+def told(soak, subjects, found, lasted, out):
+    """Prints the verdicts, writes OUT/soak.json and the page; the exit code. Hours of them outlive a disk that is full by now, so what was
+    found is printed first; then the numbers, which outlive a page that can't be drawn."""
+    for what, held, figure in found:
+        print(f"{'holds ' if held else 'BROKEN'}  {what}: {figure}", flush=True)
+    (out / "soak.json").write_text(json.dumps({"hours": lasted, "seed": soak.seed, "verdicts": found, "counts": soak.counts, "wrong": soak.wrong,
+                                               "samples": {s.name: s.samples for s in subjects}}, indent=1), encoding="utf-8")
+    soak_page.write_page(soak, subjects, found, 3600 * lasted, out)
+    print(f"{out}/soak.html")
+    return 0 if all(held for _, held, _ in found) else 1
+
+
 def main(build, hours, out, seed):
     out.mkdir(parents=True, exist_ok=True)
     begin = time.monotonic()
@@ -288,14 +301,7 @@ def main(build, hours, out, seed):
     idle.append({s.name: usage(s.process.pid) for s in subjects})
     ends = {s.name: s.stop() for s in subjects}
     found = verdicts(soak, subjects, idle, ends)
-    # The numbers first: hours of them outlive a page that can't be drawn.
-    (out / "soak.json").write_text(json.dumps({"hours": lasted, "seed": seed, "verdicts": found, "counts": soak.counts, "wrong": soak.wrong,
-                                               "samples": {s.name: s.samples for s in subjects}}, indent=1), encoding="utf-8")
-    soak_page.write_page(soak, subjects, found, time.monotonic() - begin, out)
-    for what, held, figure in found:
-        print(f"{'holds ' if held else 'BROKEN'}  {what}: {figure}")
-    print(f"{out}/soak.html")
-    return 0 if all(held for _, held, _ in found) else 1
+    return told(soak, subjects, found, lasted, out)
 
 
 if __name__ == "__main__":
@@ -308,7 +314,13 @@ if __name__ == "__main__":
             raise ValueError("Python's matplotlib is missing: sh scripts/setup.sh test soak installs it")
         if not 0 < long <= 1000:  # not of NaN either
             raise ValueError(f"HOURS = {long:g} (allowed: up to 1000)")
+        if where.exists() and not where.is_dir():
+            raise ValueError(f"OUT = {where}: is a file (allowed: a folder, or a name for one)")
     except ValueError as problem:
         print(f"soak.py: {problem}", file=sys.stderr)
         sys.exit(2)
-    sys.exit(main(tree, long, where, number))
+    try:
+        sys.exit(main(tree, long, where, number))
+    except OSError as problem:
+        print(f"soak.py: {problem.filename or where}: {problem.strerror or problem}", file=sys.stderr)
+        sys.exit(2)

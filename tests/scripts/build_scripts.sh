@@ -44,7 +44,23 @@ printf '#!/bin/sh\necho "$*" >>"%s/asked"\nexit 1\n' "$work" >"$work/bin/npm" &&
 ! sh "$root/web/fetch.sh" "$work/bin/npm" "$work" >"$work/out" 2>&1 || fail "npm's failure is none"
 grep -q "^web: .*registry once.*make dist" "$work/out" || fail "npm fails: $(cat "$work/out")"
 grep -q -- "--fetch-retries=1 " "$work/asked" || fail "npm tries for minutes: $(cat "$work/asked")"
-rm "$work/bin/npm"
+
+# A home that can't be written: npm gets a cache of its own, beside what it fetches. A full disk is told as that.
+grep -q -- "--cache" "$work/asked" && fail "npm's own cache isn't used: $(cat "$work/asked")"
+: >"$work/no_folder"
+! HOME="$work/no_folder" npm_config_cache="" sh "$root/web/fetch.sh" "$work/bin/npm" "$work" >"$work/out" 2>&1 || fail "npm's failure is none"
+grep -q -- "--cache $work/cache --logs-max=0 " "$work/asked" || fail "no cache for npm: $(cat "$work/asked")"
+printf '#!/bin/sh\necho "npm ERR! code ENOSPC" >&2\nexit 1\n' >"$work/bin/npm"
+! sh "$root/web/fetch.sh" "$work/bin/npm" "$work" >"$work/out" 2>&1 || fail "npm's failure is none"
+grep -q "^npm ERR! code ENOSPC" "$work/out" && grep -q "^web: $work: no space for the pages' packages" "$work/out" ||
+  fail "npm meets a full disk: $(cat "$work/out")"
+! grep -q "registry" "$work/out" || fail "a full disk is told as a registry: $(cat "$work/out")"
+stand_in df "Filesystem 1024-blocks Used Available Capacity Mounted on
+disk 1000000 997952 2048 99% /"
+printf '#!/bin/sh\ntouch "%s/was_asked"\n' "$work" >"$work/bin/npm"
+! with sh "$root/web/fetch.sh" "$work/bin/npm" "$work" >"$work/out" 2>&1 || fail "npm is asked on a full disk"
+grep -q "no space .* 2 MB are free: they need " "$work/out" && [ ! -e "$work/was_asked" ] || fail "a full disk: $(cat "$work/out")"
+rm "$work/bin/npm" "$work/bin/df"
 for at in update install; do
   printf '#!/bin/sh\n[ "$1" != %s ]\n' "$at" >"$work/bin/apt-get"
   printf '#!/bin/sh\nexec "$@"\n' >"$work/bin/sudo"
@@ -53,7 +69,37 @@ for at in update install; do
   ! with sh "$root/scripts/setup.sh" >"$work/out" 2>&1 || fail "apt-get $at fails, setup.sh doesn't"
   grep -q "^setup.sh: apt-get $at failed: .* cmake " "$work/out" || fail "apt-get $at fails: $(cat "$work/out")"
 done
-rm "$work/bin/apt-get" "$work/bin/sudo" "$work/bin/dpkg-query"
+
+# setup.sh knows systems by their os-release: on_system TEXT GROUP… says what it would install there.
+mkdir -p "$work/system/scripts"
+sed "s|/etc/os-release|$work/os-release|" "$root/scripts/setup.sh" >"$work/system/scripts/setup.sh"
+printf '#!/bin/sh\nexit 0\n' >"$work/bin/apt-get"
+on_system() {
+  printf '%s\n' "$1" >"$work/os-release" && shift
+  with sh "$work/system/scripts/setup.sh" "$@" >"$work/out" 2>&1
+}
+on_system 'VERSION_CODENAME=noble' fuzz || fail "setup.sh on Ubuntu 24.04: $(cat "$work/out")"
+grep -q "^setup: installing .* libmujoco-dev .* clang-18 " "$work/out" || fail "setup.sh on Ubuntu 24.04: $(cat "$work/out")"
+! grep -q "never tried" "$work/out" || fail "setup.sh on Ubuntu 24.04, which was tried: $(cat "$work/out")"
+on_system 'NAME="Linux Mint"
+VERSION_CODENAME=wilma
+UBUNTU_CODENAME="noble"' && grep -q " libmujoco-dev" "$work/out" || fail "setup.sh on a derivative of Ubuntu 24.04: $(cat "$work/out")"
+code=0 && on_system "UBUNTU_CODENAME='jammy'" || code=$?
+[ "$code" -eq 2 ] && [ "$(wc -l <"$work/out")" -eq 1 ] && grep -q "jammy.*no MuJoCo.*(allowed: " "$work/out" ||
+  fail "setup.sh on Ubuntu 22.04 ends with $code: $(cat "$work/out")"
+on_system 'VERSION_CODENAME=bookworm
+PRETTY_NAME="Debian GNU/Li' && grep -q " libsdformat-dev" "$work/out" || fail "an os-release that was cut: $(cat "$work/out")"
+on_system 'NAME="some' && grep -q "never tried.*unknown" "$work/out" || fail "an unknown system: $(cat "$work/out")"
+
+# A package that apt doesn't know is named. Where it knows none, its lists are what is missing.
+printf '#!/bin/sh\n[ "$1" != install ]\n' >"$work/bin/apt-get"
+printf '#!/bin/sh\n[ "$2" != libpagmo-dev ]\n' >"$work/bin/apt-cache" && chmod +x "$work/bin/apt-cache"
+! on_system 'VERSION_CODENAME=trixie' || fail "a package that apt doesn't know is installed"
+grep -q "^setup.sh: apt knows no package of these names: libpagmo-dev: " "$work/out" || fail "an unknown package: $(cat "$work/out")"
+printf '#!/bin/sh\nexit 100\n' >"$work/bin/apt-cache"
+! on_system 'VERSION_CODENAME=trixie' || fail "packages that apt doesn't know are installed"
+grep -q "^setup.sh: apt-get install failed: without a network" "$work/out" || fail "no lists of packages: $(cat "$work/out")"
+rm "$work/bin/apt-get" "$work/bin/apt-cache" "$work/bin/sudo" "$work/bin/dpkg-query"
 
 # A tree without a repository, below another's: its sources are found, and no archive is made of it.
 tree="$work/a tree"
@@ -98,6 +144,18 @@ said=$(cant "$root/packaging/prepare.py" --version "$version" --release 1 --main
 [ "$said" = "prepare.py: $work/packaging/changelog.Debian.gz: File too large" ] || fail "prepare.py: $said"
 said=$(cant "$root/packaging/manual.py" --out "$work/manual")
 echo "$said" | grep -qx "manual.py: $work/manual/.*: File too large" || fail "manual.py: $said"
+
+# Arguments that are missing, and a build that fails, are a line too.
+code=0 && python3 -B "$root/packaging/sbom.py" "$work" >"$work/out" 2>&1 || code=$?
+[ "$code" -eq 2 ] && grep -q "^sbom.py: not PACKAGES BUILD" "$work/out" || fail "sbom.py without a build ends with $code: $(cat "$work/out")"
+if python3 -c "import setuptools" 2>/dev/null; then
+  printf '#!/bin/sh\nexit 3\n' >"$work/bin/cmake"
+  ! (cd "$work" && env -u VSA_BUILD_DIR PATH="$work/bin:$PATH" python3 -B "$root/setup.py" -q build_ext --build-temp "$work/pip" >"$work/out" 2>&1) ||
+    fail "setup.py doesn't fail where CMake does"
+  grep -q "^setup.py: cmake -S .*: exit code 3" "$work/out" || fail "setup.py where CMake fails: $(cat "$work/out")"
+  ! grep -q Traceback "$work/out" || fail "setup.py where CMake fails: $(cat "$work/out")"
+  rm "$work/bin/cmake"
+fi
 
 # Missing libraries are told all at once, with what brings them.
 mkdir "$work/needs"

@@ -1,7 +1,11 @@
 # Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 """What scripts/soak.py makes of an hour, by made-up ones in which all else is in order."""
+import contextlib
+import io
 import pathlib
+import subprocess
 import sys
+import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
@@ -67,6 +71,29 @@ class Answers(unittest.TestCase):
     def test_answers_that_take_longer_are_still_noticed(self):
         broken = verdicts((at, 300.0 if at < 1800 else 900.0) for at in seconds())
         self.assertEqual(list(broken.values()), ["300 → 900 µs"])
+
+
+class Writing(unittest.TestCase):
+    def test_verdicts_are_told_where_nothing_can_be_written(self):
+        hour = soak.Soak(pathlib.Path("build"), pathlib.Path("out"), 1, BEGIN + HOUR)
+        said = io.StringIO()
+        with tempfile.NamedTemporaryFile() as no_folder, contextlib.redirect_stdout(said), self.assertRaises(OSError):
+            soak.told(hour, [], [["all is well", True, "1"], ["nothing is", False, "2"]], 1.0, pathlib.Path(no_folder.name))
+        self.assertEqual(said.getvalue(), "holds   all is well: 1\nBROKEN  nothing is: 2\n")
+
+    def test_a_file_in_the_place_of_the_folder_is_refused_at_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tree, out = pathlib.Path(folder), pathlib.Path(folder) / "out"
+            (tree / "bin").mkdir()
+            (tree / "bin/vsa").touch()
+            (tree / "matplotlib.py").touch()  # asked for first
+            out.touch()
+            done = subprocess.run([sys.executable, soak.__file__, folder, "1", str(out)], capture_output=True, text=True, check=False,
+                                  env={"PYTHONPATH": folder, "PYTHONDONTWRITEBYTECODE": "1"})
+            self.assertEqual((done.returncode, done.stderr), (2, f"soak.py: OUT = {out}: is a file (allowed: a folder, or a name for one)\n"))
+            done = subprocess.run([sys.executable, soak.__file__, folder, "1", str(out / "below")], capture_output=True, text=True, check=False,
+                                  env={"PYTHONPATH": folder, "PYTHONDONTWRITEBYTECODE": "1"})
+            self.assertEqual((done.returncode, done.stderr), (2, f"soak.py: {out / 'below'}: Not a directory\n"))
 
 
 if __name__ == "__main__":
