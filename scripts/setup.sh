@@ -83,7 +83,9 @@ export DEBIAN_FRONTEND=noninteractive
 failed() {
   unknown=""
   if [ "$1" = install ]; then
-    for p in $missing; do apt-cache show "$p" >/dev/null 2>&1 || unknown="$unknown $p"; done
+    # shellcheck disable=SC2086 # the list is words on purpose
+    known=" $(apt-cache show $missing 2>/dev/null | sed -n 's/^Package: //p' | tr '\n' ' ')"
+    for p in $missing; do case $known in *" $p "*) ;; *) unknown="$unknown $p" ;; esac; done
   fi
   if [ -n "$unknown" ] && [ "$unknown" != "$missing" ]; then
     echo "setup.sh: apt knows no package of these names:$unknown: this system's sources lack them (Ubuntu: universe is needed), so nothing was installed of:$missing" >&2

@@ -40,7 +40,13 @@ fs::path find_file(const std::string& given, const std::string& what, const fs::
   }
   std::vector<std::string> known = built_in_files(folder, extension);
   const bool directory = fs::is_directory(beside / given, none);
-  const std::string why = directory ? "is a directory" : "no such file" + did_you_mean(given, known);
+  std::string why = directory ? "is a directory" : "no such file" + did_you_mean(given, known);
+  if (known.empty() && !find_data(folder)) {  // a name of ours, perhaps, that was looked for in the wrong place
+    std::vector<std::string> places;
+    for (const fs::path& place : data_directories()) places.push_back((place / folder).string());
+    why += ", and no data directory in which built-in ones would be: looked for " + join(places) +
+           " (VSA_DATA_DIR says where; vsa doctor tells more)";
+  }
   known.insert(known.begin(), "a file");
   throw InputError({"", what, given, why, join(known)});
 }

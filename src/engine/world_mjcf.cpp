@@ -30,6 +30,8 @@ std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const 
   check_file_is_exported(options, true, problems);
   const std::shared_ptr<ReadWorld> file = read_world({path, {}}, options, problems);
   problems.throw_if_any();
+  // Its robots, too, as vsa run would read them: an element that nobody can read would lie there as a part of the export.
+  if (!file->world->native) (void)World::load(path, options);
   std::vector<ExportedFile> out;
   for (physics::WrittenFile& one : physics::write_mjcf_files(*file->world, path.stem().string(), path.string(), problems))
     out.push_back({std::move(one.name), std::move(one.bytes)});
@@ -38,6 +40,14 @@ std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const 
   const auto mark = reader::source_mark(path, reader::Finder(reader::SearchPath(options.model_path), seen), seen);
   if (mark) out.front().bytes = reader::with_source_mark(std::move(out.front().bytes), *mark);
   return out;
+}
+
+bool is_exported(std::string_view mjcf) {
+  // Before there were marks, and where what an SDF names can't be read, there is none.
+  constexpr std::string_view kSecondLine = "<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n";
+  const std::size_t line = mjcf.find('\n');
+  return reader::source_mark_in(mjcf).has_value() ||
+         (mjcf.starts_with("<mujoco model=\"") && line != std::string_view::npos && mjcf.substr(line + 1).starts_with(kSecondLine));
 }
 
 std::filesystem::path mjcf_of(const std::filesystem::path& world) {

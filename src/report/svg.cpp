@@ -2,10 +2,11 @@
 //
 // A chart as a picture of its own: for documents, where the page's interactive charts can't be. Coordinates are rounded to a tenth
 // of a pixel, so that small changes of the data leave most of a committed file as it was.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -33,9 +34,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string px(double v) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", std::abs(v) < 0.05 ? 0.0 : v);
-  return text;
+  return fmt::format("{:.1f}", std::abs(v) < 0.05 ? 0.0 : v);  // whatever decimal point the locale has
 }
 
 std::string color_of(const Curve& c) { return c.color < 0 ? kGrey : kColors[static_cast<std::size_t>(c.color) % kColors.size()]; }
@@ -47,9 +46,7 @@ std::size_t letters(const std::string& utf8) {
 /// "0.25" with as many decimals as the steps of the axis need.
 std::string tick_text(double value, double step) {
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", decimals, std::abs(value) < 1e-9 * step ? 0.0 : value);
-  std::string out = text;
+  std::string out = fmt::format("{:.{}f}", std::abs(value) < 1e-9 * step ? 0.0 : value, decimals);
   if (out[0] == '-') out.replace(0, 1, "−");
   return out;
 }
@@ -95,9 +92,7 @@ class Axis {
         if (m > 1 && high_ - low_ > kFew) continue;
         const double value = m * std::pow(10, k);
         if (std::log10(value) < low_ || std::log10(value) > high_) continue;
-        char text[32];
-        std::snprintf(text, sizeof text, "%g", value);
-        out.push_back({value, text});
+        out.push_back({value, fmt::format("{:g}", value)});
       }
     }
     return out;

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -70,6 +71,14 @@ std::string line_of(const Outcome& o) {
   return fmt::format("{:08x}\t{}\n", checksum(text), text);
 }
 
+/// What number_of() wrote; none: damaged.
+std::optional<double> number_in(const std::string& text) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (text == "nan" || text == "-nan") return std::numeric_limits<double>::quiet_NaN();
+  if (text == "inf" || text == "-inf") return text == "inf" ? kInfinity : -kInfinity;
+  return config::parse_number(text);
+}
+
 /// None: damaged.
 std::optional<Outcome> outcome_of(std::string_view line, const Series& series) {
   constexpr std::size_t kSum = 8;
@@ -85,7 +94,11 @@ std::optional<Outcome> outcome_of(std::string_view line, const Series& series) {
   o.wall_s = config::parse_number(fields[1]).value_or(0);
   o.cpu_s = config::parse_number(fields[2]).value_or(0);
   if (!fields[3].empty()) {
-    for (const std::string& v : config::split(fields[3], ',')) o.values.push_back(std::strtod(v.c_str(), nullptr));
+    for (const std::string& v : config::split(fields[3], ',')) {
+      const std::optional<double> value = number_in(v);
+      if (!value) return std::nullopt;
+      o.values.push_back(*value);
+    }
   }
   o.notice = out_of_field(fields[4]);
   o.error = out_of_field(fields[5]);

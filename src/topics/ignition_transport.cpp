@@ -1,6 +1,10 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "vsa/topics/ignition_transport.hpp"
 
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <sys/socket.h>
+
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -14,6 +18,7 @@
 #include "messages.hpp"
 #include "outbox.hpp"
 #include "stock.hpp"
+#include "vsa/errors.hpp"
 #include "vsa/topics/transport.hpp"
 
 // In builds that count what is run; the compiler gave it its name.
@@ -158,10 +163,21 @@ class TopicPublisher final : public host::Publisher<typename Kind::Plain> {
 }  // namespace
 
 void prefer_loopback() {
+  if (const std::string why_none = why_no_topics(); !why_none.empty()) throw InputError({"", "topics", "", why_none, ""});
   talks = true;
   const char* set = std::getenv(kAddressVariable);
   if (set == nullptr || *set == '\0')
     setenv(kAddressVariable, "127.0.0.1", 1);  // the transport takes an empty one for "any address"
+}
+
+std::string why_no_topics() {
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) != 0) return "";
+  bool up = false;
+  for (const ifaddrs* at = list; at != nullptr; at = at->ifa_next)
+    up = up || (at->ifa_addr != nullptr && at->ifa_addr->sa_family == AF_INET && (at->ifa_flags & IFF_UP) != 0);
+  freeifaddrs(list);
+  return up ? "" : "no network interface is up, so there are no topics (ip link set lo up brings them)";
 }
 
 void leave(int exit_code) {

@@ -25,6 +25,7 @@ std::uint64_t WorldServer::refused() const noexcept { return 0; }
 std::uint64_t WorldServer::heard() const { return 0; }
 
 void prefer_loopback() {}
+std::string why_no_topics() { return topics_feature().missing(); }
 void leave(int exit_code) { std::exit(exit_code); }
 
 struct CommandClient::Impl {};

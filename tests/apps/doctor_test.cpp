@@ -71,6 +71,18 @@ TEST(Doctor, ADataDirectoryThatIsNoneIsAProblem) {
   expect(machine.doctor(), 1, {"problem: data directory: ", "/nowhere", "set VSA_DATA_DIR", "1 problem,"});
 }
 
+TEST(Doctor, PagesThatAreMissingAreAProblem) {
+  Machine machine;
+  const fs::path data = machine.scratch / "data";
+  fs::create_directories(data / "web");
+  for (const char* folder : {"actuators", "models"}) fs::create_directory_symlink(fs::path(VSA_SOURCE_DIR) / folder, data / folder);
+  for (const char* page : {"replay.html", "live.html"}) write_file(data / "web" / page, "");
+  machine.set("VSA_DATA_DIR", data.string());
+  expect(machine.doctor(), 1, {"problem: pages: no web/report.html in the data directory", "vsa_web", "1 problem,"});
+  write_file(data / "web" / "report.html", "");
+  expect(machine.doctor(), 0, {"ok: pages: "});
+}
+
 TEST(Doctor, ABrokenTypeIsToldByItsName) {
   Machine machine;
   write_file(machine.scratch / "broken.toml", "[preset\n");

@@ -47,11 +47,49 @@ TEST(Export, WritesAWorldAsMjcfWhichRunsWhereItStands) {
 TEST(Export, OfAnMjcfsFilesNoneIsNewWhereOneCantBeWritten) {
   const Scratch scratch;
   fs::create_directories(scratch / "out/bench_load.vsa.xml");  // a directory in the way of the second
-  write_file(scratch / "out/bench_load.xml", "old");
+  const std::string old = "<mujoco model=\"old\">\n<!-- written of SDF 0123456789abcdef -->\n</mujoco>\n";
+  write_file(scratch / "out/bench_load.xml", old);
   const Result r = run_vsa({"export", "--mjcf", "bench_load", "--out", (scratch / "out").string()});
   EXPECT_EQ(r.exit_code, 1);
   EXPECT_TRUE(has(r.err, "bench_load.vsa.xml: can't open for writing: Is a directory")) << r.err;
-  EXPECT_EQ(read_file(scratch / "out/bench_load.xml"), "old");
+  EXPECT_EQ(read_file(scratch / "out/bench_load.xml"), old);
+}
+
+TEST(Export, AnMjcfThatSomebodyWroteIsKept) {
+  const Scratch scratch;
+  fs::create_directories(scratch / "out");
+  const std::string own = "<mujoco model=\"bench\">\n<worldbody/>\n</mujoco>\n";
+  const std::vector<std::string> arguments{"export", "--mjcf", "bench_load", "--out", (scratch / "out").string()};
+  write_file(scratch / "out/bench_load.xml", own);
+  const Result r = run_vsa(arguments);
+  EXPECT_EQ(r.exit_code, 2);
+  EXPECT_TRUE(has(r.err, "bench_load.xml: is there and wasn't written by vsa export")) << r.err;
+  EXPECT_EQ(read_file(scratch / "out/bench_load.xml"), own);
+  EXPECT_FALSE(fs::exists(scratch / "out/bench_load.vsa.xml"));
+  fs::remove(scratch / "out/bench_load.xml");
+  EXPECT_EQ(run_vsa(arguments).exit_code, 0);
+  EXPECT_EQ(run_vsa(arguments).exit_code, 0) << "its own is written anew";
+  // One of before there were marks.
+  std::string unmarked = read_file(scratch / "out/bench_load.xml");
+  const std::size_t mark = unmarked.find("<!-- written of");
+  unmarked.erase(mark, unmarked.find('\n', mark) + 1 - mark);
+  write_file(scratch / "out/bench_load.xml", unmarked);
+  EXPECT_EQ(run_vsa(arguments).exit_code, 0);
+}
+
+TEST(Export, ARobotThatCantBeReadIsRefusedAsARunRefusesIt) {
+  const Scratch scratch;
+  write_file(scratch / "w.sdf", R"(<sdf version="1.7"><model name="m"><static>false</static>
+<link name="a"><inertial><mass>1</mass></inertial></link><link name="b"><inertial><mass>1</mass></inertial></link>
+<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>
+<plugin name="vsa::Robot" filename="vsa-robot"><type>no_such_type</type><actuator name="x"><joint>j</joint></actuator></plugin>
+</model></sdf>)");
+  const Result run = run_vsa({"run", (scratch / "w.sdf").string(), "--no-topics", "--duration-s", "0.1"});
+  EXPECT_EQ(run.exit_code, 2);
+  const Result r = run_vsa({"export", "--mjcf", (scratch / "w.sdf").string(), "--out", (scratch / "out").string()});
+  EXPECT_EQ(r.exit_code, 2);
+  EXPECT_EQ(r.err, run.err);
+  EXPECT_FALSE(fs::exists(scratch / "out"));
 }
 
 TEST(Export, WritesAnMjcfForThePluginBesideTheOthers) {

@@ -162,6 +162,10 @@ TEST(Usage, ADurationMustBeAPositiveNumber) {
 
 TEST(Usage, AMissingWorldIsToldWithTheWorldsThereAre) {
   expect_bad_input(run_vsa({"run", "atlantis"}), {"atlantis", "no such file", "snake_flat"});
+  vsa::test::Surroundings lost;
+  lost.environment = {{"VSA_DATA_DIR", "/nowhere"}};
+  expect_bad_input(run_vsa({"run", "snake_flat"}, lost),
+                   {"snake_flat", "no such file", "looked for /nowhere/models/worlds", "VSA_DATA_DIR", "vsa doctor"});
   expect_bad_input(run_vsa({"run", "/nowhere/world.sdf"}), {"/nowhere/world.sdf", "no such file"});
   expect_bad_input(run_vsa({"run", "/tmp"}), {"/tmp", "is a directory"});
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <locale>
 #include <stdexcept>
 
 #include "arm.hpp"
@@ -330,6 +331,25 @@ TEST(Hostile, FilesThatHoldNoStateOfThisWorldAreRefused) {
     EXPECT_THROW(w.restore_file(bad), InputError) << bad;
   EXPECT_EQ(w.state_hash(), hash);
   std::filesystem::remove_all(folder);
+}
+
+struct Commas : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+};
+
+/// MuJoCo reads numbers as the program's global locale has them, and says only that there is none.
+TEST(Hostile, AWorldRefusedForTheProgramsLocaleIsToldSo) {
+  const std::locale before = std::locale::global(std::locale(std::locale(), new Commas));
+  std::string said;
+  try {
+    (void)World::load_string(
+        R"(<mujoco><option timestep="0.002"/><worldbody><body><geom size="0.5"/></body></worldbody></mujoco>)");
+  } catch (const InputError& error) {
+    said = error.what();
+  }
+  std::locale::global(before);
+  EXPECT_NE(said.find("MuJoCo refuses"), std::string::npos) << said;
+  EXPECT_NE(said.find("decimal point of this program's global C++ locale is ','"), std::string::npos) << said;
 }
 
 TEST(Hostile, WorldsThatCannotBeExportedAreRefused) {

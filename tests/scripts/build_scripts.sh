@@ -93,7 +93,13 @@ on_system 'NAME="some' && grep -q "never tried.*unknown" "$work/out" || fail "an
 
 # A package that apt doesn't know is named. Where it knows none, its lists are what is missing.
 printf '#!/bin/sh\n[ "$1" != install ]\n' >"$work/bin/apt-get"
-printf '#!/bin/sh\n[ "$2" != libpagmo-dev ]\n' >"$work/bin/apt-cache" && chmod +x "$work/bin/apt-cache"
+cat >"$work/bin/apt-cache" <<'EOF'
+#!/bin/sh
+shift
+for p in "$@"; do [ "$p" = libpagmo-dev ] || echo "Package: $p"; done
+exit 100
+EOF
+chmod +x "$work/bin/apt-cache"
 ! on_system 'VERSION_CODENAME=trixie' || fail "a package that apt doesn't know is installed"
 grep -q "^setup.sh: apt knows no package of these names: libpagmo-dev: " "$work/out" || fail "an unknown package: $(cat "$work/out")"
 printf '#!/bin/sh\nexit 100\n' >"$work/bin/apt-cache"

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <clocale>
 #include <cmath>
 #include <csignal>
 #include <limits>
@@ -90,6 +91,20 @@ TEST(Folder, NumbersTextsAndErrorsSurviveTheLog) {
   EXPECT_EQ(r.outcomes[0].values[1], odd.values[1]);
   EXPECT_EQ(r.outcomes[0].notice, odd.notice);
   EXPECT_EQ(r.outcomes[1].error, failed.error);
+}
+
+TEST(Folder, NumbersOfTheLogDoNotDependOnTheLocale) {
+  // Not every machine has a locale with a comma; where there is none the test shows the "C" locale only.
+  const Filled f;
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
+    if (std::setlocale(LC_ALL, name) != nullptr) break;
+  }
+  const Results r = read_logs(f.folder, f.plan);
+  std::setlocale(LC_ALL, before.c_str());
+  ASSERT_EQ(r.outcomes.size(), 12U);
+  EXPECT_EQ(r.outcomes[1].values[1], 1.0 / 3.0);
+  EXPECT_TRUE(std::isnan(r.outcomes[3].values[1]));
 }
 
 /// Wherever the writer died: what was written whole is there, and nothing else is.

@@ -44,7 +44,8 @@ struct Host {
   bool found = false;
 };
 
-void check_data(Findings& findings);
+/// `pages`: of a program that writes them; vsa-doctor has none.
+void check_data(Findings& findings, bool pages);
 [[nodiscard]] std::vector<Host> check_hosts(Findings& findings);
 void check_plugins(Findings& findings, const std::vector<Host>& hosts);
 void check_model_paths(Findings& findings, const std::vector<Host>& hosts);

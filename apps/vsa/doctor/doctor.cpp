@@ -2,6 +2,7 @@
 #include "doctor/doctor.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -95,7 +96,7 @@ std::vector<std::filesystem::path> directories_of(const char* variable) {
   return out;
 }
 
-void check_data(Findings& findings) {
+void check_data(Findings& findings, bool pages) {
   try {
     findings.ok("data directory", config::data_directory().string());
     check_presets(findings);
@@ -113,6 +114,17 @@ void check_data(Findings& findings) {
   } else {
     findings.problem("built-in worlds", "none found", "install again: models/worlds belongs into the data directory");
   }
+  if (!pages) return;
+  std::vector<std::string> missing;
+  for (const char* page : {"web/replay.html", "web/live.html", "web/report.html"}) {
+    if (!config::find_data(page)) missing.emplace_back(page);
+  }
+  if (missing.empty()) {
+    findings.ok("pages", "replay, live view and report");
+  } else {
+    findings.problem("pages", fmt::format("no {} in the data directory", fmt::join(missing, ", ")),
+                     "install again, or build the target vsa_web; records and reports have no page until then");
+  }
 }
 
 int run_doctor(const DoctorOptions& options, LoadingCheck check_loading, const std::vector<Feature>& features) {
@@ -125,7 +137,7 @@ int run_doctor(const DoctorOptions& options, LoadingCheck check_loading, const s
       findings.note(name, "left out of this build", std::string(feature.remedy));
     }
   }
-  check_data(findings);
+  check_data(findings, !features.empty());
   const std::vector<Host> hosts = check_hosts(findings);
   check_plugins(findings, hosts);
   check_model_paths(findings, hosts);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <ifaddrs.h>
+#include <net/if.h>
 #include <netinet/in.h>
 
 #include <algorithm>
@@ -22,12 +23,13 @@ bool can_be_partition(const std::string& text) {
          text.find(":=") == std::string::npos && text != "/";
 }
 
+/// Of interfaces that are up: of another nobody is heard.
 std::vector<std::string> addresses() {
   std::vector<std::string> out;
   ifaddrs* list = nullptr;
   if (getifaddrs(&list) != 0) return out;
   for (const ifaddrs* at = list; at != nullptr; at = at->ifa_next) {
-    if (at->ifa_addr == nullptr || at->ifa_addr->sa_family != AF_INET) continue;
+    if (at->ifa_addr == nullptr || at->ifa_addr->sa_family != AF_INET || (at->ifa_flags & IFF_UP) == 0) continue;
     char text[INET_ADDRSTRLEN] = "";
     const auto* in = reinterpret_cast<const sockaddr_in*>(at->ifa_addr);
     if (inet_ntop(AF_INET, &in->sin_addr, text, sizeof text) != nullptr) out.emplace_back(text);
@@ -64,6 +66,8 @@ void check_pair(Findings& findings, const char* what, const char* ign, const cha
 }  // namespace
 
 void check_network(Findings& findings) {
+  if (addresses().empty())
+    findings.problem("network", "no network interface is up, so there are no topics", "ip link set lo up, or vsa run --no-topics");
   bool any = false;
   for (const char* variable : {"IGN_PARTITION", "GZ_PARTITION"}) {
     const std::string text = value_of(variable);

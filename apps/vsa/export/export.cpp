@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "terminal/output_files.hpp"
 #include "vsa/engine/mjcf.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 #include "vsa/output_file.hpp"
 
 namespace vsa::app {
@@ -47,12 +49,20 @@ struct ExportOptions {
   FmuOptions fmu;
 };
 
+/// A robot that somebody wrote as MJCF beside its SDF is theirs.
+void keep_others_work(const std::filesystem::path& path) {
+  const std::optional<std::string> there = read_file(path);
+  if (there && !there->empty() && !engine::is_exported(*there))
+    throw InputError({path.string(), "", "", "is there and wasn't written by vsa export", "another --out, or remove it first"});
+}
+
 int export_mjcf(const ExportOptions& o) {
   const std::string& directory = o.fmu.out;
   if (directory.empty()) throw InputError({"", "--out", "", "is missing", "a directory for the files"});
   std::vector<engine::ExportedFile> files;
   // An MJCF stays what it is: only the plug-in's is written.
   if (!o.plugin || engine::mjcf_of(o.mjcf).empty()) files = engine::export_mjcf(o.mjcf);
+  if (!files.empty()) keep_others_work(std::filesystem::path(directory) / files.front().name);
   if (o.plugin) {
     engine::PluginMjcf more = engine::export_plugin_mjcf(o.mjcf, {}, files.empty() ? "" : files.front().bytes);
     for (const std::string& note : more.notes) std::cerr << "note: " << note << '\n';

@@ -19,6 +19,7 @@
 #include "terminal/pace.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/serial/processors_awake.hpp"
+#include "vsa/topics/transport.hpp"
 
 namespace vsa::app {
 namespace {
@@ -47,8 +48,10 @@ void check(const RunOptions& options) {
   alone(!options.view_records.empty() && !options.view, "--view-records", "view_records", "with --view");
   const bool paced = options.speed.empty() ? options.realtime || options.view : options.speed != "max";
   alone(options.low_latency && !paced, "--low-latency", "low_latency", "with --realtime, --view or a --speed");
-  if (options.paused && !options.view && !(options.no_topics || topics::topics_feature().is_in()))
-    throw InputError({"", "--paused", "", topics::topics_feature().missing(), "--view, by which it can be let run"});
+  if (options.paused && !options.view && !options.no_topics) {
+    if (const std::string why_none = topics::why_no_topics(); !why_none.empty())
+      throw InputError({"", "--paused", "", why_none, "--view, by which it can be let run"});
+  }
   if (options.paused && options.no_topics && !options.view) {
     throw InputError({"", "--paused", "", "with --no-topics nobody could let it run", "--view, or topics"});
   }

@@ -16,6 +16,7 @@
 #include "vsa/errors.hpp"
 #include "vsa/output_file.hpp"
 #include "vsa/seat/seat.hpp"
+#include "vsa/topics/transport.hpp"
 
 namespace vsa::app {
 namespace {
@@ -52,8 +53,9 @@ RunSession::RunSession(const RunOptions& options, Console& console)
   scenario::break_robots(world_, options_.faults);
   const auto report = [&console](const std::string& line) { console.line(line); };
   for (std::size_t i = 0; i < world_.robot_count(); ++i) world_.seat(i).report_to(report);
-  if (!options.no_topics && topics::topics_feature().is_in()) server_.emplace(world_, control_, report);
-  if (!options.no_topics && !server_) console_.line("note: " + topics::topics_feature().missing());
+  const std::string why_none = options.no_topics ? "" : topics::why_no_topics();
+  if (!options.no_topics && why_none.empty()) server_.emplace(world_, control_, report);
+  if (!why_none.empty()) console_.line("note: " + why_none);
   open_ports();
   if (options.view) open_view(options);
   // Last, so that a run that is refused has not touched an earlier record.

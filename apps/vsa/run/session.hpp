@@ -17,7 +17,6 @@
 #include "vsa/record/recorder.hpp"
 #include "vsa/scenario/player.hpp"
 #include "vsa/seat/run_control.hpp"
-#include "vsa/topics/feature.hpp"
 #include "vsa/topics/world_server.hpp"
 #include "vsa/view/live_view.hpp"
 

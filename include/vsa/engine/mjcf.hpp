@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vsa/engine/world.hpp"
@@ -19,6 +20,9 @@ struct ExportedFile {
 /// bit as this one. NAME is the stem of the file, or "world" for a text. Throws InputError with all problems, and for options that ask
 /// for another step or other actuators than the file's.
 [[nodiscard]] std::vector<ExportedFile> export_mjcf(const std::filesystem::path& world, const WorldOptions& options = {});
+
+/// Whether an MJCF is the NAME.xml of an export_mjcf(), of this version or an earlier one, and nobody's own work.
+[[nodiscard]] bool is_exported(std::string_view mjcf);
 
 /// A world for MuJoCo with the plug-in, as export_plugin_mjcf() writes it.
 struct PluginMjcf {

@@ -2,6 +2,7 @@
 #include "physics/mujoco/model.hpp"
 
 #include <array>
+#include <locale>
 #include <mutex>
 
 #include "physics/mujoco/versions.hpp"
@@ -33,6 +34,14 @@ void take_hooks() {
   mju_user_error = on_error;
 }
 
+/// MuJoCo reads numbers as the program's global C++ locale has them: 0.5 isn't one where that has commas.
+std::string about_locale() {
+  const char point = std::use_facet<std::numpunct<char>>(std::locale()).decimal_point();
+  if (point == '.') return "";
+  return std::string(" (the decimal point of this program's global C++ locale is '") + point +
+         "', by which MuJoCo reads numbers: std::locale::global(std::locale::classic()) before worlds are loaded)";
+}
+
 ModelPtr load(const std::string& path, const mjVFS* files, std::string& reason, std::vector<std::string>* warnings) {
   struct Listening {
     explicit Listening(std::vector<std::string>* to) { told = to; }
@@ -44,7 +53,7 @@ ModelPtr load(const std::string& path, const mjVFS* files, std::string& reason, 
   const Listening listening(warnings);
   ModelPtr model(mj_loadXML(path.c_str(), files, error.data(), static_cast<int>(error.size())));
   mj_freeLastXML();
-  if (!model) reason = error.data();
+  if (!model) reason = error.data() + about_locale();
   return model;
 }
 
