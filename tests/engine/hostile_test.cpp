@@ -358,6 +358,8 @@ TEST(Hostile, WorldsThatCannotBeExportedAreRefused) {
     EXPECT_THROW((void)export_plugin_mjcf(bad), InputError) << bad;
     static_cast<void>(mjcf_of(bad));
   }
+  for (const char* mjcf : {"", "\n", "<mujoco model=\"", "<mujoco model=\"\">\n", "<!-- written of SDF "})
+    EXPECT_FALSE(is_exported(mjcf)) << mjcf;
   for (const char* mjcf : {"<mujoco", "<else/>", "x"})
     EXPECT_THROW((void)export_plugin_mjcf("bench_free.sdf", {}, mjcf), InputError) << mjcf;
   std::vector<WorldOptions> of_no_file(4);
