@@ -10,11 +10,11 @@
 namespace vsa::physics {
 namespace {
 
-constexpr double kLongest_rad = 0.05, kShort_rad = 1e-3, kShortest_rad = 1e-6;  // steps of the joint that is put
-constexpr double kLongestOfSlide = 1.0 / 32, kShortOfSlide = kLongestOfSlide / 50, kShortestOfSlide = 1e-6;  // of its way
+constexpr double kLongest_rad = 0.05, kShort_rad = 1e-4, kShortest_rad = 1e-6;  // steps of the joint that is put
+constexpr double kLongestOfSlide = 1.0 / 32, kShortOfSlide = kLongestOfSlide / 500, kShortestOfSlide = 1e-6;  // of its way
 constexpr int kMostSteps = 20000, kMostTries = 20;
 constexpr double kSolved = 1e-11, kClosed = 1e-8;  // m and rad, in which a loop's gaps are counted
-constexpr double kForetold = 0.1;   // of a step, what Newton may add to what was foretold: more may be another assembly
+constexpr double kForetold = 0.03;  // of a step, what Newton may add to what was foretold: more may be another assembly
 constexpr double kMostRatio = 1e3;  // of speeds, each weighed by its inertia
 
 }  // namespace
