@@ -71,7 +71,8 @@ std::vector<int> Loops::freedoms_of(int e) const {
     std::vector<char> odd(in_.size());
     for (const int side : {body_held(m_, e, one), body_held(m_, e, two)}) {
       for (int body = side; body > 0; body = m_.body_parentid[body])
-        for (int k = 0; k < m_.body_dofnum[body]; ++k) odd[static_cast<std::size_t>(m_.body_dofadr[body] + k)] ^= 1;
+        for (int k = m_.body_dofadr[body]; k < m_.body_dofadr[body] + m_.body_dofnum[body]; ++k)
+          odd[static_cast<std::size_t>(k)] ^= 1;
     }
     for (std::size_t i = 0; i < odd.size(); ++i)
       if (odd[i] != 0) out.push_back(static_cast<int>(i));
@@ -222,7 +223,7 @@ bool Loops::set_speed(double to, bool moved) {
 
 std::optional<LoopPosture> MujocoPhysics::loops_with(std::size_t joint, JointState state, std::span<const std::size_t> held) {
   LoopPosture out;
-  const auto [q, v] = joint_[joint];
+  const int q = joint_[joint].q, v = joint_[joint].v;
   const bool moves = state.position != data_->qpos[q];
   if (model_->neq == 0 || (!moves && state.speed == data_->qvel[v])) return out;
   std::vector<int> stay;
