@@ -127,15 +127,13 @@ TEST(Svg, OfACurveWithLengthsThatDifferIsRefused) {
 }
 
 TEST(Svg, NumbersDoNotDependOnTheLocale) {
-  // Not every machine has a locale with a comma; where there is none the test shows the "C" locale only.
   Chart chart = chart_of({0.25, 0.5, 0.75}, {0.001, 0.05, 2.5});
   Chart logarithmic = chart;
   logarithmic.y_log = true;
   const std::string svg = to_svg(chart), of_decades = to_svg(logarithmic);
   const std::string before = std::setlocale(LC_ALL, nullptr);
-  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
-    if (std::setlocale(LC_ALL, name) != nullptr) break;
-  }
+  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr && std::setlocale(LC_ALL, "fr_FR.UTF-8") == nullptr)
+    GTEST_SKIP() << "this machine has no locale with a comma";
   EXPECT_EQ(to_svg(chart), svg);
   EXPECT_EQ(to_svg(logarithmic), of_decades);
   std::setlocale(LC_ALL, before.c_str());

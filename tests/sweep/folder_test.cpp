@@ -94,12 +94,10 @@ TEST(Folder, NumbersTextsAndErrorsSurviveTheLog) {
 }
 
 TEST(Folder, NumbersOfTheLogDoNotDependOnTheLocale) {
-  // Not every machine has a locale with a comma; where there is none the test shows the "C" locale only.
   const Filled f;
   const std::string before = std::setlocale(LC_ALL, nullptr);
-  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
-    if (std::setlocale(LC_ALL, name) != nullptr) break;
-  }
+  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr && std::setlocale(LC_ALL, "fr_FR.UTF-8") == nullptr)
+    GTEST_SKIP() << "this machine has no locale with a comma";
   const Results r = read_logs(f.folder, f.plan);
   std::setlocale(LC_ALL, before.c_str());
   ASSERT_EQ(r.outcomes.size(), 12U);
