@@ -67,6 +67,8 @@ void World::place(std::string_view name, double angle_rad, double preset, double
 
 void World::place(const ActuatorRef& ref, const host::Placement& to) {
   const std::size_t joint = this->joint(ref).index();
+  check_within("angle_rad", to.angle_rad, kMostState);
+  check_within("speed_rad_per_s", to.speed_rad_per_s, kMostState);
   if (const auto& range = joints()[joint].range; range && !(to.angle_rad >= (*range)[0] && to.angle_rad <= (*range)[1])) {
     throw InputError(Problem{"", ref.name + ": angle_rad", fmt::format("{}", to.angle_rad),
                              "beyond the limits of " + joints()[joint].name, fmt::format("{} … {}", (*range)[0], (*range)[1])});
@@ -93,7 +95,8 @@ World::Impl::Along World::Impl::along(std::size_t joint, physics::JointState sta
   if (!posture) {
     std::string kept;
     for (const std::size_t j : put_here) kept += (kept.empty() ? "" : ", ") + names->joints[j].name;
-    return {std::nullopt, "isn't reached: " + engine::list(names->joints[joint].held) + " would open" +
+    const std::string with = state.speed == 0 ? "" : fmt::format(", or not with a speed of {:.6g}", state.speed);
+    return {std::nullopt, "isn't reached" + with + ": " + engine::list(names->joints[joint].held) + " would open" +
                               (kept.empty() ? "" : " (" + kept + ", put elsewhere since the last step, stays)")};
   }
   for (const auto& [j, to] : posture->along) {

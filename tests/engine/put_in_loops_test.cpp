@@ -143,6 +143,16 @@ TEST(PutInLoops, ManyTurnsAreGoneAllTheWay) {
   EXPECT_NEAR(std::remainder(w.joint_angle("m::p") - other_side(f, 60.4), 2 * M_PI), 0, 1e-8);
 }
 
+TEST(PutInLoops, WhatIsNoPlaceIsToldAsThat) {
+  World w = load(four_bar({}, {.gravity = "0 0 0", .more = driven({"o"})}));
+  for (const double x : {double(NAN), HUGE_VAL, -HUGE_VAL, 1e300}) {
+    EXPECT_NE(refusal(w, "o", x).find("angle_rad = "), std::string::npos);
+    EXPECT_NE(refusal(w, "o", x).find("out of range"), std::string::npos) << x;
+    EXPECT_NE(refusal(w, "o", 0.3, x).find("speed_rad_per_s"), std::string::npos) << x;
+  }
+  EXPECT_NE(refusal(w, "o", 1e12), "") << "after as many steps as it may";
+}
+
 /// O–A–B–C–P: two cranks with actuators, two freedoms.
 std::string five_bar() {
   const auto link = [](const std::string& name, double x, double z, double to_x, double to_z) {
@@ -185,7 +195,7 @@ TEST(PutInLoops, NothingIsPutAtADeadCentreWithASpeedOrBeyondIt) {
   World w = load(four_bar(f, {.gravity = "0 0 0", .more = driven({"p"})}));
   w.set_joint("m::o", dead, 0);
   w.step();
-  EXPECT_NE(refusal(w, "p", w.joint_angle("m::p"), 1.0), "");
+  EXPECT_NE(refusal(w, "p", w.joint_angle("m::p"), 1.0).find("or not with a speed of 1"), std::string::npos);
 }
 
 TEST(PutInLoops, AFlyingBaseStays) {
