@@ -232,5 +232,73 @@ TEST(Spinning, RandomChainsOfThreeStayFinite) {
   }
 }
 
+/// A top on a top.
+std::string tops() {
+  return "<model name='t'>" + link("a", "0 0 1 0.3 0 0", 0.5, {2e-4, 2e-4, 4e-4}, "0 0 0.1 0 0 0") +
+         "<joint name='b' type='ball'><parent>world</parent><child>a</child></joint>" +
+         link("c", "0 0 1.2 0.3 0 0", 0.3, {2e-4, 3e-4, 3e-4}, "0 0 0.1 0 0 0") +
+         "<joint name='e' type='ball'><parent>a</parent><child>c</child></joint></model>";
+}
+std::string disc_with_an_arm() {
+  return "<model name='h'>" + link("l", "0 0 3 0 0 0", 0.5, {1e-3, 1e-3, 2e-3}) +
+         link("arm", "0.1 0 3 0 0 0", 0.1, {1e-5, 1e-4, 1e-4}, "0.05 0 0 0 0 0") + turning("j", "l", "arm", "0 1 0") + "</model>";
+}
+/// Links on axes in turns; `parent`: the world's, or none.
+std::string thrown(int count, const std::string& parent) {
+  std::string links, joints, before = parent;
+  for (int k = 0; k < count; ++k) {
+    const std::string name = "l" + std::to_string(k);
+    links += link(name, number(0.1 * k) + " 0 3 0 0 0", 0.2, {1e-4, 3e-4, 3e-4}, "0.05 0 0 0 0 0");
+    if (!before.empty()) joints += turning("j" + std::to_string(k), before, name, k % 2 == 0 ? "0 0 1" : "0 1 0");
+    before = name;
+  }
+  return "<model name='n'>" + links + joints + "</model>";
+}
+
+/// What turns by up to a tenth of a radian in a step keeps its energy to some percent, and twice as fast it stays finite.
+TEST(Spinning, TreesOfSeveralLinksKeepTheirEnergy) {
+  struct Case {
+    const char* name;
+    std::string sdf;
+    std::vector<Start> (*start)(double speed);
+    double gain, loss;
+  };
+  const std::vector<Case> cases = {{"a top on a top", world(tops()),
+                                    [](double w) {
+                                      return std::vector<Start>{{"joint t::b", {1, 0, w}}, {"joint t::e", {0, 1, 0.5 * w}}};
+                                    },
+                                    0.06, 0.06},
+                                   {"a disc with an arm", world(disc_with_an_arm(), "0 0 0"),
+                                    [](double w) {
+                                      return std::vector<Start>{{"link h::l", {0, 0, 0, 0.05 * w, 0, w}}};
+                                    },
+                                    2e-4, 2e-5},
+                                   {"4 free links", world(thrown(4, ""), "0 0 0"),
+                                    [](double w) {
+                                      return std::vector<Start>{{"link n::l0", {0, 0, 0, w, 0.1 * w, 0.2 * w}}};
+                                    },
+                                    0.02, 0.02},
+                                   {"12 free links", world(thrown(12, ""), "0 0 0"),
+                                    [](double w) {
+                                      return std::vector<Start>{{"link n::l0", {0, 0, 0, w, 0.02 * w, 0.02 * w}}};
+                                    },
+                                    0.08, 0.02},
+                                   {"3 links on hinges", world(thrown(3, "world")),
+                                    [](double w) {
+                                      return std::vector<Start>{{"joint n::j0", {w}}, {"joint n::j1", {0.2 * w}}};
+                                    },
+                                    2e-4, 2e-5}};
+  for (const Case& c : cases) {
+    for (const double step_s : {1e-3, 4e-3}) {
+      const double speed = 0.1 / step_s;
+      const Drift d = drift(begun(c.sdf, step_s, c.start(speed)), 2), faster = drift(begun(c.sdf, step_s, c.start(2 * speed)), 2);
+      show(c.name, speed, step_s, d, drift(begun(c.sdf, step_s, c.start(speed), physics::Coriolis::as_in_mj_step), 2));
+      EXPECT_LT(d.gain, c.gain) << c.name << ", " << step_s;
+      EXPECT_LT(d.loss, c.loss) << c.name << ", " << step_s;
+      EXPECT_TRUE(std::isfinite(faster.gain)) << c.name << ", " << step_s;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vsa::engine::testing

@@ -115,7 +115,7 @@ void MujocoPhysics::prepare() {
   mj_fwdVelocity(m, data_.get());
   hold_up(*data_, data_->qfrc_passive, 1);
   trees_.look(*m, *data_);
-  centered_.set(*m, *data_, trees_, pushed_.data(), damped_);
+  centered_.set(*m, *data_, trees_, pushed_.data());
   mju_zero(data_->qfrc_applied, m->nv);
 }
 

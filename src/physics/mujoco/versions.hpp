@@ -39,15 +39,6 @@ inline mjtNum& mass_of_dof(const mjModel& m, mjData& d, int dof) {
 #endif
 }
 
-/// Of it, the number between a degree of freedom and the n-th before it, where each is the next one's parent.
-inline mjtNum mass_before(const mjModel& m, mjData& d, int dof, int n) {
-#ifdef VSA_MUJOCO_M_BY_ROWS
-  return n < m.M_rownnz[dof] ? (&mass_of_dof(m, d, dof))[-n] : 0;
-#else
-  return (&mass_of_dof(m, d, dof))[n];
-#endif
-}
-
 /// M at the positions that `d` has, from mj_comPos() on; and the same, nv × nv.
 inline void make_mass(const mjModel& m, mjData& d) {
 #ifdef VSA_MUJOCO_M_BY_ROWS
