@@ -70,15 +70,15 @@ void World::pull(std::vector<Pull> pulls) {
   impl_->pulls = std::move(pulls);
 }
 
-std::vector<std::size_t> World::Impl::links_of(std::string_view model) const {
-  std::vector<std::size_t> out;
-  std::vector<std::string> models;
-  for (std::size_t i = 0; i < world->links.size(); ++i) {
+std::span<const std::size_t> World::Impl::links_of(std::string_view model) const {
+  thread_local std::vector<std::size_t> out;  // a steered gait asks in every step
+  out.clear();
+  for (std::size_t i = 0; i < world->links.size(); ++i)
     if (is_below(world->links[i].name, model)) out.push_back(i);
-    models.push_back(world->links[i].model);
-  }
-  if (out.empty()) throw InputError(Problem{"", "model", std::string(model), "no such model", list(models)});
-  return out;
+  if (!out.empty()) return out;
+  std::vector<std::string> models;
+  for (const auto& link : world->links) models.push_back(link.model);
+  throw InputError(Problem{"", "model", std::string(model), "no such model", list(models)});
 }
 
 std::array<double, 3> World::center_of_mass(std::string_view model) const {

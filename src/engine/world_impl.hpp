@@ -96,7 +96,7 @@ struct World::Impl {
   void apply_hands();
   void let_go();
   void index_names();
-  [[nodiscard]] std::vector<std::size_t> links_of(std::string_view model) const;
+  [[nodiscard]] std::span<const std::size_t> links_of(std::string_view model) const;  ///< until it is called again
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
   void check(const Snapshot& s) const;  ///< throws InputError where restore() would be wrong
   void restore(const Snapshot& s);

@@ -111,7 +111,8 @@ struct Track {
   }
 
   static auto fields(auto& s, auto&& visit) {
-    return visit("value", "", s.value, "start", "ns", s.start_ns, "knot", "", state::Capped{s.knots, Robot::kMostKnots});
+    return visit("value", "rad, or the preset's", s.value, "start", "ns", s.start_ns, "knot", "",
+                 state::Capped{s.knots, Robot::kMostKnots});
   }
   [[nodiscard]] const char* impossible() const noexcept {
     return std::isfinite(value) && in_order(knots.all()) ? nullptr : "finite commands, knots whose times grow";

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arm.hpp"
+#include "vsa/motion/gait.hpp"
 
 long allocation_count();  // allocation_count.cpp
 
@@ -41,6 +42,19 @@ TEST(Allocation, AStepOfSeveralSubstepsWithHandsAtWorkTakesNothingFromTheHeap) {
   w.apply_torque(w.joint("arm::elbow"), 0.05);
   allocations_of(w, kFirst);
   EXPECT_EQ(allocations_of(w, 400), 0);
+}
+
+TEST(Allocation, AGaitThatSteersTakesNothingFromTheHeap) {
+  World w = World::load(VSA_SOURCE_DIR "/models/worlds/snake_flat.sdf");
+  motion::Gait gait = motion::Gait::load(VSA_SOURCE_DIR "/models/gaits/steered.toml");
+  const auto step = [&] {
+    gait.apply(w);
+    w.step();
+  };
+  while (w.time_s() < 2) step();  // more than a period
+  const long before = allocation_count();
+  for (int k = 0; k < 400; ++k) step();
+  EXPECT_EQ(allocation_count() - before, 0);
 }
 
 /// Which come when all is warm: the line is then worked out bit by bit, and more waits on it than ever before.

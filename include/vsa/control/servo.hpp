@@ -94,7 +94,7 @@ struct ServoCommand {
       preset = 0;                  ///< in the law's unit; of a torque servo added to k₀, N·m/rad
   std::array<double, 2> direct{};  ///< torque servo: τ_c, N·m; motor voltages: V
   static auto fields(auto& s, auto&& visit) {
-    return visit("equilibrium", "rad", s.equilibrium, "preset", "", s.preset, "direct", "", s.direct);
+    return visit("equilibrium", "rad", s.equilibrium, "preset", "the preset's", s.preset, "direct", "V or N·m", s.direct);
   }
 };
 

@@ -160,7 +160,7 @@ class Robot {
   struct Knot {
     double time_s = 0;  ///< after the trajectory's start, ≥ 0
     double value = 0;   ///< rad, or in UnitConfig::preset_unit()
-    static auto fields(auto& s, auto&& visit) { return visit("time", "s", s.time_s, "value", "", s.value); }
+    static auto fields(auto& s, auto&& visit) { return visit("time", "s", s.time_s, "value", "rad, or the preset's", s.value); }
   };
   /// What of an actuator a trajectory leads.
   enum class Channel { equilibrium, preset };

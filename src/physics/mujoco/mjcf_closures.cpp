@@ -32,16 +32,16 @@ Vec3 point_of(const mjModel& m, const mjData& d, int equality) {
 }  // namespace
 
 int closures_of(const mjModel& m, const mjData& d, const description::Joint& joint, int parent, int child) {
-  using Kind = description::Joint::Kind;
+  using JointKind = description::Joint::Kind;
   const std::pair ends = std::minmax({mover(m, parent), mover(m, child)});
   const Vec3 place = joint.pose.Pos();
   int out = 0;
   for (int e = 0; e < m.neq && !without_equalities(m); ++e) {
-    if (m.eq_type[e] != (joint.kind == Kind::fixed ? mjEQ_WELD : mjEQ_CONNECT) || !starts_active(m, e)) continue;
+    if (m.eq_type[e] != (joint.kind == JointKind::fixed ? mjEQ_WELD : mjEQ_CONNECT) || !starts_active(m, e)) continue;
     const int one = body_held(m, e, m.eq_obj1id[e]), two = body_held(m, e, m.eq_obj2id[e]);
     if (std::pair(std::minmax({mover(m, one), mover(m, two)})) != ends) continue;
-    Vec3 off = joint.kind == Kind::fixed ? Vec3() : point_of(m, d, e) - place;
-    if (joint.kind == Kind::hinge) off = off - joint.axes[0].xyz * off.Dot(joint.axes[0].xyz);
+    Vec3 off = joint.kind == JointKind::fixed ? Vec3() : point_of(m, d, e) - place;
+    if (joint.kind == JointKind::hinge) off = off - joint.axes[0].xyz * off.Dot(joint.axes[0].xyz);
     if (off.Length() <= kSamePlace * (1 + place.Length())) ++out;
   }
   return out;

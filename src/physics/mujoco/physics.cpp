@@ -246,8 +246,8 @@ std::optional<Refusal> MujocoPhysics::find_fault() const {
     if (nv == 0) return Refusal{"world", warning_text(kind), 0};
     const auto slower = [](mjtNum a, mjtNum b) { return std::abs(a) < std::abs(b); };
     const auto fastest = static_cast<std::size_t>(std::max_element(data_->qvel, data_->qvel + nv, slower) - data_->qvel),
-               told = static_cast<std::size_t>(data_->warning[kind].lastinfo),
-               dof = kind == mjWARN_INERTIA && told < nv ? told : fastest;
+               of_it = static_cast<std::size_t>(data_->warning[kind].lastinfo),
+               dof = kind == mjWARN_INERTIA && of_it < nv ? of_it : fastest;
     return Refusal{v_owner_[dof], fmt::format("speed ({})", warning_text(kind)), data_->qvel[dof]};
   }
   return std::nullopt;
