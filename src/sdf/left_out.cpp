@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The reader of a build without libsdformat: it says so.
+// The reader of a build with neither libsdformat nor urdfdom: it says so.
 #include "vsa/sdf/feature.hpp"
 #include "vsa/sdf/read.hpp"
 
