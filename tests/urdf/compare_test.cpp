@@ -9,6 +9,7 @@
 #include <set>
 
 #include "urdf/outcome.hpp"
+#include "vsa/files.hpp"
 #include "vsa/sdf/feature.hpp"
 
 namespace vsa::reader::testing {
@@ -201,6 +202,15 @@ TEST_F(BothReaders, MakeTheSameOfEveryFileOfTheRepository) {
     }
   }
   EXPECT_GE(count, 50u);
+}
+
+TEST_F(BothReaders, MakeTheSameOfTheManualsRobot) {
+  const std::string page = read_file(fs::path(VSA_SOURCE_DIR) / "docs/howto/your-robot.md").value_or("");
+  const std::size_t begin = page.find("<robot name=\"my_arm\">"), end = page.find("</robot>", begin);
+  ASSERT_NE(end, std::string::npos);
+  const std::string text = page.substr(begin, end + 8 - begin);
+  expect_same("my_arm", {{}, text});
+  EXPECT_EQ(plainly({{}, text}).world.plugins.size(), 1u);
 }
 
 TEST_F(BothReaders, MakeTheSameOfEveryRobotOfTheTable) {
