@@ -46,9 +46,13 @@ set(VSA_NEEDS_SDF_sdf
 set(VSA_NEEDS_SDF_mjcf
   CommittedMjcf.*
   Export.GoesBetweenSnapshots
+  Export.HasRoomForTheRowsOfAllItsLoops
   Export.KeepsFrictionWithADirection
   Export.KeepsLinksWithoutGravity
   Export.KeepsWhatClosesLoops
+  Export.TellsSoOfAModelThatNamesWhatIsNotThere
+  Export.TellsThePluginsReaderThatFrictionHadADirectionOfAnMjcfToo
+  Export.TellsWhenItsSdfHasChangedSince
   Export.WritesNamesThatXmlWouldTakeForItsOwn
   Worlds/FromSdfAndFromMjcf.*
 )
