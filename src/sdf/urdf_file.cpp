@@ -166,9 +166,8 @@ std::string Urdf::lumped_into(const std::string& link) const {
 
 std::optional<description::Vec3> three_numbers(const char* text) {
   std::vector<double> out;
-  const std::string words(text == nullptr ? "" : text);
-  for (const std::string& word : config::split(words, ' '))
-    if (!config::trim(word).empty()) out.push_back(config::parse_number(config::trim(word)).value_or(std::nan("")));
+  std::istringstream words(text == nullptr ? "" : text);
+  for (std::string word; words >> word;) out.push_back(config::parse_number(word).value_or(std::nan("")));
   if (out.size() != 3 || !description::Vec3(out[0], out[1], out[2]).IsFinite()) return std::nullopt;
   return description::Vec3(out[0], out[1], out[2]);
 }

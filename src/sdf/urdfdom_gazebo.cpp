@@ -5,11 +5,13 @@
 //   LINK    turnGravityOff, gravity, selfCollide, self_collide, kinematic, velocity_decay; collision, with a <surface>; mu1, mu2, fdir1,
 //           kp, kd, maxVel, minDepth, which go into that of each of the link's collisions
 //   JOINT   springReference, springStiffness
-//   none    static, plugin, self_collide
+//   none    static, plugin, pose, self_collide
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <sstream>
 #include <string_view>
 
 #include "sdf/urdfdom_reading.hpp"
@@ -45,10 +47,10 @@ constexpr std::array<Known, 9> kSurface{
 constexpr Names kOfUrdfLinks =
     "turnGravityOff selfCollide mu1 mu2 fdir1 kp kd maxVel minDepth dampingFactor maxContacts laserRetro collision visual inertial "
     "pose";
-constexpr Names kOfSdfLinks = "gravity self_collide kinematic velocity_decay must_be_base_link light";
+constexpr Names kOfSdfLinks = "gravity self_collide kinematic velocity_decay must_be_base_link light enable_wind";
 constexpr Names kOfJoints =
     "springReference springStiffness preserveFixedJoint disableFixedJointLumping axis parent child pose inertial";
-constexpr Names kOfRobots = "static plugin self_collide enable_wind allow_auto_disable material canonicalBody";
+constexpr Names kOfRobots = "static plugin pose self_collide enable_wind allow_auto_disable material canonicalBody";
 
 bool has(Names names, std::string_view word) {
   const std::vector<std::string> all = config::split(names, ' ');
@@ -111,6 +113,23 @@ std::vector<const XMLElement*> extensions_of(const UrdfReading& r, const std::st
   return it == r.extensions.end() ? std::vector<const XMLElement*>() : it->second;
 }
 
+/// SDF's: x y z roll pitch yaw.
+Pose3 pose_in(UrdfReading& r, const XMLElement& e) {
+  std::vector<double> n;
+  const std::string text = UrdfReading::text(&e);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) n.push_back(config::parse_number(word).value_or(kInfinite));
+  const bool finite = std::all_of(n.begin(), n.end(), [](double x) { return std::isfinite(x); });
+  if (e.FirstAttribute() == nullptr && n.size() == 6 && finite) {
+    urdf::Pose pose;
+    pose.position = urdf::Vector3(n[0], n[1], n[2]);
+    pose.rotation.setFromRPY(n[3], n[4], n[5]);
+    return pose_of(pose);
+  }
+  r.problems.add({line_of(e, r.file), path_of(e), text, "isn't six numbers alone", "x y z roll pitch yaw, without attributes"});
+  return {};
+}
+
 }  // namespace
 
 std::unique_ptr<tinyxml2::XMLDocument> gazebo_collision(UrdfReading& r, const std::string& link) {
@@ -147,6 +166,7 @@ std::unique_ptr<tinyxml2::XMLDocument> gazebo_link(UrdfReading& r, const UrdfLum
       for (const XMLElement* e = gazebo->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
         const std::string_view what = e->Name();
         if (has(kOfSdfLinks, what)) {
+          if (what == "enable_wind" && UrdfReading::flag(e)) r.notes.add("wind is left out", name);
           copy_into(link, *e);
         } else if (what == "visual") {
           r.notes.add("what a <gazebo> says of a link's looks is left out", place_of(*e, r.file));
@@ -185,6 +205,8 @@ void read_gazebo_joint(UrdfReading& r, const std::string& joint, const std::stri
 }
 
 void read_gazebo_robot(UrdfReading& r, ModelScope& scope) {
+  if (const auto all = extensions_of(r, ""); !all.empty() && r.child(all.front(), "pose") != nullptr)
+    scope.pose = pose_in(r, *r.child(all.front(), "pose"));
   for (const XMLElement* gazebo : extensions_of(r, "")) {
     if (const XMLElement* e = last_of(*gazebo, "static")) scope.is_static = UrdfReading::flag(e);
     if (const XMLElement* e = r.child(gazebo, "self_collide")) scope.self_collide = UrdfReading::flag(e);

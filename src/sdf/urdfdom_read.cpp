@@ -80,9 +80,9 @@ void read_robot(const XMLElement& robot, const urdf::ModelInterface& model, Urdf
   r.out.name = "default";
   ModelScope scope;
   scope.name = scope.top = model.getName();
-  scope.pose = origin_of(robot);
   check_names(r, model.getName());
   read_gazebo_robot(r, scope);
+  if (robot.FirstChildElement("origin") != nullptr) scope.pose = origin_of(robot);
   const std::vector<UrdfLump> lumps = lump_links(r, model, scope.pose);
   for (const UrdfLump& lump : lumps) read_urdf_link(r, lump, scope);
   for (std::size_t i = 0; i < lumps.size(); ++i) read_urdf_joint(r, lumps[i], scope, i);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "vsa/config/text.hpp"
 
@@ -62,13 +61,8 @@ std::uint32_t UrdfReading::whole(Element element) {
 }
 
 Vec3 UrdfReading::vector(Element element) {
-  std::vector<double> numbers;
   const std::string words = text(element);
-  for (const std::string& word : config::split(words, ' ')) {
-    if (word.empty()) continue;
-    numbers.push_back(config::parse_number(config::trim(word)).value_or(std::nan("")));
-  }
-  if (numbers.size() == 3 && Vec3(numbers[0], numbers[1], numbers[2]).IsFinite()) return {numbers[0], numbers[1], numbers[2]};
+  if (const auto found = three_numbers(words.c_str())) return *found;
   problem(element, std::string("gazebo/") + element->Name(), words, "isn't three numbers", "x y z");
   return {};
 }

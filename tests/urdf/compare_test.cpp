@@ -160,7 +160,7 @@ std::multiset<std::string> physical(const std::vector<std::string>& warnings) {
 }
 
 /// Robots that libsdformat takes with more than a URDF has: in it a <gazebo> may hold SDF of any kind.
-const std::set<std::string> kSdfInIt{"gazebo_robot_link", "gazebo_robot_pose"};
+const std::set<std::string> kSdfInIt{"gazebo_robot_link"};
 
 void expect_same(const std::string& name, const SdfSource& source, bool lenient = false) {
   const auto concave = lenient ? Concave::hull : Concave::refuse;

@@ -50,6 +50,7 @@ void add_gazebos(Robots& out) {
            {"max_vel", "<maxVel>0.1</maxVel>"},
            {"self_collide", "<selfCollide>true</selfCollide>"},
            {"self_collide_word", "<selfCollide>maybe</selfCollide>"},
+           {"wind", "<enable_wind>false</enable_wind>"},
            {"gravity_off", "<turnGravityOff>true</turnGravityOff>"},
            {"sdf_self_collide", "<self_collide>1</self_collide>"},
            {"sdf_gravity", "<gravity>0</gravity>"},
@@ -94,7 +95,8 @@ void add_gazebos(Robots& out) {
            {"collision", "<collision/>"},
            {"unknown", "<plugn/>"},
            {"wind", "<enable_wind>true</enable_wind>"},
-           {"pose", "<pose>1 0 0 0 0 0</pose>"},
+           {"pose", "<pose>1 2 3 0.1 0.2 0.3</pose>"},
+           {"pose_of_five", "<pose>1 2 3 0 0</pose>"},
            {"link", "<link name='more'><inertial><mass>1</mass></inertial></link>"},
            {"foreign_plugin", "<plugin name='p' filename='libp.so'><x/></plugin>"}})
     out[Text("gazebo_robot_") + name] = with_gazebo("", content);
