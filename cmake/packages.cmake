@@ -31,7 +31,7 @@ endfunction()
 # What a program that links the library needs for compiling: who owns what CMake found here.
 set(found "")
 set(owners_of_links "")
-foreach(package fmt nlohmann_json Boost tomlplusplus tinyxml2 mujoco assimp Ceres Eigen3 Pagmo ${VSA_SDF_PACKAGES} ${VSA_TOPICS_PACKAGES})
+foreach(package fmt nlohmann_json Boost tomlplusplus tinyxml2 mujoco assimp Ceres Eigen3 Pagmo ${VSA_SDF_PACKAGES} ${VSA_URDF_PACKAGES} ${VSA_TOPICS_PACKAGES})
   if(${package}_DIR)
     file(GLOB files ${${package}_DIR}/*[cC]onfig.cmake)
     list(GET files 0 file)

@@ -21,18 +21,18 @@ packages="
 browser=chromium
 tried=yes
 clang=14
-# What SDF and topics need, where the system packages it; MuJoCo, where it does. docs/reference/systems.md
+# What SDF, URDF and topics need, where the system packages it; MuJoCo, where it does. docs/reference/systems.md
 case "$codename" in
   bookworm)
-    packages="$packages libmujoco-dev libsdformat-dev libassimp-dev libbullet-extras-dev libignition-transport-dev libignition-msgs-dev ignition-transport-cli"
+    packages="$packages libmujoco-dev libsdformat-dev liburdfdom-dev libassimp-dev libbullet-extras-dev libignition-transport-dev libignition-msgs-dev ignition-transport-cli"
     ;;
   trixie)
-    packages="$packages libmujoco-dev"
+    packages="$packages libmujoco-dev liburdfdom-dev libassimp-dev libbullet-extras-dev"
     clang=19
     ;;
   # No browser: Ubuntu's is a snap.
   noble)
-    packages="$packages libmujoco-dev libassimp-dev libbullet-extras-dev"
+    packages="$packages libmujoco-dev liburdfdom-dev libassimp-dev libbullet-extras-dev"
     browser=""
     clang=18
     ;;

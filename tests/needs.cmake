@@ -2,12 +2,57 @@
 #
 # Tests of worlds written in SDF, and of topics, by folder, as gtest's filter has them: a build without the one or the other leaves
 # them out, and says so.
+set(VSA_NEEDS_SDF_sdf
+  EngineThatCollidesConcaveMeshes.*
+  EngineWhoseFrictionHasDirections.*
+  EngineWithFewJoints.*
+  EngineWithFewShapes.*
+  EngineWithLinksWithoutWeight.*
+  EngineWithLoops.*
+  EngineWithMovingTerrain.*
+  EngineWithRestitutionSpringsAndMasks.*
+  EngineWithSoftStops.*
+  EngineWithoutFollowers.*
+  EngineWithoutFrictionAgainstSpin.*
+  WorldWithAnEngineOfItsUsers.*
+  ConcaveMesh.*
+  Collada.*
+  Frames.AJointThatPointsTowardsTheWorldTurnsTheSameWay
+  Frames.AModelIsDisplacedAboutTheWorldsAxis
+  Frames.AnAxisIsTakenInTheFrameItIsExpressedIn
+  Frames.BallAndUniversalJointsHang
+  Frames.IncludesAreFoundOnTheModelPath
+  Frames.LinksStartWhereTheirPosesSay
+  Frames.NestedModelsAndTheirJointsAreFoundByScopedName
+  Frames.StaticModelsAndUnjointedLinksAreTiedAndFree
+  Frames.VisualsComeWithTheirColoursAndCollisionsWhereThereAreNone
+  ImpossibleInertia.*
+  BadInput.*
+  Warnings.*
+  Mimic.*
+  LongChains.*
+  Terrain.*
+  Meshes.*
+  Sdf/Loaded.*
+  File/Refused.*_sdf
+  RobotFiles.AFileOfOneOfLibsdformatsOwnNamesIsTheUsers
+  RobotFiles.AFolderByItsPlainNameIsFoundBesideTheFileAndThenWhereModelsAre
+  RobotFiles.AMaterialsDiffuseColourIsKeptWhateverElseItHolds
+  RobotFiles.AnActuatedJointThatStartsElsewhereStartsAtRest
+  RobotFiles.ASpringPullsToItsReference
+  RobotFiles.OfAnIncludeThatIsntFoundThereIsOneError
+  RobotFiles.TheUsersOwnSunAndGroundComeFirst
+)
 set(VSA_NEEDS_SDF_mjcf
   CommittedMjcf.*
   Export.GoesBetweenSnapshots
+  Export.HasRoomForTheRowsOfAllItsLoops
   Export.KeepsFrictionWithADirection
   Export.KeepsLinksWithoutGravity
   Export.KeepsWhatClosesLoops
+  Export.TellsSoOfAModelThatNamesWhatIsNotThere
+  Export.TellsThePluginsReaderThatFrictionHadADirectionOfAnMjcfToo
+  Export.TellsWhenItsSdfHasChangedSince
   Export.WritesNamesThatXmlWouldTakeForItsOwn
   Worlds/FromSdfAndFromMjcf.*
 )

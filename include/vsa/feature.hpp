@@ -10,7 +10,7 @@ namespace vsa {
 
 /// A part of vsasim that needs a library of the system.
 struct Feature {
-  std::string_view name;      ///< "reader of SDF and URDF", "topics"
+  std::string_view name;      ///< "reader of SDF", "topics"
   std::string_view found_as;  ///< the library with its version; empty: the feature is left out
   std::string_view remedy;    ///< what would bring it, a line
 

@@ -55,7 +55,8 @@ std::filesystem::path mjcf_of(const std::filesystem::path& world) {
   std::filesystem::path beside = world;
   beside.replace_extension(".xml");
   std::error_code none;
-  const bool stands_in = !reader::sdf_feature().is_in() && std::filesystem::is_regular_file(beside, none);
+  const bool is_read = world.extension() == ".urdf" ? reader::urdf_feature().is_in() : reader::sdf_feature().is_in();
+  const bool stands_in = !is_read && std::filesystem::is_regular_file(beside, none);
   return stands_in ? beside : std::filesystem::path{};
 }
 

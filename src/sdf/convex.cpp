@@ -47,6 +47,12 @@ Sums add_up(const Mesh& mesh) {
 
 }  // namespace
 
+double volume(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles) sum += mesh.vertices[t[0]].Dot(mesh.vertices[t[1]].Cross(mesh.vertices[t[2]])) / 6;
+  return sum;
+}
+
 std::string not_convex(const Mesh& mesh) {
   const Sums s = add_up(mesh);
   const double size = (s.high - s.low).Length();

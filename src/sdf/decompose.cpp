@@ -35,12 +35,6 @@ Mesh part_of(HACD::HACD& hacd, std::size_t cluster) {
 
 }  // namespace
 
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles) sum += mesh.vertices[t[0]].Dot(mesh.vertices[t[1]].Cross(mesh.vertices[t[2]])) / 6;
-  return sum;
-}
-
 std::vector<Mesh> decompose(const Mesh& mesh) {
   const auto fail = [](const std::string& why) { throw InputError(Problem{"", "", "", "can't be decomposed: " + why, ""}); };
   if (mesh.triangles.size() > kMostTriangles)

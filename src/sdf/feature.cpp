@@ -3,6 +3,8 @@
 
 namespace vsa::reader {
 
-Feature sdf_feature() { return {"reader of SDF and URDF", VSA_SDF_FOUND_AS, VSA_SDF_REMEDY}; }
+Feature sdf_feature() { return {"reader of SDF", VSA_SDF_FOUND_AS, VSA_SDF_REMEDY}; }
+
+Feature urdf_feature() { return {"reader of URDF", VSA_URDF_FOUND_AS, VSA_URDF_REMEDY}; }
 
 }  // namespace vsa::reader

@@ -1,8 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <sdf/Box.hh>
 #include <sdf/Capsule.hh>
 #include <sdf/Cylinder.hh>
@@ -14,58 +12,19 @@
 #include <sdf/Sphere.hh>
 
 #include "sdf/heightmap_file.hpp"
-#include "sdf/mesh_file.hpp"
 #include "sdf/read_context.hpp"
+#include "sdf/shapes.hpp"
 #include "vsa/files.hpp"
 
 namespace vsa::reader {
 namespace {
 
-constexpr std::array<std::pair<Geometry::Kind, const char*>, 8> kShapes{{{Geometry::Kind::box, "box"},
-                                                                         {Geometry::Kind::sphere, "sphere"},
-                                                                         {Geometry::Kind::cylinder, "cylinder"},
-                                                                         {Geometry::Kind::capsule, "capsule"},
-                                                                         {Geometry::Kind::ellipsoid, "ellipsoid"},
-                                                                         {Geometry::Kind::plane, "plane"},
-                                                                         {Geometry::Kind::heightmap, "heightmap"},
-                                                                         {Geometry::Kind::mesh, "mesh"}}};
+struct Where : ShapeReading {
+  Where(ReadContext& context, sdf::ElementPtr e, std::string k, bool does_collide)
+      : ShapeReading{context, context.file_of(e), std::move(k), does_collide}, c(context), element(std::move(e)) {}
 
-std::string collidable(const Capabilities& engine) {
-  std::string all;
-  for (const auto& [kind, name] : kShapes) {
-    if (!engine.takes(kind)) continue;
-    const bool hulls = kind == Geometry::Kind::mesh && !engine.concave_meshes;
-    all += (all.empty() ? "" : ", ") + std::string(hulls ? "convex " : "") + name;
-  }
-  return all;
-}
-
-/// Visuals that can't be shown are only left out; collisions are refused.
-struct Where {
   ReadContext& c;
   sdf::ElementPtr element;
-  std::string key;
-  bool collides;
-
-  std::nullopt_t refuse(const std::string& name, const std::string& value, const std::string& message, const std::string& allowed) {
-    if (collides) {
-      c.problem(element, key + "/geometry/" + name, value, message, allowed);
-    } else {
-      c.notes.add("visuals that can't be shown are left out (" + message + ")", key);
-    }
-    return std::nullopt;
-  }
-
-  std::optional<Geometry> sized(Geometry::Kind kind, const Vec3& size, int used, const char* name) {
-    for (int i = 0; i < used; ++i) {
-      const double x = size[static_cast<std::size_t>(i)];
-      if (!std::isfinite(x) || x <= 0) return refuse(name, fmt::format("{}", x), "a length that isn't positive", "> 0, finite");
-    }
-    Geometry g;
-    g.kind = kind;
-    g.size = size;
-    return g;
-  }
 
   [[nodiscard]] std::filesystem::path base_of(const std::string& given) const {
     const std::string from = c.files.original(given);
@@ -104,51 +63,11 @@ Concave wish_of(const Where& w, const sdf::Mesh& mesh) {
   return text == "convex_hull" ? Concave::hull : text == "convex_decomposition" ? Concave::decompose : w.c.concave;
 }
 
-/// Of a collision mesh that isn't convex, `why`: what was asked for.
-std::optional<Geometry> make_convex(Where& w, const sdf::Mesh& mesh, Geometry g, const std::string& why) {
-  constexpr const char* kAllowed =
-      "convex closed meshes, primitives, a heightmap; or ask for the hull or for convex parts: vsa run --concave, "
-      "WorldOptions::concave";
-  const Concave wish = wish_of(w, mesh);
-  if (wish == Concave::refuse && w.c.engine.concave_meshes) return g;
-  const double size = volume(*g.mesh);
-  if (wish == Concave::refuse) return w.refuse("mesh/uri", mesh.Uri(), why, kAllowed);
-  if (wish == Concave::hull) {
-    w.c.notes.add("concave collision meshes are filled to their convex hulls", w.key);
-    g.hull = true;
-    return g;
-  }
-  try {
-    double sum = 0;
-    for (Mesh& part : decompose(*g.mesh)) {
-      sum += std::abs(volume(part));
-      g.parts.push_back(std::make_shared<const Mesh>(std::move(part)));
-    }
-    w.c.notes.add("concave collision meshes are cut into convex parts",
-                  fmt::format("{} into {} of {:.3g} times its volume", w.key, g.parts.size(), sum / std::abs(size)));
-  } catch (const InputError& error) {
-    return w.refuse("mesh/uri", mesh.Uri(), error.problems().front().message, kAllowed);
-  }
-  return g;
-}
-
 std::optional<Geometry> read_mesh_geometry(Where& w, const sdf::Mesh& mesh) {
   const auto path = w.locate(mesh.Uri(), mesh.FilePath());
   if (path.empty()) return w.not_found("mesh/uri", mesh.Uri(), mesh.FilePath());
   if (!mesh.Submesh().empty()) return w.refuse("mesh/submesh", mesh.Submesh(), "submeshes aren't supported", "whole meshes");
-  if (!mesh_format_known(path)) return w.refuse("mesh/uri", mesh.Uri(), "this mesh format isn't read", kMeshFormats);
-  Geometry g;
-  g.kind = Geometry::Kind::mesh;
-  g.size = mesh.Scale();
-  w.c.seen.reads(path);
-  try {
-    g.mesh = std::make_shared<const Mesh>(read_mesh(path, mesh.Scale()));
-  } catch (const InputError& error) {
-    return w.refuse("mesh/uri", mesh.Uri(), error.what(), kMeshFormats);
-  }
-  if (!w.collides) return g;
-  const std::string why = not_convex(*g.mesh);
-  return why.empty() ? std::optional(g) : make_convex(w, mesh, std::move(g), why);
+  return w.mesh(path, mesh.Uri(), mesh.Scale(), wish_of(w, mesh));
 }
 
 std::optional<Geometry> read_heightmap_geometry(Where& w, const sdf::Heightmap& map) {
@@ -197,14 +116,13 @@ std::optional<Geometry> read_any(Where& w, const sdf::Geometry& geometry) {
 void tell_of_others(const Where& w, Geometry::Kind kind) {
   const sdf::ElementPtr first = w.element ? w.element->GetFirstElement() : nullptr;
   if (!first || !first->GetNextElement("")) return;
-  const auto* const counts = std::find_if(kShapes.begin(), kShapes.end(), [&](const auto& shape) { return shape.first == kind; });
-  w.c.notes.add(fmt::format("of several shapes in one <geometry> one counts, its {}", counts->second), w.key);
+  w.c.notes.add(fmt::format("of several shapes in one <geometry> one counts, its {}", name_of(kind)), w.key);
 }
 
 }  // namespace
 
 std::optional<Geometry> read_geometry(ReadContext& c, const sdf::Geometry& geometry, const std::string& key, bool collides) {
-  Where w{c, geometry.Element(), key, collides};
+  Where w(c, geometry.Element(), key, collides);
   std::optional<Geometry> g = read_any(w, geometry);
   if (g) tell_of_others(w, g->kind);
   if (!g || !collides || c.engine.takes(g->kind)) return g;

@@ -15,21 +15,6 @@
 namespace vsa::reader {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kNoLimit = 1e15;  // SDF writes ±1e16 for "none"
-constexpr double kOpenSide = 1e9;  // the other side of a one-sided limit
-constexpr std::array<std::pair<Joint::Kind, const char*>, 5> kTypes{{{Joint::Kind::fixed, "fixed"},
-                                                                     {Joint::Kind::hinge, "revolute, continuous"},
-                                                                     {Joint::Kind::slide, "prismatic"},
-                                                                     {Joint::Kind::ball, "ball"},
-                                                                     {Joint::Kind::universal, "universal"}}};
-
-std::string movable(const Capabilities& engine) {
-  std::string all;
-  for (const auto& [kind, name] : kTypes) all += !engine.takes(kind) ? "" : (all.empty() ? "" : ", ") + std::string(name);
-  return all;
-}
-
 std::optional<Joint::Kind> kind_of(sdf::JointType type) {
   switch (type) {
     case sdf::JointType::FIXED:
@@ -67,18 +52,10 @@ void read_stops(ReadContext& c, const sdf::ElementPtr& limit, const std::string&
 
 void read_range(ReadContext& c, const sdf::ElementPtr& element, const sdf::JointAxis& axis, const std::string& key, Axis& out) {
   const double lower = axis.Lower(), upper = axis.Upper();
-  if (std::isnan(lower) || std::isnan(upper) || lower > upper) {
-    c.problem(element, key + "/limit", fmt::format("{} … {}", lower, upper), "isn't a range", "lower ≤ upper");
-    return;
-  }
-  if (lower > -kNoLimit || upper < kNoLimit) out.range = {{std::max(lower, -kOpenSide), std::min(upper, kOpenSide)}};
+  if (!take_range(c, lower, upper, c.file_of(element), key, out)) return;
   const sdf::ElementPtr limit = child(element, "limit");
-  for (const char* name : {"effort", "velocity"}) {
-    const sdf::ElementPtr e = child(limit, name);
-    if (e && e->Get<double>() >= 0 && e->Get<double>() < kNoLimit) {
-      c.notes.add(fmt::format("{} limits of joints aren't enforced (an actuator's physics sets its own)", name), key);
-    }
-  }
+  for (const char* name : {"effort", "velocity"})
+    if (const sdf::ElementPtr e = child(limit, name)) tell_of_limit(c, name, e->Get<double>(), key);
   read_stops(c, limit, key, out);
 }
 
@@ -141,6 +118,15 @@ void read_axis(ReadContext& c, const sdf::Joint& joint, unsigned int index, cons
   out.axes.push_back(a);
 }
 
+/// libsdformat makes an empty <physics> of any <gazebo reference> that names a joint.
+bool says_something(const sdf::ElementPtr& e) {
+  if (!e) return false;
+  if (e->GetValue()) return e->GetExplicitlySetInFile();  // libsdformat adds what it thinks a <limit> needs
+  for (sdf::ElementPtr k = e->GetFirstElement(); k; k = k->GetNextElement())
+    if (says_something(k)) return true;
+  return false;
+}
+
 /// An end of the joint: a link's index, or none for the world. False where the link isn't known.
 bool find_end(ReadContext& c, const sdf::Joint& joint, bool is_child, const ModelScope& scope, std::optional<std::size_t>& out) {
   std::string name;
@@ -183,7 +169,8 @@ void read_joint(ReadContext& c, const sdf::Joint& joint, const ModelScope& scope
   const bool ends = find_end(c, joint, false, scope, out.parent) && find_end(c, joint, true, scope, out.child);
   for (unsigned int i = 0; i < axes_of(*kind); ++i) read_axis(c, joint, i, key, out);
   if (joint.SensorCount() > 0 || child(joint.Element(), "vsa:sensor")) c.notes.add("sensors are left out", key);
-  if (child(joint.Element(), "physics")) c.notes.add("<physics> of joints is left out", key);
+  for (sdf::ElementPtr p = child(joint.Element(), "physics"); p; p = p->GetNextElement("physics"))
+    if (says_something(p)) c.notes.add("<physics> of joints is left out", key);
   if (ends && out.axes.size() == axes_of(*kind)) c.out.joints.push_back(std::move(out));
 }
 

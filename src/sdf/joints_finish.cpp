@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdf/read_context.hpp"
+#include "sdf/reading.hpp"
 
 namespace vsa::reader {
 namespace {
@@ -57,7 +57,7 @@ void pose_beyond(description::World& world, std::size_t j, double position) {
   }
 }
 
-void weld(ReadContext& c) {
+void weld(Reading& c) {
   for (std::size_t j = 0; j < c.out.joints.size(); ++j) {
     Joint& joint = c.out.joints[j];
     if (!joint.one_axis() || !joint.axes[0].range) continue;
@@ -77,7 +77,7 @@ void weld(ReadContext& c) {
   }
 }
 
-void find_start(ReadContext& c, const Joint& joint, Axis& axis) {
+void find_start(Reading& c, const Joint& joint, Axis& axis) {
   if (!joint.one_axis()) {
     const bool excluded = axis.range && ((*axis.range)[0] > 0 || (*axis.range)[1] < 0 || (*axis.range)[0] == (*axis.range)[1]);
     if (axis.start.value_or(0) != 0 || excluded)
@@ -98,7 +98,7 @@ void find_start(ReadContext& c, const Joint& joint, Axis& axis) {
 
 class Couplings {
  public:
-  explicit Couplings(ReadContext& c) : c_(c) {}
+  explicit Couplings(Reading& c) : c_(c) {}
 
   void all() {
     for (const Mimic& m : c_.mimics) add(m);
@@ -170,12 +170,12 @@ class Couplings {
     }
   }
 
-  ReadContext& c_;
+  Reading& c_;
 };
 
 }  // namespace
 
-void finish_joints(ReadContext& c) {
+void finish_joints(Reading& c) {
   weld(c);
   for (Joint& joint : c.out.joints) {
     for (Axis& axis : joint.axes) find_start(c, joint, axis);

@@ -15,7 +15,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "sdf/read_context.hpp"
+#include "sdf/reading.hpp"
 
 namespace vsa::reader {
 namespace {
@@ -72,7 +72,7 @@ std::size_t rank(std::vector<Twist> twists) {
 
 class Loops {
  public:
-  explicit Loops(ReadContext& c) : c_(c), world_(c.out), ground_(c.out.links.size()), groups_(ground_ + 1), tree_(ground_ + 1) {}
+  explicit Loops(Reading& c) : c_(c), world_(c.out), ground_(c.out.links.size()), groups_(ground_ + 1), tree_(ground_ + 1) {}
 
   void close() {
     std::vector<std::size_t> order(world_.joints.size());
@@ -211,7 +211,7 @@ class Loops {
     return !twists.empty() && rank(twists) == twists.size();
   }
 
-  ReadContext& c_;
+  Reading& c_;
   description::World& world_;
   std::size_t ground_;
   Groups groups_;
@@ -228,13 +228,13 @@ bool in_loop(const description::World& world, std::size_t joint) {
   return !unite(world.joints[joint]);
 }
 
-void close_loops(ReadContext& c) {
+void close_loops(Reading& c) {
   Loops(c).close();
   for (const TurnedJoint& t : c.turned) {
     const Joint& joint = c.out.joints[t.joint];
     if (!joint.closes)
-      c.problem(t.element, t.key, "", fmt::format("joint {} can't start turned: it isn't one with one axis", joint.name),
-                "links' poses that leave it as the model has it");
+      c.problems.add({t.file, t.key, "", fmt::format("joint {} can't start turned: it isn't one with one axis", joint.name),
+                      "links' poses that leave it as the model has it"});
   }
 }
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cctype>
 #include <cstring>
+#include <locale>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -87,6 +88,7 @@ Mesh text_stl(const fs::path& file, const std::string& data) {
   Mesh mesh;
   Welder weld(mesh);
   std::istringstream in(data);
+  in.imbue(std::locale::classic());
   std::vector<std::uint32_t> corners;
   for (std::string word; in >> word;) {
     if (word != "vertex") continue;
@@ -113,8 +115,10 @@ std::uint32_t obj_index(const fs::path& file, const std::string& word, std::size
 Mesh obj(const fs::path& file, const std::string& data) {
   Mesh mesh;
   std::istringstream in(data);
+  in.imbue(std::locale::classic());
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
+    words.imbue(std::locale::classic());
     std::string word;
     words >> word;
     if (word == "v") {

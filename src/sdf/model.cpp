@@ -1,13 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <sdf/Joint.hh>
 #include <sdf/Link.hh>
 #include <sdf/Model.hh>
 
 #include "sdf/read_context.hpp"
-#include "vsa/config/older_plugin.hpp"
-#include "vsa/config/plugin_xml.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/scoped_name.hpp"
 
@@ -17,27 +13,15 @@ namespace {
 /// libsdformat 12's Model has no Plugins(): they are read from the element tree.
 void read_plugins(ReadContext& c, const sdf::ElementPtr& element, const ModelScope& scope) {
   for (sdf::ElementPtr p = child(element, "plugin"); p; p = p->GetNextElement("plugin")) {
-    const std::string name = p->GetAttribute("name") ? p->GetAttribute("name")->GetAsString() : std::string{};
-    if (name != config::kPluginName) {
-      const bool older = config::is_older_plugin(p->ToString(""));
-      const std::string file = p->GetAttribute("filename") ? p->GetAttribute("filename")->GetAsString() : std::string{};
-      if (!older && file.find("vsa-robot") != std::string::npos) {
-        c.notes.add(fmt::format("a plugin of our library has another name and is left out: did you mean {}?", config::kPluginName),
-                    scope.name + "/plugin[" + name + "]");
-        continue;
-      }
-      c.notes.add(older ? "plugins of older actuator toolboxes are left out (vsa doctor WORLD writes them anew)"
-                        : "foreign plugins are left out",
-                  scope.name + "/plugin[" + name + "]");
-    } else if (scope.is_static) {
-      c.problem(p, scope.name + "/plugin[" + name + "]", "", "its model is static, so its joints can't move",
-                "a model that isn't static");
-    } else {
-      c.out.plugins.push_back({scope.name, scope.top, p->ToString("")});
-      for (sdf::ElementPtr a = child(p, "actuator"); a; a = a->GetNextElement("actuator"))
-        if (const sdf::ElementPtr joint = child(a, "joint"); joint && joint->GetValue())
-          c.driven.insert(scoped_name(scope.name, config::trim(joint->GetValue()->GetAsString())));
-    }
+    PluginElement plugin{ReadContext::attribute(p, "name").value_or(""),
+                         ReadContext::attribute(p, "filename").value_or(""),
+                         p->ToString(""),
+                         {},
+                         c.file_of(p)};
+    for (sdf::ElementPtr a = child(p, "actuator"); a; a = a->GetNextElement("actuator"))
+      if (const sdf::ElementPtr joint = child(a, "joint"); joint && joint->GetValue())
+        plugin.joints.emplace_back(config::trim(joint->GetValue()->GetAsString()));
+    take_plugin(c, plugin, scope);
   }
 }
 

@@ -70,15 +70,7 @@ void read_root(ReadContext& c, const sdf::Root& root) {
 description::World read_sdf(const SdfSource& source, const ReadOptions& options, const Finder& finder, SeenFiles& seen,
                             std::vector<std::string>& warnings, Problems& problems) {
   description::World out;
-  std::error_code ignored;
-  if (!source.path.empty() && !fs::is_regular_file(source.path, ignored)) {
-    problems.add({source.path.string(), "", "", "no such file", "an SDF or URDF file"});
-    return out;
-  }
-  if (!source.path.empty() ? fs::file_size(source.path, ignored) == 0 : source.text.empty()) {
-    problems.add({source.label(), "", "", "is empty", "an SDF or URDF file"});
-    return out;
-  }
+  if (!is_there(source, problems)) return out;
   const fs::path base = source.path.empty() ? fs::current_path() : fs::absolute(source.path).parent_path();
   Notes notes;
   InputFiles files;
@@ -87,7 +79,8 @@ description::World read_sdf(const SdfSource& source, const ReadOptions& options,
     seen.reads(source.path);
   }
   ReadContext context{
-      out, problems, notes, finder, files, seen, source.label(), base, options.engine, options.concave, options.impossible_inertia};
+      {out, problems, notes, finder, seen, source.label(), base, options.engine, options.concave, options.impossible_inertia},
+      files};
   if (!prepare_files(source, context)) return out;
   sdf::Root root;
   parse_sdf(source, context, root);

@@ -1,16 +1,19 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "sdf/read_context.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
 #include <sdf/Types.hh>
 
 namespace vsa::reader {
 
 sdf::ElementPtr child(const sdf::ElementPtr& element, const std::string& name) {
   return element && element->HasElement(name) ? element->GetElement(name) : nullptr;
+}
+
+sdf::ElementPtr ReadContext::child(const sdf::ElementPtr& element, const std::string& name) { return reader::child(element, name); }
+
+std::optional<std::string> ReadContext::attribute(const sdf::ElementPtr& element, const std::string& name) {
+  const auto found = element->GetAttribute(name);
+  return found ? std::optional(found->GetAsString()) : std::nullopt;
 }
 
 std::string ReadContext::file_of(const sdf::ElementPtr& element) const {
@@ -25,7 +28,7 @@ void ReadContext::problem(const sdf::ElementPtr& element, std::string key, std::
 
 void ReadContext::cannot(const sdf::ElementPtr& element, std::string key, std::string value, const std::string& what,
                          std::string allowed) {
-  problem(element, std::move(key), std::move(value), fmt::format("{} supported by {}", what, engine.engine), std::move(allowed));
+  engine_cannot(file_of(element), std::move(key), std::move(value), what, std::move(allowed));
 }
 
 Pose3 ReadContext::resolve(const sdf::SemanticPose& pose, const std::string& to, const sdf::ElementPtr& element,
@@ -48,14 +51,7 @@ double ReadContext::number(const sdf::ElementPtr& element, const std::string& na
                            const std::string& key) {
   const sdf::ElementPtr found = child(element, name);
   if (!found) return fallback;
-  const double value = found->Get<double>();
-  if (!std::isfinite(value) || value < min || value > max) {
-    const std::string allowed =
-        max == std::numeric_limits<double>::infinity() ? fmt::format("finite, ≥ {}", min) : fmt::format("{} … {}", min, max);
-    problem(found, key + "/" + name, fmt::format("{}", value), "out of range", allowed);
-    return fallback;
-  }
-  return value;
+  return in_range(found->Get<double>(), fallback, min, max, file_of(found), key + "/" + name);
 }
 
 }  // namespace vsa::reader

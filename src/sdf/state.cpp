@@ -141,7 +141,7 @@ class ModelState {
     const bool turns = j.kind == Joint::Kind::ball || j.kind == Joint::Kind::universal;
     if (turns && turn.Pos().Length() <= kPoseTolerance) {
       if (distance(turn) > kPoseTolerance)
-        c_.turned.push_back({static_cast<std::size_t>(&j - c_.out.joints.data()), key_ + "/link", element_});
+        c_.turned.push_back({static_cast<std::size_t>(&j - c_.out.joints.data()), c_.file_of(element_), key_ + "/link"});
       return;
     }
     if (distance(reached.Inverse() * turn) > kPoseTolerance)

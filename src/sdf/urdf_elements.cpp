@@ -23,10 +23,10 @@ struct UrdfElement {
   std::string_view often;  // elements in it, of which all count
 };
 
-// By the specification (https://wiki.ros.org/urdf/XML) and its schema. What isn't in the first column holds what others read. A
+// By the specification (https://wiki.ros.org/urdf/XML) and its schema; the <origin> of a <robot>, its place, is Gazebo's. What isn't in the first column holds what others read. A
 // <material> in a <collision> is none of URDF's, but colours are for renderers and need no word.
 constexpr std::array<UrdfElement, 24> kUrdf{
-    {{"robot", "name version", "", "link joint material transmission gazebo ros2_control"},
+    {{"robot", "name version", "origin", "link joint material transmission gazebo ros2_control"},
      {"link", "name type", "inertial", "visual collision"},
      {"inertial", "", "origin mass inertia", ""},
      {"mass", "value", "", ""},

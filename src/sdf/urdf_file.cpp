@@ -2,11 +2,14 @@
 #include "sdf/urdf_file.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <locale>
 #include <sstream>
 
 #include "sdf/urdf_elements.hpp"
 #include "sdf/xml_place.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/scoped_name.hpp"
 
 namespace vsa::reader {
 namespace {
@@ -29,6 +32,7 @@ double mimic_number(const XMLElement& mimic, const char* name, double fallback, 
 
 bool is_zero(const char* numbers) {
   std::istringstream in(numbers == nullptr ? "" : numbers);
+  in.imbue(std::locale::classic());
   double number = 0;
   while (in >> number)
     if (number != 0) return false;
@@ -62,6 +66,18 @@ UrdfJoint read_joint(const XMLElement& e, const Urdf& urdf, Notes& notes, Proble
   joint.mimic = UrdfMimic{attribute(mimic, "joint"), mimic_number(*mimic, "multiplier", 1, urdf, joint.name, problems),
                           mimic_number(*mimic, "offset", 0, urdf, joint.name, problems)};
   return joint;
+}
+
+/// libsdformat would say so with the numbers in it, a word for every joint.
+void switch_limits(XMLElement& e, const UrdfJoint& joint, const std::string& robot, Notes& notes) {
+  XMLElement* limit = e.FirstChildElement("limit");
+  if (limit == nullptr || (joint.type != "revolute" && joint.type != "prismatic")) return;
+  const auto given = [&](const char* name) { return config::parse_number(config::trim(attribute(limit, name))).value_or(0); };
+  if (given("lower") <= given("upper")) return;
+  const std::string lower = attribute(limit, "lower"), upper = attribute(limit, "upper");
+  limit->SetAttribute("lower", upper.empty() ? "0" : upper.c_str());
+  limit->SetAttribute("upper", lower.empty() ? "0" : lower.c_str());
+  notes.add("lower and upper of a joint's <limit> stand the wrong way round and are switched", scoped_name(robot, joint.name));
 }
 
 /// A <limit> of 0 … 0 is what exporters write of every joint, and an <axis> of a fixed joint changes nothing: no word of those.
@@ -148,29 +164,51 @@ std::string Urdf::lumped_into(const std::string& link) const {
   return at;
 }
 
+std::optional<description::Vec3> three_numbers(const char* text) {
+  std::vector<double> out;
+  std::istringstream words(text == nullptr ? "" : text);
+  for (std::string word; words >> word;) out.push_back(config::parse_number(word).value_or(std::nan("")));
+  if (out.size() != 3 || !description::Vec3(out[0], out[1], out[2]).IsFinite()) return std::nullopt;
+  return description::Vec3(out[0], out[1], out[2]);
+}
+
 Urdf mend_urdf(XMLElement& robot, const std::string& file, std::size_t id, Notes& notes, Problems& problems) {
   Urdf urdf;
   urdf.file = file;
   check_urdf_elements(robot, file, notes);
   let_float(robot);
+  const XMLElement* origin = robot.FirstChildElement("origin");
+  for (const char* name : {"xyz", "rpy"})
+    if (const char* text = origin == nullptr ? nullptr : origin->Attribute(name); text != nullptr && !three_numbers(text))
+      problems.add({line_of(*origin, file), std::string("origin@") + name, text, "isn't three numbers", "x y z, finite"});
   for (const XMLElement* e = robot.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) {
     urdf.links.push_back(attribute(e, "name"));
-    if (urdf.links.back() == "world") continue;
+    if (urdf.links.back() == "world") {
+      if (const XMLElement* held = e->FirstChildElement())
+        notes.add("what the link \"world\" holds is left out: it is the ground", place_of(*held, file));
+      continue;
+    }
     for (const XMLElement* k = e->FirstChildElement("collision"); k != nullptr; k = k->NextSiblingElement("collision"))
       ++urdf.collisions;
   }
-  for (const XMLElement* e = robot.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint")) {
+  for (XMLElement* e = robot.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint")) {
     UrdfJoint joint = read_joint(*e, urdf, notes, problems);
     joint.lumped = joint.type == "fixed" && joint.parent != "world" && !stays(robot, joint.name);
     tell_of_limits(*e, joint, file, notes);
+    switch_limits(*e, joint, attribute(&robot, "name"), notes);
     if (e->FirstChildElement("safety_controller") != nullptr)
       notes.add("<safety_controller> of joints is a controller's and left out", joint.name);
     if (e->FirstChildElement("calibration") != nullptr)
       notes.add("<calibration> of joints is for the machine's own encoders and left out", joint.name);
+    if (const UrdfJoint* other = urdf.joint_above(joint.child))
+      problems.add({file, "link[" + joint.child + "]", other->name + ", " + joint.name, "is the child of several joints", "one"});
     urdf.joints.push_back(std::move(joint));
   }
+  if (const UrdfJoint* above = urdf.joint_above("world"))
+    problems.add({file, "link[world]", above->name, "is the ground, and a joint moves or holds it", "the root, or another name"});
   join_robot_elements(robot, id);
   mend_gazebo_elements(robot, urdf, notes, problems);
+  rename_collisions(robot, urdf);
   keep_gravity_apart(robot, urdf, notes);
   mend_massless_links(robot, urdf, notes, problems);
   return urdf;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "sdf/notes.hpp"
+#include "vsa/description/math.hpp"
 #include "vsa/errors.hpp"
 
 namespace vsa::reader {
@@ -49,6 +50,13 @@ struct Urdf {
 /// Reads and mends a <robot>. `id` marks it: the model will hold <vsa:urdf id="…"/>.
 [[nodiscard]] Urdf mend_urdf(tinyxml2::XMLElement& robot, const std::string& file, std::size_t id, Notes& notes,
                              Problems& problems);
+
+/// "1 2 3"; none: it isn't three finite numbers.
+[[nodiscard]] std::optional<description::Vec3> three_numbers(const char* text);
+
+/// libsdformat gives what a <gazebo> says of a link's surface to those of its collisions whose names it has made itself: to none that
+/// the URDF names, and to another's where one link's name begins with that of the link it is lumped into. So those are renamed.
+void rename_collisions(tinyxml2::XMLElement& robot, const Urdf& urdf);
 
 /// <gazebo> elements: ROS 1 leftovers, and what only some engines understand.
 void mend_gazebo_elements(tinyxml2::XMLElement& robot, const Urdf& urdf, Notes& notes, Problems& problems);

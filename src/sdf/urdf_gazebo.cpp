@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <set>
 #include <string_view>
 
 #include "sdf/urdf_file.hpp"
@@ -62,7 +64,32 @@ void check_number(const XMLElement& e, const std::string& reference, const std::
     problems.add({file, "gazebo[" + reference + "]/" + e.Name(), text, "isn't a number", "a finite number"});
 }
 
+constexpr std::array<std::string_view, 5> kWords{"selfCollide", "turnGravityOff", "preserveFixedJoint", "disableFixedJointLumping",
+                                                 "static"};
+
+/// libsdformat takes any other word for the one or the other.
+void check_word(const XMLElement& e, const std::string& reference, const std::string& file, Problems& problems) {
+  if (!holds(kWords, e.Name())) return;
+  const char* value = e.Attribute("value");
+  const std::string text(config::trim(value != nullptr ? value : e.GetText() != nullptr ? e.GetText() : ""));
+  std::string word = text;
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array<std::string_view, 6> kAllowed{"true", "false", "yes", "no", "1", "0"};
+  if (!holds(kAllowed, word))
+    problems.add({file, (reference.empty() ? "gazebo/" : "gazebo[" + reference + "]/") + std::string(e.Name()), text,
+                  "isn't true or false", "true, yes, 1, false, no, 0"});
+}
+
 constexpr std::array<std::string_view, 3> kOnceBesideNumbers{"selfCollide", "turnGravityOff", "fdir1"};
+constexpr std::array<std::string_view, 8> kOfJoints{"preserveFixedJoint",
+                                                    "disableFixedJointLumping",
+                                                    "provideFeedback",
+                                                    "implicitSpringDamper",
+                                                    "cfmDamping",
+                                                    "fudgeFactor",
+                                                    "stopCfm",
+                                                    "stopErp"};
+constexpr std::array<std::string_view, 2> kSprings{"springReference", "springStiffness"};
 /// What every link or joint has from the URDF: one beside it is never read.
 constexpr std::array<std::string_view, 5> kOfUrdf{"inertial", "pose", "axis", "parent", "child"};
 
@@ -75,17 +102,48 @@ void tell_of_doubles(const XMLElement& e, const std::string& file, Notes& notes)
     notes.add(fmt::format("of several <{}> in one <gazebo> the last counts", name), place_of(e, file));
 }
 
-void mend(XMLElement& gazebo, const std::string& reference, const std::string& file, Notes& notes, Problems& problems) {
+/// What a <gazebo> of a joint says of links, or the other way round.
+bool is_of_the_other(std::string_view name, bool link, bool joint) {
+  const bool of_joints = holds(kOfJoints, name) || holds(kSprings, name);
+  const bool of_links = !of_joints && (holds(kNumbers, name) || holds(kOnceBesideNumbers, name));
+  return (of_links && joint && !link) || (of_joints && link && !joint);
+}
+
+void mend(XMLElement& gazebo, const std::string& reference, bool link, bool joint, const std::string& file, Notes& notes,
+          Problems& problems) {
   for (XMLElement *e = gazebo.FirstChildElement(), *next = nullptr; e != nullptr; e = next) {
     next = e->NextSiblingElement();
     const std::string_view name = e->Name();
+    if (is_of_the_other(name, link, joint) || name == "static") {
+      notes.add(name == "static" ? "<static> in a <gazebo reference> is left out: it belongs to the whole robot"
+                                 : fmt::format("<{}> in the <gazebo reference> of a {} is left out", name, link ? "link" : "joint"),
+                place_of(*e, file));
+      gazebo.DeleteChild(e);
+      continue;
+    }
     const auto* left = std::find_if(kLeftOut.begin(), kLeftOut.end(), [&](const LeftOut& l) { return l.name == name; });
     if (left == kLeftOut.end()) {
       check_number(*e, reference, file, problems);
+      check_word(*e, reference, file, problems);
       tell_of_doubles(*e, file, notes);
       continue;
     }
     if (left->note != nullptr) notes.add(left->note, reference);
+    gazebo.DeleteChild(e);
+  }
+}
+
+/// Of the whole robot: what belongs to one link or joint.
+void leave_out_misplaced(XMLElement& gazebo, const std::string& file, Notes& notes, Problems& problems) {
+  for (XMLElement *e = gazebo.FirstChildElement(), *next = nullptr; e != nullptr; e = next) {
+    next = e->NextSiblingElement();
+    if (is(*e, "static")) check_word(*e, "", file, problems);
+    const std::string_view name = e->Name();
+    if (!holds(kNumbers, name) && !holds(kOnceBesideNumbers, name) && !holds(kOfJoints, name) && name != "collision" &&
+        name != "visual")
+      continue;
+    notes.add(fmt::format("<{}> in a <gazebo> without reference is left out: reference=\"LINK OR JOINT\" says whose", name),
+              place_of(*e, file));
     gazebo.DeleteChild(e);
   }
 }
@@ -95,11 +153,34 @@ void mend(XMLElement& gazebo, const std::string& reference, const std::string& f
 void mend_gazebo_elements(XMLElement& robot, const Urdf& urdf, Notes& notes, Problems& problems) {
   for (XMLElement* g = robot.FirstChildElement("gazebo"); g != nullptr; g = g->NextSiblingElement("gazebo")) {
     const char* reference = g->Attribute("reference");
-    if (reference == nullptr) continue;
-    const bool known = std::find(urdf.links.begin(), urdf.links.end(), reference) != urdf.links.end() ||
-                       std::any_of(urdf.joints.begin(), urdf.joints.end(), [&](const UrdfJoint& j) { return j.name == reference; });
-    if (!known) notes.add("<gazebo reference> names no link or joint and is left out", reference);
-    mend(*g, reference, urdf.file, notes, problems);
+    if (reference == nullptr) {
+      leave_out_misplaced(*g, urdf.file, notes, problems);
+      continue;
+    }
+    const bool link = std::find(urdf.links.begin(), urdf.links.end(), reference) != urdf.links.end();
+    const bool joint = std::any_of(urdf.joints.begin(), urdf.joints.end(), [&](const UrdfJoint& j) { return j.name == reference; });
+    if (!link && !joint) notes.add("<gazebo reference> names no link or joint and is left out", reference);
+    mend(*g, reference, link, joint, urdf.file, notes, problems);
+  }
+}
+
+void rename_collisions(XMLElement& robot, const Urdf& urdf) {
+  constexpr std::array<std::string_view, 10> kOfSurfaces{"mu1",    "mu2",      "fdir1",       "kp",         "kd",
+                                                         "maxVel", "minDepth", "maxContacts", "laserRetro", "collision"};
+  std::set<std::string> told;  // links
+  for (const XMLElement* g = robot.FirstChildElement("gazebo"); g != nullptr; g = g->NextSiblingElement("gazebo")) {
+    const char* reference = g->Attribute("reference");
+    for (const XMLElement* e = g->FirstChildElement(); e != nullptr && reference != nullptr; e = e->NextSiblingElement())
+      if (holds(kOfSurfaces, e->Name())) told.insert(reference);
+  }
+  for (XMLElement* link = robot.FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link")) {
+    const std::string name = link->Attribute("name") == nullptr ? "" : link->Attribute("name"), top = urdf.lumped_into(name);
+    if (!told.contains(name) && !told.contains(top)) continue;
+    for (XMLElement* c = link->FirstChildElement("collision"); c != nullptr; c = c->NextSiblingElement("collision")) {
+      c->DeleteAttribute("name");
+      // The way in which it marks what it lumps, where it would take this for the upper link's own.
+      if (name != top && name.compare(0, top.size(), top) == 0) c->SetAttribute("name", ("_fixed_joint_lump__" + name).c_str());
+    }
   }
 }
 

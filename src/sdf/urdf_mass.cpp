@@ -50,6 +50,11 @@ void mend_massless_links(XMLElement& robot, const Urdf& urdf, Notes& notes, Prob
   for (XMLElement* e = robot.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) {
     const char* name = e->Attribute("name");
     if (name == nullptr) continue;
+    if (masses.own(name) < 0) {
+      problems.add({urdf.file, fmt::format("link[{}]/inertial/mass", name), fmt::format("{}", masses.own(name)),
+                    "isn't a positive mass", "> 0 kg, finite"});
+      continue;
+    }
     switch (judge(masses, urdf, name)) {
       case Verdict::leave:
         break;

@@ -33,6 +33,7 @@ void setup_doctor(CLI::App& app, int& exit_code) {
     exit_code = run_doctor(*options, load_world,
                            {{VSA_MUJOCO_NAME, VSA_MUJOCO_FOUND_AS, VSA_MUJOCO_REMEDY},
                             reader::sdf_feature(),
+                            reader::urdf_feature(),
                             topics::topics_feature(),
                             {VSA_PYTHON_NAME, VSA_PYTHON_FOUND_AS, VSA_PYTHON_REMEDY},
                             {VSA_HDF5_NAME, VSA_HDF5_FOUND_AS, VSA_HDF5_REMEDY},

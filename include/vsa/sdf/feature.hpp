@@ -5,7 +5,10 @@
 
 namespace vsa::reader {
 
-/// Whether this build reads SDF and URDF files: with libsdformat.
+/// Whether this build reads SDF files: with libsdformat.
 [[nodiscard]] Feature sdf_feature();
+
+/// Whether it reads URDF files: with libsdformat or, where that isn't, urdfdom.
+[[nodiscard]] Feature urdf_feature();
 
 }  // namespace vsa::reader

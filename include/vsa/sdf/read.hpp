@@ -1,6 +1,6 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// SDF 1.6 … 1.12 and URDF → description::World.
+// SDF 1.6 … 1.12 and URDF → description::World; in a build without libsdformat URDF alone, and of an SDF what would bring its reader.
 //
 // What the engine that asks can't honour (its Capabilities) is a problem, and so is what no description can say but physics depends
 // on; what doesn't touch the physics (sensors, foreign plugins) is a warning, once a kind. A file with a model and no world becomes
@@ -36,7 +36,7 @@ struct SdfSource {
 };
 
 /// Everything wrong goes to `problems`; the description is complete only where nothing was. What is read
-/// goes to `seen`, the finder's. One call at a time in a process: libsdformat keeps global state while it reads.
+/// goes to `seen`, the finder's. One call at a time in a process: libsdformat and urdfdom keep global state while they read.
 [[nodiscard]] description::World read_sdf(const SdfSource& source, const ReadOptions& options, const Finder& finder,
                                           SeenFiles& seen, std::vector<std::string>& warnings, Problems& problems);
 
