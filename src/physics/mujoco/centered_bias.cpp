@@ -55,7 +55,7 @@ double size(const mjModel& m, mjData& d, const Tree& tree, const mjtNum* x) {
 /// How much of dt/2·a counts.
 double half_step(const mjModel& m, mjData& d, const Tree& tree, const mjtNum* v, const mjtNum* a) {
   const double half_s = 0.5 * m.opt.timestep, change = half_s * size(m, d, tree, a), most = kMost * size(m, d, tree, v);
-  return change > most ? half_s * most / change : half_s;
+  return change > most ? half_s * (most / change) : half_s;
 }
 
 }  // namespace
