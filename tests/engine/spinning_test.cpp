@@ -9,6 +9,8 @@
 #include "four_bar.hpp"
 #include "vsa/physics/mujoco.hpp"
 
+long allocation_count();  // allocation_count.cpp
+
 namespace vsa::engine::testing {
 namespace {
 
@@ -297,6 +299,29 @@ TEST(Spinning, TreesOfSeveralLinksKeepTheirEnergy) {
       EXPECT_LT(d.loss, c.loss) << c.name << ", " << step_s;
       EXPECT_TRUE(std::isfinite(faster.gain)) << c.name << ", " << step_s;
     }
+  }
+}
+
+/// On one base, which is fixed to the world.
+TEST(Spinning, WhatSpinsOnTheSameBaseDoesNotMatter) {
+  const std::string two =
+      world("<model name='c'>" + link("base", "0 0 1 0 0 0", 1, {1, 1, 1}) +
+            "<joint name='f' type='fixed'><parent>world</parent><child>base</child></joint>" +
+            link("a", "0 0 1 0 0 0", 0.1, {1e-5, 3e-4, 3e-4}, "0.1 0 0 0 0 0") +
+            link("b", "0.2 0 1 0 0 0", 0.1, {1e-5, 3e-4, 3e-4}, "0.1 0 0 0 0 0") + turning("x", "base", "a", "0 1 0") +
+            turning("y", "a", "b", "0 1 0") + link("w", "0 1 1 0 0 0", 0.1, {1e-4, 1e-4, 1e-4}) +
+            turning("z", "base", "w", "0 0 1") + "</model>");
+  EXPECT_EQ(place_after(two, 1e-3, {}, "c::b"), place_after(two, 1e-3, {{"joint c::z", {300}}}, "c::b"));
+}
+
+/// From a tree of few links to one of many.
+TEST(Spinning, TakesNothingFromTheHeap) {
+  for (const int count : {2, 4, 12, 40}) {
+    World w = begun(world(thrown(count, ""), "0 0 0"), 1e-3, {{"link n::l0", {0, 0, 0, 60, 6, 0}}});
+    w.run(0.1);
+    const long before = allocation_count();
+    for (int k = 0; k < 200; ++k) w.step();
+    EXPECT_EQ(allocation_count() - before, 0) << count;
   }
 }
 

@@ -72,9 +72,9 @@ CenteredBias::CenteredBias(const mjModel& model, Coriolis coriolis)
   }
   std::vector<Tree> trees;
   for (Kin& kin : trees_) {
-    const int first = kin.tree.first, root = model.body_rootid[model.dof_bodyid[first]];
-    for (int body = 1; body < model.nbody; ++body)
-      if (model.body_rootid[body] == root && model.body_dofnum[body] > 0) kin.links.push_back(body);
+    const int first = kin.tree.first, count = kin.tree.count;
+    for (int v = first; v < first + count; ++v)
+      if (v == model.body_dofadr[model.dof_bodyid[v]]) kin.links.push_back(model.dof_bodyid[v]);
     kin.slow = kin.links.size() > 1 ? kSlow : kSlowAlone;
     kin.lone = kin.links.size() == 1 && model.jnt_type[model.dof_jntid[first]] == mjJNT_FREE;
     for (int v = first; v < first + 3 && kin.lone; ++v) kin.lone = model.dof_armature[v] == 0 && model.dof_damping[v] == 0;
@@ -127,11 +127,10 @@ void CenteredBias::set(const mjModel& m, mjData& d, const TiedTrees& trees, cons
     fast |= kin.fast;
     mju_addToScl(d.qvel + first, a + first, half_step(m, d, kin.tree, v, a), count);
   }
-  if (fast) {
+  if (fast)
     solve_fast(m, d, pushed);
-  } else {
+  else
     find_bias(m, d, d.qfrc_bias);
-  }
   mju_copy(d.qvel, v, m.nv);
 }
 

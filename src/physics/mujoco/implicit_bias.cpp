@@ -12,6 +12,7 @@ constexpr mjtNum kClose = 1e-13;  ///< of the tree's largest speed
 constexpr mjtNum kSmall = 1e-6;   ///< likewise, for differences
 constexpr mjtNum kEnough = 1e-9;  ///< likewise, where rounding lets no round come closer
 constexpr mjtNum kFar = 0.01;     ///< likewise: where a slope found farther away misleads
+constexpr mjtNum kAstray = 1e3;   ///< likewise: no solution will be found
 constexpr mjtNum kSlowly = 0.1;   ///< a round that moves by more than that of the last one wants another slope
 
 mjtNum largest(const mjtNum* x, int count) {
@@ -62,15 +63,15 @@ void ImplicitBias::find_slopes(const mjModel& m, mjData& d) {
 
 void ImplicitBias::step(Solution& of, mjtNum* x) {
   const auto [first, count] = of.tree;
-  Eigen::Map<Eigen::VectorXd> change(missing_.data() + first, count);
-  change = of.slope.solve(change);
-  const mjtNum fastest = largest(x, count), moved = largest(change.data(), count);
-  if (!(moved < 1e3 * fastest)) {
+  of.change =
+      of.slope.solve(Eigen::Map<const Eigen::VectorXd>(missing_.data() + first, count));  // in place would take from the heap
+  const mjtNum fastest = largest(x, count), moved = largest(of.change.data(), count);
+  if (!(moved < kAstray * fastest)) {
     mju_copy(x, of.guess.data(), count);
     of.state = Solution::State::settled;
     return;
   }
-  mju_addTo(x, change.data(), count);
+  mju_addTo(x, of.change.data(), count);
   if (moved <= kClose * fastest || (moved >= of.moved && of.moved > 0 && moved <= kEnough * fastest))
     of.state = Solution::State::settled;
   else if (moved > kFar * fastest || (of.moved > 0 && moved > kSlowly * of.moved))

@@ -39,6 +39,7 @@ class ImplicitBias {
     mjtNum moved = 0;                                                     ///< in the last round: the largest of its speeds
     std::vector<mjtNum> guess;
     Eigen::PartialPivLU<Eigen::MatrixXd> slope;  ///< 1 + h·M⁻¹ ∂Q/∂v
+    Eigen::VectorXd change;                      ///< of a round
   };
   void find_slopes(const mjModel& m, mjData& d);
   void step(Solution& of, mjtNum* x);
