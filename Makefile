@@ -11,6 +11,7 @@
 # make bench   run the benchmarks and print their table
 # make bench-ratios   what things cost against each other beside what is stored of a version: an error where one is a tenth worse; make record-ratios   stores it
 # make asan    all tests in a debug build under the address and undefined-behaviour sanitizers, and worlds and batches made and ended 10,000 times; make check-asan   those of the rooms without engine
+# make check-without-sdf   all tests in a build without SDF and topics, as Debian 13 and Ubuntu 24.04 have it; half an hour
 # make check-tsan   what has threads under the thread sanitizer; make tidy   clang-tidy, TIDY_S bounds its seconds
 # make soak HOURS=6   port, page, topics, faults, batch and short runs at once for so long: memory, descriptors, threads, equal bytes; a page
 # make coverage   what of include and src the tests run, by rooms; an error below 90 % of the lines; half an hour; make check-coverage   of the rooms without engine
@@ -43,7 +44,7 @@ CONFIGURE = sh scripts/configure.sh release -DVSA_COMMANDS=all $(CMAKE_FLAGS)
 # Asked when it is needed, since setup.sh may have to install Ninja first.
 QUIET = $$(sh scripts/quiet.sh)
 
-.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench bench-ratios record-ratios fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage check-coverage soak check-asan check-tsan tidy check-all format \
+.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench bench-ratios record-ratios fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage check-coverage soak check-without-sdf check-asan check-tsan tidy check-all format \
   check-format stiffness-uses snake-travel packages check-packages check-abi record-abi dist check-dist check-reproducible sign clean
 
 all: build
@@ -132,6 +133,13 @@ bench-ratios record-ratios: setup
 	@$(CONFIGURE)
 	@cmake --build $(BUILD) -j $(JOBS) --target bench_actuator bench_device bench_snake $(QUIET)
 	@python3 bench/measurements/ratios.py $(if $(filter record%,$@),record,compare) $(BUILD)/bin
+
+# As on a system that has no libsdformat and no Gazebo transport.
+check-without-sdf:
+	@sh scripts/setup.sh test
+	@sh scripts/configure.sh release -B build/without_sdf -DVSA_SDF=OFF -DVSA_TOPICS=OFF $(CMAKE_FLAGS)
+	@cmake --build build/without_sdf -j $(JOBS) $(QUIET)
+	@ctest --test-dir build/without_sdf --output-on-failure -j 1 -LE long
 
 # The rooms that need no engine, in a debug build.
 check-asan:

@@ -121,6 +121,13 @@ set(VSA_NEEDS_SDF_engine
   StateFile.*
   State.*
   Substeps.*
+  Dampers.OfALeaderTakeEnergyFromItsFollowersToo
+  Joints.AreNotSetBeyondTheirLimits
+  OddFiles.ShapesInEachOtherAreNamedHoweverManyOthersOnlyTouch
+  OddFiles.ShapesThatAreDeepInEachOtherFromTheStartAreNamed
+  Passive.*
+  PutInLoops.*
+  Spinning.*
 )
 set(VSA_NEEDS_SDF_batch
   LinkParameters.MakeTheWorldThatAFileWithThemMakes
