@@ -3,10 +3,11 @@
 """Hours of everything at once: python3 scripts/soak.py BUILD HOURS OUT [SEED]
 
 Three programs run all the time: twelve emulated units on a serial port (with lost and flipped bytes), the crawling snake in real time
-with topics and live view, a batch in Python. Around them, at random but from SEED: clients of the port that come, go and are killed;
-viewers of the page that come, vanish and send garbage; commands by topics; faults of joints by the service; short recorded runs.
+with topics and live view, a batch in Python; a fourth where there is Gazebo Classic with the plug-in, a server. Around them, at random but
+from SEED: clients of the port that come, go and are killed; viewers of the page that come, vanish and send garbage; commands by topics;
+faults of joints by the service; short recorded runs; modules that are spawned in Gazebo, moved and removed.
 
-Looks at memory, descriptors and threads of the three, at answers and round trips of the port's clients, and at whether equal runs gave
+Looks at memory, descriptors and threads of these programs, at answers and round trips of the port's clients, and at whether equal runs gave
 equal bytes. Ctrl-C or SIGTERM ends it earlier, and what it has seen until then is judged. Writes OUT/soak.html and OUT/soak.json; prints the
 verdicts; exit code 1 where one is broken, 2 for wrong use
 and for what can't be written.
@@ -27,6 +28,7 @@ import sys
 import threading
 import time
 
+import soak_gazebo
 import soak_page
 
 CLIENT = pathlib.Path(__file__).resolve().parent / "soak_client.py"
@@ -35,6 +37,7 @@ UNITS = 12
 WORLD_MODEL = "qbmove_snake"
 FAULTS = ["off", "lost_byte=0.02", "flipped_byte=0.02", "late_s=0.0005", "stuck=motor_1", "noise_rad=0.01", "supply_V=18", "unplugged=2"]
 OF_TOPICS = ("commands by topics", "faults by the service")  # visits, each a client of its own
+OF_GAZEBO = "clients of Gazebo that published"
 GROWTH = 1.05  # of resident memory, last quarter over second: what a program may gain
 KEPT_MB = 0.032  # by ZeroMQ of each client of topics that has gone (libzmq 4286), for as long as the world lives
 ANSWERED = 0.9  # of exchanges: bytes are lost and flipped on purpose, which took the answers of 2.5 % of them in an hour
@@ -73,19 +76,29 @@ class Subject:
             time.sleep(0.1)
         sys.exit(f"soak.py: {self.name} never said {pattern}; it said:\n{self.said()}")
 
+    def pid(self):
+        return self.process.pid
+
     def sample(self, at):
-        now = usage(self.process.pid)
+        now = usage(self.pid())
         if now:
             self.samples.append((at, *now))
 
     def stop(self):
-        if self.process.poll() is None:
-            self.process.send_signal(signal.SIGINT)
+        if self.process.poll() is None and self.pid():
+            os.kill(self.pid(), signal.SIGINT)
         try:
             return self.process.wait(60)
         except subprocess.TimeoutExpired:
-            self.process.kill()
+            os.killpg(self.process.pid, signal.SIGKILL)
             return "killed"
+
+
+class Server(Subject):
+    """Gazebo's: behind the shells that entered its system."""
+
+    def pid(self):
+        return soak_gazebo.process(self.process.pid)
 
 
 class Soak:
@@ -96,6 +109,7 @@ class Soak:
         self.trips = []  # of each exchange on the port: when its client was through, µs or None without an answer
         self.view_port = 0
         self.vsa = str(build / "bin/vsa")
+        self.gazebo = soak_gazebo.Gazebo(seed)
         self.port = str(out / "port")
 
     def count(self, what, by=1):
@@ -193,17 +207,32 @@ class Soak:
         self.count("recorded runs")
 
 
+    def spawned_module(self, chance):
+        name, place = f"visitor_{chance.getrandbits(32)}", [chance.choice((-1, 1)) * chance.uniform(1, 5) for _ in range(2)]
+        wrong, clients = self.gazebo.visit(name, place, chance.uniform(0.1, 0.7))
+        self.count("modules in Gazebo")
+        self.count(OF_GAZEBO, clients)
+        if wrong:
+            self.complain(wrong)
+
+
 def start(soak, out, subjects):
-    """Adds the three to `subjects`, each once it is ready."""
+    """Adds the programs to `subjects`, each once it is ready."""
     mine = dict(os.environ, PYTHONPATH=str(soak.build / "python"), IGN_IP="127.0.0.1")
     subjects.append(Subject("emulate", [soak.vsa, "emulate", "qbmove_maker_pro_6_1", "--units", str(UNITS), "--port", soak.port, "--active",
                                 "--fault", f"all lost_byte=0.0003 flipped_byte=0.0003 seed={soak.seed}"], out))
     subjects.append(Subject("run", [soak.vsa, "run", "snake_flat", "--gait", "sidewind", "--realtime", "--view"], out, mine))
     subjects.append(Subject("batch", ["/usr/bin/python3", CLIENT, "batch"], out, mine))
-    units, world, rounds = subjects
+    units, world, rounds = subjects[:3]
     units.wait_for(re.escape(soak.port))
     soak.view_port = int(world.wait_for(r"127\.0\.0\.1:(\d+)").group(1))
     rounds.wait_for(r"[0-9a-f]{64}")
+    if soak.gazebo.missing:
+        return
+    subjects.append(Server("gazebo", soak.gazebo.server(), out))
+    wrong, _ = soak.gazebo.visit("first", (2, 2), 0.5)
+    if wrong:
+        sys.exit(f"soak.py: Gazebo: {wrong}; it said:\n{subjects[-1].said()}")
 
 
 def quarter(values, which):
@@ -234,8 +263,10 @@ def verdicts(soak, subjects, idle, ends):
                     after <= most, f"{before:.1f} → {after:.1f} MB"))
         first, now = (place[s.name] for place in idle)
         for k, what in ((1, "descriptors"), (2, "threads")):
-            out.append((f"{s.name}: {what} once the visitors have gone, at most {SLACK[k]} more than before they came",
-                        now is not None and now[k] <= first[k] + SLACK[k], f"{first[k]} → {'it has gone' if now is None else now[k]}"))
+            # Gazebo Classic keeps a socket of each client that published, whatever is in its models.
+            more = SLACK[k] + (soak.counts.get(OF_GAZEBO, 0) if s.name == "gazebo" and k == 1 else 0)
+            out.append((f"{s.name}: {what} once the visitors have gone, at most {more} more than before they came",
+                        now is not None and now[k] <= first[k] + more, f"{first[k]} → {'it has gone' if now is None else now[k]}"))
     digests = len(soak.digests)
     out.append(("recorded runs have the same bytes", digests == 1, f"{soak.counts.get('recorded runs', 0)} runs, {digests} contents"))
     rounds = set(re.findall(r"[0-9a-f]{64}", subjects[2].said()))
@@ -255,7 +286,9 @@ def told(soak, subjects, found, lasted, out):
     found is printed first; then the numbers, which outlive a page that can't be drawn."""
     for what, held, figure in found:
         print(f"{'holds ' if held else 'BROKEN'}  {what}: {figure}", flush=True)
-    (out / "soak.json").write_text(json.dumps({"hours": lasted, "seed": soak.seed, "verdicts": found, "counts": soak.counts, "wrong": soak.wrong,
+    if soak.gazebo.missing:
+        print(f"left out: Gazebo Classic: {soak.gazebo.missing}", flush=True)
+    (out / "soak.json").write_text(json.dumps({"hours": lasted, "seed": soak.seed, "without_gazebo": soak.gazebo.missing, "verdicts": found, "counts": soak.counts, "wrong": soak.wrong,
                                                "samples": {s.name: s.samples for s in subjects}}, indent=1), encoding="utf-8")
     soak_page.write_page(soak, subjects, found, 3600 * lasted, out)
     print(f"{out}/soak.html")
@@ -280,11 +313,13 @@ def main(build, hours, out, seed):
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, end_now)
     time.sleep(5)
-    idle = [{s.name: usage(s.process.pid) for s in subjects}]
+    idle = [{s.name: usage(s.pid()) for s in subjects}]
     visits = [(soak.port_client, (0, 1)), (soak.viewer, (0, 2)), (soak.viewer, (0, 5)), (soak.viewer, (0, 5)), (soak.commander, (5, 15)),
               (soak.recorded_run, (5, 20))]
     if os.path.exists(SERVICE):
         visits.append((soak.saboteur, (5, 15)))
+    if not soak.gazebo.missing:
+        visits.append((soak.spawned_module, (0, 5)))
     soak.begin = time.monotonic()
     threads = [soak.until_the_end(i, visit, pause) for i, (visit, pause) in enumerate(visits)]
     period, next_look = max(1.0, 3600 * hours / 1000), 0.0
@@ -298,7 +333,7 @@ def main(build, hours, out, seed):
     for thread in threads:
         thread.join()
     time.sleep(15)
-    idle.append({s.name: usage(s.process.pid) for s in subjects})
+    idle.append({s.name: usage(s.pid()) for s in subjects})
     ends = {s.name: s.stop() for s in subjects}
     found = verdicts(soak, subjects, idle, ends)
     return told(soak, subjects, found, lasted, out)

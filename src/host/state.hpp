@@ -135,16 +135,18 @@ struct ActuatorSlot {
 struct RobotState {
   std::int64_t time_ns = 0;  ///< where the next step is expected
   std::int64_t steps = 0;
-  std::size_t unsettled = 0;  ///< steps of joints whose solution didn't settle
+  std::int64_t stepped_ns = 0;  ///< the time of all of them
+  std::size_t unsettled = 0;    ///< steps of joints whose solution didn't settle
   bool noted_unsettled = false, noted_energy = false;
   std::vector<ActuatorSlot> actuators;
 
   static auto fields(auto& s, auto&& visit) {
-    return visit("time", "ns", s.time_ns, "steps", "", s.steps, "unsettled", "", s.unsettled, "noted_unsettled", "",
-                 s.noted_unsettled, "noted_energy", "", s.noted_energy, "actuator", "", s.actuators);
+    return visit("time", "ns", s.time_ns, "steps", "", s.steps, "stepped", "ns", s.stepped_ns, "unsettled", "", s.unsettled,
+                 "noted_unsettled", "", s.noted_unsettled, "noted_energy", "", s.noted_energy, "actuator", "", s.actuators);
   }
   [[nodiscard]] const char* impossible() const noexcept {
-    return time_ns >= 0 && time_ns <= kLatestNs && steps >= 0 && steps <= kLatestNs ? nullptr : "a time of 0 … 4e18 ns";
+    const auto possible = [](std::int64_t n) { return n >= 0 && n <= kLatestNs; };
+    return possible(time_ns) && possible(steps) && possible(stepped_ns) ? nullptr : "a time of 0 … 4e18 ns";
   }
 };
 

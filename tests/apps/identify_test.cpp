@@ -172,33 +172,45 @@ TEST(Identify, NamesARecordingWithoutPoints) {
   }
 }
 
+std::vector<std::string> short_fits(const std::filesystem::path& out, const std::vector<std::string>& more) {
+  std::vector<std::string> all{"identify",        kRecording,
+                               "--type",          "qbmove_maker_pro",
+                               "--parameters",    "shaft.friction_Nm",
+                               "--starts",        "1",
+                               "--iterations",    "2",
+                               "--period-s",      "2",
+                               "--amplitude-rad", "1.5",
+                               "--profile",       "2",
+                               "--bootstrap",     "8",
+                               "--out",           out.string()};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+std::string fits(const std::filesystem::path& folder) {
+  return read_file(folder / "results.json") + read_file(folder / "identified.toml");
+}
+/// What two threads find, made once for all tests.
+std::string fits_of_threads() {
+  const Scratch scratch;
+  const Result r = run_vsa(short_fits(scratch / "threads", {"--threads", "2"}));
+  EXPECT_EQ(r.exit_code, 0) << r.err;
+  EXPECT_NE(r.out.find("Bootstrap, 8 draws"), std::string::npos) << r.out;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "threads/jobs")) << "what nobody needs any more";
+  return fits(scratch / "threads");
+}
+
 /// 11 short fits: one start, two profile points, eight draws.
 class IdentifyPool : public vsa::test::WithRanks {
  protected:
   void SetUp() override {
-    const Result r = run_vsa(asked("threads", {"--threads", "2"}));
-    ASSERT_EQ(r.exit_code, 0) << r.err;
-    EXPECT_NE(r.out.find("Bootstrap, 8 draws"), std::string::npos) << r.out;
-    EXPECT_FALSE(std::filesystem::exists(scratch_ / "threads/jobs")) << "what nobody needs any more";
-    expected_ = found("threads");
+    static const std::string once = fits_of_threads();
+    expected_ = once;
+    ASSERT_FALSE(expected_.empty());
   }
   [[nodiscard]] std::vector<std::string> asked(const std::string& out, const std::vector<std::string>& more) const {
-    std::vector<std::string> all{"identify",        kRecording,
-                                 "--type",          "qbmove_maker_pro",
-                                 "--parameters",    "shaft.friction_Nm",
-                                 "--starts",        "1",
-                                 "--iterations",    "2",
-                                 "--period-s",      "2",
-                                 "--amplitude-rad", "1.5",
-                                 "--profile",       "2",
-                                 "--bootstrap",     "8",
-                                 "--out",           (scratch_ / out).string()};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+    return short_fits(scratch_ / out, more);
   }
-  [[nodiscard]] std::string found(const std::string& out) const {
-    return read_file(scratch_ / out / "results.json") + read_file(scratch_ / out / "identified.toml");
-  }
+  [[nodiscard]] std::string found(const std::string& out) const { return fits(scratch_ / out); }
   Scratch scratch_;
   std::string expected_;
 };

@@ -11,23 +11,10 @@ gzserver "$source_tree/models/worlds/bench_load.sdf" >"$log" 2>&1 &
 server=$!
 trap 'kill "$server" 2>/dev/null || true; wait "$server" 2>/dev/null || true; rm -f "$log"' EXIT
 
-joint=/model/qbmove_bench_load/joint/shaft
-# The last preset that the robot told; nothing where none comes within 2 s.
-preset() {
-  timeout 10 gz topic -u -e /model/qbmove_bench_load/vsa/readings -d 2 2>/dev/null |
-    sed -n 's|.*name: "shaft/preset" value { type: DOUBLE double_value: \([^ ]*\).*|\1|p' | tail -n 1
-}
-
-# Messages can be lost while two processes find each other: repeat the command until the state follows.
-for try in 1 2 3 4 5 6 7 8 9 10; do
-  kill -0 "$server" 2>/dev/null || { echo "gzserver died:"; tail -n 20 "$log"; exit 1; }
-  timeout 10 gz topic -p "$joint/cmd_preset" -m 'type: DOUBLE double_value: 0.6' >/dev/null 2>&1 || true
-  preset=$(preset)
-  echo "try $try: preset ${preset:-unknown}"
-  case "$preset" in
-    0.5[5-9]* | 0.6*) echo "the module followed the command-line client"; exit 0 ;;
-  esac
-done
-echo "the module never followed:"
+if sh "$source_tree/tests/gazebo_classic/follow.sh" qbmove_bench_load shaft 0.6; then
+  echo "the module followed the command-line client"
+  exit 0
+fi
+kill -0 "$server" 2>/dev/null && echo "the module never followed:" || echo "gzserver died:"
 tail -n 20 "$log"
 exit 1
