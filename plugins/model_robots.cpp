@@ -99,6 +99,9 @@ void ModelRobots::step(const ModelRobot& asking, std::int64_t time_ns, std::int6
   joined_ = joined_ && std::all_of(links_.begin(), links_.end(), [](const Links& links) { return links.trees->are_there(); });
   if (!joined_) join();
   for (const Member& m : members_) m.robot->tell(time_ns);
+  double turned = 0;
+  for (const Links& links : links_) turned = std::max(turned, links.trees->turned_rad());
+  for (const Member& m : members_) m.robot->seat()->turned(turned);
   LinkTrees* looked = nullptr;
   group_.update([&](std::size_t tree, std::span<double> out) {
     const Tree& t = trees_[tree];

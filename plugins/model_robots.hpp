@@ -30,11 +30,13 @@ class LinkTrees {
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& trees() const noexcept { return tree_.trees(); }
   /// B of one of them, as of the last look().
   void mobility(std::size_t tree, std::span<double> out) noexcept { tree_.mobility(tree, out); }
-  /// Tells the driven joints how they are accelerated by all else (seat::DrivenTree::foresee).
-  void foresee(std::span<host::JointIn* const> driven, double dt_s) {
+  /// How far those without actuators have turned (seat::DrivenTree::turned_rad); before foresee().
+  [[nodiscard]] double turned_rad() {
     feel();
-    tree_.foresee(driven, dt_s);
+    return tree_.turned_rad();
   }
+  /// Tells the driven joints how they are accelerated by all else (seat::DrivenTree::foresee).
+  void foresee(std::span<host::JointIn* const> driven, double dt_s) { tree_.foresee(driven, dt_s); }
   void forget() noexcept { tree_.forget(); }
 
  protected:

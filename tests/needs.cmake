@@ -61,6 +61,7 @@ set(VSA_NEEDS_SDF_fmu
   World.OneWithoutActuatorsIsOneToo
 )
 set(VSA_NEEDS_SDF_engine
+  Foreseen.*
   Actuated.ACommandedShaftGoesWhereItIsSent
   Actuated.WithoutActuatorsNoTorqueActs
   Actuated.AnotherActuatorCanBePutOnAWorld

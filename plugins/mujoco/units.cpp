@@ -12,6 +12,7 @@
 #include "vsa/actuator/heat.hpp"
 #include "vsa/config/faults_text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/physics/dofs_beside.hpp"
 
 namespace vsa::mujoco {
 namespace {
@@ -91,6 +92,9 @@ Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units
     tree_dofs_.emplace_back();
     for (const std::size_t i : tree) tree_dofs_.back().push_back(joints_[i].v);
   }
+  std::vector<int> driven;
+  for (const Joint& joint : joints_) driven.push_back(joint.v);
+  beside_ = physics::dofs_beside(m, driven);
   seat_->join(trees);
   for (std::size_t i = 0; i < units_.size(); ++i) {
     if (is_broken(specs[i])) seat_->robot().set_faults(i, faults_of(specs[i]));  // throws here what no unit of that type can have
@@ -106,6 +110,7 @@ Units::Units(const Units& other, std::unique_ptr<seat::Seat> seat)
       joints_(other.joints_),
       volts_(other.volts_),
       tree_dofs_(other.tree_dofs_),
+      beside_(other.beside_),
       seat_(std::move(seat)),
       size_(other.size_),
       here_(head(units_.size(), dofs_), seat_->state_size()),
@@ -200,6 +205,7 @@ void Units::step(const mjModel& m, mjData& d) {
   const std::span<const double> free = mobility_.foresee(m, d, pushed());
   for (std::size_t i = 0; i < joints_.size(); ++i)
     seat_->in()[i].free_acceleration_rad_per_s2 = free[static_cast<std::size_t>(joints_[i].v)];
+  seat_->turned(physics::turned_rad(m, d.qvel, beside_, m.opt.timestep));
   if (seat_->wants_mobility()) {
     std::span<double> rest = seat_->mobility();
     for (const std::vector<int>& dofs : tree_dofs_) {

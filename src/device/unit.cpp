@@ -41,6 +41,7 @@ struct Alone {
   } else {
     plan.y = in.angle - 0.5 * dt * in.speed;
     plan.free = plan.dy = dt * in.speed;
+    if (std::isfinite(in.free_acceleration)) plan.free += 0.5 * dt * dt * in.free_acceleration;
     plan.last_torque = 0;
     s.started ? actuator_.relocate(s.actuator, plan.y) : actuator_.place(s.actuator, plan.y);
   }

@@ -114,8 +114,11 @@ void Unit::adopt(UnitState& s, const UnitConfig& from) const noexcept {
       copy->valid = valid;
     }
   }
+  // The step under way goes on: what was promised to the host in it stays so, and closes the new ledger's balance.
   actuator_.place(s.actuator, s.actuator.shaft);
-  s.started = false;
+  actuator::Ledger& l = s.actuator.ledger;
+  l.pending = s.started ? s.path_work : 0.0;
+  l.stored_at_start += l.pending;
 }
 
 }  // namespace vsa::device

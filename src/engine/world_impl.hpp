@@ -93,7 +93,7 @@ struct World::Impl {
   [[nodiscard]] Along along(std::size_t joint, physics::JointState state);
   /// Puts a joint somewhere, its loops as found by along(), and its followers with it.
   void put(std::size_t joint, physics::JointState state, const physics::LoopPosture& posture);
-  void apply_hands();
+  void push();  ///< what users apply
   void let_go();
   void index_names();
   [[nodiscard]] std::span<const std::size_t> links_of(std::string_view model) const;  ///< until it is called again

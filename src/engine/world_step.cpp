@@ -2,9 +2,10 @@
 //
 // A step, or each of its substeps:
 //   1  prepare()              everything that depends on q
-//   2  foresee()              where the driven joints would go without new torques; where it is due, B of those of every tree
+//   2  push                   what users apply
+//      foresee()              where the driven joints would go without new torques; where it is due, B of those of every tree
 //   3  SeatGroup::step        q, v, B → torque, for [t, t + dt)
-//   4  apply, hands, advance()  v' = v + dt·a, q' = q + dt·v'
+//   4  apply, pull, advance()  v' = v + dt·a, q' = q + dt·v'
 //   5  Seat::observe          q', v', for readings
 // After a fault in 4 physics and robots are put back to where they were before the (whole) step.
 #include <fmt/format.h>
@@ -61,10 +62,15 @@ void World::Impl::tell_joints(const RobotSlot& slot) const {
 
 /// What isn't finite any more stops a seat, too; then advance() finds it and says so.
 void World::Impl::drive() {
-  if (!driven.empty()) physics->foresee(driven, foreseen);
+  double turned = 0;
+  if (!driven.empty()) {
+    physics->foresee(driven, foreseen);
+    turned = physics->turned_beside(driven);
+  }
   auto next = foreseen.begin();
   for (const RobotSlot& slot : robots) {
     tell_joints(slot);
+    slot.seat->turned(turned);
     for (host::JointIn& joint : slot.seat->in()) joint.free_acceleration_rad_per_s2 = *next++;
   }
   group.update([this](std::size_t tree, std::span<double> out) { physics->mobility(trees[tree], out); });
@@ -82,9 +88,12 @@ void World::Impl::observe() {
 }
 
 std::optional<physics::Refusal> World::Impl::substep() {
+  const auto stiff = [](const RobotSlot& slot) { return slot.seat->robot().is_stiff(); };
+  if (physics->is_stiff(std::any_of(robots.begin(), robots.end(), stiff))) forget_mobility();
   physics->prepare();
+  push();
   drive();
-  apply_hands();
+  for (const Pull& pull : pulls) physics->pull(pull);
   if (std::optional<physics::Refusal> fault = physics->advance()) return fault;
   observe();
   time_ns += substep_ns();

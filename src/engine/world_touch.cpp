@@ -220,10 +220,9 @@ void World::apply_torque(JointHandle joint, double torque_Nm) {
   put(impl_->torques, index, torque_Nm, torque_Nm == 0);
 }
 
-void World::Impl::apply_hands() {
+void World::Impl::push() {
   for (const auto& [joint, torque] : torques) physics->push(joint, torque);
   for (const auto& [link, wrench] : wrenches) physics->push(link, wrench);
-  for (const Pull& pull : pulls) physics->pull(pull);
 }
 
 void World::Impl::let_go() {

@@ -205,6 +205,7 @@ struct Robot::Impl {
       ActuatorSlot& slot = state.actuators[i];
       for (Track* track : {&slot.equilibrium, &slot.preset}) track->settle(state.time_ns);
       notice(i, slot.noted_unresolved, slot.unit.unresolved > 0, NoticeKind::unresolved, slot.unit.unresolved);
+      state.stiff = state.stiff || slot.noted_unresolved;
       sum += slot.unit.actuator.ledger;
     }
     for (const auto& bus : buses) look_at_client(*bus);
@@ -234,7 +235,7 @@ struct Robot::Impl {
   void end_step(std::int64_t end_ns) noexcept {
     state.stepped_ns += end_ns - state.time_ns;
     state.time_ns = end_ns;
-    if (++state.steps % kLookSteps == 0 && !units.empty()) look();
+    if (++state.steps % kLookSteps == 1 && !units.empty()) look();
   }
 
   /// What is in lanes stays there, and of units that have most of their numbers there only what else has changed is copied.
@@ -247,6 +248,7 @@ struct Robot::Impl {
     kept.state.unsettled = state.unsettled;
     kept.state.noted_unsettled = state.noted_unsettled;
     kept.state.noted_energy = state.noted_energy;
+    kept.state.stiff = state.stiff;
     for (Cluster& cluster : clusters) cluster.keep();
     for (std::size_t i = 0; i < lodgings.size(); ++i) {
       const Lodging& l = lodgings[i];

@@ -179,6 +179,7 @@ void Robot::Impl::drop_unused() {
 }
 
 void Robot::Impl::set_parameters(std::size_t i, const UnitConfig& unit) {
+  if (device::alike(unit, config.actuators[i].unit)) return;
   home();
   const UnitConfig before = config.actuators[i].unit;
   BusLine& bus = *buses[config.actuators[i].bus];

@@ -138,11 +138,13 @@ struct RobotState {
   std::int64_t stepped_ns = 0;  ///< the time of all of them
   std::size_t unsettled = 0;    ///< steps of joints whose solution didn't settle
   bool noted_unsettled = false, noted_energy = false;
+  bool stiff = false;  ///< some spring was found unresolved
   std::vector<ActuatorSlot> actuators;
 
   static auto fields(auto& s, auto&& visit) {
     return visit("time", "ns", s.time_ns, "steps", "", s.steps, "stepped", "ns", s.stepped_ns, "unsettled", "", s.unsettled,
-                 "noted_unsettled", "", s.noted_unsettled, "noted_energy", "", s.noted_energy, "actuator", "", s.actuators);
+                 "noted_unsettled", "", s.noted_unsettled, "noted_energy", "", s.noted_energy, "stiff", "", s.stiff, "actuator", "",
+                 s.actuators);
   }
   [[nodiscard]] const char* impossible() const noexcept {
     const auto possible = [](std::int64_t n) { return n >= 0 && n <= kLatestNs; };

@@ -32,8 +32,9 @@ inline std::string arm_links() {
          hinge("shoulder", "base", "upper", "<limit><lower>-3</lower><upper>2.5</upper></limit>") + hinge("elbow", "upper", "fore");
 }
 
-inline std::string actuator(const std::string& joint, const std::string& type = "qbmove_maker_pro_6_1") {
-  return "<actuator name='" + joint + "'><joint>" + joint + "</joint><type>" + type + "</type><bus id='1'>arm</bus></actuator>";
+inline std::string actuator(const std::string& joint, const std::string& type = "qbmove_maker_pro_6_1", int id = 1) {
+  return "<actuator name='" + joint + "'><joint>" + joint + "</joint><type>" + type + "</type><bus id='" + std::to_string(id) +
+         "'>arm</bus></actuator>";
 }
 
 inline std::string plugin(const std::string& actuators) {

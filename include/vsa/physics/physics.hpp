@@ -68,16 +68,22 @@ class Physics {
   virtual ~Physics() = default;
 
   virtual void prepare() = 0;  ///< first half of a step; clears what was applied
+  /// Before it: whether actuators are stiffer than a step resolves. Then limits, contacts and frictions count in mobility() and foresee()
+  /// as equalities do, and B is another in each step. Returns that; false: the engine can't.
+  virtual bool is_stiff(bool actuators) = 0;
   /// One-axis joints whose torques move each other, by groups: indices into `joints`. Fixed for a world.
   [[nodiscard]] virtual std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const = 0;
-  /// B of those joints: how advance() answers to torques, (v' − v)/dt = … + B τ, contacts and limits aside. By rows, 1/(kg·m²);
-  /// between prepare() and advance().
+  /// B of those joints: how advance() answers to torques, (v' − v)/dt = … + B τ, contacts, limits and frictions aside but where
+  /// is_stiff(). By rows, 1/(kg·m²); between foresee() and advance().
   virtual void mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
+  /// How far the fastest joint that moves with those and isn't one of them goes in the next step at its present speed, rad; a slide
+  /// counts ten radians for a metre. 0: there is none. The same joints each time.
+  virtual double turned_beside(std::span<const std::size_t> joints) = 0;
   /// How advance() would accelerate those joints, rad/s² or m/s², if what pushes the bodies stayed as it was in the last step
-  /// (apply(), push(), pull(), contacts and limits; nothing before the first); what follows from positions and speeds, dampers and
-  /// equalities among it, is of now. Between prepare() and apply().
+  /// (apply(), pull(), contacts and limits; nothing before the first); what follows from positions and speeds, dampers and equalities
+  /// among it, and what was pushed by now, is of now. Between prepare() and apply().
   virtual void foresee(std::span<const std::size_t> joints, std::span<double> out) = 0;
-  /// Of a driven one-axis joint, N·m or N; in place of what was applied there.
+  /// Adds to what is applied to a driven one-axis joint, N·m or N.
   virtual void apply(std::size_t joint, double torque) = 0;
   /// Adds the spring's force to what is applied; after all apply() of the step.
   virtual void pull(const scene::Pull& pull) = 0;
@@ -106,7 +112,7 @@ class Physics {
 
   /// The same world in the same state, with data of its own.
   [[nodiscard]] virtual std::unique_ptr<Physics> clone() const = 0;
-  /// Add to what is applied; after all apply() of the step, before the pulls.
+  /// What users apply, before foresee().
   virtual void push(std::size_t joint, double torque) = 0;
   /// On a link, in world axes.
   virtual void push(std::size_t link, const scene::Wrench& wrench) = 0;

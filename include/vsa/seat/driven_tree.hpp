@@ -4,6 +4,7 @@
 // tells.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -29,6 +30,7 @@ class DrivenTree {
         foresight_(bodies_.size()),
         memory_(foresight_.begin()),
         positions_(bodies_.size()),
+        seen_at_(bodies_.size()),
         speeds_(bodies_.size()),
         free_(bodies_.size()),
         trees_(host::joined(bodies_, driven_)) {
@@ -55,6 +57,19 @@ class DrivenTree {
   [[nodiscard]] std::vector<double>& positions() noexcept { return positions_; }
   /// How fast they are, rad/s or m/s, likewise.
   [[nodiscard]] std::vector<double>& speeds() noexcept { return speeds_; }
+  /// By how much a joint without an actuator has turned since it was asked last, rad at most; a slide counts ten radians for a metre.
+  /// Once before each step, when positions() are filled (Seat::turned).
+  [[nodiscard]] double turned_rad() noexcept {
+    using Joint = host::TreeBody::Joint;
+    double most = 0;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const double gone = std::abs(positions_[i] - seen_at_[i]);
+      if (bodies_[i].joint == Joint::revolute) most = std::max(most, gone);
+      if (bodies_[i].joint == Joint::prismatic) most = std::max(most, 10.0 * gone);
+    }
+    seen_at_ = positions_;
+    return most;
+  }
   /// Once before each step, after update() where the bodies moved: JointIn::free_acceleration of the actuators, whose angles and speeds
   /// are there, in their order. Joints that were placed are told nothing (host/tree_foresight.hpp).
   void foresee(std::span<host::JointIn* const> actuators, double dt_s) noexcept {
@@ -77,7 +92,7 @@ class DrivenTree {
   host::TreeInertia inertia_{0};
   host::TreeForesight foresight_{0};
   host::TreeForesight::Memory memory_;
-  std::vector<double> positions_, speeds_, free_;
+  std::vector<double> positions_, seen_at_, speeds_, free_;
   std::vector<std::vector<std::size_t>> trees_, of_tree_;
 };
 

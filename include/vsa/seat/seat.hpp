@@ -99,6 +99,8 @@ class Seat {
   [[nodiscard]] std::span<host::JointIn> in() noexcept { return own_.now.in; }
   /// Once before each step, when in() is filled: whether B is due (host/mobility_watch.hpp).
   [[nodiscard]] bool wants_mobility() noexcept { return !own_.mobility.empty() && own_.watch.due(own_.now.in); }
+  /// Before that: how much a joint of its trees that it doesn't drive may have turned in the step before (MobilityWatch::turned).
+  void turned(double rad) noexcept { own_.watch.turned(rad); }
   /// To be filled where wants_mobility() says so: B of each tree by rows, in the order of join().
   [[nodiscard]] std::span<double> mobility() noexcept { return own_.mobility; }
   /// A step length that the units don't know, or a joint that is no longer finite, stops the actuators with one reported line:

@@ -24,6 +24,8 @@ MujocoPhysics::MujocoPhysics(const MujocoPhysics& other)
       v_owner_(other.v_owner_),
       before_(other.before_),
       pushed_(other.pushed_),
+      asked_(other.asked_),
+      beside_(other.beside_),
       unit_(other.unit_),
       column_(other.column_),
       jacobian_(other.jacobian_),

@@ -8,6 +8,7 @@
 
 #include "physics/mujoco/versions.hpp"
 #include "vsa/grouped.hpp"
+#include "vsa/physics/dofs_beside.hpp"
 #include "vsa/physics/tree_roots.hpp"
 
 namespace vsa::physics {
@@ -63,6 +64,7 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::
   centered_ = CenteredBias(*m, coriolis);
   unit_.resize(static_cast<std::size_t>(m->nv));
   pushed_.resize(unit_.size());
+  asked_.resize(unit_.size());
   column_.resize(unit_.size());
   // Where mj_Euler takes none, nor may what is solved before it.
   damped_ = !switched_off(*m, {"Damper", "Eulerdamp"}) &&
@@ -98,6 +100,8 @@ bool MujocoPhysics::grow(bool contacts_only) {
 
 void MujocoPhysics::changed() { view_stale_ = true; }
 
+bool MujocoPhysics::is_stiff(bool actuators) { return stiff_ = actuators; }
+
 void MujocoPhysics::prepare() {
   const mjModel* m = model_.get();
   save(before_);
@@ -114,7 +118,7 @@ void MujocoPhysics::prepare() {
   take_dampers();
   mj_fwdVelocity(m, data_.get());
   hold_up(*data_, data_->qfrc_passive, 1);
-  trees_.look(*m, *data_);
+  trees_.look(*m, *data_, stiff_);
   centered_.set(*m, *data_, trees_, pushed_.data());
   mju_zero(data_->qfrc_applied, m->nv);
 }
@@ -155,56 +159,72 @@ std::vector<std::vector<std::size_t>> MujocoPhysics::trees(std::span<const std::
   return grouped(roots);
 }
 
-/// What equalities take from B: with J of their rows (mimics, closures of loops) and R, by which MuJoCo softens them,
-///   B −= X^T (J M⁻¹ J^T + R)⁻¹ X,   X = J M⁻¹ of the joints' columns
-void MujocoPhysics::tie(std::span<const std::size_t> joints, std::span<double> out) {
+/// Which rows of constraints answer to torques in proportion: equalities; in trees that are held by more also limits, frictions that stick
+/// and contacts, after foresee() has solved them. Of a contact that slides only what presses.
+bool MujocoPhysics::answers(int row) const {
+  const mjData& d = *data_;
+  if (row < d.ne) return true;
+  if (!trees_.of_all()) return false;
+  const bool slides = d.efc_state[row] == mjCNSTRSTATE_CONE && d.contact[d.efc_id[row]].efc_address == row;
+  return d.efc_state[row] == mjCNSTRSTATE_QUADRATIC || slides;
+}
+
+/// With J of the rows that answer and R, by which MuJoCo softens them, B is the joints' part of
+///   (M + J^T R⁻¹ J)⁻¹ = M⁻¹ − M⁻¹ J^T (J M⁻¹ J^T + R)⁻¹ J M⁻¹
+/// False: there is no such row.
+bool MujocoPhysics::hold(std::vector<mjtNum>& out) {
   const mjModel* m = model_.get();
-  const auto rows = static_cast<std::size_t>(data_->ne), nv = static_cast<std::size_t>(m->nv), n = joints.size();
-  if (rows == 0) return;
+  const auto nv = static_cast<std::size_t>(m->nv);
   row_.resize(std::max(row_.size(), row_room(*m, *data_)));
-  tied_.resize(rows * nv);
-  ties_.resize(rows * rows);
-  of_joint_.resize(2 * rows);
-  for (std::size_t r = 0; r < rows; ++r) {
+  bool any = false;
+  for (int r = 0; r < (trees_.of_all() ? data_->nefc : data_->ne); ++r) {
+    if (!answers(r)) continue;
+    if (!any) {
+      out.resize(nv * nv);
+      dense_mass(*m, *data_, out.data());
+    }
+    any = true;
     row_[r] = 1;
     mj_mulJacTVec(m, data_.get(), unit_.data(), row_.data());
     row_[r] = 0;
-    mj_solveM(m, data_.get(), &tied_[r * nv], unit_.data(), 1);
+    for (std::size_t i = 0; i < nv; ++i)
+      if (unit_[i] != 0) mju_addToScl(&out[i * nv], unit_.data(), unit_[i] / data_->efc_R[r], m->nv);
     mju_zero(unit_.data(), m->nv);
-    mj_mulJacVec(m, data_.get(), row_.data(), &tied_[r * nv]);
-    std::copy_n(row_.data(), rows, &ties_[r * rows]);
-    ties_[r * rows + r] += data_->efc_R[r];
-    mju_zero(row_.data(), data_->nefc);
   }
-  mju_cholFactor(ties_.data(), data_->ne, mjMINVAL);
-  mjtNum *const x = of_joint_.data(), *const y = x + rows;
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t r = 0; r < rows; ++r) x[r] = tied_[r * nv + static_cast<std::size_t>(joint_[joints[i]].v)];
-    mju_cholSolve(y, ties_.data(), x, data_->ne);
-    for (std::size_t k = 0; k <= i; ++k) {
-      const auto v = static_cast<std::size_t>(joint_[joints[k]].v);
-      mjtNum sum = 0;
-      for (std::size_t r = 0; r < rows; ++r) sum += tied_[r * nv + v] * y[r];
-      out[i * n + k] -= sum;
-      if (k < i) out[k * n + i] -= sum;
-    }
-  }
+  if (any) mju_cholFactor(out.data(), m->nv, mjMINVAL);
+  return any;
 }
 
 void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<double> out) {
   const mjModel* m = model_.get();
   const std::size_t n = joints.size();
+  const bool held =
+      std::any_of(joints.begin(), joints.end(), [&](std::size_t joint) { return trees_.tied(joint_[joint].v); }) && hold(held_);
   for (std::size_t i = 0; i < n; ++i) {
     const int v = joint_[joints[i]].v;
     unit_[static_cast<std::size_t>(v)] = 1;
-    mj_solveM(m, data_.get(), column_.data(), unit_.data(), 1);
+    if (held)
+      mju_cholSolve(column_.data(), held_.data(), unit_.data(), m->nv);
+    else
+      mj_solveM(m, data_.get(), column_.data(), unit_.data(), 1);
     unit_[static_cast<std::size_t>(v)] = 0;
     for (std::size_t k = 0; k < n; ++k) out[i * n + k] = column_[static_cast<std::size_t>(joint_[joints[k]].v)];
   }
-  tie(joints, out);
+  for (std::size_t i = 0; held && i < n; ++i)
+    for (std::size_t k = 0; k < i; ++k) out[k * n + i] = out[i * n + k];
 }
 
-/// Equalities answer to what joint speeds do at once, so where they tie one of the joints all constraints are solved as in advance().
+double MujocoPhysics::turned_beside(std::span<const std::size_t> joints) {
+  if (!beside_) {
+    std::vector<int> driven;
+    for (const std::size_t joint : joints) driven.push_back(joint_[joint].v);
+    beside_ = dofs_beside(*model_, driven);
+  }
+  return turned_rad(*model_, data_->qvel, *beside_, model_->opt.timestep);
+}
+
+/// Equalities answer to what joint speeds do at once, so where they tie one of the joints all constraints are solved as in advance();
+/// likewise where a stiff joint is held by whatever it is.
 void MujocoPhysics::foresee(std::span<const std::size_t> joints, std::span<double> out) {
   const mjModel* m = model_.get();
   mjData* d = data_.get();
@@ -212,6 +232,8 @@ void MujocoPhysics::foresee(std::span<const std::size_t> joints, std::span<doubl
   mj_fwdActuation(m, d);
   mju_sub(unit_.data(), d->qfrc_passive, d->qfrc_bias, m->nv);
   mju_addTo(unit_.data(), d->qfrc_actuator, m->nv);
+  for (int v = 0; v < m->nv; ++v) pushed_[v] += d->qfrc_applied[v] - asked_[v];
+  mju_copy(asked_.data(), d->qfrc_applied, m->nv);
   mju_addTo(unit_.data(), pushed_.data(), m->nv);
   mj_solveM(m, d, column_.data(), unit_.data(), 1);
   mju_zero(unit_.data(), m->nv);
@@ -219,7 +241,7 @@ void MujocoPhysics::foresee(std::span<const std::size_t> joints, std::span<doubl
     mju_copy(d->qfrc_applied, pushed_.data(), m->nv);
     mj_fwdAcceleration(m, d);
     mj_fwdConstraint(m, d);
-    mju_zero(d->qfrc_applied, m->nv);
+    mju_copy(d->qfrc_applied, asked_.data(), m->nv);
     for (int v = 0; v < m->nv; ++v)
       if (trees_.tied(v)) column_[v] = d->qacc[v];
   }
@@ -227,7 +249,7 @@ void MujocoPhysics::foresee(std::span<const std::size_t> joints, std::span<doubl
                  [&](std::size_t joint) { return column_[static_cast<std::size_t>(joint_[joint].v)]; });
 }
 
-void MujocoPhysics::apply(std::size_t joint, double torque) { data_->qfrc_applied[joint_[joint].v] = torque; }
+void MujocoPhysics::apply(std::size_t joint, double torque) { data_->qfrc_applied[joint_[joint].v] += torque; }
 
 std::optional<Refusal> MujocoPhysics::check(const mjtNum* values, int n, bool positions, const char* quantity) const {
   const auto& owner = positions ? q_owner_ : v_owner_;
@@ -287,11 +309,12 @@ JointState MujocoPhysics::joint(std::size_t joint) const { return {data_->qpos[j
 void MujocoPhysics::set_joint(std::size_t joint, JointState state) {
   data_->qpos[joint_[joint].q] = state.position;
   data_->qvel[joint_[joint].v] = state.speed;
+  pushed_[joint_[joint].v] = asked_[joint_[joint].v];  // what held it, or drove it, did so where it was
   changed();
 }
 
 std::size_t MujocoPhysics::state_size() const {
-  return static_cast<std::size_t>(model_->nq) + 3 * static_cast<std::size_t>(model_->nv);
+  return static_cast<std::size_t>(model_->nq) + 4 * static_cast<std::size_t>(model_->nv);
 }
 
 StateLayout MujocoPhysics::state_layout() const {
@@ -312,6 +335,7 @@ StateLayout MujocoPhysics::state_layout() const {
   block("speed", false, "rad/s", "m/s", "m/s, rad/s");
   block("acceleration", false, "rad/s²", "m/s²", "m/s², rad/s²");
   block("pushed", false, "N·m", "N", "N, N·m");
+  block("asked", false, "N·m", "N", "N, N·m");
   return out;
 }
 
@@ -321,6 +345,7 @@ void MujocoPhysics::save(std::span<double> out) const {
   mju_copy(out.data() + m->nq, data_->qvel, m->nv);
   mju_copy(out.data() + m->nq + m->nv, data_->qacc_warmstart, m->nv);
   mju_copy(out.data() + m->nq + 2 * m->nv, pushed_.data(), m->nv);
+  mju_copy(out.data() + m->nq + 3 * m->nv, asked_.data(), m->nv);
 }
 
 void MujocoPhysics::restore(std::span<const double> in) {
@@ -329,6 +354,7 @@ void MujocoPhysics::restore(std::span<const double> in) {
   mju_copy(data_->qvel, in.data() + m->nq, m->nv);
   mju_copy(data_->qacc_warmstart, in.data() + m->nq + m->nv, m->nv);
   mju_copy(pushed_.data(), in.data() + m->nq + 2 * m->nv, m->nv);
+  mju_copy(asked_.data(), in.data() + m->nq + 3 * m->nv, m->nv);
   for (mjWarningStat& warning : data_->warning) warning = {};
   stepped_ = false;
   changed();

@@ -5,16 +5,18 @@
 //   prepare()  mj_fwdPosition, mj_fwdVelocity          poses, M = LᵀDL, contacts; nothing of it is computed twice, but constraints
 //                                                      where contacts get a direction of friction, and Coriolis torques
 //                                                      (centered_bias.hpp)
-//   foresee()  M⁻¹ of forces, or in trees with equalities mj_fwdConstraint, with what pushed in the last step
+//   push()     what users apply, before
+//   foresee()  M⁻¹ of forces, or in trees with equalities mj_fwdConstraint, with what else pushed in the last step
 //   advance()  mj_fwdActuation … mj_fwdConstraint      v̇ with the applied torques
 //              check, mj_Euler, check                  v' = v + dt·(M + dt·B)⁻¹M v̇ with joint damping B; q' = q + dt·v'
 //
 // Contacts live in fixed arrays: where they overflow, prepare() doubles them and starts again, so the result is as if they had been
 // that large from the beginning.
-// State: qpos, qvel, qacc_warmstart (v̇ of the last step, the solver's first guess), and what pushed in the last step. There are no
-// activations.
+// State: qpos, qvel, qacc_warmstart (v̇ of the last step, the solver's first guess), what pushed in the last step, and what of it users
+// applied. There are no activations.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +35,10 @@ class MujocoPhysics final : public Physics {
   MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, LinkObjects objects, Coriolis coriolis);
 
   void prepare() override;
+  bool is_stiff(bool actuators) override;
   std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const override;
   void mobility(std::span<const std::size_t> joints, std::span<double> out) override;
+  double turned_beside(std::span<const std::size_t> joints) override;
   void foresee(std::span<const std::size_t> joints, std::span<double> out) override;
   void apply(std::size_t joint, double torque) override;
   void pull(const scene::Pull& pull) override;
@@ -87,7 +91,8 @@ class MujocoPhysics final : public Physics {
   void hold_up(mjData& d, mjtNum* forces, double part) const;
   void take_dampers();
   void give_dampers_back();
-  void tie(std::span<const std::size_t> joints, std::span<double> out);
+  [[nodiscard]] bool answers(int row) const;
+  bool hold(std::vector<mjtNum>& out);
   mjModel& own_model();
 
   std::shared_ptr<mjModel> model_;  // of all of the file: never changed, but replaced by grow() and own_model()
@@ -104,12 +109,15 @@ class MujocoPhysics final : public Physics {
   TiedTrees trees_;
   CenteredBias centered_;
   std::vector<std::string> q_owner_, v_owner_;
-  std::vector<double> before_;  // the state, of the last prepare()
-  std::vector<mjtNum> pushed_;  // in the last step: applied and, in trees without equalities, by constraints
+  std::vector<double> before_;              // the state, of the last prepare()
+  std::vector<mjtNum> pushed_;              // in the last step: applied and, in trees without equalities, by constraints
+  std::vector<mjtNum> asked_;               // of these: by push()
+  std::optional<std::vector<int>> beside_;  // the joints that turned_beside() is of
   std::vector<mjtNum> unit_, column_, jacobian_, mobility_, mass_matrix_;
-  std::vector<mjtNum> row_, tied_, ties_, of_joint_;  // of equalities; row_ is 0
-  bool damped_ = false;                               // some joint has damping
-  bool stepped_ = false;                              // data_ holds the contacts of the last step
+  std::vector<mjtNum> row_, held_;  // of constraints: zeros; M + J^T R⁻¹ J, factored
+  bool stiff_ = false;              // some joint's actuator
+  bool damped_ = false;             // some joint has damping
+  bool stepped_ = false;            // data_ holds the contacts of the last step
 };
 
 }  // namespace vsa::physics

@@ -11,12 +11,14 @@ TiedTrees::TiedTrees(const mjModel& m)
   for (int b = 1; b < m.nbody; ++b) of_body_[b] = m.body_dofnum[b] > 0 ? tree_[m.body_dofadr[b]] : of_body_[m.body_parentid[b]];
 }
 
-void TiedTrees::look(const mjModel& m, const mjData& d) {
-  any_ = d.ne > 0;
+void TiedTrees::look(const mjModel& m, const mjData& d, bool all) {
+  const int rows = all ? d.nefc : d.ne;
+  all_ = all;
+  any_ = rows > 0;
   if (!any_) return;
   std::fill(tied_.begin(), tied_.end(), 0);
   const bool sparse = mj_isSparse(&m) != 0;
-  for (int r = 0; r < d.ne; ++r) {
+  for (int r = 0; r < rows; ++r) {
     const int count = sparse ? d.efc_J_rownnz[r] : m.nv, first = sparse ? d.efc_J_rowadr[r] : r * m.nv;
     for (int k = first; k < first + count; ++k)
       if (d.efc_J[k] != 0) tied_[tree(sparse ? d.efc_J_colind[k] : k - first)] = 1;

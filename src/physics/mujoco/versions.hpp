@@ -55,6 +55,19 @@ inline void full_mass(const mjModel& m, const mjData& d, mjtNum* out) {
 #endif
 }
 
+/// What mj_factorM() takes, nv × nv.
+inline void dense_mass(const mjModel& m, const mjData& d, mjtNum* out) {
+#ifdef VSA_MUJOCO_M_BY_ROWS
+  mju_zero(out, m.nv * m.nv);
+  for (int i = 0; i < m.nv; ++i) {
+    for (int k = m.M_rowadr[i]; k < m.M_rowadr[i] + m.M_rownnz[i]; ++k)
+      out[i * m.nv + m.M_colind[k]] = out[m.M_colind[k] * m.nv + i] = d.M[k];
+  }
+#else
+  mj_fullM(&m, out, d.qM);
+#endif
+}
+
 /// Whether qfrc_bias is more than mj_rne() tells: what tendons with an armature add.
 inline bool bias_has_more([[maybe_unused]] const mjModel& m) {
 #if mjVERSION_HEADER >= 327
