@@ -41,7 +41,7 @@ constexpr const char* kExamples = R"(Examples:
   vsa ping qbmove_maker_pro
   vsa doctor snake_flat
 
-Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 130 or 143 a run with a duration that a signal cut short.)";
+Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 129, 130 or 143 a run with a duration that a signal cut short.)";
 
 /// An unset shell variable in quotes. CLI11 takes it for an absent value; a user wants to know.
 void refuse_empty(int argc, char** argv) {

@@ -129,7 +129,7 @@ void setup_sweep(CLI::App& app, int& exit_code) {
   const auto given = [sub](const char* name) { return sub->get_option(name); };
   sub->add_option("--part", options->part, "Only every Nth run, from the Ith on: I/N; for job arrays");
   sub->add_flag("--merge", options->merge, "Run nothing; make the tables of all logs");
-  sub->add_flag("--check", options->check, "Run nothing; check the plan, and say how long it takes");
+  sub->add_flag("--check", options->check, "Keep nothing; check the plan, make its first and its last run, say how long all of it takes");
   sub->add_option("--run", options->run, "Only this run: its scenario and its numbers")
       ->check(CLI::Range(0.0, sweep::Plan::kMostRuns));
   // What one of them wouldn't look at isn't taken.
