@@ -84,13 +84,14 @@ bool tell_about(const CLI::App& app, const std::vector<std::string>& arguments) 
 
 /// What the command's flags were called: understood for one more release.
 std::vector<std::string> with_names_of_now(const CLI::App& app, std::vector<std::string> arguments) {
-  const CLI::App* command = arguments.empty() ? nullptr : app.get_subcommand_no_throw(arguments.front());
-  if (command == nullptr) return arguments;
+  const auto commands =
+      app.get_subcommands([&](const CLI::App* c) { return !arguments.empty() && c->get_name() == arguments.front(); });
+  if (commands.empty()) return arguments;
   constexpr std::array<std::array<std::string_view, 2>, 2> kOldAndNow{{{"--preset", "--type"}, {"--jobs", "--threads"}}};
   for (std::string& a : arguments) {
     for (const auto& [old, now] : kOldAndNow) {
       if (a != old && !a.starts_with(std::string(old) + '=')) continue;
-      if (command->get_option_no_throw(std::string(now)) == nullptr) continue;
+      if (commands.front()->get_option_no_throw(std::string(now)) == nullptr) continue;
       a.replace(0, old.size(), now);
       std::cerr << "vsa: " << vsa::config::renamed_text(old, now) << '\n';
     }

@@ -163,7 +163,7 @@ TEST(Characterize, AShorterStepIsTakenAndEndsTheWarningOfOneThatIsTooLong) {
   EXPECT_EQ(shorter.err, "");
   EXPECT_NE(read_file(scratch / "out" / "results.json").find("--step-s 0.00025"), std::string::npos);
   EXPECT_NE(shorter.out, own.out);
-  expect_refused({"characterize", "qbmove_maker_pro", "--step-s", "1"}, {"step out of range"});
+  expect_refused({"characterize", "qbmove_maker_pro", "--step-s", "1"}, {"--step-s = 1: out of range"});
 }
 
 TEST(Characterize, APresetThatStaysIsOneNumber) {
