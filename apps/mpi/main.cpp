@@ -31,6 +31,11 @@ using namespace vsa::app;
 using vsa::InputError;
 namespace sweep = vsa::sweep;
 
+/// Each problem in a line of its own. `rank`: "", or "rank N: ".
+void tell(const InputError& error, const std::string& rank = "") {
+  for (const auto& problem : error.problems()) std::cerr << "vsa-mpi: " << rank << problem.text() << '\n';
+}
+
 /// Does what only rank 0 has to, and what comes of it holds for all: the same code, once told.
 template <class Do>
 int first_does(const Job& job, Do&& what) {
@@ -39,7 +44,7 @@ int first_does(const Job& job, Do&& what) {
     try {
       what();
     } catch (const InputError& error) {
-      std::cerr << error.what() << '\n';
+      tell(error);
       code = kBadInput;
     }
   }
@@ -50,19 +55,20 @@ int first_does(const Job& job, Do&& what) {
 template <class Asks, class Read>
 std::optional<Asks> agreed(const Job& job, const std::string& what, Read&& read) {
   std::optional<Asks> out;
-  std::string problem;
+  std::optional<InputError> problem;
   try {
     read(out);
   } catch (const InputError& error) {
-    problem = error.what();
+    problem = error;
   }
   const bool first_lacks = job.from_first(out ? 0 : 1) != 0;
-  if (!out && (job.rank() == 0 || !first_lacks))
-    std::cerr << (job.rank() == 0 ? "" : "rank " + std::to_string(job.rank()) + ": ") << problem << '\n';
+  if (problem && (job.rank() == 0 || !first_lacks))
+    tell(*problem, job.rank() == 0 ? "" : "rank " + std::to_string(job.rank()) + ": ");
   if (job.any(!out)) return std::nullopt;
   if (const int apart = job.first_apart(out->fingerprint()); apart >= 0) {
     if (job.rank() == 0)
-      std::cerr << what << ": rank " << apart << " reads something else than rank 0, here or in files that it names\n";
+      std::cerr << "vsa-mpi: " << what << ": rank " << apart
+                << " reads something else than rank 0, here or in files that it names\n";
     return std::nullopt;
   }
   return out;
@@ -179,7 +185,7 @@ int run_optimize_job(const Job& job, const SweepOptions& options, const sweep::P
 }
 
 int run_identify_job(const Job& job, const IdentifyOptions& options) {
-  const auto asked = agreed<Asked>(job, "vsa-mpi identify", [&](auto& out) { out.emplace(options); });
+  const auto asked = agreed<Asked>(job, "identify", [&](auto& out) { out.emplace(options); });
   if (!asked) return kBadInput;
   catch_interrupts();
   Console console;

@@ -41,7 +41,7 @@ constexpr const char* kExamples = R"(Examples:
   vsa ping qbmove_maker_pro
   vsa doctor snake_flat
 
-Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 130 or 143 a run with a duration that a signal cut short.)";
+Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 129, 130 or 143 a run with a duration that a signal cut short.)";
 
 /// An unset shell variable in quotes. CLI11 takes it for an absent value; a user wants to know.
 void refuse_empty(int argc, char** argv) {
@@ -82,12 +82,16 @@ bool tell_about(const CLI::App& app, const std::vector<std::string>& arguments) 
   return true;
 }
 
-/// What flags were called: understood for one more release.
-std::vector<std::string> with_names_of_now(std::vector<std::string> arguments) {
+/// What the command's flags were called: understood for one more release.
+std::vector<std::string> with_names_of_now(const CLI::App& app, std::vector<std::string> arguments) {
+  const auto commands =
+      app.get_subcommands([&](const CLI::App* c) { return !arguments.empty() && c->get_name() == arguments.front(); });
+  if (commands.empty()) return arguments;
   constexpr std::array<std::array<std::string_view, 2>, 2> kOldAndNow{{{"--preset", "--type"}, {"--jobs", "--threads"}}};
   for (std::string& a : arguments) {
     for (const auto& [old, now] : kOldAndNow) {
       if (a != old && !a.starts_with(std::string(old) + '=')) continue;
+      if (commands.front()->get_option_no_throw(std::string(now)) == nullptr) continue;
       a.replace(0, old.size(), now);
       std::cerr << "vsa: " << vsa::config::renamed_text(old, now) << '\n';
     }
@@ -108,7 +112,7 @@ int run_application(int argc, char** argv) {
   CLI::App app{"vsa: simulates robots built of variable stiffness actuators", "vsa"};
   int exit_code = vsa::app::kDone;
   set_up(app, exit_code);
-  std::vector<std::string> arguments = with_names_of_now({argv + (argc > 0 ? 1 : 0), argv + argc});
+  std::vector<std::string> arguments = with_names_of_now(app, {argv + (argc > 0 ? 1 : 0), argv + argc});
   understand_help(arguments);
   if (tell_about(app, arguments)) return vsa::app::kDone;
   vsa::app::tell_old_spellings("vsa");
@@ -118,6 +122,10 @@ int run_application(int argc, char** argv) {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ExtrasError& error) {
     vsa::app::refuse_unexpected(app);
+    app.exit(error);
+    return vsa::app::kBadInput;
+  } catch (const CLI::ConversionError& error) {
+    vsa::app::refuse_unreadable(app, error);
     app.exit(error);
     return vsa::app::kBadInput;
   } catch (const CLI::ParseError& error) {

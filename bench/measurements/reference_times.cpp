@@ -107,8 +107,12 @@ int run(const std::string& file) {
 
 int main(int argc, char** argv) {
   try {
-    if (argc != 2) throw vsa::InputError({"", "PAGE", "", "is missing", "reference_times PAGE.html"});
-    return run(argv[1]);
+    const std::string page = argc == 2 ? argv[1] : "";
+    if (page.empty() || page.front() == '-') {
+      std::cerr << "usage: reference_times PAGE.html\n";
+      return page == "--help" ? 0 : 2;
+    }
+    return run(page);
   } catch (const vsa::InputError& error) {
     std::cerr << "reference_times: " << error.what() << '\n';
     return 2;

@@ -10,23 +10,29 @@
 
 namespace vsa::config {
 
-LawRegistry LawRegistry::standard() {
-  LawRegistry laws;
-  for (const elastic::Law* law : elastic::laws()) laws.add(*law);
+std::vector<const elastic::Law*> standard_laws() {
+  std::vector<const elastic::Law*> laws;
+  std::map<std::string_view, std::string> taken;
+  for (const elastic::Law* law : elastic::laws()) {
+    laws.push_back(law);
+    taken[law->name] = "by a law that ships";
+  }
   Problems problems;
-  std::map<std::string_view, std::string> where;
   for (const ForeignLaw& l : laws_of_path(problems)) {
-    const std::string name(l.law->name);
-    if (laws.find(name) == nullptr) {
-      laws.add(*l.law);
-      where[l.law->name] = "of " + l.file.string();
+    const auto [by, fresh] = taken.try_emplace(l.law->name, "of " + l.file.string());
+    if (fresh) {
+      laws.push_back(l.law);
     } else {
-      const auto of = where.find(name);
-      problems.add({l.file.string(), "law", name, "the name is taken, " + (of == where.end() ? "by a law that ships" : of->second),
-                    "a name of its own"});
+      problems.add({l.file.string(), "law", std::string(l.law->name), "the name is taken, " + by->second, "a name of its own"});
     }
   }
   problems.throw_if_any();
+  return laws;
+}
+
+LawRegistry LawRegistry::standard() {
+  LawRegistry laws;
+  for (const elastic::Law* law : standard_laws()) laws.add(*law);
   return laws;
 }
 

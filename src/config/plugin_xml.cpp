@@ -164,7 +164,7 @@ class Parser {
     for (const tinyxml2::XMLAttribute* a = e.FirstAttribute(); a != nullptr; a = a->Next()) {
       const std::string name = a->Name();
       if (name.compare(0, kPresetPrefix.size(), kPresetPrefix) != 0) continue;
-      known.push_back(name);
+      if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
       if (!draft.initial_preset_key.empty()) xml_.add(attribute_path(path, name), a->Value(), "the preset is given more than once");
       draft.initial_preset_key = name;
       draft.initial_preset =

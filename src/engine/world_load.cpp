@@ -16,14 +16,13 @@ namespace {
 
 using description::Joint;
 
-constexpr double kStepMin_s = 1e-6, kStepMax_s = host::kLongestStep_s;
-
 std::int64_t step_ns(const WorldOptions& options, const description::World& world, const std::string& file, Problems& problems) {
   const double step_s = options.step_s.value_or(world.step_s);
-  if (!(step_s >= kStepMin_s && step_s <= kStepMax_s)) {
+  if (!(step_s >= kShortestStep_s && step_s <= kLongestStep_s)) {
     const char* key = options.step_s ? "step_s" : world.native ? "option@timestep" : "physics/max_step_size";
-    problems.add({options.step_s ? "" : file, key, fmt::format("{}", step_s), "step out of range",
-                  fmt::format("{} … {} s{}", kStepMin_s, kStepMax_s, options.step_s ? "" : ", here or as step_s (--step-s)")});
+    problems.add(
+        {options.step_s ? "" : file, key, fmt::format("{}", step_s), "step out of range",
+         fmt::format("{} … {} s{}", kShortestStep_s, kLongestStep_s, options.step_s ? "" : ", here or as step_s (--step-s)")});
     return 1'000'000;
   }
   return std::llround(step_s * 1e9);
@@ -127,7 +126,7 @@ void World::Impl::find_substeps(const std::string& file, Problems& problems) {
     first = &slot;
     substeps = *n;
   }
-  const std::int64_t least_ns = std::llround(kStepMin_s * 1e9);
+  const std::int64_t least_ns = std::llround(kShortestStep_s * 1e9);
   if (first == nullptr || (dt_ns % substeps == 0 && substep_ns() >= least_ns)) return;
   problems.add({file + ": " + first->seat->model(), "substeps", fmt::format("{}", substeps),
                 fmt::format("can't divide the world's step of {} ns", dt_ns),

@@ -17,9 +17,12 @@ const config::Entry* find(const config::ActuatorType& type, const std::string& k
   return it == type.entries.end() ? nullptr : &*it;
 }
 
+constexpr const char* kFitting = "keys with a unit and bounds, see vsa actuators ";
+
 std::vector<std::string> keys_of(const config::ActuatorType& type) {
   std::vector<std::string> keys;
-  for (const config::Entry& e : type.entries) keys.push_back(e.key);
+  for (const config::Entry& e : type.entries)
+    if (e.kind == config::Kind::number) keys.push_back(e.key);
   return keys;
 }
 
@@ -27,13 +30,13 @@ std::vector<std::string> keys_of(const config::ActuatorType& type) {
 void add_key(Parameter& parameter, const std::string& key, const config::ActuatorType& type, Problems& problems) {
   const config::Entry* entry = find(type, key);
   if (entry == nullptr) {
-    problems.add({"--parameters", key, "", "type " + type.name + " has no such key", config::nearest(key, keys_of(type))});
+    problems.add({"--parameters", key, "", "type " + type.name + " has no such key" + config::did_you_mean(key, keys_of(type)),
+                  kFitting + type.name});
     return;
   }
   // Words, switches and whole numbers have no derivative.
   if (entry->kind != config::Kind::number) {
-    problems.add(
-        {"--parameters", key, entry->value, "isn't a real number, so it can't be identified", "keys with a unit and bounds"});
+    problems.add({"--parameters", key, entry->value, "isn't a real number, so it can't be identified", kFitting + type.name});
     return;
   }
   if (parameter.keys.empty()) {

@@ -52,7 +52,7 @@ bool has_seed(std::string_view fault) {
 void validate(const Scenario& s, std::string_view where, Problems& problems) {
   Checks check(where, problems);
   if (s.duration_s) check.within("duration_s", *s.duration_s, kShortest_s, kLongest_s);
-  if (s.step_s) check.within("step_s", *s.step_s, kShortest_s, 1);
+  if (s.step_s) check.within("step_s", *s.step_s, engine::kShortestStep_s, engine::kLongestStep_s);
   if (s.seed) check.within("seed", static_cast<double>(*s.seed), 0, kLargestSeed);
   if (concave_of(s.concave) == engine::Concave::refuse && s.concave != "refuse")
     check.refuse("concave", s.concave, "is not one of the words", "refuse, hull, decompose");

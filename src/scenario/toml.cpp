@@ -33,9 +33,9 @@ std::string file_at(TomlSection& section, const char* key, const fs::path& scena
 }
 
 void read_run(TomlSection& s, const fs::path& file, Scenario& out) {
-  out.world = file_at(s.need("world", "an SDF file, or a built-in world's name"), "world", file, kWorlds, ".sdf");
+  out.world = file_at(s.need("world", "an SDF, URDF or MJCF file, or a built-in world's name"), "world", file, kWorlds, ".sdf");
   out.duration_s = s.number("duration_s", kShortest_s, kLongest_s);
-  out.step_s = s.number("step_s", kShortest_s, 1);
+  out.step_s = s.number("step_s", engine::kShortestStep_s, engine::kLongestStep_s);
   out.type = s.text("type").value_or("");
   out.concave = s.word("concave", {"refuse", "hull", "decompose"}).value_or(out.concave);
   out.impossible_inertia = s.word("impossible_inertia", {"refuse", "lower"}).value_or(out.impossible_inertia);

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "study/linear_shaft.hpp"
@@ -113,10 +114,25 @@ class Planner {
   /// A sweep finds its amplitude by what the law carries.
   void check_carried() {
     if (!wants(Experiment::stiffness) || options_.amplitude_rad) return;
+    if (options_.load_kg) check_load();
     for (const double p : options_.preset) {
       if (p >= plan_.fit.softest) continue;
       add("--preset-rad", fmt::format("{}", p), "the joint is too soft there for the load bench",
           fmt::format("{:.3g} {} or more; or --amplitude-rad", plan_.fit.softest, plan_.preset_unit()));
+    }
+  }
+
+  void check_load() {
+    const double load_Nm = *options_.load_kg * experiment::bench_load_peak_Nm(plan_.specimen);  // of 1 kg
+    for (const double p : presets(kStiffnessPresets, true)) {
+      try {
+        const double angle = experiment::sweep_target_rad(p, plan_.preset_unit());
+        (void)experiment::law_deflection(*plan_.actuator.unit.actuator.transmission, p, load_Nm * std::sin(angle));
+      } catch (const InputError& error) {
+        const Problem& law = error.problems().front();
+        add("--load-kg", fmt::format("{}", *options_.load_kg), law.message, law.allowed);
+        return;
+      }
     }
   }
 

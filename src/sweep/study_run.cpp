@@ -55,7 +55,7 @@ Task task_of(const Plan::Impl& plan, const std::vector<Value>& values) {
   experiment::Specimen specimen;
   specimen.type = s.need("type", "an actuator type's name").text("type").value_or("qbmove_maker_pro");
   for (const config::Override& o : top.overrides("set")) specimen.overrides.push_back(o);
-  specimen.step_s = s.number("step_s", scenario::kShortest_s, 1);
+  specimen.step_s = s.number("step_s", engine::kShortestStep_s, engine::kLongestStep_s);
   Task out;
   if (kind == "characterize") {
     study::CharacterizationOptions options;

@@ -134,6 +134,19 @@ TEST(Characterize, AnActuatorWithoutAPresetHasOneRunAnExperiment) {
   expect_refused({"characterize", "sea_example", "--experiment", "preset-step", "--preset-rad", "0.2"},
                  {"--experiment = preset-step", "--preset-rad = 0.2", "no stiffness preset"});
   expect_refused({"characterize", "sea_example", "--experiment", "speed", "--load-kg", "5"}, {"--load-kg = 5", "has no load"});
+  expect_refused({"characterize", "qbmove_maker_pro", "--load-kg", "1000"},
+                 {"vsa: --load-kg = 1000: the elastic law doesn't carry it within a turn (allowed: a smaller load)"});
+  for (const std::string step : {"0", "1"}) {
+    const std::string told = "vsa: --step-s = " + step + ": out of range (allowed: 1e-06 … 0.016 s)\n";
+    const std::vector<std::vector<std::string>> commands{{"run", "bench_free", "--no-topics"},
+                                                         {"characterize", "sea_example"},
+                                                         {"datasheet", "sea_example"},
+                                                         {"datasheet", "--all"}};
+    for (std::vector<std::string> command : commands) {
+      command.insert(command.end(), {"--step-s", step});
+      expect_refused(command, {told});
+    }
+  }
 }
 
 TEST(Characterize, AShorterStepIsTakenAndEndsTheWarningOfOneThatIsTooLong) {
@@ -150,7 +163,7 @@ TEST(Characterize, AShorterStepIsTakenAndEndsTheWarningOfOneThatIsTooLong) {
   EXPECT_EQ(shorter.err, "");
   EXPECT_NE(read_file(scratch / "out" / "results.json").find("--step-s 0.00025"), std::string::npos);
   EXPECT_NE(shorter.out, own.out);
-  expect_refused({"characterize", "qbmove_maker_pro", "--step-s", "1"}, {"step out of range"});
+  expect_refused({"characterize", "qbmove_maker_pro", "--step-s", "1"}, {"--step-s = 1: out of range"});
 }
 
 TEST(Characterize, APresetThatStaysIsOneNumber) {

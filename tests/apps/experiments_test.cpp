@@ -3,6 +3,8 @@
 // `vsa experiments`: the table, what it leaves behind, what it refuses.
 #include <gtest/gtest.h>
 
+#include <csignal>
+
 #include "subprocess.hpp"
 
 namespace {
@@ -61,6 +63,19 @@ TEST(Experiments, RefuseBadInputBeforeTheyRun) {
   refused({"--inertia-kgm2", "0", "--load-Nm", "-1"}, {"--inertia-kgm2", "--load-Nm", "out of range"});
   refused({"--step-s", "0.1"}, {"--step-s"});
   refused({"--types", "sea_example", "--set", "drive.supply_V"}, {"--set", "key=value"});
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
+TEST(Experiments, LeaveNoFolderWhereASignalEndsThem) {
+  const Scratch scratch;
+  vsa::test::Surroundings terminal;
+  terminal.terminal = true;
+  vsa::test::Subprocess all({"experiments", "--step-s", "0.00001", "--out", scratch / "out"}, terminal);
+  ASSERT_TRUE(all.read_until([](const Result& r) { return r.err.find("real time") != std::string::npos; }));
+  all.send(SIGINT);
+  const Result stopped = all.wait();
+  EXPECT_EQ(stopped.exit_code, 128 + SIGINT) << stopped.err;
+  EXPECT_NE(stopped.err.find("stopped: nothing was written"), std::string::npos) << stopped.err;
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }
 

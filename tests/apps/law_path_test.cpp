@@ -35,6 +35,15 @@ TEST(LawPathOfVsa, ShowsAndRunsATypeOfTheLaw) {
   EXPECT_EQ(unknown.exit_code, 2) << "without the path there is no such type";
 }
 
+TEST(LawPathOfVsa, ListsTheLawsOfOnesOwnBesideTheOthers) {
+  const Result listed = with_laws_of("good", {"actuators", "--laws"});
+  EXPECT_EQ(listed.exit_code, 0) << listed.err;
+  for (const char* part : {"\ncubic ", "elastic.cubic_Nm_per_rad3", "\ntwo_exp "})
+    EXPECT_NE(listed.out.find(part), std::string::npos) << part << listed.out;
+  EXPECT_EQ(run_vsa({"actuators", "--laws"}).out.find("\ncubic "), std::string::npos);
+  EXPECT_EQ(with_laws_of("taken", {"actuators", "--laws"}).exit_code, 2);
+}
+
 TEST(LawPathOfVsa, EndsWithBadInputAndTheFileWhereALibraryDoesntFit) {
   for (const std::string wrong : {"interface", "version", "abi", "layout", "symbol", "nameless", "taken", "nowhere"}) {
     for (const std::vector<std::string>& arguments :

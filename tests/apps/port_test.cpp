@@ -276,6 +276,13 @@ TEST(Emulate, AMemoryInAFileOutlivesTheProgram) {
   refused({"--units", "2"}, "qbmove_advanced");
 }
 
+TEST(Emulate, AMemoryThatCantBeWrittenIsToldBeforeThereIsAPort) {
+  const Scratch scratch;
+  const Result r = run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--memory", "/nosuch/x"});
+  expect(r, 2, {"vsa: --memory = /nosuch/x: can't be written: No such file or directory (allowed: a file in a directory"});
+  EXPECT_EQ(r.out, "") << "no port is announced";
+}
+
 TEST(Emulate, UnitsAreKnownByTheIdsThatTheirMemoryHas) {
   const Scratch scratch;
   const Arguments memory{"--units", "3", "--memory", (scratch / "units.toml").string()};

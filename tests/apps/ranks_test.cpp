@@ -88,6 +88,7 @@ TEST_F(Ranks, BadInputIsToldOnce) {
   const Result r = run_vsa(job(2, {"sweep", scratch / "bad.toml", "--out", scratch / "out"}), mpirun());
   EXPECT_EQ(r.exit_code, 2) << r.err;
   EXPECT_NE(r.err.find("wrong: unknown key"), std::string::npos);
+  EXPECT_NE(r.err.find("vsa-mpi: " + (scratch / "bad.toml").string()), std::string::npos) << "told by whom: " << r.err;
   EXPECT_EQ(r.err.find("wrong: unknown key"), r.err.rfind("wrong: unknown key")) << r.err;
   EXPECT_FALSE(fs::exists(scratch / "out"));
 }

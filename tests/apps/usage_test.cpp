@@ -115,6 +115,22 @@ TEST(Usage, AWordNobodyKnowsIsNamedWithTheNearestThatMeansSomething) {
   expect_bad_input(run_vsa({"actuators", "qbmove_maker_pro_6_1", "twice"}), {"vsa: actuators: twice: one word too many"});
 }
 
+TEST(Usage, WhatIsNoNumberIsToldWithWhatIsAllowed) {
+  expect_bad_input(run_vsa({"run", "bench_free", "--duration-s", "abc"}),
+                   {"vsa: --duration-s = abc: isn't a number (allowed: a number)"});
+  expect_bad_input(run_vsa({"emulate", "sea_example", "--units", "1.5"}),
+                   {"vsa: --units = 1.5: isn't a whole number (allowed: a whole number)"});
+  expect_bad_input(run_vsa({"command", "x", "0"}), {"vsa: EQUILIBRIUM_DEG = x: isn't a number"});
+  expect_bad_input(run_vsa({"run", "bench_free", "--seed", "-1"}), {"--seed: -1 is out of range (allowed: 0 … 1000000000000000)"});
+  expect_bad_input(run_vsa({"run", "bench_free", "--seed", "x"}), {"--seed: x isn't a number (allowed: 0 … 1000000000000000)"});
+}
+
+TEST(Usage, AnOldSpellingIsToldByTheCommandsThatHaveTheNewOneAlone) {
+  const Result r = run_vsa({"characterize", "--preset", "sea_example"});
+  expect_bad_input(r, {"vsa: characterize: --preset: no such option"});
+  EXPECT_EQ(r.err.find("--type"), std::string::npos) << r.err;
+}
+
 /// By whichever command, once each, and by none that reads no type.
 TEST(Usage, OldSpellingsOfTypesAreToldByEveryCommandThatReadsOne) {
   const Scratch scratch;

@@ -42,6 +42,8 @@ TEST(Parameters, HaveStartUnitAndBoundsOfThePreset) {
 TEST(Parameters, ThatAreWrongAreAllToldAtOnce) {
   EXPECT_EQ(told("elastic.k1_Nm,shaft.frictoin_Nm,drive.off_mode,sensor.encoder_bits,elastic.k1_Nm").size(), 4u);
   EXPECT_TRUE(has(told("shaft.frictoin_Nm").at(0), "shaft.friction_Nm")) << "the nearest key is offered";
+  EXPECT_TRUE(has(told("foo").at(0), "has no such key (allowed: keys with a unit and bounds")) << told("foo").at(0);
+  EXPECT_FALSE(has(told("drive.off_mod").at(0), "drive.off_mode")) << "what would be refused next isn't offered";
   EXPECT_TRUE(has(told("drive.off_mode").at(0), "isn't a real number"));
   EXPECT_TRUE(has(told("firmware.limits_on").at(0), "isn't a real number"));
   EXPECT_TRUE(has(told("sensor.encoder_bits").at(0), "isn't a real number")) << "a whole number has no derivative";

@@ -6,6 +6,7 @@
 #include "terminal/exit_codes.hpp"
 #include "terminal/markdown.hpp"
 #include "terminal/table.hpp"
+#include "vsa/config/actuator_type.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/elastic/law.hpp"
 #include "vsa/output_file.hpp"
@@ -16,16 +17,18 @@ namespace {
 
 constexpr Markers kMarkers{"<!-- vsa actuators --laws: tables -->", "<!-- vsa actuators --laws: end of tables -->"};
 
-report::Table law_table() {
+using Laws = std::vector<const elastic::Law*>;
+
+report::Table law_table(const Laws& laws) {
   report::Table out{"", {"law", "what", "energy", "source"}, {}, ""};
-  for (const elastic::Law* law : elastic::laws())
+  for (const elastic::Law* law : laws)
     out.rows.push_back({std::string(law->name), std::string(law->title), std::string(law->equation), std::string(law->source)});
   return out;
 }
 
-report::Table key_table() {
+report::Table key_table(const Laws& laws) {
   report::Table out{"", {"law", "key", "unit", "allowed", "meaning"}, {}, ""};
-  for (const elastic::Law* law : elastic::laws()) {
+  for (const elastic::Law* law : laws) {
     const auto add = [&](std::string_view key, std::string_view unit, const std::string& allowed, std::string_view meaning) {
       out.rows.push_back({std::string(law->name), "elastic." + std::string(key), std::string(unit), allowed, std::string(meaning)});
     };
@@ -51,11 +54,12 @@ std::string terminal_text(const report::Table& table) {
 }  // namespace
 
 int run_laws(const std::string& markdown) {
+  const Laws laws = config::standard_laws();
   if (!markdown.empty()) {
-    write_whole(markdown, with_tables(markdown, kMarkers, markdown_text(law_table(), 1) + markdown_text(key_table(), 2)));
+    write_whole(markdown, with_tables(markdown, kMarkers, markdown_text(law_table(laws), 1) + markdown_text(key_table(laws), 2)));
     return kDone;
   }
-  std::cout << terminal_text(law_table()) << '\n' << terminal_text(key_table());
+  std::cout << terminal_text(law_table(laws)) << '\n' << terminal_text(key_table(laws));
   return kDone;
 }
 

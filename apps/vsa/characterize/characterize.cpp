@@ -17,6 +17,7 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/numbers.hpp"
 #include "terminal/output_files.hpp"
+#include "terminal/step.hpp"
 #include "vsa/config/text.hpp"
 
 namespace vsa::app {
@@ -97,6 +98,7 @@ void tell_of_others(const std::filesystem::path& directory, const std::vector<st
 }  // namespace
 
 int run_characterize(const CharacterizeOptions& options) {
+  check_step(options.step_s);
   Console console;
   study::Characterization plan = study::plan_characterization(study_of(options));
   (void)report::page_template();  // told before the work, not after it

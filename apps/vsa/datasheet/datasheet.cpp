@@ -16,6 +16,7 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/numbers.hpp"
 #include "terminal/output_files.hpp"
+#include "terminal/step.hpp"
 #include "terminal/table.hpp"
 #include "vsa/errors.hpp"
 
@@ -106,6 +107,7 @@ int run_gallery(const DatasheetOptions& options) {
 }  // namespace
 
 int run_datasheet(const DatasheetOptions& options) {
+  check_step(options.step_s);
   if (options.all) return run_gallery(options);
   Console console;
   const std::filesystem::path file = options.out.empty() ? "datasheet_" + options.type + ".html" : options.out;

@@ -61,7 +61,6 @@ int run_experiments(const ExperimentsOptions& options) {
   study::Tasks plan = study::plan_tasks(tasks_of(options));
   (void)report::page_template();
   const std::filesystem::path folder = options.out.empty() ? "experiments" : options.out;
-  make_directory(folder, "--out");
   catch_interrupts();
   const auto done = study::run(std::move(plan), follow(console));
   console.wipe();
@@ -70,6 +69,7 @@ int run_experiments(const ExperimentsOptions& options) {
     return kSignalled + interrupted();
   }
   const std::string command = command_of(options);
+  make_directory(folder, "--out");
   report::write_report(tasks_page(*done, command), folder / "report.html");
   write_whole(folder / "results.json", study::to_json(*done, command));
   const report::Table table = tasks_table(*done);

@@ -96,7 +96,7 @@ std::function<void()> add_identify_options(CLI::App& to, const std::shared_ptr<I
   sub->add_option("--compare", o->compare.file, "Compare the hypotheses of this TOML file instead");
   sub->add_option("--threads", o->threads,
                   "Fits at once in each process, 0 as many as the machine runs; default: that, or as the file of --compare says")
-      ->check(CLI::Range(0, 1024));
+      ->check(between(0, 1024));
   sub->add_flag("--resume", o->resume, "Go on where fits of the same command ended");
   sub->add_flag("--retry-failed", o->retry_failed, "And make again what failed")->needs("--resume");
   sub->footer(kIdentifyNotes);

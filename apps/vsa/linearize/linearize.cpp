@@ -219,7 +219,9 @@ int run_linearize(const LinearizeOptions& options) {
 void setup_linearize(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<LinearizeOptions>();
   CLI::App* sub = app.add_subcommand("linearize", "Linearise an actuator type, or a world of them, about a point of rest");
-  sub->add_option("TARGET", options->target, "Actuator type (see vsa actuators), SDF file, or a built-in world's name")->required();
+  sub->add_option("TARGET", options->target,
+                  "Actuator type (see vsa actuators), SDF, URDF or MJCF file, or a built-in world's name")
+      ->required();
   auto* at =
       sub->add_option("--at-rad", options->at_rad, "The shaft's angle; default: where the load puts it")->check(number_given());
   sub->add_option("--load-Nm", options->load_Nm, "External torque on the shaft, about +q; default 0")

@@ -17,6 +17,7 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/numbers.hpp"
 #include "terminal/pace.hpp"
+#include "terminal/step.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/serial/processors_awake.hpp"
 #include "vsa/topics/transport.hpp"
@@ -58,6 +59,7 @@ void check(const RunOptions& options) {
   if (options.duration_s && !(*options.duration_s > 0 && *options.duration_s <= scenario::kLongest_s)) {
     throw InputError({"", "--duration-s", fmt::format("{}", *options.duration_s), "out of range", "above 0 to 1e8 s"});
   }
+  check_step(options.step_s);
   std::error_code differs;
   if (!options.record.empty() && !options.scenario.empty() &&
       std::filesystem::equivalent(std::filesystem::path(options.record) / kScenario, options.scenario, differs)) {
@@ -147,7 +149,7 @@ class Flags {
 
 void add_view(Flags& flags) {
   flags.flag("--view", &RunOptions::view, "Serve a page on this machine's loopback to watch and touch the run");
-  flags.value("--view-port", &RunOptions::view_port, "Its port; default: any free one, printed")->check(CLI::Range(0, 65535));
+  flags.value("--view-port", &RunOptions::view_port, "Its port; default: any free one, printed")->check(between(0, 65535));
   flags.value("--view-records", &RunOptions::view_records, "Where the page's record button writes; default: this directory");
 }
 
@@ -158,7 +160,7 @@ void add_world(Flags& flags) {
   flags
       .value("--seed", &RunOptions::seed,
              "Of faults that draw by chance without a seed of their own: the first one's; each further one's is 1000 more")
-      ->check(CLI::Range(0.0, scenario::kLargestSeed));
+      ->check(between(0, scenario::kLargestSeed));
   flags
       .value("--concave", &RunOptions::concave, "Concave collision meshes: refuse (default), hull (fill), decompose (convex parts)")
       ->check(CLI::IsMember({"refuse", "hull", "decompose"}));

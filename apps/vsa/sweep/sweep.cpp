@@ -117,7 +117,7 @@ int run_sweep(const SweepOptions& options) {
 void add_sweep_options(CLI::App& sub, SweepOptions& options) {
   sub.add_option("PLAN", options.plan, "The plan: a TOML file")->required();
   sub.add_option("--out", options.out, "Folder for logs and tables; default: " + options.command + "_PLAN");
-  sub.add_option("--threads", options.threads, "Runs at once in each process")->check(CLI::Range(1, 4096));
+  sub.add_option("--threads", options.threads, "Runs at once in each process")->check(between(1, 4096));
   sub.add_flag("--resume", options.resume, "Go on where a folder's runs ended");
   sub.add_flag("--retry-failed", options.retry_failed, "And run again what failed")->needs("--resume");
 }
@@ -129,9 +129,9 @@ void setup_sweep(CLI::App& app, int& exit_code) {
   const auto given = [sub](const char* name) { return sub->get_option(name); };
   sub->add_option("--part", options->part, "Only every Nth run, from the Ith on: I/N; for job arrays");
   sub->add_flag("--merge", options->merge, "Run nothing; make the tables of all logs");
-  sub->add_flag("--check", options->check, "Run nothing; check the plan, and say how long it takes");
-  sub->add_option("--run", options->run, "Only this run: its scenario and its numbers")
-      ->check(CLI::Range(0.0, sweep::Plan::kMostRuns));
+  sub->add_flag("--check", options->check,
+                "Keep nothing; check the plan, make its first and its last run, say how long all of it takes");
+  sub->add_option("--run", options->run, "Only this run: its scenario and its numbers")->check(between(0, sweep::Plan::kMostRuns));
   // What one of them wouldn't look at isn't taken.
   for (const char* other : {"--part", "--threads", "--resume", "--check", "--run"}) given("--merge")->excludes(given(other));
   for (const char* other : {"--part", "--out", "--resume", "--run"}) given("--check")->excludes(given(other));

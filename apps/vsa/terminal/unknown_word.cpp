@@ -51,4 +51,17 @@ void refuse_unexpected(const CLI::App& app) {
   }
 }
 
+void refuse_unreadable(const CLI::App& app, const CLI::ConversionError& error) {
+  const std::string what = error.what();
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      const std::string begin = "Could not convert: " + option->get_name() + " = ";
+      if (what.compare(0, begin.size(), begin) != 0) continue;
+      const bool whole = option->get_type_name().compare(0, 5, "FLOAT") != 0;
+      const std::string kind = whole ? "a whole number" : "a number";
+      throw InputError({"", option->get_name(), what.substr(begin.size()), "isn't " + kind, kind});
+    }
+  }
+}
+
 }  // namespace vsa::app

@@ -17,4 +17,8 @@ void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>&
 /// for the first word; returns where there is none.
 void refuse_unexpected(const CLI::App& app);
 
+/// After a parse that failed for a value that is none of its option's kind: throws InputError with option, value and what is allowed;
+/// returns where the error is another.
+void refuse_unreadable(const CLI::App& app, const CLI::ConversionError& error);
+
 }  // namespace vsa::app

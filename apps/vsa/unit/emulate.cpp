@@ -3,13 +3,17 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <system_error>
 
 #include "terminal/console.hpp"
 #include "terminal/exit_codes.hpp"
@@ -64,6 +68,15 @@ void check(const EmulateOptions& o) {
     problems.add({"", "--port", o.port, "can't be the name of a serial port", "letters, digits, and _ - . (or a path)"});
   }
   problems.throw_if_any();
+}
+
+/// Known before the port is there, and before what units store is lost.
+void check_memory(const std::string& file) {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::absolute(std::filesystem::weakly_canonical(file, error)).parent_path();
+  if (::access(folder.c_str(), W_OK) == 0) return;
+  throw InputError({"", "--memory", file, "can't be written: " + std::system_category().message(errno),
+                    "a file in a directory that can be written"});
 }
 
 std::vector<device::EmulatedUnit> units_of(const EmulateOptions& o) {
@@ -216,6 +229,7 @@ int run_emulate(const EmulateOptions& options) {
   std::vector<device::EmulatedUnit> units = units_of(options);
   std::optional<UnitMemory> memory;
   if (!options.memory.empty()) {
+    check_memory(options.memory);
     memory.emplace(options.memory, options.type, units.size());
     for (std::size_t i = 0; i < memory->pages().size(); ++i) units[i].pages = memory->pages()[i];
   }
@@ -230,7 +244,7 @@ int run_emulate(const EmulateOptions& options) {
   {
     const serial::VirtualPort port(emulation.line(), {serial::port_path(options.port.empty() ? options.type : options.port)});
     introduce(options, emulation, port.path(), dialect, elastic::antagonistic(*units.front().config.actuator.transmission));
-    if (memory) memory->keep(emulation);  // a place that can't be written shows now
+    if (memory) memory->keep(emulation);
     Runner runner(emulation, port, options.duration_s, memory ? &*memory : nullptr);
     signal = runner.run();
     if (memory) memory->keep(emulation);

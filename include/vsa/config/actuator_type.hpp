@@ -115,6 +115,9 @@ class LawRegistry {
   std::map<std::string, LawFactory, std::less<>> factories_;
 };
 
+/// Those of LawRegistry::standard(): the library's by name, then those of $VSA_LAW_PATH. Throws as it does.
+[[nodiscard]] std::vector<const elastic::Law*> standard_laws();
+
 /// A value that replaces a type's.
 struct Override {
   std::string key,  ///< "drive.friction_Nm"

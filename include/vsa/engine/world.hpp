@@ -45,6 +45,9 @@ using physics::SimulationError;
 using reader::Concave;
 using reader::ImpossibleInertia;
 
+inline constexpr double kShortestStep_s = 1e-6,  ///< of a world's step
+    kLongestStep_s = host::kLongestStep_s;       ///< of a world's step
+
 /// How a world is to be loaded, beside its file: World::load().
 struct WorldOptions {
   std::optional<double> step_s;                   ///< none: the SDF's `<physics><max_step_size>`

@@ -16,7 +16,7 @@
 
 namespace vsa::scenario {
 
-inline constexpr double kShortest_s = 1e-9,   ///< of durations and steps
+inline constexpr double kShortest_s = 1e-9,   ///< of durations
     kLongest_s = 1e8;                         ///< three years: beyond that nanoseconds would overflow soon
 inline constexpr double kLargestSeed = 1e15;  ///< a seed is a whole number up to that
 
