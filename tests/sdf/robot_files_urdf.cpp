@@ -115,6 +115,7 @@ std::vector<RobotFile> urdf_files() {
       {"gazebo_typo.urdf", {}, {"r::base", "r::a"}, {{"r::j1", 0}}, {"names no link or joint and is left out: aa"}, {}, {}},
       {"zero_room.urdf", {}, {"r::base", "r::a"}, {}, {"welded: r::j1 at 0"}, {}, {}},
       {"limits_swapped.urdf", {}, {"r::base", "r::a"}, {{"r::j1", 0}}, {"wrong way round and are switched: r::j1"}, {}, {}},
+      {"comment_behind.urdf", {}, {"r::base"}, {}, {}, {}, {}},
       {"start_excluded.urdf", {}, {"r::base", "r::a"}, {{"r::j1", 0.5}}, {"start at the limit next to it: r::j1 at 0.5"}, {}, {}},
   };
 }

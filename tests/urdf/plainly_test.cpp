@@ -131,6 +131,7 @@ TEST(PlainUrdf, BadInputIsAnErrorThatNamesFileKeyValueAndWhatIsAllowed) {
            {"robot_origin_broken", {"origin@xyz = 1 2", "x y z"}},
            {"cycle_apart", {"link[x]: hangs on no joints", "a tree"}},
            {"two_parents", {"link[b] = j2, j3: is the child of several joints"}},
+           {"two_robots", {"SDF text:9: <robot>", "stands behind the end of the file's first element", "one <robot> a file"}},
            {"link_as_joint", {"joint@name = j1: is a link's name"}},
            {"gazebo_unknown", {"gazebo/selfcollide = true", "did you mean selfCollide?"}},
            {"gazebo_self_collide_word", {"gazebo[a]/selfCollide = maybe", "true, yes, 1"}},
