@@ -199,11 +199,15 @@ bool mend_sdf(XMLElement& sdf, const std::string& file, Notes& notes, Problems& 
   return newer || mender.changed();
 }
 
-bool has_second_root(const XMLElement& root, const std::string& file, Problems& problems) {
-  const XMLElement* second = root.NextSiblingElement();
-  if (second == nullptr) return false;
-  problems.add({line_of(*second, file), fmt::format("<{}>", second->Name()), "",
-                "stands behind the end of the file's first element", fmt::format("one <{}> a file", root.Name())});
+bool has_more_than_root(const XMLElement& root, const std::string& file, Problems& problems) {
+  const tinyxml2::XMLNode* other = root.GetDocument()->FirstChild();
+  while (other != nullptr && (other == &root || (other->ToElement() == nullptr && other->ToText() == nullptr)))
+    other = other->NextSibling();
+  if (other == nullptr) return false;
+  const bool element = other->ToElement() != nullptr;
+  problems.add({line_of(*other, file), element ? fmt::format("<{}>", other->Value()) : "",
+                element ? "" : std::string(config::trim(other->Value())), "stands outside the file's first element",
+                fmt::format("one <{}> a file", root.Name())});
   return true;
 }
 

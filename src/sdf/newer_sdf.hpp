@@ -28,8 +28,8 @@ inline constexpr const char* kVersions = "1.6 … 1.12; older ones from 1.0 are 
 /// True where the tree was changed; problems where the version can't be read or physics would be lost.
 [[nodiscard]] bool mend_sdf(tinyxml2::XMLElement& sdf, const std::string& file, Notes& notes, Problems& problems);
 
-/// tinyxml2, and with it libsdformat and urdfdom, read the first element of a file: a second one is a problem, and true.
-[[nodiscard]] bool has_second_root(const tinyxml2::XMLElement& root, const std::string& file, Problems& problems);
+/// libsdformat and urdfdom read the first element of a file: another one or text beside it is a problem, and true.
+[[nodiscard]] bool has_more_than_root(const tinyxml2::XMLElement& root, const std::string& file, Problems& problems);
 
 /// A file that xacro was to expand: a problem and true.
 [[nodiscard]] bool is_unexpanded(const tinyxml2::XMLElement& root, const std::string& file, Problems& problems);

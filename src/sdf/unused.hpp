@@ -25,14 +25,14 @@ struct Used {
 };
 
 /// Of what isn't here all is used.
-inline constexpr std::array<Used, 7> kUsed{{{"joint", "parent child pose axis axis2 sensor physics"},
-                                            {"collision", "pose geometry surface"},
-                                            {"collision/surface/bounce", "restitution_coefficient"},
-                                            {"collision/surface/friction/torsional", "coefficient patch_radius use_patch_radius ode"},
-                                            {"collision/surface/contact",
-                                             "collide_without_contact collide_bitmask category_bitmask ode bullet"},
-                                            {"collision/surface/contact/ode", "kp kd", true},
-                                            {"collision/surface/contact/bullet", "kp kd", true}}};
+inline constexpr std::array<Used, 7> kUsed{
+    {{"joint", "parent child pose axis axis2 sensor physics"},
+     {"collision", "pose geometry surface"},
+     {"collision/surface/bounce", "restitution_coefficient"},
+     {"collision/surface/friction/torsional", "coefficient patch_radius use_patch_radius ode"},
+     {"collision/surface/contact", "collide_without_contact collide_bitmask category_bitmask ode bullet"},
+     {"collision/surface/contact/ode", "kp kd", true},
+     {"collision/surface/contact/bullet", "kp kd", true}}};
 
 /// `path`: from the <joint> or <collision> on.
 template <class C>

@@ -163,17 +163,18 @@ TEST(OwnMjcf, IsNoUrdfWithAnotherEnding) {
 TEST(OwnMjcf, WithSomethingBehindItsFirstElementIsRefused) {
   const std::string second = "<!-- a comment is nothing -->\n<mujoco model=\"lost\"/>\n";
   const std::string told = message_of<InputError>([&] { (void)World::load_string(arm() + second); });
-  EXPECT_NE(told.find("<mujoco>: stands behind the end of the file's first element (allowed: one <mujoco> a file)"),
-            std::string::npos)
+  EXPECT_NE(told.find("<mujoco>: stands outside the file's first element (allowed: one <mujoco> a file)"), std::string::npos)
       << told;
-  EXPECT_NO_THROW((void)World::load_string("<?xml version=\"1.0\"?><!-- before -->" + arm() + "<!-- behind --><?vim sw=2?>"));
+  const std::string words = message_of<InputError>([&] { (void)World::load_string(arm() + "lost words <!-- -->"); });
+  EXPECT_NE(words.find("lost words : stands outside the file's first element"), std::string::npos) << words;
+  EXPECT_NO_THROW((void)World::load_string("<?xml version=\"1.0\"?><?vim sw=2?><!-- before -->" + arm() + "<!-- behind -->"));
   const Scratch scratch;
   fs::create_directory(scratch.path() / "parts");
   record::spew(scratch.path() / "arm.xml", with(arm(), "<worldbody>", "<include file=\"parts/a.xml\"/><worldbody>"));
   record::spew(scratch.path() / "parts/a.xml", "<mujocoinclude><include file=\"parts/b.xml\"/></mujocoinclude>");
   record::spew(scratch.path() / "parts/b.xml", "<mujocoinclude/>\n<mujocoinclude/>");
   const std::string included = message_of<InputError>([&] { (void)World::load(scratch.path() / "arm.xml"); });
-  EXPECT_NE(included.find("parts/b.xml:2: <mujocoinclude>: stands behind"), std::string::npos) << included;
+  EXPECT_NE(included.find("parts/b.xml:2: <mujocoinclude>: stands outside"), std::string::npos) << included;
 }
 
 TEST(OwnMjcf, HasNoNumberThatIsntFinite) {
@@ -184,8 +185,8 @@ TEST(OwnMjcf, HasNoNumberThatIsntFinite) {
   for (const auto& [from, to, key] : std::vector<std::array<std::string, 3>>{
            {"timestep", "gravity=\"0 0 nan\" timestep", "option@gravity = nan"},
            {"timestep", "density=\"inf\" timestep", "option@density = inf"},
-           {"<worldbody>", "<statistic meaninertia=\"nan\"/><worldbody>", "statistic@meaninertia = nan"},
-           {"pos=\"0 0 0.1\"", "pos=\"nan 0 0.1\"", "body[upper]/pos = nan"},
+           {"<worldbody>", "<statistic meaninertia=\"inf\"/><worldbody>", "statistic@meaninertia = inf"},
+           {"pos=\"0 0 0.1\"", "pos=\"0 nan 0.1\"", "body[upper]/pos = nan"},
            {"mass=\"0.3\"", "mass=\"inf\"", "body[upper]/mass = inf"},
            {"damping=\"0.01\"", "damping=\"inf\"", "joint[shoulder]/damping = inf"},
            {"damping=\"0.01\"", "ref=\"nan\"", "joint[shoulder]/ref = nan"},
@@ -208,9 +209,8 @@ TEST(OwnMjcf, AsksAboutATextWithNearlyTheRightName) {
   };
   for (const char* name : {"vsa::robot", "vsa_Robot", "vsa::Robot2", "anything, as its data say whose it is"})
     EXPECT_TRUE(asks(name)) << name;
-  for (const std::string& text :
-       World::load_string(with(arm(), "<custom>", "<custom><text name=\"author\" data=\"somebody\"/>")).warnings())
-    EXPECT_EQ(text.find("did you mean"), std::string::npos) << text;
+  const World other = World::load_string(with(arm(), "<custom>", "<custom><text name=\"author\" data=\"somebody\"/>"));
+  for (const std::string& text : other.warnings()) EXPECT_EQ(text.find("did you mean"), std::string::npos) << text;
 }
 
 /// What isn't read for another error isn't missing.
@@ -262,8 +262,9 @@ TEST(OwnMjcf, GetsRoomForContactsWhateverItsRows) {
   EXPECT_GE(world.contact_count(), 4);
 }
 
+/// It takes such a place for none that is given.
 TEST(OwnMjcf, TellsWhatMujocoWarnsOf) {
-  const World world = World::load_string(with(arm(), "<custom>", "<custom><numeric name=\"mine\" data=\"nan\"/>"));
+  const World world = World::load_string(with(arm(), "pos=\"0 0 0.1\"", "pos=\"nan 0 0.1\""));
   EXPECT_NE(world.warnings().front().find("NaN"), std::string::npos) << world.warnings().front();
 }
 
@@ -352,7 +353,8 @@ INSTANTIATE_TEST_SUITE_P(
               "friction@geom = floor: has several"},
         Wrong{"slippery", "<vsa><friction geom=\"stand\" mu=\"1\" mu2=\"2\" along=\"1 0 0\"/></vsa>", "has condim 1 in the MJCF"},
         Wrong{"weightless", "<vsa><link name=\"base\" static=\"true\" gravity=\"false\"/></vsa>", "is static and has no weight"},
-        Wrong{"second", "<vsa/><vsa><link name=\"base\"/></vsa>", "vsa: stands behind the end of the file's first element"},
+        Wrong{"second", "<vsa/><vsa><link name=\"base\"/></vsa>",
+              "vsa: stands outside the file's first element (allowed: one <vsa>)"},
         Wrong{"mass", "<vsa><link name=\"base\" mass_kg=\"nan\"/></vsa>", "link@mass_kg = nan"},
         Wrong{"robot", "<vsa><robot model=\"arm\"/></vsa>", "<plugin>"}),
     [](const auto& of) { return std::string(of.param.name); });

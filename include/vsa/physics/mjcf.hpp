@@ -36,9 +36,10 @@ namespace vsa::physics {
 
 /// A world as read from an MJCF.
 struct MjcfRead {
-  /// A <text> of <custom>.
+  /// A text of the file's custom elements.
   struct Text {
-    std::string name, data;
+    std::string name,  ///< its own
+        data;          ///< what it holds
   };
   description::World world;   ///< its `native` is MuJoCo's
   bool names_others = false;  ///< the file names others: meshes, includes

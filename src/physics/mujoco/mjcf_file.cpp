@@ -35,16 +35,20 @@ std::string name_of(const mjModel& m, const fs::path& path) {
   return path.empty() ? "model" : path.stem().string();
 }
 
-/// MuJoCo reads the first element of a file, and of those that it includes: a second one is a problem. What can't be read here,
+/// MuJoCo reads the first element of a file, and of those that it includes: another one or text beside it is a problem. What can't be read here,
 /// MuJoCo tells of.
 class Roots {
  public:
   Roots(fs::path folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
 
   void check(const XMLElement& root, const std::string& file) {
-    if (const XMLElement* second = root.NextSiblingElement())
-      problems_.add({fmt::format("{}:{}", file, second->GetLineNum()), fmt::format("<{}>", second->Name()), "",
-                     "stands behind the end of the file's first element", fmt::format("one <{}> a file", root.Name())});
+    for (const tinyxml2::XMLNode* n = root.GetDocument()->FirstChild(); n != nullptr; n = n->NextSibling()) {
+      const bool element = n->ToElement() != nullptr;
+      if (n == &root || (!element && n->ToText() == nullptr)) continue;
+      problems_.add({fmt::format("{}:{}", file, n->GetLineNum()), element ? fmt::format("<{}>", n->Value()) : "",
+                     element ? "" : n->Value(), "stands outside the file's first element",
+                     fmt::format("one <{}> a file", root.Name())});
+    }
     includes(root);
   }
 

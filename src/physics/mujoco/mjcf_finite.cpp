@@ -67,8 +67,7 @@ class Check {
 #undef XVEC
 #undef MJ_M
 #define MJ_M(size) m_.size
-#define X(type, name, rows, columns) \
-  array(#name, m_.name, static_cast<std::size_t>(m_.rows), static_cast<std::size_t>(columns));
+#define X(type, name, rows, columns) array(#name, m_.name, static_cast<std::size_t>(m_.rows), static_cast<std::size_t>(columns));
     MJMODEL_POINTERS
 #undef X
     // Of mjStatistic the solver takes that alone.
@@ -113,10 +112,14 @@ class Check {
         std::find_if(kOwners.begin(), kOwners.end(), [&](const Owner& o) { return name.starts_with(o.begins); });
     if (owner == kOwners.end()) return fmt::format("{}[{}]", name, row);
     int id = owner->begins == "dof_" ? m_.dof_jntid[row] : row;
-    if (owner->begins == "qpos") id = static_cast<int>(std::upper_bound(m_.jnt_qposadr, m_.jnt_qposadr + m_.njnt, row) - m_.jnt_qposadr) - 1;
+    if (owner->begins == "qpos")
+      id = static_cast<int>(std::upper_bound(m_.jnt_qposadr, m_.jnt_qposadr + m_.njnt, row) - m_.jnt_qposadr) - 1;
     const char* own = mj_id2name(&m_, owner->type, id);
     const std::string called = own == nullptr ? fmt::format("number {}", id) : own;
-    return fmt::format("{}[{}]/{}", owner->element, called, name == "qpos0" ? "ref" : name == "qpos_spring" ? "springref" : name.substr(owner->begins.size()));
+    return fmt::format("{}[{}]/{}", owner->element, called,
+                       name == "qpos0"         ? "ref"
+                       : name == "qpos_spring" ? "springref"
+                                               : name.substr(owner->begins.size()));
   }
 
   const mjModel& m_;
