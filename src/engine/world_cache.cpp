@@ -5,8 +5,6 @@
 #include <list>
 #include <mutex>
 
-#include "vsa/config/plugin_xml.hpp"
-#include "vsa/config/text.hpp"
 #include "vsa/description/capabilities.hpp"
 #include "vsa/engine/mjcf.hpp"
 #include "vsa/files.hpp"
@@ -114,17 +112,6 @@ void check_names(const description::World& world, const std::string& file, Probl
   for (const description::Joint& j : world.joints) check("joint", j.name);
 }
 
-/// A robot of ours under a name by which nobody looks for it.
-void tell_of_misspelt(const std::vector<physics::MjcfRead::Text>& texts, const std::string& file,
-                      std::vector<std::string>& warnings) {
-  const std::string meant(config::kPluginName);
-  for (const auto& [name, data] : texts) {
-    const bool ours = data.find("<plugin") != std::string::npos && data.find(meant) != std::string::npos;
-    const std::string question = ours ? ", did you mean " + meant + "?" : config::did_you_mean(name, {meant});
-    if (!question.empty()) warnings.push_back("<text name=\"" + name + "\"> is left out" + question + " (" + file + ")");
-  }
-}
-
 description::World read_description(const reader::SdfSource& source, const WorldOptions& options, Entry& entry,
                                     Problems& problems) {
   ReadWorld& file = *entry.file;
@@ -138,7 +125,6 @@ description::World read_description(const reader::SdfSource& source, const World
   for (const std::filesystem::path& read : physics::files_of_mjcf(mjcf)) entry.seen.reads(read);
   physics::MjcfRead read = physics::read_mjcf(mjcf, source.text, file.warnings, problems);
   if (read.names_others) entry.seen.lost();
-  tell_of_misspelt(read.texts, source.label(), file.warnings);
   if (problems.empty() && mjcf != source.path) compare_with_mjcf(source.path, entry);
   return std::move(read.world);
 }

@@ -200,15 +200,17 @@ bool mend_sdf(XMLElement& sdf, const std::string& file, Notes& notes, Problems& 
 }
 
 bool has_more_than_root(const XMLElement& root, const std::string& file, Problems& problems) {
-  const tinyxml2::XMLNode* other = root.GetDocument()->FirstChild();
-  while (other != nullptr && (other == &root || (other->ToElement() == nullptr && other->ToText() == nullptr)))
-    other = other->NextSibling();
-  if (other == nullptr) return false;
-  const bool element = other->ToElement() != nullptr;
-  problems.add({line_of(*other, file), element ? fmt::format("<{}>", other->Value()) : "",
-                element ? "" : std::string(config::trim(other->Value())), "stands outside the file's first element",
-                fmt::format("one <{}> a file", root.Name())});
-  return true;
+  bool doctype = false;  // tinyxml2 ends one at its first >: the rest is a text before the root
+  for (const tinyxml2::XMLNode* n = root.GetDocument()->FirstChild(); n != nullptr; n = n->NextSibling()) {
+    doctype = n != &root && (doctype || n->ToUnknown() != nullptr);
+    const bool element = n->ToElement() != nullptr;
+    if (n == &root || !(element || (n->ToText() != nullptr && !doctype))) continue;
+    problems.add({line_of(*n, file), element ? fmt::format("<{}>", n->Value()) : "",
+                  element ? "" : std::string(config::trim(n->Value())), "stands outside the file's first element",
+                  fmt::format("one <{}> a file", root.Name())});
+    return true;
+  }
+  return false;
 }
 
 bool is_unexpanded(const XMLElement& root, const std::string& file, Problems& problems) {

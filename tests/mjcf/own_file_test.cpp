@@ -167,7 +167,8 @@ TEST(OwnMjcf, WithSomethingBehindItsFirstElementIsRefused) {
       << told;
   const std::string words = message_of<InputError>([&] { (void)World::load_string(arm() + "lost words <!-- -->"); });
   EXPECT_NE(words.find("lost words : stands outside the file's first element"), std::string::npos) << words;
-  EXPECT_NO_THROW((void)World::load_string("<?xml version=\"1.0\"?><?vim sw=2?><!-- before -->" + arm() + "<!-- behind -->"));
+  EXPECT_NO_THROW((void)World::load_string("<?xml version=\"1.0\"?><?vim sw=2?><!DOCTYPE mujoco [<!ENTITY a 'b'>]><!-- before -->" +
+                                           arm() + "<!-- behind -->"));
   const Scratch scratch;
   fs::create_directory(scratch.path() / "parts");
   record::spew(scratch.path() / "arm.xml", with(arm(), "<worldbody>", "<include file=\"parts/a.xml\"/><worldbody>"));

@@ -36,14 +36,8 @@ namespace vsa::physics {
 
 /// A world as read from an MJCF.
 struct MjcfRead {
-  /// A text of the file's custom elements.
-  struct Text {
-    std::string name,  ///< its own
-        data;          ///< what it holds
-  };
   description::World world;   ///< its `native` is MuJoCo's
   bool names_others = false;  ///< the file names others: meshes, includes
-  std::vector<Text> texts;    ///< that are no robots
 };
 
 /// From a file, or where `path` is empty from `text`. Everything wrong goes to `problems`, in MuJoCo's words where it refuses the

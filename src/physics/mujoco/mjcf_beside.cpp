@@ -80,8 +80,8 @@ class Reader {
       problem("", root == nullptr ? "" : root->Name(), "isn't the element that is looked for", "<vsa>");
       return {};
     }
-    for (const tinyxml2::XMLNode* n = document.FirstChild(); n != nullptr; n = n->NextSibling())
-      if (n != root && (n->ToElement() != nullptr || n->ToText() != nullptr))
+    for (const tinyxml2::XMLNode* n = root->NextSibling(); n != nullptr; n = n->NextSibling())
+      if (n->ToElement() != nullptr || n->ToText() != nullptr)
         problem("", n->Value(), "stands outside the file's first element", "one <vsa>");
     for (const XMLElement* e = root->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) part(*e);
     return std::move(out_);

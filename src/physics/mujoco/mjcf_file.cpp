@@ -42,9 +42,11 @@ class Roots {
   Roots(fs::path folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
 
   void check(const XMLElement& root, const std::string& file) {
+    bool doctype = false;  // tinyxml2 ends one at its first >: the rest is a text before the root
     for (const tinyxml2::XMLNode* n = root.GetDocument()->FirstChild(); n != nullptr; n = n->NextSibling()) {
+      doctype = n != &root && (doctype || n->ToUnknown() != nullptr);
       const bool element = n->ToElement() != nullptr;
-      if (n == &root || (!element && n->ToText() == nullptr)) continue;
+      if (n == &root || !(element || (n->ToText() != nullptr && !doctype))) continue;
       problems_.add({fmt::format("{}:{}", file, n->GetLineNum()), element ? fmt::format("<{}>", n->Value()) : "",
                      element ? "" : n->Value(), "stands outside the file's first element",
                      fmt::format("one <{}> a file", root.Name())});
@@ -72,17 +74,25 @@ class Roots {
   std::set<std::string> seen_;
 };
 
-void read_texts(const mjModel& m, MjcfRead& out) {
+/// Whether a text under another name was meant to be a robot: by how that begins, or by the element that it holds.
+bool is_misspelt(std::string_view name, std::string_view data) {
+  std::string begins(name.substr(0, 3));
+  std::transform(begins.begin(), begins.end(), begins.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return begins == "vsa" || data.find(kRobot) != std::string_view::npos || data.find("vsa-robot") != std::string_view::npos;
+}
+
+void read_texts(const mjModel& m, const std::string& file, description::World& out, std::vector<std::string>& warnings) {
   for (int i = 0; i < m.ntext; ++i) {
     const std::string_view name = m.names + m.name_textadr[i];
     const char* data = m.text_data + m.text_adr[i];
-    const bool says = name.size() > kRobot.size() + 1;
     if (!name.starts_with(kRobot) || (name.size() > kRobot.size() && !is_blank(name[kRobot.size()]))) {
-      out.texts.push_back({std::string(name), data});
+      if (is_misspelt(name, data))
+        warnings.push_back(fmt::format("<text name=\"{}\"> is left out, did you mean {}? ({})", name, kRobot, file));
       continue;
     }
-    const std::string model = speakable(std::string(says ? name.substr(kRobot.size() + 1) : std::string_view(out.world.name)));
-    out.world.plugins.push_back({model, std::string(outermost(model)), data});
+    const bool says = name.size() > kRobot.size() + 1;
+    const std::string model = speakable(std::string(says ? name.substr(kRobot.size() + 1) : std::string_view(out.name)));
+    out.plugins.push_back({model, std::string(outermost(model)), data});
   }
 }
 
@@ -194,7 +204,7 @@ MjcfRead read_mjcf(const fs::path& path, std::string_view given, std::vector<std
   out.world.name = speakable(own_name);
   out.world.step_s = model.opt.timestep;
   out.world.gravity = {model.opt.gravity[0], model.opt.gravity[1], model.opt.gravity[2]};
-  read_texts(model, out);
+  read_texts(model, file, out.world, warnings);
   Beside beside;
   const std::optional<std::string> more = path.empty() ? std::nullopt : read_file(beside_of(path));
   std::error_code none;
