@@ -52,6 +52,11 @@ void read_elements(Findings& findings, const std::filesystem::path& file) {
                      "mend the file");
     return;
   }
+  if (const XMLElement* second = document.RootElement()->NextSiblingElement())
+    findings.problem(
+        "world",
+        fmt::format("{}:{}: <{}>: stands outside the file's first element", file.string(), second->GetLineNum(), second->Name()),
+        "one a file");
   // <gazebo> was the root until SDF 1.2.
   if (const std::string_view root = document.RootElement()->Name(); root != "sdf" && root != "gazebo")
     throw InputError(Problem{file.string(), "", fmt::format("<{}>", root), "is no SDF, and vsa-doctor reads nothing else",

@@ -9,6 +9,7 @@
 #include "engine/world_cache.hpp"
 #include "engine/world_impl.hpp"
 #include "vsa/config/find_file.hpp"
+#include "vsa/config/plugin_xml.hpp"
 #include "vsa/scoped_name.hpp"
 
 namespace vsa::engine {
@@ -70,8 +71,13 @@ std::vector<seat::Joint> joints_under(const description::World& world, const voi
 void World::Impl::add_robots(const std::string& file, Problems& problems) {
   if (!options.actuators) return;
   const seat::Options with{options.types, options.actuator, {}, true, false};
+  const bool all_joints = problems.empty();
   for (const description::Plugin& plugin : world->plugins) {
     try {
+      if (!all_joints) {  // of a file with errors some may be missing: no word on those
+        (void)config::parse_plugin(plugin.xml, file + ": " + plugin.model, options.types, options.actuator);
+        continue;
+      }
       std::vector<std::size_t> index;
       const std::vector<seat::Joint> joints = joints_under(*world, this, plugin.model, index);
       RobotSlot slot;
@@ -142,8 +148,8 @@ std::unique_ptr<World::Impl> World::Impl::load(const reader::SdfSource& source, 
   const std::shared_ptr<ReadWorld> file = read_world(source, impl->options, problems);
   impl->world = file->world;
   impl->warnings = file->warnings;
-  impl->dt_ns = step_ns(impl->options, *impl->world, source.label(), problems);
   impl->add_robots(source.label(), problems);
+  impl->dt_ns = step_ns(impl->options, *impl->world, source.label(), problems);
   impl->find_substeps(source.label(), problems);
   problems.throw_if_any();
   const auto compiled = file->compiled(impl->substep_s(), source.label(), problems);

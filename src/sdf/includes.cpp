@@ -49,7 +49,7 @@ std::string printed(const tinyxml2::XMLDocument& xml) {
 
 /// What libsdformat would refuse or lose is changed. True where something was.
 bool mend(tinyxml2::XMLElement& root, const std::string& label, ReadContext& c) {
-  if (is_unexpanded(root, label, c.problems)) return false;
+  if (has_more_than_root(root, label, c.problems) || is_unexpanded(root, label, c.problems)) return false;
   check_plugin_places(root, label, c.problems);
   const std::string_view name = root.Name();
   if (name == "gazebo" && root.Attribute("version") != nullptr) {

@@ -9,6 +9,7 @@
 #include <sdf/JointAxis.hh>
 
 #include "sdf/read_context.hpp"
+#include "sdf/unused.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/scoped_name.hpp"
 
@@ -118,13 +119,17 @@ void read_axis(ReadContext& c, const sdf::Joint& joint, unsigned int index, cons
   out.axes.push_back(a);
 }
 
-/// libsdformat makes an empty <physics> of any <gazebo reference> that names a joint.
-bool says_something(const sdf::ElementPtr& e) {
-  if (!e) return false;
-  if (e->GetValue()) return e->GetExplicitlySetInFile();  // libsdformat adds what it thinks a <limit> needs
-  for (sdf::ElementPtr k = e->GetFirstElement(); k; k = k->GetNextElement())
-    if (says_something(k)) return true;
-  return false;
+/// An axis that the joint hasn't. A direction alone changes nothing in a joint that has none, and exporters write one.
+void tell_of_axes(ReadContext& c, const sdf::Joint& joint, std::size_t count, const std::string& key) {
+  for (std::size_t i = count; i < 2; ++i) {
+    const char* name = i == 0 ? "axis" : "axis2";
+    const sdf::ElementPtr axis = child(joint.Element(), name);
+    if (!axis) continue;
+    const auto says = [&](const char* part) { return child(axis, part) && c.says_something(child(axis, part)); };
+    const bool more = says("dynamics") || says("limit") || child(axis, "vsa:mimic") || child(axis, "vsa:initial_position");
+    if (count > 0 || more)
+      c.notes.add(fmt::format("<{}> of a {} joint is left out", name, *ReadContext::attribute(joint.Element(), "type")), key);
+  }
 }
 
 /// An end of the joint: a link's index, or none for the world. False where the link isn't known.
@@ -168,9 +173,12 @@ void read_joint(ReadContext& c, const sdf::Joint& joint, const ModelScope& scope
   out.pose = scope.pose * c.resolve(joint.SemanticPose(), "__model__", joint.Element(), key);
   const bool ends = find_end(c, joint, false, scope, out.parent) && find_end(c, joint, true, scope, out.child);
   for (unsigned int i = 0; i < axes_of(*kind); ++i) read_axis(c, joint, i, key, out);
+  tell_of_axes(c, joint, axes_of(*kind), key);
+  tell_unused(c, joint.Element(), key, "joint");
   if (joint.SensorCount() > 0 || child(joint.Element(), "vsa:sensor")) c.notes.add("sensors are left out", key);
   for (sdf::ElementPtr p = child(joint.Element(), "physics"); p; p = p->GetNextElement("physics"))
-    if (says_something(p)) c.notes.add("<physics> of joints is left out", key);
+    // libsdformat makes an empty one of any <gazebo reference> that names a joint.
+    if (c.says_something(p)) c.notes.add("<physics> of joints is left out", key);
   if (ends && out.axes.size() == axes_of(*kind)) c.out.joints.push_back(std::move(out));
 }
 

@@ -26,10 +26,7 @@ class Mender {
     for (XMLElement *e = parent.FirstChildElement(), *next = nullptr; e != nullptr; e = next) {
       next = e->NextSiblingElement();
       if (is(*e, "plugin")) continue;
-      if (is(parent, "joint") && lacks_direction(*e)) {
-        refuse_or_drop_axis(parent, *e);
-        continue;
-      }
+      if (is(parent, "joint") && lacks_direction(*e)) refuse_or_turn_axis(parent, *e);
       if (hollow(parent, *e) || (newer_ ? drop(parent, *e) : !plain_colour(*e) && drop_colour(parent, *e))) {
         changed_ = true;
         continue;
@@ -101,16 +98,17 @@ class Mender {
     return zeros == 3;
   }
 
-  /// On a joint that turns about no axis of its own it means nothing.
-  void refuse_or_drop_axis(XMLElement& joint, XMLElement& axis) {
+  /// On a joint that turns about no axis of its own it means nothing, and any direction does; whatever else it holds is told of.
+  void refuse_or_turn_axis(const XMLElement& joint, XMLElement& axis) {
     const char* type = joint.Attribute("type");
+    XMLElement& xyz = *axis.FirstChildElement("xyz");
     if (type == nullptr || (std::string_view(type) != "fixed" && std::string_view(type) != "ball")) {
-      const XMLElement& xyz = *axis.FirstChildElement("xyz");
       problems_.add({line_of(xyz, file_), path_of(xyz), std::string(config::trim(texts_of(xyz))), "has no direction",
                      "a vector other than zero"});
       return;
     }
-    joint.DeleteChild(&axis);
+    xyz.DeleteChildren();  // comments among the numbers, too
+    xyz.SetText("0 0 1");
     changed_ = true;
   }
 
@@ -199,6 +197,20 @@ bool mend_sdf(XMLElement& sdf, const std::string& file, Notes& notes, Problems& 
   mender.children(sdf);
   if (newer) sdf.SetAttribute("version", "1.9");
   return newer || mender.changed();
+}
+
+bool has_more_than_root(const XMLElement& root, const std::string& file, Problems& problems) {
+  bool doctype = false;  // tinyxml2 ends one at its first >: the rest is a text before the root
+  for (const tinyxml2::XMLNode* n = root.GetDocument()->FirstChild(); n != nullptr; n = n->NextSibling()) {
+    doctype = n != &root && (doctype || n->ToUnknown() != nullptr);
+    const bool element = n->ToElement() != nullptr;
+    if (n == &root || !(element || (n->ToText() != nullptr && !doctype))) continue;
+    problems.add({line_of(*n, file), element ? fmt::format("<{}>", n->Value()) : "",
+                  element ? "" : std::string(config::trim(n->Value())), "stands outside the file's first element",
+                  fmt::format("one <{}> a file", root.Name())});
+    return true;
+  }
+  return false;
 }
 
 bool is_unexpanded(const XMLElement& root, const std::string& file, Problems& problems) {

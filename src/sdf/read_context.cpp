@@ -1,9 +1,28 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 #include "sdf/read_context.hpp"
 
+#include <algorithm>
 #include <sdf/Types.hh>
+#include <sstream>
+
+#include "vsa/config/text.hpp"
 
 namespace vsa::reader {
+namespace {
+
+/// "0.0" for "0", too.
+bool same_value(const std::string& a, const std::string& b) {
+  std::istringstream in_a(a), in_b(b);
+  for (std::string x, y;;) {
+    const bool more = static_cast<bool>(in_a >> x);
+    if (more != static_cast<bool>(in_b >> y)) return false;
+    if (!more) return true;
+    const auto value = config::parse_number(x);
+    if (value ? value != config::parse_number(y) : x != y) return false;
+  }
+}
+
+}  // namespace
 
 sdf::ElementPtr child(const sdf::ElementPtr& element, const std::string& name) {
   return element && element->HasElement(name) ? element->GetElement(name) : nullptr;
@@ -14,6 +33,19 @@ sdf::ElementPtr ReadContext::child(const sdf::ElementPtr& element, const std::st
 std::optional<std::string> ReadContext::attribute(const sdf::ElementPtr& element, const std::string& name) {
   const auto found = element->GetAttribute(name);
   return found ? std::optional(found->GetAsString()) : std::nullopt;
+}
+
+std::vector<sdf::ElementPtr> ReadContext::children(const sdf::ElementPtr& element) {
+  std::vector<sdf::ElementPtr> out;
+  for (sdf::ElementPtr e = element->GetFirstElement(); e; e = e->GetNextElement()) out.push_back(e);
+  return out;
+}
+
+bool ReadContext::says_something(const sdf::ElementPtr& element) {
+  if (const sdf::ParamPtr value = element->GetValue())  // libsdformat adds what it thinks a <limit> needs
+    return element->GetExplicitlySetInFile() && !same_value(value->GetAsString(), value->GetDefaultAsString());
+  const std::vector<sdf::ElementPtr> all = children(element);
+  return std::any_of(all.begin(), all.end(), says_something);
 }
 
 std::string ReadContext::file_of(const sdf::ElementPtr& element) const {

@@ -10,6 +10,7 @@
 #include <sdf/SemanticPose.hh>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "sdf/input_files.hpp"
 #include "sdf/reading.hpp"
@@ -51,6 +52,10 @@ struct ReadContext : Reading {
   [[nodiscard]] static sdf::ElementPtr child(const sdf::ElementPtr& element, const std::string& name);
   [[nodiscard]] static std::optional<std::string> attribute(const sdf::ElementPtr& element, const std::string& name);
   [[nodiscard]] static bool has_children(const sdf::ElementPtr& element) { return element->GetFirstElement() != nullptr; }
+  [[nodiscard]] static std::vector<sdf::ElementPtr> children(const sdf::ElementPtr& element);
+  [[nodiscard]] static std::string name(const sdf::ElementPtr& element) { return element->GetName(); }
+  /// In the file, and not what SDF has for it anyway.
+  [[nodiscard]] static bool says_something(const sdf::ElementPtr& element);
   [[nodiscard]] static bool flag(const sdf::ElementPtr& element) { return element->Get<bool>(); }
   [[nodiscard]] static std::uint32_t whole(const sdf::ElementPtr& element) { return element->Get<unsigned int>(); }
   [[nodiscard]] static std::string text(const sdf::ElementPtr& element) { return element->Get<std::string>(); }

@@ -2,7 +2,8 @@
 //
 // SDF's texts, compared with libsdformat's own description of every element. libsdformat tells what it doesn't know, but
 //   takes the first of what counts once, and no word of the second;
-//   reads a number up to what is none: "-1 rad", "0.3kg", a fourth number of a vector;
+//   reads a number up to what is none: "-1 rad", "0.3kg", a fourth number of a vector, a whole one's "1e3" as 1;
+//   takes of a whole number its last 32 bits: 4294967296 for 0;
 //   reads a <world> and passes over the <model> beside it.
 // What is left out whole, or for renderers only, may hold what it likes.
 #include <fmt/format.h>
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -27,24 +30,33 @@ constexpr std::array<std::string_view, 15> kNotRead{
     "plugin",    "sensor",           "light",   "gui",  "scene",     "material", "actor", "audio_sink", "battery", "audio_source",
     "projector", "particle_emitter", "gripper", "road", "population"};
 
+/// Least and most that a whole number may be.
+using Whole = std::optional<std::array<double, 2>>;
+constexpr Whole kInt{{-2147483648.0, 2147483647.0}}, kUnsigned{{0.0, 4294967295.0}}, kNotWhole{};
+
 /// What the text of a type is: how many numbers, and of what kind.
 struct NumberType {
   std::string_view name;
   std::size_t count;  // 0: libsdformat counts them itself
-  bool whole;
+  Whole whole;
   const char* is_not;
+
+  [[nodiscard]] std::string allowed() const {
+    if (count != 1) return "numbers with blanks between, and nothing else";
+    return whole ? config::range_text((*whole)[0], (*whole)[1]) : "a number and nothing else, in SI units";
+  }
 };
 
-constexpr std::array<NumberType, 10> kNumberTypes{{{"double", 1, false, "isn't a number"},
-                                                   {"float", 1, false, "isn't a number"},
-                                                   {"int", 1, true, "isn't a whole number"},
-                                                   {"unsigned int", 1, true, "isn't a whole number"},
-                                                   {"vector2d", 2, false, "isn't two numbers"},
-                                                   {"vector2i", 2, true, "isn't two whole numbers"},
-                                                   {"vector3", 3, false, "isn't three numbers"},
-                                                   {"quaternion", 4, false, "isn't four numbers"},
-                                                   {"pose", 0, false, "isn't of numbers"},
-                                                   {"color", 0, false, "isn't of numbers"}}};
+constexpr std::array<NumberType, 10> kNumberTypes{{{"double", 1, kNotWhole, "isn't a number"},
+                                                   {"float", 1, kNotWhole, "isn't a number"},
+                                                   {"int", 1, kInt, "isn't a whole number in range"},
+                                                   {"unsigned int", 1, kUnsigned, "isn't a whole number in range"},
+                                                   {"vector2d", 2, kNotWhole, "isn't two numbers"},
+                                                   {"vector2i", 2, kInt, "isn't two whole numbers in range"},
+                                                   {"vector3", 3, kNotWhole, "isn't three numbers"},
+                                                   {"quaternion", 4, kNotWhole, "isn't four numbers"},
+                                                   {"pose", 0, kNotWhole, "isn't of numbers"},
+                                                   {"color", 0, kNotWhole, "isn't of numbers"}}};
 
 bool is_hexadecimal(std::string_view text) {
   if (text.substr(0, 1) == "-" || text.substr(0, 1) == "+") text.remove_prefix(1);
@@ -60,11 +72,12 @@ bool is_not_finite(std::string text) {
   return text == "inf" || text == "infinity" || text == "nan";
 }
 
-bool is_number(const std::string& text, bool whole) {
-  if (is_hexadecimal(text)) return true;
-  if (!whole && is_not_finite(text)) return true;
-  const auto value = config::parse_number(text);
-  return value && (!whole || *value == std::trunc(*value));
+bool is_number(const std::string& text, const Whole& whole) {
+  const bool hexadecimal = is_hexadecimal(text);
+  if (!whole) return hexadecimal || is_not_finite(text) || config::parse_number(text);
+  if (!hexadecimal && text.find_first_of("eE") != std::string::npos) return false;
+  const std::optional<double> value = hexadecimal ? std::strtod(text.c_str(), nullptr) : config::parse_number(text);
+  return value && *value == std::trunc(*value) && *value >= (*whole)[0] && *value <= (*whole)[1];
 }
 
 bool fits(const std::string& text, const NumberType& type) {
@@ -128,9 +141,7 @@ class SdfCheck {
     const auto* const numbers =
         std::find_if(kNumberTypes.begin(), kNumberTypes.end(), [&](const NumberType& t) { return t.name == type; });
     if (numbers != kNumberTypes.end() && !fits(text, *numbers))
-      c_.problems.add(
-          {line_of(e, file_), path_of(e), text, numbers->is_not,
-           numbers->count == 1 ? "a number and nothing else, in SI units" : "numbers with blanks between, and nothing else"});
+      c_.problems.add({line_of(e, file_), path_of(e), text, numbers->is_not, numbers->allowed()});
   }
 
   ReadContext& c_;

@@ -10,6 +10,7 @@
 // The context C is a Reading that knows its elements: C::Element, null where there is none, and
 //   child(e, name)   attribute(e, name)   has_children(e)   number(e, name, fallback, min, max, key)
 //   flag(e)   text(e)   vector(e)   problem(e, key, value, message, allowed)   cannot(e, key, value, what, allowed)
+// and what unused.hpp asks of it.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include <numbers>
 
 #include "sdf/reading.hpp"
+#include "sdf/unused.hpp"
 
 namespace vsa::reader {
 
@@ -53,6 +55,7 @@ class SurfaceRules {
       c_.problem(contact, key + "/surface/contact/category_bitmask", "", "isn't supported", "collide_bitmask");
     }
     if (c_.child(surface, "soft_contact")) c_.notes.add("soft contacts are left out", key);
+    tell_unused(c_, collision, key, "collision");
     return out;
   }
 

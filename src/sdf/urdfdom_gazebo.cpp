@@ -3,7 +3,7 @@
 // <gazebo> of a URDF without libsdformat, which copies into its SDF what it doesn't know: of SDF's elements those below are honoured
 // or told of, and any other is refused. By what a <gazebo> belongs to:
 //   LINK    turnGravityOff, gravity, selfCollide, self_collide, kinematic, velocity_decay; collision, with a <surface>; mu1, mu2, fdir1,
-//           kp, kd, maxVel, minDepth, which go into that of each of the link's collisions
+//           kp, kd, maxVel, minDepth, maxContacts, laserRetro, which go into each of the link's collisions
 //   JOINT   springReference, springStiffness
 //   none    static, plugin, pose, self_collide
 #include <fmt/format.h>
@@ -97,13 +97,18 @@ void set(UrdfReading& r, XMLElement& e, const char* name, const std::string& val
 struct Setting {
   const char *urdf, *group, *sdf;
 };
-constexpr std::array<Setting, 7> kSettings{{{"mu1", "friction", "mu"},
+/// Without a group: of the collision itself.
+constexpr std::array<Setting, 9> kSettings{{{"mu1", "friction", "mu"},
                                             {"mu2", "friction", "mu2"},
                                             {"fdir1", "friction", "fdir1"},
                                             {"kp", "contact", "kp"},
                                             {"kd", "contact", "kd"},
                                             {"maxVel", "contact", "max_vel"},
-                                            {"minDepth", "contact", "min_depth"}}};
+                                            {"minDepth", "contact", "min_depth"},
+                                            {"maxContacts", nullptr, "max_contacts"},
+                                            {"laserRetro", nullptr, "laser_retro"}}};
+/// Of a <collision>: those of SDF's that are taken.
+constexpr Names kOfCollisions = "surface max_contacts laser_retro";
 
 /// Of several in one <gazebo> the last.
 const XMLElement* last_of(const XMLElement& gazebo, const char* name) { return gazebo.LastChildElement(name); }
@@ -138,14 +143,15 @@ std::unique_ptr<tinyxml2::XMLDocument> gazebo_collision(UrdfReading& r, const st
   for (const XMLElement* gazebo : extensions_of(r, link)) {
     for (const XMLElement* c = gazebo->FirstChildElement("collision"); c != nullptr; c = c->NextSiblingElement("collision")) {
       for (const XMLElement* e = c->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
-        if (!is(*e, "surface")) continue;  // gazebo_link judges the others
-        if (XMLElement* before = collision.FirstChildElement("surface")) collision.DeleteChild(before);
+        if (!has(kOfCollisions, e->Name())) continue;  // gazebo_link judges the others
+        if (XMLElement* before = collision.FirstChildElement(e->Name())) collision.DeleteChild(before);
         copy_into(collision, *e);
       }
     }
     for (const Setting& s : kSettings)
       if (const XMLElement* e = last_of(*gazebo, s.urdf))
-        set(r, child_of(child_of(child_of(collision, "surface"), s.group), "ode"), s.sdf, UrdfReading::text(e), link);
+        set(r, s.group == nullptr ? collision : child_of(child_of(child_of(collision, "surface"), s.group), "ode"), s.sdf,
+            UrdfReading::text(e), link);
   }
   return out;
 }
@@ -172,8 +178,8 @@ std::unique_ptr<tinyxml2::XMLDocument> gazebo_link(UrdfReading& r, const UrdfLum
           r.notes.add("what a <gazebo> says of a link's looks is left out", place_of(*e, r.file));
         } else if (what == "collision") {
           for (const XMLElement* k = e->FirstChildElement(); k != nullptr; k = k->NextSiblingElement()) {
-            if (of_others(k->Name()) || is(*k, "max_contacts") || is(*k, "laser_retro")) continue;
-            is(*k, "surface") ? check_surface(r, *k, "surface") : refuse(r, *k, {"surface", "max_contacts", "laser_retro"});
+            if (of_others(k->Name())) continue;
+            has(kOfCollisions, k->Name()) ? check_surface(r, *k, k->Name()) : refuse(r, *k, config::split(kOfCollisions, ' '));
           }
         } else if (!has(kOfUrdfLinks, what) && !of_others(what)) {
           refuse(r, *e, config::split(std::string(kOfUrdfLinks) + " " + std::string(kOfSdfLinks), ' '));

@@ -104,7 +104,7 @@ description::World read_urdf_plainly(const SdfSource& source, const ReadOptions&
   tinyxml2::XMLDocument xml;
   XMLElement* robot = robot_of(xml, source, problems);
   const std::string file = source.label();
-  if (robot == nullptr || is_unexpanded(*robot, file, problems)) return out;
+  if (robot == nullptr || has_more_than_root(*robot, file, problems) || is_unexpanded(*robot, file, problems)) return out;
   Notes notes;
   const fs::path base = source.path.empty() ? fs::current_path() : fs::absolute(source.path).parent_path();
   UrdfReading r{{out, problems, notes, finder, seen, file, base, options.engine, options.concave, options.impossible_inertia}};

@@ -25,6 +25,12 @@ std::optional<std::string> UrdfReading::attribute(Element element, const char* n
   return found == nullptr ? std::nullopt : std::optional<std::string>(found);
 }
 
+std::vector<UrdfReading::Element> UrdfReading::children(Element element) {
+  std::vector<Element> out;
+  for (Element e = element->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) out.push_back(e);
+  return out;
+}
+
 std::string UrdfReading::text(Element element) {
   const char* value = element == nullptr ? nullptr : element->Attribute("value");
   if (element != nullptr && value == nullptr) value = element->GetText();
@@ -56,7 +62,7 @@ std::uint32_t UrdfReading::whole(Element element) {
   const auto value = config::parse_integer(word);
   constexpr std::int64_t kMost = 0xFFFFFFFF;
   if (value && *value >= 0 && *value <= kMost) return static_cast<std::uint32_t>(*value);
-  problem(element, std::string("gazebo/") + element->Name(), word, "isn't a whole number", "0 … 4294967295");
+  problem(element, std::string("gazebo/") + element->Name(), word, "isn't a whole number in range", "0 … 4294967295");
   return 0;
 }
 

@@ -34,6 +34,9 @@ struct UrdfReading : Reading {
   [[nodiscard]] static Element child(Element element, const char* name);
   [[nodiscard]] static std::optional<std::string> attribute(Element element, const char* name);
   [[nodiscard]] static bool has_children(Element element) { return element->FirstChildElement() != nullptr; }
+  [[nodiscard]] static std::vector<Element> children(Element element);
+  [[nodiscard]] static std::string name(Element element) { return element->Name(); }
+  [[nodiscard]] static bool says_something(Element element) { return has_children(element) || !text(element).empty(); }
   /// true, yes, 1.
   [[nodiscard]] static bool flag(Element element);
   [[nodiscard]] std::uint32_t whole(Element element);

@@ -80,6 +80,9 @@ TEST(RunFiles, ConcaveMeshesRunAsAsked) {
 TEST(RunFiles, WhatARefusedFileHasIsToldByTheDoctorToo) {
   const auto refused = run_vsa({"doctor", (kFiles / "dummy_leaf.urdf").string()});
   EXPECT_NE((refused.out + refused.err).find("link[tip]: is moved by a joint"), std::string::npos) << refused.out << refused.err;
+  const auto two = run_vsa({"doctor", (kFiles / "two_robots.urdf").string()});
+  EXPECT_NE((two.out + two.err).find("stands outside the file's first element"), std::string::npos) << two.out << two.err;
+  EXPECT_EQ(run_vsa({"run", (kFiles / "two_robots.urdf").string(), "--duration-s", "0.01"}).exit_code, 2);
   const auto named = run_vsa({"doctor", (kFiles / "plugin_name.sdf").string()});
   EXPECT_NE((named.out + named.err).find("did you mean vsa::Robot?"), std::string::npos) << named.out << named.err;
 }

@@ -3,7 +3,9 @@
 // Robots that come as MJCF, from elsewhere: no SDF is needed for them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "../record/scratch.hpp"
 #include "vsa/engine/world.hpp"
@@ -158,6 +160,72 @@ TEST(OwnMjcf, IsNoUrdfWithAnotherEnding) {
   }
 }
 
+TEST(OwnMjcf, WithSomethingBehindItsFirstElementIsRefused) {
+  const std::string second = "<!-- a comment is nothing -->\n<mujoco model=\"lost\"/>\n";
+  const std::string told = message_of<InputError>([&] { (void)World::load_string(arm() + second); });
+  EXPECT_NE(told.find("<mujoco>: stands outside the file's first element (allowed: one <mujoco> a file)"), std::string::npos)
+      << told;
+  const std::string words = message_of<InputError>([&] { (void)World::load_string(arm() + "lost words <!-- -->"); });
+  EXPECT_NE(words.find("lost words : stands outside the file's first element"), std::string::npos) << words;
+  EXPECT_NO_THROW((void)World::load_string("<?xml version=\"1.0\"?><?vim sw=2?><!DOCTYPE mujoco [<!ENTITY a 'b'>]><!-- before -->" +
+                                           arm() + "<!-- behind -->"));
+  const Scratch scratch;
+  fs::create_directory(scratch.path() / "parts");
+  record::spew(scratch.path() / "arm.xml", with(arm(), "<worldbody>", "<include file=\"parts/a.xml\"/><worldbody>"));
+  record::spew(scratch.path() / "parts/a.xml", "<mujocoinclude><include file=\"parts/b.xml\"/></mujocoinclude>");
+  record::spew(scratch.path() / "parts/b.xml", "<mujocoinclude/>\n<mujocoinclude/>");
+  const std::string included = message_of<InputError>([&] { (void)World::load(scratch.path() / "arm.xml"); });
+  EXPECT_NE(included.find("parts/b.xml:2: <mujocoinclude>: stands outside"), std::string::npos) << included;
+}
+
+TEST(OwnMjcf, HasNoNumberThatIsntFinite) {
+  const auto told = [](const std::string& from, const std::string& to) {
+    return message_of<InputError>([&] { (void)World::load_string(with(arm(), from, to)); });
+  };
+  const std::string motor = "</worldbody><actuator><motor joint=\"shoulder\" gear=\"nan\"/></actuator>";
+  for (const auto& [from, to, key] : std::vector<std::array<std::string, 3>>{
+           {"timestep", "gravity=\"0 0 nan\" timestep", "option@gravity = nan"},
+           {"timestep", "density=\"inf\" timestep", "option@density = inf"},
+           {"<worldbody>", "<statistic meaninertia=\"inf\"/><worldbody>", "statistic@meaninertia = inf"},
+           {"pos=\"0 0 0.1\"", "pos=\"0 nan 0.1\"", "body[upper]/pos = nan"},
+           {"mass=\"0.3\"", "mass=\"inf\"", "body[upper]/mass = inf"},
+           {"damping=\"0.01\"", "damping=\"inf\"", "joint[shoulder]/damping = inf"},
+           {"damping=\"0.01\"", "ref=\"nan\"", "joint[shoulder]/ref = nan"},
+           {"damping=\"0.01\"", "springref=\"nan\"", "joint[shoulder]/springref = nan"},
+           {"range=\"-2 2\"", "range=\"-2 nan\"", "joint[shoulder]/range = nan"},
+           {"size=\"0.02 0.1\"", "size=\"0.02 0.1\" friction=\"-inf 1 1\"", "geom[number 2]/friction = -inf"},
+           {"</worldbody>", motor, "actuator[number 0]/gear = nan"}})
+    EXPECT_NE(told(from, to).find(key + ": isn't finite (allowed: finite numbers)"), std::string::npos)
+        << key << ": " << told(from, to);
+  EXPECT_NE(told("0.001", "nan").find("option@timestep = nan"), std::string::npos);
+  EXPECT_NO_THROW((void)World::load_string(with(arm(), "range=\"-2 2\"", "range=\"-2 inf\""))) << "open on one side";
+}
+
+TEST(OwnMjcf, AsksAboutATextWithNearlyTheRightName) {
+  const auto asks = [](const std::string& name) {
+    const World world = World::load_string(with(arm(), "\"vsa::Robot\"", '"' + name + '"'));
+    EXPECT_TRUE(world.actuators().empty()) << name;
+    const std::string said = "<text name=\"" + name + "\"> is left out, did you mean vsa::Robot?";
+    return !world.warnings().empty() && world.warnings().front().find(said) != std::string::npos;
+  };
+  for (const char* name : {"vsa::robot", "vsa_Robot", "vsa::Robot2", "anything, as its data say whose it is"})
+    EXPECT_TRUE(asks(name)) << name;
+  const World other = World::load_string(with(arm(), "<custom>", "<custom><text name=\"author\" data=\"somebody\"/>"));
+  for (const std::string& text : other.warnings()) EXPECT_EQ(text.find("did you mean"), std::string::npos) << text;
+}
+
+/// What isn't read for another error isn't missing.
+TEST(OwnMjcf, ThatIsRefusedIsntToldToLackItsJoints) {
+  const std::string state = "</worldbody><actuator><general joint=\"shoulder\" dyntype=\"filter\"/></actuator>";
+  std::string told = message_of<InputError>([&] { (void)World::load_string(with(arm(), "</worldbody>", state)); });
+  EXPECT_NE(told.find("states of their own"), std::string::npos) << told;
+  EXPECT_EQ(told.find("no such joint"), std::string::npos) << told;
+  told = message_of<InputError>(
+      [&] { (void)World::load_string(with(with(arm(), "</worldbody>", state), "&lt;type&gt;qbmove", "&lt;type&gt;qbmvoe")); });
+  EXPECT_NE(told.find("states of their own"), std::string::npos) << told;
+  EXPECT_NE(told.find("unknown actuator type"), std::string::npos) << "what is wrong in the element itself comes with it: " << told;
+}
+
 TEST(OwnMjcf, WhoseNameTopicsCantCarryHasAnother) {
   const World world = World::load_string(with(arm(), "model=\"arm\"", "model=\"my arm@home\""));
   EXPECT_EQ(world.name(), "my_arm_home");
@@ -195,6 +263,7 @@ TEST(OwnMjcf, GetsRoomForContactsWhateverItsRows) {
   EXPECT_GE(world.contact_count(), 4);
 }
 
+/// It takes such a place for none that is given.
 TEST(OwnMjcf, TellsWhatMujocoWarnsOf) {
   const World world = World::load_string(with(arm(), "pos=\"0 0 0.1\"", "pos=\"nan 0 0.1\""));
   EXPECT_NE(world.warnings().front().find("NaN"), std::string::npos) << world.warnings().front();
@@ -285,6 +354,9 @@ INSTANTIATE_TEST_SUITE_P(
               "friction@geom = floor: has several"},
         Wrong{"slippery", "<vsa><friction geom=\"stand\" mu=\"1\" mu2=\"2\" along=\"1 0 0\"/></vsa>", "has condim 1 in the MJCF"},
         Wrong{"weightless", "<vsa><link name=\"base\" static=\"true\" gravity=\"false\"/></vsa>", "is static and has no weight"},
+        Wrong{"second", "<vsa/><vsa><link name=\"base\"/></vsa>",
+              "vsa: stands outside the file's first element (allowed: one <vsa>)"},
+        Wrong{"mass", "<vsa><link name=\"base\" mass_kg=\"nan\"/></vsa>", "link@mass_kg = nan"},
         Wrong{"robot", "<vsa><robot model=\"arm\"/></vsa>", "<plugin>"}),
     [](const auto& of) { return std::string(of.param.name); });
 

@@ -94,7 +94,12 @@ TEST(BadInput, AValueThatIsMoreThanItsNumbersIsRefusedWithWhatItIs) {
            "</contact></surface></collision>";
   };
   EXPECT_TRUE(has(with(z, shape("<collide_bitmask>3.5</collide_bitmask>")), "collide_bitmask = 3.5: isn't a whole number"));
-  EXPECT_EQ(with(z, shape("<collide_bitmask>0xffff</collide_bitmask>")), "");
+  for (const char* mask : {"4294967296", "0x100000000", "-1", "1e3"})
+    EXPECT_TRUE(has(with(z, shape("<collide_bitmask>" + std::string(mask) + "</collide_bitmask>")),
+                    std::string("collide_bitmask = ") + mask + ": isn't a whole number in range (allowed: 0 … 4294967295)"))
+        << mask;
+  for (const char* mask : {"0xffff", "0xffffffff", "4294967295", "+3", "3.0"})
+    EXPECT_EQ(with(z, shape("<collide_bitmask>" + std::string(mask) + "</collide_bitmask>")), "") << mask;
   EXPECT_EQ(with(z, "<sensor name='s' type='imu'><update_rate>5 Hz</update_rate></sensor>"), "") << "it is left out whole";
 }
 

@@ -71,6 +71,9 @@ std::vector<RobotFile> refused_files() {
        "gazebo_root.sdf:2: gazebo@version = 1.0: is the way that SDF before 1.3 begins (allowed: <sdf version=\"1.2\"> and "
        "</sdf> in its place"},
       {"include_missing_merged.sdf", "Unable to find uri[no_such_folder] (allowed: a file in: "},
+      {"two_sdfs.sdf", "two_sdfs.sdf:7: <sdf>: stands outside the file's first element (allowed: one <sdf> a file)"},
+      {"include_two_sdfs.sdf", "parts/two_sdfs.sdf:8: <sdf>: stands outside the file's first element (allowed: one <sdf> a file)"},
+      {"two_robots.urdf", "two_robots.urdf:5: <robot>: stands outside the file's first element (allowed: one <robot> a file)"},
       {"package.urdf", "package://robot_parts/box.stl: file not found"},
   };
 }

@@ -118,6 +118,8 @@ TEST(PlainUrdf, FrictionBelongsToTheLinkThatTheFileNames) {
   EXPECT_EQ(mu(read("gazebo_surface_and_mu")), (std::vector<double>{0.2, 0.2}));
 }
 
+TEST(PlainUrdf, ADoctypeIsNoTextOutsideTheRobot) { EXPECT_EQ(read("doctype").problems, ""); }
+
 TEST(PlainUrdf, AnSdfSaysWhatWouldBringItsReader) {
   const std::string told = problems_of("<sdf version='1.9'><world name='w'/></sdf>");
   EXPECT_TRUE(has(told, sdf_feature().missing())) << told;
@@ -131,6 +133,9 @@ TEST(PlainUrdf, BadInputIsAnErrorThatNamesFileKeyValueAndWhatIsAllowed) {
            {"robot_origin_broken", {"origin@xyz = 1 2", "x y z"}},
            {"cycle_apart", {"link[x]: hangs on no joints", "a tree"}},
            {"two_parents", {"link[b] = j2, j3: is the child of several joints"}},
+           {"two_robots", {"SDF text:9: <robot>", "stands outside the file's first element", "one <robot> a file"}},
+           {"words_before", {"SDF text:1: lost words: stands outside"}},
+           {"words_behind", {"SDF text:9: lost words: stands outside"}},
            {"link_as_joint", {"joint@name = j1: is a link's name"}},
            {"gazebo_unknown", {"gazebo/selfcollide = true", "did you mean selfCollide?"}},
            {"gazebo_self_collide_word", {"gazebo[a]/selfCollide = maybe", "true, yes, 1"}},

@@ -68,6 +68,11 @@ void add_gazebos(Robots& out) {
             "friction></surface></collision>"},
            {"bounce",
             "<collision><surface><bounce><restitution_coefficient>0.5</restitution_coefficient></bounce></surface></collision>"},
+           {"unused", "<maxContacts>1</maxContacts><laserRetro>2</laserRetro>"},
+           {"collision_unused", "<collision><max_contacts>1</max_contacts><laser_retro>2</laser_retro></collision>"},
+           {"surface_unused",
+            "<collision><surface><bounce><threshold>0.1</threshold></bounce><contact><poissons_ratio>0.1</"
+            "poissons_ratio></contact></surface></collision>"},
            {"surface_typo", "<collision><surface><frictoin/></surface></collision>"},
            {"collision_typo", "<collision><frictoin/></collision>"},
            {"light", "<light name='l' type='point'/>"},

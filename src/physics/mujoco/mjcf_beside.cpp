@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <span>
+#include <type_traits>
 
 #include "physics/mujoco/mjcf.hpp"
 #include "physics/mujoco/mjcf_file.hpp"
@@ -46,7 +47,7 @@ const char* name_in(const std::array<std::pair<Value, const char*>, N>& table, V
   return "";
 }
 
-/// Numbers between blanks; false where something else is among them.
+/// Finite numbers between blanks; false where something else is among them.
 template <class Number>
 bool numbers(std::string_view text, std::vector<Number>& out) {
   const char *at = text.data(), *const end = at + text.size();
@@ -57,6 +58,8 @@ bool numbers(std::string_view text, std::vector<Number>& out) {
     Number value{};
     const auto [after, error] = std::from_chars(at, end, value);
     if (error != std::errc() || (after != end && kBlank.find(*after) == std::string_view::npos)) return false;
+    if constexpr (std::is_floating_point_v<Number>)
+      if (!std::isfinite(value)) return false;
     out.push_back(value);
     at = after;
   }
@@ -77,6 +80,9 @@ class Reader {
       problem("", root == nullptr ? "" : root->Name(), "isn't the element that is looked for", "<vsa>");
       return {};
     }
+    for (const tinyxml2::XMLNode* n = root->NextSibling(); n != nullptr; n = n->NextSibling())
+      if (n->ToElement() != nullptr || n->ToText() != nullptr)
+        problem("", n->Value(), "stands outside the file's first element", "one <vsa>");
     for (const XMLElement* e = root->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) part(*e);
     return std::move(out_);
   }

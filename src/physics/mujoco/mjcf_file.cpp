@@ -2,10 +2,12 @@
 #include "physics/mujoco/mjcf_file.hpp"
 
 #include <fmt/format.h>
+#include <tinyxml2.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <set>
 
 #include "physics/mujoco/mjcf.hpp"
 #include "physics/mujoco/versions.hpp"
@@ -18,6 +20,7 @@ namespace vsa::physics {
 namespace {
 
 namespace fs = std::filesystem;
+using tinyxml2::XMLElement;
 
 constexpr std::string_view kRobot = "vsa::Robot";       // of a <text>: this, or this, a blank and the model
 constexpr std::string_view kNameless = "MuJoCo Model";  // what MuJoCo calls a file's model that has no name
@@ -32,27 +35,64 @@ std::string name_of(const mjModel& m, const fs::path& path) {
   return path.empty() ? "model" : path.stem().string();
 }
 
-/// The first element's name, behind declarations and comments; empty: there is none.
-std::string_view root_of(std::string_view text) {
-  for (std::size_t at = 0; (at = text.find('<', at)) != std::string_view::npos;) {
-    const std::string_view rest = text.substr(at + 1);
-    if (rest.empty() || (rest[0] != '?' && rest[0] != '!'))
-      return rest.substr(0, std::min(rest.find_first_of(" \t\r\n/>"), rest.size()));
-    const std::string_view end = rest.substr(0, 3) == "!--" ? "-->" : ">";
-    const std::size_t last = rest.find(end);
-    if (last == std::string_view::npos) return {};
-    at += 1 + last + end.size();
+/// MuJoCo reads the first element of a file, and of those that it includes: another one or text beside it is a problem. What can't be read here,
+/// MuJoCo tells of.
+class Roots {
+ public:
+  Roots(fs::path folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
+
+  void check(const XMLElement& root, const std::string& file) {
+    bool doctype = false;  // tinyxml2 ends one at its first >: the rest is a text before the root
+    for (const tinyxml2::XMLNode* n = root.GetDocument()->FirstChild(); n != nullptr; n = n->NextSibling()) {
+      doctype = n != &root && (doctype || n->ToUnknown() != nullptr);
+      const bool element = n->ToElement() != nullptr;
+      if (n == &root || !(element || (n->ToText() != nullptr && !doctype))) continue;
+      problems_.add({fmt::format("{}:{}", file, n->GetLineNum()), element ? fmt::format("<{}>", n->Value()) : "",
+                     element ? "" : n->Value(), "stands outside the file's first element",
+                     fmt::format("one <{}> a file", root.Name())});
+    }
+    includes(root);
   }
-  return {};
+
+ private:
+  void includes(const XMLElement& parent) {
+    for (const XMLElement* e = parent.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+      const char* name = std::string_view(e->Name()) == "include" ? e->Attribute("file") : nullptr;
+      const std::string path = name == nullptr ? std::string() : (folder_ / name).string();
+      tinyxml2::XMLDocument part;
+      if (name == nullptr) {
+        includes(*e);
+      } else if (seen_.insert(path).second && part.LoadFile(path.c_str()) == tinyxml2::XML_SUCCESS &&
+                 part.RootElement() != nullptr) {
+        check(*part.RootElement(), path);
+      }
+    }
+  }
+
+  fs::path folder_;  // of the file that includes the others, from which their names count
+  Problems& problems_;
+  std::set<std::string> seen_;
+};
+
+/// Whether a text under another name was meant to be a robot: by how that begins, or by the element that it holds.
+bool is_misspelt(std::string_view name, std::string_view data) {
+  std::string begins(name.substr(0, 3));
+  std::transform(begins.begin(), begins.end(), begins.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return begins == "vsa" || data.find(kRobot) != std::string_view::npos || data.find("vsa-robot") != std::string_view::npos;
 }
 
-void read_texts(const mjModel& m, description::World& out) {
+void read_texts(const mjModel& m, const std::string& file, description::World& out, std::vector<std::string>& warnings) {
   for (int i = 0; i < m.ntext; ++i) {
     const std::string_view name = m.names + m.name_textadr[i];
-    if (name.substr(0, kRobot.size()) != kRobot) continue;
+    const char* data = m.text_data + m.text_adr[i];
+    if (!name.starts_with(kRobot) || (name.size() > kRobot.size() && !is_blank(name[kRobot.size()]))) {
+      if (is_misspelt(name, data))
+        warnings.push_back(fmt::format("<text name=\"{}\"> is left out, did you mean {}? ({})", name, kRobot, file));
+      continue;
+    }
     const bool says = name.size() > kRobot.size() + 1;
     const std::string model = speakable(std::string(says ? name.substr(kRobot.size() + 1) : std::string_view(out.name)));
-    out.plugins.push_back({model, std::string(outermost(model)), m.text_data + m.text_adr[i]});
+    out.plugins.push_back({model, std::string(outermost(model)), data});
   }
 }
 
@@ -136,10 +176,16 @@ MjcfRead read_mjcf(const fs::path& path, std::string_view given, std::vector<std
     }
     text = *bytes;
   }
-  if (const std::string_view root = root_of(text); root == "robot" || root == "sdf") {  // MuJoCo would take a part of a URDF
-    const std::string ending = root == "sdf" ? ".sdf" : ".urdf";
-    problems.add({file, std::string(root), "", "isn't MJCF", "<mujoco>, or the file's name with " + ending});
-    return out;
+  tinyxml2::XMLDocument xml;
+  if (xml.Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS && xml.RootElement() != nullptr) {
+    if (const std::string root = xml.RootElement()->Name();
+        root == "robot" || root == "sdf") {  // MuJoCo would take a part of a URDF
+      const std::string ending = root == "sdf" ? ".sdf" : ".urdf";
+      problems.add({file, root, "", "isn't MJCF", "<mujoco>, or the file's name with " + ending});
+      return out;
+    }
+    Roots(path.parent_path(), problems).check(*xml.RootElement(), file);
+    if (!problems.empty()) return out;
   }
   out.names_others = gives_attribute(text, "file");
   auto native = std::make_shared<MjcfFile>();
@@ -152,12 +198,13 @@ MjcfRead read_mjcf(const fs::path& path, std::string_view given, std::vector<std
   }
   const mjModel& model = *native->model;
   for (const std::string& text_of_mujoco : told) warnings.push_back("MuJoCo says: " + text_of_mujoco + " (" + file + ")");
+  check_finite(model, file, problems);
   look_for_limits(model, file, warnings, problems);
   const std::string own_name = name_of(model, path);
   out.world.name = speakable(own_name);
   out.world.step_s = model.opt.timestep;
   out.world.gravity = {model.opt.gravity[0], model.opt.gravity[1], model.opt.gravity[2]};
-  read_texts(model, out.world);
+  read_texts(model, file, out.world, warnings);
   Beside beside;
   const std::optional<std::string> more = path.empty() ? std::nullopt : read_file(beside_of(path));
   std::error_code none;

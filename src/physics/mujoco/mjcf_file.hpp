@@ -56,6 +56,9 @@ struct Beside {
 void describe(const mjModel& model, const std::string& file, const Beside& beside, description::World& out, LinkObjects& objects,
               Problems& problems);
 
+/// A problem for each kind of number in a model that holds one that isn't finite.
+void check_finite(const mjModel& model, const std::string& file, Problems& problems);
+
 /// How many equalities of a model hold a joint that closes a loop between two bodies: welds, or connects at its place or on its axis.
 [[nodiscard]] int closures_of(const mjModel& model, const mjData& at_start, const description::Joint& joint, int parent, int child);
 
