@@ -11,9 +11,7 @@ clients=0
 trap 'echo "$clients clients"' EXIT
 topics() { timeout 30 gz topic -l 2>/dev/null | grep -c "^/model/$name/" || true; }
 # until WANTED COMMAND…: the command, now and then again, until the module's topics are there (some) or have gone (none).
-until_clients=0
-trap 'echo "$clients clients"' EXIT
-topics() {
+until_topics() {
   wanted=$1
   shift
   for wait in 0 1 1 2 4 8 16; do

@@ -182,6 +182,34 @@ TEST(Parameters, GainsActAtOnce) {
   EXPECT_LT(soft.robot.read(0).motor_rad[0], plain.robot.read(0).motor_rad[0] - 0.02);
 }
 
+TEST(Parameters, ThatAreAsTheyWereChangeNoBit) {
+  Bench set(chain(2)), plain(chain(2));
+  for (Bench* b : {&set, &plain}) {
+    b->robot.command(0, 0.8, 0.4);
+    b->run(50);
+  }
+  auto unit = set.robot.config().actuators[0].unit;
+  const auto& law = dynamic_cast<const vsa::elastic::TwoSinh&>(*unit.actuator.transmission);
+  unit.actuator.transmission = std::make_shared<vsa::elastic::TwoSinh>(law.params());  // equal, but another
+  set.robot.set_parameters(0, unit);
+  EXPECT_EQ(set.robot.state_hash(), plain.robot.state_hash());
+}
+
+TEST(Parameters, MotionGoesOnThroughAnother) {
+  // A stiff spring at speed: one that began again would foresee nothing of what it did so far.
+  Bench bench(chain(1));
+  bench.robot.command(0, 0.8, 0.7);
+  bench.run(60);
+  auto unit = bench.robot.config().actuators[0].unit;
+  unit.memory.position.p += 1;
+  ASSERT_GT(std::abs(bench.in[0].speed_rad_per_s), 0.1);
+  bench.robot.set_parameters(0, unit);
+  bench.run(3);
+  const vsa::actuator::Ledger sum = bench.robot.ledger(0);
+  EXPECT_LT(std::abs(sum.imbalance()), 1e-12);
+  EXPECT_GE(sum.coupling, -1e-3 * sum.moved()) << sum.moved();
+}
+
 TEST(Parameters, ThatNoUnitCouldHaveAreRefused) {
   Bench bench(chain(1));
   const auto good = bench.robot.config().actuators[0].unit;
