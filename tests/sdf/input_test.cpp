@@ -123,6 +123,16 @@ TEST(BadInput, SdfErrorsArePrintedNowhereButInTheException) {
   EXPECT_EQ(printed, "");
 }
 
+TEST(BadInput, ADoctypeIsNoTextBesideTheRoot) {
+  const std::string text = model(link("a", inertial(1, 1)));
+  const auto after_declaration = [&](const std::string& what) {
+    std::string with = text;
+    return problems_of(with.insert(with.find("?>") + 2, what));
+  };
+  EXPECT_EQ(after_declaration("<!DOCTYPE sdf [<!ENTITY a 'b'>]>"), "");
+  EXPECT_TRUE(has(after_declaration("lost words"), "lost words: stands outside"));
+}
+
 TEST(BadInput, AMisspeltElementIsRefused) {
   EXPECT_TRUE(has(problems_of(model(link("a", inertial(1, 1)) + "<frictoin>3</frictoin>")), "frictoin"));
 }

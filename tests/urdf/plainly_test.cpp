@@ -118,8 +118,6 @@ TEST(PlainUrdf, FrictionBelongsToTheLinkThatTheFileNames) {
   EXPECT_EQ(mu(read("gazebo_surface_and_mu")), (std::vector<double>{0.2, 0.2}));
 }
 
-TEST(PlainUrdf, ADoctypeIsNoTextOutsideTheRobot) { EXPECT_EQ(read("doctype").problems, ""); }
-
 TEST(PlainUrdf, AnSdfSaysWhatWouldBringItsReader) {
   const std::string told = problems_of("<sdf version='1.9'><world name='w'/></sdf>");
   EXPECT_TRUE(has(told, sdf_feature().missing())) << told;
