@@ -49,7 +49,7 @@ ActuatorReading Robot::read(std::size_t actuator, device::Torques torques) const
   return r;
 }
 
-bool Robot::is_stiff() const noexcept { return impl_->state.stiff; }
+bool Robot::is_stiff() const { return impl_->state.stiff; }
 
 actuator::Ledger Robot::ledger(std::size_t actuator) const { return impl_->shown(known(actuator)).unit.actuator.ledger; }
 

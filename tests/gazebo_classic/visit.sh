@@ -25,6 +25,8 @@ until_topics() {
 
 until_topics some gz model --spawn-file="$source_tree/models/qbmove/model.sdf" --model-name="$name" -x "$x" -y "$y" -z 0.0335 ||
   { echo "it was never there"; exit 1; }
-tries=$(sh "$source_tree/tests/gazebo_classic/follow.sh" "$name" shaft "$preset") || { echo "it never followed: $(echo "$tries" | tr '\n' ' ')"; exit 1; }
+wrong=
+tries=$(sh "$source_tree/tests/gazebo_classic/follow.sh" "$name" shaft "$preset") || wrong="it never followed: $(echo "$tries" | tr '\n' ' ')"
 clients=$((clients + $(echo "$tries" | wc -l)))
-until_topics none gz model --model-name="$name" --delete || { echo "its topics stayed"; exit 1; }
+until_topics none gz model --model-name="$name" --delete || wrong="$wrong its topics stayed"
+[ -z "$wrong" ] || { echo "$wrong"; exit 1; }

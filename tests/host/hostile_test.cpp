@@ -347,6 +347,7 @@ TEST(HostileRobot, OneThatWasMovedFromSaysSo) {
   EXPECT_THROW((void)r.ledger(0), std::logic_error);
   EXPECT_THROW((void)r.ledger(), std::logic_error);
   EXPECT_THROW((void)r.take_notices(), std::logic_error);
+  EXPECT_THROW((void)r.is_stiff(), std::logic_error);
   EXPECT_THROW(r.set_supply(true), std::logic_error);
   EXPECT_THROW(r.set_faults(0, {}), std::logic_error);
   EXPECT_THROW((void)r.faults(0), std::logic_error);

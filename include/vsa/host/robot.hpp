@@ -181,7 +181,7 @@ class Robot {
   [[nodiscard]] std::array<Ticks, 2> received_inputs(std::size_t actuator) const;  ///< references that came over its bus last
   /// Whether some spring swings faster on what is behind its joint than steps resolve, ω·dt > 1, found in the first step or within 128
   /// (it is a notice, too). Such a joint answers to contacts, limits and frictions within a step, so its host should foresee them.
-  [[nodiscard]] bool is_stiff() const noexcept;
+  [[nodiscard]] bool is_stiff() const;
   [[nodiscard]] actuator::Ledger ledger(std::size_t actuator) const;  ///< energy ledger since the start or the last reset
   [[nodiscard]] actuator::Ledger ledger() const;                      ///< summed over all actuators
   [[nodiscard]] std::vector<Notice> take_notices();                   ///< since the last call
