@@ -89,10 +89,14 @@ void World::Impl::observe() {
 
 std::optional<physics::Refusal> World::Impl::substep() {
   const auto stiff = [](const RobotSlot& slot) { return slot.seat->robot().is_stiff(); };
-  if (physics->is_stiff(std::any_of(robots.begin(), robots.end(), stiff))) forget_mobility();
+  physics->is_stiff(std::any_of(robots.begin(), robots.end(), stiff));
   physics->prepare();
+  // What holds a stiff joint is in B, in this step; what lets go of it isn't, in the next one.
+  const bool held = physics->is_held(driven);
+  if (held) forget_mobility();
   push();
   drive();
+  if (held) forget_mobility();
   for (const Pull& pull : pulls) physics->pull(pull);
   if (std::optional<physics::Refusal> fault = physics->advance()) return fault;
   observe();

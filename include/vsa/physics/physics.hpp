@@ -69,8 +69,10 @@ class Physics {
 
   virtual void prepare() = 0;  ///< first half of a step; clears what was applied
   /// Before it: whether actuators are stiffer than a step resolves. Then limits, contacts and frictions count in mobility() and foresee()
-  /// as equalities do, and B is another in each step. Returns that; false: the engine can't.
-  virtual bool is_stiff(bool actuators) = 0;
+  /// as equalities do.
+  virtual void is_stiff(bool actuators) = 0;
+  /// After it: whether such a constraint is there for one of those joints, so that B is another than in the step before.
+  [[nodiscard]] virtual bool is_held(std::span<const std::size_t> joints) const = 0;
   /// One-axis joints whose torques move each other, by groups: indices into `joints`. Fixed for a world.
   [[nodiscard]] virtual std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const = 0;
   /// B of those joints: how advance() answers to torques, (v' − v)/dt = … + B τ, contacts, limits and frictions aside but where

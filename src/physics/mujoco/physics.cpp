@@ -100,7 +100,11 @@ bool MujocoPhysics::grow(bool contacts_only) {
 
 void MujocoPhysics::changed() { view_stale_ = true; }
 
-bool MujocoPhysics::is_stiff(bool actuators) { return stiff_ = actuators; }
+void MujocoPhysics::is_stiff(bool actuators) { stiff_ = actuators; }
+
+bool MujocoPhysics::is_held(std::span<const std::size_t> joints) const {
+  return stiff_ && std::any_of(joints.begin(), joints.end(), [this](std::size_t joint) { return trees_.tied(joint_[joint].v); });
+}
 
 void MujocoPhysics::prepare() {
   const mjModel* m = model_.get();

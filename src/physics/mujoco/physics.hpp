@@ -35,7 +35,8 @@ class MujocoPhysics final : public Physics {
   MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, LinkObjects objects, Coriolis coriolis);
 
   void prepare() override;
-  bool is_stiff(bool actuators) override;
+  void is_stiff(bool actuators) override;
+  bool is_held(std::span<const std::size_t> joints) const override;
   std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const override;
   void mobility(std::span<const std::size_t> joints, std::span<double> out) override;
   double turned_beside(std::span<const std::size_t> joints) override;
