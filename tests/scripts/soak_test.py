@@ -76,10 +76,11 @@ class Answers(unittest.TestCase):
 class Writing(unittest.TestCase):
     def test_verdicts_are_told_where_nothing_can_be_written(self):
         hour = soak.Soak(pathlib.Path("build"), pathlib.Path("out"), 1, BEGIN + HOUR)
+        hour.gazebo.missing = "not here"
         said = io.StringIO()
         with tempfile.NamedTemporaryFile() as no_folder, contextlib.redirect_stdout(said), self.assertRaises(OSError):
             soak.told(hour, [], [["all is well", True, "1"], ["nothing is", False, "2"]], 1.0, pathlib.Path(no_folder.name))
-        self.assertEqual(said.getvalue(), "holds   all is well: 1\nBROKEN  nothing is: 2\n")
+        self.assertEqual(said.getvalue(), "holds   all is well: 1\nBROKEN  nothing is: 2\nleft out: Gazebo Classic: not here\n")
 
     def test_a_file_in_the_place_of_the_folder_is_refused_at_once(self):
         with tempfile.TemporaryDirectory() as folder:
