@@ -63,6 +63,7 @@ class DrivenTree {
     using Joint = host::TreeBody::Joint;
     double most = 0;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (std::find(driven_.begin(), driven_.end(), i) != driven_.end()) continue;  // those the seat sees by itself
       const double gone = std::abs(positions_[i] - seen_at_[i]);
       if (bodies_[i].joint == Joint::revolute) most = std::max(most, gone);
       if (bodies_[i].joint == Joint::prismatic) most = std::max(most, 10.0 * gone);
