@@ -60,13 +60,13 @@ class DrivenTree {
   /// By how much a joint without an actuator has turned since it was asked last, rad at most; a slide counts ten radians for a metre.
   /// Once before each step, when positions() are filled (Seat::turned).
   [[nodiscard]] double turned_rad() noexcept {
-    using Joint = host::TreeBody::Joint;
+    using Kind = host::TreeBody::Joint;
     double most = 0;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       if (std::find(driven_.begin(), driven_.end(), i) != driven_.end()) continue;  // those the seat sees by itself
       const double gone = std::abs(positions_[i] - seen_at_[i]);
-      if (bodies_[i].joint == Joint::revolute) most = std::max(most, gone);
-      if (bodies_[i].joint == Joint::prismatic) most = std::max(most, 10.0 * gone);
+      if (bodies_[i].joint == Kind::revolute) most = std::max(most, gone);
+      if (bodies_[i].joint == Kind::prismatic) most = std::max(most, 10.0 * gone);
     }
     seen_at_ = positions_;
     return most;
