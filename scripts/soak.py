@@ -250,6 +250,12 @@ def answered(soak):
     return found
 
 
+def slack(soak, name, k):
+    """How many more descriptors (1) or threads (2) a program may have once the visitors have gone: Gazebo Classic keeps a socket of each
+    client that published, whatever is in its models."""
+    return SLACK[k] + (soak.counts.get(OF_GAZEBO, 0) if name == "gazebo" and k == 1 else 0)
+
+
 def verdicts(soak, subjects, idle, ends):
     """(what, held, figure) each."""
     out = []
@@ -263,8 +269,7 @@ def verdicts(soak, subjects, idle, ends):
                     after <= most, f"{before:.1f} → {after:.1f} MB"))
         first, now = (place[s.name] for place in idle)
         for k, what in ((1, "descriptors"), (2, "threads")):
-            # Gazebo Classic keeps a socket of each client that published, whatever is in its models.
-            more = SLACK[k] + (soak.counts.get(OF_GAZEBO, 0) if s.name == "gazebo" and k == 1 else 0)
+            more = slack(soak, s.name, k)
             out.append((f"{s.name}: {what} once the visitors have gone, at most {more} more than before they came",
                         now is not None and now[k] <= first[k] + more, f"{first[k]} → {'it has gone' if now is None else now[k]}"))
     digests = len(soak.digests)
@@ -288,20 +293,22 @@ def told(soak, subjects, found, lasted, out):
         print(f"{'holds ' if held else 'BROKEN'}  {what}: {figure}", flush=True)
     if soak.gazebo.missing:
         print(f"left out: Gazebo Classic: {soak.gazebo.missing}", flush=True)
-    (out / "soak.json").write_text(json.dumps({"hours": lasted, "seed": soak.seed, "without_gazebo": soak.gazebo.missing, "verdicts": found, "counts": soak.counts, "wrong": soak.wrong,
+    (out / "soak.json").write_text(json.dumps({"hours": lasted, "seed": soak.seed, "without_gazebo": soak.gazebo.missing,
+                                               "verdicts": found, "counts": soak.counts, "wrong": soak.wrong,
                                                "samples": {s.name: s.samples for s in subjects}}, indent=1), encoding="utf-8")
     soak_page.write_page(soak, subjects, found, 3600 * lasted, out)
     print(f"{out}/soak.html")
     return 0 if all(held for _, held, _ in found) else 1
 
 
-def settled(subjects, before):
+def settled(soak, subjects, before):
     """What they use once the visitors have gone: after 15 s, or as much later, up to two minutes, as a busy machine needs to see them off."""
     end = time.monotonic() + 120
     time.sleep(15)
     while True:
         now = {s.name: usage(s.pid()) for s in subjects}
-        if time.monotonic() > end or all(now[name] and all(now[name][k] <= before[name][k] + SLACK[k] for k in (1, 2)) for name in now):
+        held = [now[name] and now[name][k] <= before[name][k] + slack(soak, name, k) for name in now for k in (1, 2)]
+        if all(held) or time.monotonic() > end:
             return now
         time.sleep(1)
 
@@ -343,7 +350,7 @@ def main(build, hours, out, seed):
     lasted = (time.monotonic() - begin) / 3600
     for thread in threads:
         thread.join()
-    idle.append(settled(subjects, idle[0]))
+    idle.append(settled(soak, subjects, idle[0]))
     ends = {s.name: s.stop() for s in subjects}
     found = verdicts(soak, subjects, idle, ends)
     return told(soak, subjects, found, lasted, out)

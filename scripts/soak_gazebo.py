@@ -8,7 +8,6 @@ import subprocess
 
 TREE = pathlib.Path(__file__).resolve().parents[1]
 PLUGIN = "build/classic/gazebo-classic"  # made by scripts/test_gazebo.sh
-MEETING = "http://127.0.0.1:{}"
 
 
 class Gazebo:
@@ -31,7 +30,7 @@ class Gazebo:
         self.tree = tree
         self.environment = [f"VSA_DATA_DIR={tree}", f"GAZEBO_MODEL_PATH={tree}/models", f"GAZEBO_PLUGIN_PATH={tree}/{PLUGIN}",
                             "GAZEBO_MODEL_DATABASE_URI=", "GAZEBO_IP=127.0.0.1", "IGN_IP=127.0.0.1", f"IGN_PARTITION=vsa_soak_{os.getpid()}",
-                            "GAZEBO_MASTER_URI=" + MEETING.format(20000 + (os.getpid() + seed) % 20000)]
+                            f"GAZEBO_MASTER_URI=http://127.0.0.1:{20000 + (os.getpid() + seed) % 20000}"]
 
     def command(self, *words):
         return [*self.prefix, "env", *self.environment, *words]

@@ -112,7 +112,7 @@ class Units {
   std::vector<Joint> joints_;
   std::vector<bool> volts_;                  ///< the unit's controls are its motors' voltages
   std::vector<std::vector<int>> tree_dofs_;  ///< as the seat joins them
-  std::vector<int> beside_;                  ///< what else changes B (physics/dofs_beside.hpp)
+  std::vector<std::size_t> beside_;          ///< what else changes B (physics/dofs_beside.hpp)
   std::unique_ptr<seat::Seat> seat_;
   std::size_t size_ = 0;
   Mobility mobility_;

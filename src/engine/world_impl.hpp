@@ -25,6 +25,7 @@ struct World::Snapshot {
 struct RobotSlot {
   std::unique_ptr<seat::Seat> seat;
   std::vector<std::size_t> joints;  ///< of its actuators, into description::World::joints
+  std::vector<std::size_t> beside;  ///< degrees of freedom that change their B, too (physics::Physics::beside)
 
   [[nodiscard]] host::Robot& robot() const { return seat->robot(); }
 };
@@ -56,6 +57,7 @@ struct World::Impl {
   std::vector<std::vector<std::size_t>> trees;  ///< of driven joints that move each other, as the group knows them
   std::vector<std::size_t> driven;              ///< the robots' joints, one robot after the other
   std::vector<double> foreseen;                 ///< of those, in the step under way
+  std::vector<std::size_t> stiff;               ///< of those, too: scratch of a step
   std::vector<ActuatorRef> actuators;
   std::vector<Pull> pulls;
   std::vector<std::pair<std::size_t, Wrench>> wrenches;  ///< by link
@@ -83,6 +85,7 @@ struct World::Impl {
   void drive();
   void observe();
   void forget_mobility();                  ///< something was moved
+  void renew_held();                       ///< B of robots that are stiff and held
   void placed(std::size_t joint);          ///< somebody put it there
   void set_followers(std::size_t leader);  ///< to where it is
   /// Where a joint's loops go along once it is put there, or why they don't; nothing has changed.

@@ -27,7 +27,9 @@ constexpr double kNanosecond = 1e-9;
 void World::Impl::join_trees() {
   driven.clear();
   for (const RobotSlot& slot : robots) driven.insert(driven.end(), slot.joints.begin(), slot.joints.end());
+  for (RobotSlot& slot : robots) slot.beside = physics->beside(slot.joints);
   foreseen.resize(driven.size());
+  stiff.reserve(driven.size());
   trees = physics->trees(driven);
   group = seat::SeatGroup(seats(), trees);
   for (auto& tree : trees)
@@ -42,6 +44,11 @@ std::vector<seat::Seat*> World::Impl::seats() const {
 
 void World::Impl::forget_mobility() {
   for (RobotSlot& slot : robots) slot.seat->moved();
+}
+
+void World::Impl::renew_held() {
+  for (RobotSlot& slot : robots)
+    if (!stiff.empty() && physics->is_held(slot.joints)) slot.seat->moved();
 }
 
 void World::Impl::placed(std::size_t joint) {
@@ -62,15 +69,11 @@ void World::Impl::tell_joints(const RobotSlot& slot) const {
 
 /// What isn't finite any more stops a seat, too; then advance() finds it and says so.
 void World::Impl::drive() {
-  double turned = 0;
-  if (!driven.empty()) {
-    physics->foresee(driven, foreseen);
-    turned = physics->turned_beside(driven);
-  }
+  if (!driven.empty()) physics->foresee(driven, foreseen);
   auto next = foreseen.begin();
   for (const RobotSlot& slot : robots) {
     tell_joints(slot);
-    slot.seat->turned(turned);
+    slot.seat->turned(physics->turned_rad(slot.beside));
     for (host::JointIn& joint : slot.seat->in()) joint.free_acceleration_rad_per_s2 = *next++;
   }
   group.update([this](std::size_t tree, std::span<double> out) { physics->mobility(trees[tree], out); });
@@ -88,15 +91,16 @@ void World::Impl::observe() {
 }
 
 std::optional<physics::Refusal> World::Impl::substep() {
-  const auto stiff = [](const RobotSlot& slot) { return slot.seat->robot().is_stiff(); };
-  physics->is_stiff(std::any_of(robots.begin(), robots.end(), stiff));
+  stiff.clear();
+  for (const RobotSlot& slot : robots)
+    if (slot.robot().is_stiff()) stiff.insert(stiff.end(), slot.joints.begin(), slot.joints.end());
+  physics->set_stiff(stiff);
   physics->prepare();
   // What holds a stiff joint is in B, in this step; what lets go of it isn't, in the next one.
-  const bool held = physics->is_held(driven);
-  if (held) forget_mobility();
+  renew_held();
   push();
   drive();
-  if (held) forget_mobility();
+  renew_held();
   for (const Pull& pull : pulls) physics->pull(pull);
   if (std::optional<physics::Refusal> fault = physics->advance()) return fault;
   observe();

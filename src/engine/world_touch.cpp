@@ -238,11 +238,12 @@ World World::clone() const {
   to->names = impl_->names;
   to->warnings = impl_->warnings;
   to->physics = impl_->physics->clone();
-  for (const RobotSlot& slot : impl_->robots) to->robots.push_back({slot.seat->clone(), slot.joints});
+  for (const RobotSlot& slot : impl_->robots) to->robots.push_back({slot.seat->clone(), slot.joints, slot.beside});
   to->group = impl_->group.another(to->seats());
   to->trees = impl_->trees;
   to->driven = impl_->driven;
   to->foreseen = impl_->foreseen;
+  to->stiff.reserve(to->driven.size());
   to->actuators = impl_->actuators;
   to->pulls = impl_->pulls;
   to->wrenches = impl_->wrenches;

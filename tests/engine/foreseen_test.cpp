@@ -121,6 +121,23 @@ TEST(Foreseen, WhatAHandAppliesIsThereAtOnce) {
   }
 }
 
+TEST(Foreseen, WhatAnotherRobotDoesChangesNoBit) {
+  // Beside a soft arm: a stiff robot with a weight that spins behind it, on its stop.
+  const std::string arm = "<model name='arm'>" + arm_links() + plugin(actuator("shoulder")) + "</model>";
+  std::string other = weight_behind("tree_lime_50", false);
+  other.replace(other.find("<model name='m'>"), 16, "<model name='m'><pose>5 0 0 0 0 0</pose>");
+  World alone = load(arm, 1e-3, "0 0 -9.81"), beside = load(arm + other, 1e-3, "0 0 -9.81");
+  beside.set_joint("m::free", 0.3, 20.0);
+  for (World* w : {&alone, &beside}) w->command("shoulder", 0.5, 0.3);
+  while (alone.time_s() < 1.0) {
+    alone.step();
+    beside.step();
+    ASSERT_EQ(alone.joint_angle("arm::elbow"), beside.joint_angle("arm::elbow")) << alone.time_s();
+  }
+  EXPECT_TRUE(beside.robot(1).is_stiff());
+  EXPECT_FALSE(beside.robot(0).is_stiff());
+}
+
 /// Of the last 0.3 s of 3 s, rad/s.
 double rms_at_rest(World& w) {
   w.run(2.7);

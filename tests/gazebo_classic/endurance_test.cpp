@@ -190,7 +190,9 @@ TEST_P(Endurance, MovesForMinutesWithoutNaNOrGrowthOfMemory) {
 }
 
 TEST_P(Endurance, TwoFreshRunsGiveTheSameBits) {
-  if (GetParam().has_same_contacts()) EXPECT_EQ(two_fresh_runs<Pushed>(GetParam(), 5), 0.0) << "the host's own";
+  if (GetParam().has_same_contacts()) {
+    EXPECT_EQ(two_fresh_runs<Pushed>(GetParam(), 5), 0.0) << "the host's own";
+  }
   EXPECT_EQ(two_fresh_runs<Moving>(GetParam(), long_run() ? 60 : 5, GetParam().has_same_contacts()), 0.0);
 }
 

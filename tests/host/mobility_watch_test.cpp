@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 #include <optional>
 
 namespace {
@@ -43,6 +44,30 @@ TEST(MobilityWatch, IsDueAgainInTheNextStepWhereSomebodyPutTheArmElsewhere) {
   EXPECT_FALSE(watch.due(joint));
   watch.again();
   EXPECT_TRUE(watch.due(joint));
+}
+
+TEST(MobilityWatch, IsDueAsSoonAsAnotherJointHasTurnedByAHundredthInAll) {
+  MobilityWatch watch(1);
+  const std::array<JointIn, 1> joint{at(0.5)};
+  EXPECT_TRUE(watch.due(joint));
+  for (int round = 0; round < 3; ++round)
+    for (const bool due : {false, false, true}) {
+      watch.turned(0.004);
+      EXPECT_EQ(watch.due(joint), due) << round;
+    }
+}
+
+TEST(MobilityWatch, OfATurnThatIsNoneGoesOnAsItWas) {
+  MobilityWatch watch(1), plain(1);
+  const std::array<JointIn, 1> joint{at(0.5)};
+  for (int n = 0; n < 40; ++n) {
+    watch.turned(n % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : -1.0);
+    EXPECT_EQ(watch.due(joint), plain.due(joint)) << n;
+    EXPECT_EQ(watch.impossible(), nullptr);
+  }
+  watch.turned(std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(watch.due(joint));
+  EXPECT_EQ(watch.impossible(), nullptr);
 }
 
 }  // namespace

@@ -73,6 +73,26 @@ class Answers(unittest.TestCase):
         self.assertEqual(list(broken.values()), ["300 → 900 µs"])
 
 
+class Gazebo(unittest.TestCase):
+    """Its server keeps a socket of each client that published, and nothing else of them."""
+
+    def broken(self, descriptors, threads):
+        hour = soak.Soak(pathlib.Path("build"), pathlib.Path("out"), 1, BEGIN + HOUR)
+        hour.begin, hour.digests, hour.trips = BEGIN, {"equal"}, [(BEGIN + at, 300.0) for at in seconds()]
+        hour.counts[soak.OF_GAZEBO] = 100
+        names = (*NAMES, "gazebo")
+        before, after = ({name: (50.0, 10, 4) for name in names} for _ in range(2))
+        after["gazebo"] = (50.0, descriptors, threads)
+        found = soak.verdicts(hour, [MadeUp(name) for name in names], [before, after], dict.fromkeys(names, 0))
+        return [figure for _, held, figure in found if not held]
+
+    def test_a_socket_a_client_is_allowed_for(self):
+        self.assertEqual(self.broken(110, 4), [])
+
+    def test_more_of_them_and_threads_of_modules_that_have_gone_are_noticed(self):
+        self.assertEqual(self.broken(116, 6), ["10 → 116", "4 → 6"])
+
+
 class Writing(unittest.TestCase):
     def test_verdicts_are_told_where_nothing_can_be_written(self):
         hour = soak.Soak(pathlib.Path("build"), pathlib.Path("out"), 1, BEGIN + HOUR)

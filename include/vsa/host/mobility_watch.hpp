@@ -34,9 +34,9 @@ class MobilityWatch {
     std::transform(joints.begin(), joints.end(), angles_.begin(), [](const JointIn& joint) { return joint.angle_rad; });
     return true;
   }
-  /// Joints beside the driven ones: by how much one of them has turned since it was told last, rad at most; a slide by ten times its
-  /// metres. A foldable weight behind a driven joint changes B as much as that joint's own folding.
-  void turned(double rad) noexcept { beside_rad_ += rad; }
+  /// Joints beside the driven ones: by how much one of them has turned since it was told last, rad at most (NaN or
+  /// below 0: nothing); a slide by ten times its metres. A foldable weight behind a driven joint changes B as much as that joint's own folding.
+  void turned(double rad) noexcept { beside_rad_ += std::max(0.0, rad); }
   /// In the next step whatever happens.
   void again() noexcept { steps_left_ = 0; }
   static auto fields(auto& s, auto&& visit) {

@@ -59,9 +59,9 @@ struct JointIn {
   std::optional<double> inverse_inertia;
   /// Somebody put the joint there since the last step; what that did to angle and speed is neither work nor acceleration.
   bool placed = false;
-  /// a_other + B τ_before of this step, ±1e12 rad/s²: how the joint would be accelerated if its tree's torques stayed those of the last step.
-  /// Of a host that works out what gravity, joint springs and dampers do at the present angles and speeds; none: what moved the joint
-  /// in the last step goes on. With dampers, followers (mimic) or much weight behind a light link a chain is quiet only if it is told.
+  /// a_other + B τ_before of this step, ±1e12 rad/s²: how the joint would go on with its tree's torques of the last step (0 where it was
+  /// placed, or of the first), by what gravity, springs and dampers do at the present angles and speeds. None: what moved the joint in
+  /// the last step goes on; with dampers, followers (mimic) or much weight behind a light link a chain is quiet only if it is told.
   std::optional<double> free_acceleration_rad_per_s2 = std::nullopt;
   static auto fields(auto& s, auto&& visit) {
     return visit("angle", "rad", s.angle_rad, "speed", "rad/s", s.speed_rad_per_s, "inverse_inertia", "1/(kg·m²)",

@@ -68,19 +68,20 @@ class Physics {
   virtual ~Physics() = default;
 
   virtual void prepare() = 0;  ///< first half of a step; clears what was applied
-  /// Before it: whether actuators are stiffer than a step resolves. Then limits, contacts and frictions count in mobility() and foresee()
-  /// as equalities do.
-  virtual void is_stiff(bool actuators) = 0;
+  /// Before it: joints with actuators stiffer than a step resolves; all others aren't. In their trees limits, contacts and frictions count
+  /// in mobility() and foresee() as equalities do.
+  virtual void set_stiff(std::span<const std::size_t> joints) = 0;
   /// After it: whether such a constraint is there for one of those joints, so that B is another than in the step before.
   [[nodiscard]] virtual bool is_held(std::span<const std::size_t> joints) const = 0;
   /// One-axis joints whose torques move each other, by groups: indices into `joints`. Fixed for a world.
   [[nodiscard]] virtual std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const = 0;
-  /// B of those joints: how advance() answers to torques, (v' − v)/dt = … + B τ, contacts, limits and frictions aside but where
-  /// is_stiff(). By rows, 1/(kg·m²); between foresee() and advance().
+  /// B of those joints: how advance() answers to torques, (v' − v)/dt = … + B τ, contacts, limits and frictions aside but those
+  /// that hold set_stiff() joints. By rows, 1/(kg·m²); between foresee() and advance().
   virtual void mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
-  /// How far the fastest joint that moves with those and isn't one of them goes in the next step at its present speed, rad; a slide
-  /// counts ten radians for a metre. 0: there is none. The same joints each time.
-  virtual double turned_beside(std::span<const std::size_t> joints) = 0;
+  /// Degrees of freedom that change B of those joints without being theirs. Fixed for a world.
+  [[nodiscard]] virtual std::vector<std::size_t> beside(std::span<const std::size_t> joints) const = 0;
+  /// How far the fastest of such goes in the next step at its present speed, rad; a slide counts ten radians for a metre. 0: of none.
+  [[nodiscard]] virtual double turned_rad(std::span<const std::size_t> dofs) const = 0;
   /// How advance() would accelerate those joints, rad/s² or m/s², if what pushes the bodies stayed as it was in the last step
   /// (apply(), pull(), contacts and limits; nothing before the first); what follows from positions and speeds, dampers and equalities
   /// among it, and what was pushed by now, is of now. Between prepare() and apply().

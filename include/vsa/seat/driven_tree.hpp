@@ -34,6 +34,11 @@ class DrivenTree {
         speeds_(bodies_.size()),
         free_(bodies_.size()),
         trees_(host::joined(bodies_, driven_)) {
+    using Kind = host::TreeBody::Joint;
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      if ((bodies_[i].joint == Kind::revolute || bodies_[i].joint == Kind::prismatic) &&
+          std::find(driven_.begin(), driven_.end(), i) == driven_.end())
+        beside_.push_back(i);
     for (const auto& tree : trees_) {
       of_tree_.emplace_back();
       for (const std::size_t actuator : tree) of_tree_.back().push_back(driven_[actuator]);
@@ -62,13 +67,11 @@ class DrivenTree {
   [[nodiscard]] double turned_rad() noexcept {
     using Kind = host::TreeBody::Joint;
     double most = 0;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (std::find(driven_.begin(), driven_.end(), i) != driven_.end()) continue;  // those the seat sees by itself
+    for (const std::size_t i : beside_) {
       const double gone = std::abs(positions_[i] - seen_at_[i]);
-      if (bodies_[i].joint == Kind::revolute) most = std::max(most, gone);
-      if (bodies_[i].joint == Kind::prismatic) most = std::max(most, 10.0 * gone);
+      most = std::max(most, bodies_[i].joint == Kind::prismatic ? 10.0 * gone : gone);
+      seen_at_[i] = positions_[i];
     }
-    seen_at_ = positions_;
     return most;
   }
   /// Once before each step, after update() where the bodies moved: JointIn::free_acceleration of the actuators, whose angles and speeds
@@ -89,7 +92,7 @@ class DrivenTree {
 
  private:
   std::vector<host::TreeBody> bodies_;
-  std::vector<std::size_t> driven_;
+  std::vector<std::size_t> driven_, beside_;  ///< beside_: the other bodies with joints
   host::TreeInertia inertia_{0};
   host::TreeForesight foresight_{0};
   host::TreeForesight::Memory memory_;

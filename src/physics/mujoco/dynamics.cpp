@@ -25,13 +25,13 @@ MujocoPhysics::MujocoPhysics(const MujocoPhysics& other)
       before_(other.before_),
       pushed_(other.pushed_),
       asked_(other.asked_),
-      beside_(other.beside_),
       unit_(other.unit_),
       column_(other.column_),
       jacobian_(other.jacobian_),
       mobility_(other.mobility_),
       mass_matrix_(other.mass_matrix_),
       damped_(other.damped_) {
+  stiff_.reserve(unit_.size());
   make_data();
   std::vector<double> state(state_size());
   other.save(state);

@@ -65,6 +65,7 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::
   unit_.resize(static_cast<std::size_t>(m->nv));
   pushed_.resize(unit_.size());
   asked_.resize(unit_.size());
+  stiff_.reserve(unit_.size());
   column_.resize(unit_.size());
   // Where mj_Euler takes none, nor may what is solved before it.
   damped_ = !switched_off(*m, {"Damper", "Eulerdamp"}) &&
@@ -100,10 +101,20 @@ bool MujocoPhysics::grow(bool contacts_only) {
 
 void MujocoPhysics::changed() { view_stale_ = true; }
 
-void MujocoPhysics::is_stiff(bool actuators) { stiff_ = actuators; }
+std::vector<int> MujocoPhysics::dofs_of(std::span<const std::size_t> joints) const {
+  std::vector<int> out;
+  for (const std::size_t joint : joints) out.push_back(joint_[joint].v);
+  return out;
+}
+
+void MujocoPhysics::set_stiff(std::span<const std::size_t> joints) {
+  stiff_.clear();
+  for (const std::size_t joint : joints) stiff_.push_back(joint_[joint].v);
+  trees_.set_stiff(stiff_);
+}
 
 bool MujocoPhysics::is_held(std::span<const std::size_t> joints) const {
-  return stiff_ && std::any_of(joints.begin(), joints.end(), [this](std::size_t joint) { return trees_.tied(joint_[joint].v); });
+  return std::any_of(joints.begin(), joints.end(), [this](std::size_t joint) { return trees_.held(joint_[joint].v); });
 }
 
 void MujocoPhysics::prepare() {
@@ -122,7 +133,7 @@ void MujocoPhysics::prepare() {
   take_dampers();
   mj_fwdVelocity(m, data_.get());
   hold_up(*data_, data_->qfrc_passive, 1);
-  trees_.look(*m, *data_, stiff_);
+  trees_.look(*m, *data_);
   centered_.set(*m, *data_, trees_, pushed_.data());
   mju_zero(data_->qfrc_applied, m->nv);
 }
@@ -163,39 +174,42 @@ std::vector<std::vector<std::size_t>> MujocoPhysics::trees(std::span<const std::
   return grouped(roots);
 }
 
-/// Which rows of constraints answer to torques in proportion: equalities; in trees that are held by more also limits, frictions that stick
-/// and contacts, after foresee() has solved them. Of a contact that slides only what presses.
+/// Which rows of constraints answer to torques in proportion: equalities; of those that hold, which foresee() has solved, limits, frictions
+/// that stick and contacts. Of a contact that slides only what presses.
 bool MujocoPhysics::answers(int row) const {
   const mjData& d = *data_;
-  if (row < d.ne) return true;
-  if (!trees_.of_all()) return false;
   const bool slides = d.efc_state[row] == mjCNSTRSTATE_CONE && d.contact[d.efc_id[row]].efc_address == row;
-  return d.efc_state[row] == mjCNSTRSTATE_QUADRATIC || slides;
+  return row < d.ne || d.efc_state[row] == mjCNSTRSTATE_QUADRATIC || slides;
 }
 
 /// With J of the rows that answer and R, by which MuJoCo softens them, B is the joints' part of
 ///   (M + J^T R⁻¹ J)⁻¹ = M⁻¹ − M⁻¹ J^T (J M⁻¹ J^T + R)⁻¹ J M⁻¹
-/// False: there is no such row.
-bool MujocoPhysics::hold(std::vector<mjtNum>& out) {
+/// That sum, factored, to held_. False: there is no such row.
+bool MujocoPhysics::hold() {
   const mjModel* m = model_.get();
-  const auto nv = static_cast<std::size_t>(m->nv);
+  const int nv = m->nv;
   row_.resize(std::max(row_.size(), row_room(*m, *data_)));
   bool any = false;
-  for (int r = 0; r < (trees_.of_all() ? data_->nefc : data_->ne); ++r) {
+  for (int r = 0; r < (stiff_.empty() ? data_->ne : data_->nefc); ++r) {
     if (!answers(r)) continue;
-    if (!any) {
-      out.resize(nv * nv);
-      dense_mass(*m, *data_, out.data());
-    }
-    any = true;
     row_[r] = 1;
     mj_mulJacTVec(m, data_.get(), unit_.data(), row_.data());
     row_[r] = 0;
-    for (std::size_t i = 0; i < nv; ++i)
-      if (unit_[i] != 0) mju_addToScl(&out[i * nv], unit_.data(), unit_[i] / data_->efc_R[r], m->nv);
-    mju_zero(unit_.data(), m->nv);
+    const auto acts_on = [&](int v) { return unit_[v] != 0; };
+    int first = 0;
+    while (first < nv && !acts_on(first)) ++first;
+    if (first < nv && (r < data_->ne || trees_.held(first))) {
+      if (!any) {
+        held_.resize(static_cast<std::size_t>(nv) * static_cast<std::size_t>(nv));
+        dense_mass(*m, *data_, held_.data());
+      }
+      any = true;
+      for (int i = first; i < nv; ++i)
+        if (acts_on(i)) mju_addToScl(&held_[i * nv], unit_.data(), unit_[i] / data_->efc_R[r], nv);
+    }
+    mju_zero(unit_.data(), nv);
   }
-  if (any) mju_cholFactor(out.data(), m->nv, mjMINVAL);
+  if (any) mju_cholFactor(held_.data(), nv, mjMINVAL);
   return any;
 }
 
@@ -203,7 +217,7 @@ void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<doub
   const mjModel* m = model_.get();
   const std::size_t n = joints.size();
   const bool held =
-      std::any_of(joints.begin(), joints.end(), [&](std::size_t joint) { return trees_.tied(joint_[joint].v); }) && hold(held_);
+      std::any_of(joints.begin(), joints.end(), [&](std::size_t joint) { return trees_.tied(joint_[joint].v); }) && hold();
   for (std::size_t i = 0; i < n; ++i) {
     const int v = joint_[joints[i]].v;
     unit_[static_cast<std::size_t>(v)] = 1;
@@ -218,13 +232,12 @@ void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<doub
     for (std::size_t k = 0; k < i; ++k) out[k * n + i] = out[i * n + k];
 }
 
-double MujocoPhysics::turned_beside(std::span<const std::size_t> joints) {
-  if (!beside_) {
-    std::vector<int> driven;
-    for (const std::size_t joint : joints) driven.push_back(joint_[joint].v);
-    beside_ = dofs_beside(*model_, driven);
-  }
-  return turned_rad(*model_, data_->qvel, *beside_, model_->opt.timestep);
+std::vector<std::size_t> MujocoPhysics::beside(std::span<const std::size_t> joints) const {
+  return dofs_beside(*model_, dofs_of(joints));
+}
+
+double MujocoPhysics::turned_rad(std::span<const std::size_t> dofs) const {
+  return physics::turned_rad(*model_, data_->qvel, dofs, model_->opt.timestep);
 }
 
 /// Equalities answer to what joint speeds do at once, so where they tie one of the joints all constraints are solved as in advance();

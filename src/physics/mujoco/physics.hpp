@@ -16,7 +16,6 @@
 // applied. There are no activations.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,11 +34,12 @@ class MujocoPhysics final : public Physics {
   MujocoPhysics(std::shared_ptr<mjModel> model, const description::World& world, LinkObjects objects, Coriolis coriolis);
 
   void prepare() override;
-  void is_stiff(bool actuators) override;
+  void set_stiff(std::span<const std::size_t> joints) override;
   bool is_held(std::span<const std::size_t> joints) const override;
   std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const override;
   void mobility(std::span<const std::size_t> joints, std::span<double> out) override;
-  double turned_beside(std::span<const std::size_t> joints) override;
+  std::vector<std::size_t> beside(std::span<const std::size_t> joints) const override;
+  double turned_rad(std::span<const std::size_t> dofs) const override;
   void foresee(std::span<const std::size_t> joints, std::span<double> out) override;
   void apply(std::size_t joint, double torque) override;
   void pull(const scene::Pull& pull) override;
@@ -92,8 +92,9 @@ class MujocoPhysics final : public Physics {
   void hold_up(mjData& d, mjtNum* forces, double part) const;
   void take_dampers();
   void give_dampers_back();
+  [[nodiscard]] std::vector<int> dofs_of(std::span<const std::size_t> joints) const;
   [[nodiscard]] bool answers(int row) const;
-  bool hold(std::vector<mjtNum>& out);
+  bool hold();
   mjModel& own_model();
 
   std::shared_ptr<mjModel> model_;  // of all of the file: never changed, but replaced by grow() and own_model()
@@ -110,13 +111,12 @@ class MujocoPhysics final : public Physics {
   TiedTrees trees_;
   CenteredBias centered_;
   std::vector<std::string> q_owner_, v_owner_;
-  std::vector<double> before_;              // the state, of the last prepare()
-  std::vector<mjtNum> pushed_;              // in the last step: applied and, in trees without equalities, by constraints
-  std::vector<mjtNum> asked_;               // of these: by push()
-  std::optional<std::vector<int>> beside_;  // the joints that turned_beside() is of
+  std::vector<double> before_;  // the state, of the last prepare()
+  std::vector<mjtNum> pushed_;  // in the last step: applied and, in trees without equalities, by constraints
+  std::vector<mjtNum> asked_;   // of these: by push()
   std::vector<mjtNum> unit_, column_, jacobian_, mobility_, mass_matrix_;
   std::vector<mjtNum> row_, held_;  // of constraints: zeros; M + J^T R⁻¹ J, factored
-  bool stiff_ = false;              // some joint's actuator
+  std::vector<int> stiff_;          // dofs of joints
   bool damped_ = false;             // some joint has damping
   bool stepped_ = false;            // data_ holds the contacts of the last step
 };

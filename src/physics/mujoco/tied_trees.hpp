@@ -1,11 +1,12 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Which kinematic trees equalities act on in this step, or all constraints: those with a number in such a row, and those that touch one of
-// them. Others move as if there were none.
+// Which kinematic trees equalities act on in this step: those with a number in an equality's row, and those that touch one of them; and
+// which are held: likewise, of any row of constraints that has a number of a stiff tree. Others move as if there were neither.
 #pragma once
 
 #include <mujoco/mujoco.h>
 
+#include <span>
 #include <vector>
 
 namespace vsa::physics {
@@ -14,17 +15,22 @@ class TiedTrees {
  public:
   TiedTrees() = default;
   explicit TiedTrees(const mjModel& m);
-  /// After mj_fwdPosition. `all`: not equalities alone.
-  void look(const mjModel& m, const mjData& d, bool all);
-  [[nodiscard]] bool of_all() const noexcept { return all_; }
-  [[nodiscard]] bool tied(int dof) const noexcept { return any_ && tied_[static_cast<std::size_t>(tree(dof))] != 0; }
+  /// Which are stiff from now on, by a degree of freedom of each.
+  void set_stiff(std::span<const int> dofs) noexcept;
+  /// After mj_fwdPosition.
+  void look(const mjModel& m, const mjData& d);
+  [[nodiscard]] bool tied(int dof) const noexcept { return any_ && tied_[static_cast<std::size_t>(tree(dof))] != kFree; }
+  [[nodiscard]] bool held(int dof) const noexcept { return any_ && tied_[static_cast<std::size_t>(tree(dof))] == kHeld; }
   /// By its first degree of freedom.
   [[nodiscard]] int tree(int dof) const noexcept { return tree_[static_cast<std::size_t>(dof)]; }
 
  private:
-  bool any_ = false, all_ = false;
+  enum How : char { kFree, kTied, kHeld };
+
+  bool any_ = false, any_stiff_ = false;
   std::vector<int> tree_, of_body_;  ///< of a degree of freedom; of a body, −1: nothing moves it
-  std::vector<char> tied_;           ///< by tree()
+  std::vector<How> tied_;            ///< by tree()
+  std::vector<char> stiff_;          ///< by tree()
 };
 
 }  // namespace vsa::physics
