@@ -16,6 +16,8 @@ using namespace solver;
 
 /// A factor of other slopes may leave this part of what may be left over at all.
 constexpr double kStale = 0.1;
+/// A holder's answer may leave this part of it.
+constexpr double kAnswerLeft = 0.01;
 /// How often a move by such a factor is mended before a new one is made.
 constexpr int kMends = 2;
 
@@ -38,6 +40,11 @@ JointSolver::JointSolver(std::size_t joints, std::string_view instructions)
       dy_(joints),
       factored_(joints),
       column_(joints),
+      acceleration_(joints),
+      told_(joints * joints),
+      between_(joints),
+      way_(joints),
+      tried_before_(joints),
       trials_(joints, joints > 1 ? joints : 0, instructions),
       tried_(joints) {}
 
@@ -219,25 +226,83 @@ bool JointSolver::search(std::span<const JointInStep> joints) noexcept {
   return false;
 }
 
-bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept {
-  if (n_ == 1) {
+/// From dy_ on.
+bool JointSolver::settle(std::span<const JointInStep> joints) noexcept {
+  if (search(joints)) return true;
+  // Where a friction's edge keeps Newton going to and fro, what is left may be little all the same.
+  std::fill(move_.begin(), move_.end(), 0.0);
+  attempt(joints, false);
+  near(joints);
+  bool settled = true;
+  for (std::size_t i = 0; i < n_; ++i) settled = settled && std::abs(gradient_[i]) <= kLeft * std::abs(tried_.torque[i]) + kLeft_Nm;
+  return settled;
+}
+
+/// Whether the holder's answer to the torques that were found isn't the units' Δy. Then free and C are what it tells of there, and dy_ is
+/// where the units are. What holds makes that answer bend, as stops do, or saturate, as friction does, and by its slope at one torque
+/// Newton may go too far: then it is the slope at a torque in between, where the answer and the units' Δy are about the same.
+bool JointSolver::holds_else(std::span<const JointInStep> joints, Holder& holder, std::size_t tree, std::span<double> torques,
+                             bool first) noexcept {
+  constexpr int kShortenings = 8;
+  if (!holder.holds_else(tree, torques, acceleration_, told_)) return false;
+  const double dt = static_cast<double>(dt_ns_) * 1e-9;
+  const auto off = [&](std::size_t i) { return dt * joints[i].plan->in.speed + 0.5 * dt * dt * acceleration_[i] - dy_[i]; };
+  bool same = true;
+  for (std::size_t i = 0; i < n_; ++i) {
+    dy_[i] += move_[i];
+    move_[i] = 0;
+    way_[i] = torques[i] - tried_before_[i].torque;
+    same = same && std::abs(tried_.carried[i].slope * off(i)) <= kAnswerLeft * (kLeft * std::abs(torques[i]) + kLeft_Nm);
+  }
+  if (same) return false;
+  double before = 0;
+  for (std::size_t i = 0; i < n_; ++i) before += way_[i] * tried_before_[i].off;
+  const auto slope_along = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < n_; ++i) sum += way_[i] * off(i);
+    return sum;
+  };
+  double now = slope_along();
+  for (int n = 0; n < kShortenings && !first && before < 0 && now > -kOvershootLater * before; ++n) {
+    const double part = std::clamp(before / (before - now), 0.1, 0.9);
+    for (std::size_t i = 0; i < n_; ++i) between_[i] = tried_before_[i].torque + part * (torques[i] - tried_before_[i].torque);
+    // Where the same holds in between, it answers in proportion from there to here.
+    if (!holder.holds_else(tree, between_, acceleration_, told_)) {
+      for (std::size_t i = 0; i < n_; ++i)
+        for (std::size_t k = 0; k < n_; ++k) acceleration_[i] += told_[i * n_ + k] * (between_[k] - torques[k]);
+    }
+    for (std::size_t i = 0; i < n_; ++i) {
+      torques[i] = between_[i];
+      dy_[i] = tried_before_[i].dy + part * (dy_[i] - tried_before_[i].dy);
+    }
+    now = slope_along();
+  }
+  set(told_, dt_ns_);
+  for (std::size_t i = 0; i < n_; ++i) {
+    StepPlan& plan = *joints[i].plan;
+    tried_before_[i] = {torques[i], dy_[i], off(i)};
+    double a = acceleration_[i];
+    for (std::size_t k = 0; k < n_; ++k) a -= told_[i * n_ + k] * (torques[k] - tried_.last_torque[k]);
+    tried_.free[i] = plan.free = dt * plan.in.speed + 0.5 * dt * dt * a;
+  }
+  factor_slopes();
+  return true;
+}
+
+bool JointSolver::solve(std::span<const JointInStep> joints, std::span<double> torques, Holder* holder, std::size_t tree) noexcept {
+  if (n_ == 1 && holder == nullptr) {
     torques[0] = joints[0].unit->end_step(*joints[0].state, *joints[0].plan);
     return joints[0].unit->settled();
   }
   trials_.begin(joints, tried_, kReach_rad);
   for (std::size_t i = 0; i < n_; ++i) dy_[i] = std::clamp(tried_.free[i], -kReach_rad, kReach_rad);
   guess();
-  bool settled = search(joints);
-  if (!settled) {
-    // Where a friction's edge keeps Newton going to and fro, what is left may be little all the same.
-    std::fill(move_.begin(), move_.end(), 0.0);
-    attempt(joints, false);
-    near(joints);
-    settled = true;
-    for (std::size_t i = 0; i < n_; ++i)
-      settled = settled && std::abs(gradient_[i]) <= kLeft * std::abs(tried_.torque[i]) + kLeft_Nm;
+  bool settled = false;
+  for (int changes = 0;; ++changes) {
+    settled = settle(joints);
+    for (std::size_t i = 0; i < n_; ++i) torques[i] = tried_.carried[i].torque;
+    if (holder == nullptr || changes == kMaxChanges || !holds_else(joints, *holder, tree, torques, changes == 0)) break;
   }
-  for (std::size_t i = 0; i < n_; ++i) torques[i] = tried_.carried[i].torque;
   trials_.finish(joints, tried_, dy_, move_, torques);
   return settled;
 }

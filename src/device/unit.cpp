@@ -210,7 +210,8 @@ ShaftTorque Unit::expect(const UnitState& s, const StepPlan& plan, double dy) co
   }
   // A segment's slope knows nothing of what the motors did in those before; where that counts, two trials tell it.
   const double secant = (before_Nm - plan.path.torque) / moved;
-  if (plan.tried && plan.lead.motors > 0 && std::isfinite(secant)) plan.path.slope = secant;
+  const bool far = std::abs(plan.path.slope * moved) > 1e-9 * std::abs(before_Nm);  // else rounding is all there is
+  if (plan.tried && plan.lead.motors > 0 && far && std::isfinite(secant)) plan.path.slope = secant;
   plan.tried = true;
   return {plan.path.torque + rub.torque, std::max(plan.path.slope, 0.0) + rub.slope, plan.path.settled};
 }

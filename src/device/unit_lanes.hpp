@@ -35,7 +35,8 @@ struct UnitPhysics {
     const elastic::TangentOf<T> tangent = actuator.tangent(s.actuator);
     lead.drift = 0.5 * dt_s * plan.in.speed;
     const T x_squared = scale * tangent.stiffness;
-    s.unresolved = lanes::select((x_squared > 1.0) & (s.unresolved == 0.0), x_squared, s.unresolved);
+    const auto beyond = [&](double limit) { return (x_squared > limit) & (s.unresolved <= limit); };
+    s.unresolved = lanes::select(beyond(kHardlyResolved) | beyond(kUnresolved), x_squared, s.unresolved);
     lead.spring = actuator::lead_weight(x_squared);
     for (std::size_t i = 0; i < 2; ++i)
       lead.tendon[i] = actuator::lead_weight(scale * tendon.stiffness * tangent.tension[i] * tangent.tension[i]);

@@ -76,7 +76,11 @@ struct World::Impl {
   [[nodiscard]] std::int64_t substep_ns() const { return dt_ns / substeps; }
   [[nodiscard]] double substep_s() const { return static_cast<double>(substep_ns()) * 1e-9; }
   void step();
+  [[nodiscard]] bool begins_stiff(const RobotSlot& slot, std::size_t actuator) const;
+  void join_stiff_trees();
+  void find_stiff();
   [[nodiscard]] std::optional<physics::Refusal> substep();
+  class Holds;
   void keep();     ///< what a fault goes back to
   void go_back();  ///< to it
   void join_trees();

@@ -4,8 +4,8 @@
 //   1  prepare()              everything that depends on q
 //   2  push                   what users apply
 //      foresee()              where the driven joints would go without new torques; where it is due, B of those of every tree
-//   3  SeatGroup::step        q, v, B → torque, for [t, t + dt)
-//   4  apply, pull, advance()  v' = v + dt·a, q' = q + dt·v'
+//   3  SeatGroup::step        q, v, B → torque, for [t, t + dt); of stiff joints with what holds them then, holds_else()
+//   4  apply, advance()        v' = v + dt·a, q' = q + dt·v'
 //   5  Seat::observe          q', v', for readings
 // After a fault in 4 physics and robots are put back to where they were before the (whole) step.
 #include <fmt/format.h>
@@ -31,6 +31,7 @@ void World::Impl::join_trees() {
   foreseen.resize(driven.size());
   stiff.reserve(driven.size());
   trees = physics->trees(driven);
+  join_stiff_trees();
   group = seat::SeatGroup(seats(), trees);
   for (auto& tree : trees)
     for (std::size_t& k : tree) k = driven[k];
@@ -67,17 +68,35 @@ void World::Impl::tell_joints(const RobotSlot& slot) const {
   }
 }
 
+/// What holds the trees of stiff joints, while their step is solved.
+class World::Impl::Holds final : public device::Holder {
+ public:
+  explicit Holds(Impl& world) noexcept : world_(world) {}
+  [[nodiscard]] bool holds(std::size_t tree) const noexcept override { return world_.physics->is_held(world_.trees[tree]); }
+  bool holds_else(std::size_t tree, std::span<const double> torques, std::span<double> accelerations,
+                  std::span<double> mobility) noexcept override {
+    return world_.physics->holds_else(world_.trees[tree], torques, accelerations, mobility);
+  }
+
+ private:
+  Impl& world_;
+};
+
 /// What isn't finite any more stops a seat, too; then advance() finds it and says so.
 void World::Impl::drive() {
-  if (!driven.empty()) physics->foresee(driven, foreseen);
+  physics->foresee(driven, foreseen);
   auto next = foreseen.begin();
   for (const RobotSlot& slot : robots) {
     tell_joints(slot);
+    const bool held = !stiff.empty() && physics->is_held(slot.joints);
+    for (std::size_t i = 0; i < slot.joints.size(); ++i)
+      slot.seat->in()[i].inverse_inertia = held ? std::optional(physics->free_mobility(slot.joints[i])) : std::nullopt;
     slot.seat->turned(physics->turned_rad(slot.beside));
     for (host::JointIn& joint : slot.seat->in()) joint.free_acceleration_rad_per_s2 = *next++;
   }
   group.update([this](std::size_t tree, std::span<double> out) { physics->mobility(trees[tree], out); });
-  group.step(substep_ns());
+  Holds holds(*this);
+  group.step(substep_ns(), stiff.empty() ? nullptr : &holds);
   for (const RobotSlot& slot : robots) {
     for (std::size_t i = 0; i < slot.joints.size(); ++i) physics->apply(slot.joints[i], slot.seat->torques()[i]);
   }
@@ -90,18 +109,51 @@ void World::Impl::observe() {
   }
 }
 
-std::optional<physics::Refusal> World::Impl::substep() {
-  stiff.clear();
+/// Of an actuator, before its robot has made a step and found out.
+bool World::Impl::begins_stiff(const RobotSlot& slot, std::size_t actuator) const {
+  const double dt_s = substep_s(), stiffness = slot.robot().read(actuator).stiffness_Nm_per_rad;
+  return dt_s * dt_s * physics->free_mobility(slot.joints[actuator]) * stiffness > device::kHardlyResolved;
+}
+
+/// Trees of stiff joints that are small enough are solved as one, for where they touch, like two fingers on one thing, the torques of
+/// each hang on the other's within a step.
+void World::Impl::join_stiff_trees() {
+  constexpr std::size_t kMostJoints = 32;  // beyond, what touches acts a step late
+  physics->prepare();
+  std::vector<bool> begins;
   for (const RobotSlot& slot : robots)
-    if (slot.robot().is_stiff()) stiff.insert(stiff.end(), slot.joints.begin(), slot.joints.end());
+    for (std::size_t i = 0; i < slot.joints.size(); ++i) begins.push_back(begins_stiff(slot, i));
+  const auto is_stiff = [&](const std::vector<std::size_t>& tree) {
+    return std::any_of(tree.begin(), tree.end(), [&](std::size_t k) { return begins[k]; });
+  };
+  std::vector<std::size_t> all;
+  for (const auto& tree : trees)
+    if (is_stiff(tree)) all.insert(all.end(), tree.begin(), tree.end());
+  if (all.size() > kMostJoints) return;
+  std::erase_if(trees, is_stiff);
+  if (!all.empty()) trees.push_back(std::move(all));
+}
+
+void World::Impl::find_stiff() {
+  stiff.clear();
+  const bool begins = time_ns == 0;
+  if (begins) physics->prepare();
+  for (const RobotSlot& slot : robots) {
+    bool is = slot.robot().is_stiff();
+    for (std::size_t i = 0; begins && i < slot.joints.size(); ++i) is = is || begins_stiff(slot, i);
+    if (is) stiff.insert(stiff.end(), slot.joints.begin(), slot.joints.end());
+  }
   physics->set_stiff(stiff);
+}
+
+std::optional<physics::Refusal> World::Impl::substep() {
+  find_stiff();
   physics->prepare();
   // What holds a stiff joint is in B, in this step; what lets go of it isn't, in the next one.
   renew_held();
   push();
   drive();
   renew_held();
-  for (const Pull& pull : pulls) physics->pull(pull);
   if (std::optional<physics::Refusal> fault = physics->advance()) return fault;
   observe();
   time_ns += substep_ns();

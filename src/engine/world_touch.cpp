@@ -223,6 +223,7 @@ void World::apply_torque(JointHandle joint, double torque_Nm) {
 void World::Impl::push() {
   for (const auto& [joint, torque] : torques) physics->push(joint, torque);
   for (const auto& [link, wrench] : wrenches) physics->push(link, wrench);
+  for (const Pull& pull : pulls) physics->pull(pull);
 }
 
 void World::Impl::let_go() {

@@ -79,9 +79,9 @@ double own_mobility(const device::Unit& unit, const JointIn& joint) noexcept {
 
 void begin_step(const device::JointInStep& j, const JointIn& in, double inverse_inertia, std::int64_t t_ns,
                 std::int64_t dt_ns) noexcept {
-  j.unit->begin_step(
-      *j.state, *j.plan, t_ns, dt_ns,
-      {in.angle_rad, in.speed_rad_per_s, inverse_inertia, in.placed, in.free_acceleration_rad_per_s2.value_or(kNotTold)});
+  j.unit->begin_step(*j.state, *j.plan, t_ns, dt_ns,
+                     {in.angle_rad, in.speed_rad_per_s, std::max(inverse_inertia, in.inverse_inertia.value_or(0.0)), in.placed,
+                      in.free_acceleration_rad_per_s2.value_or(kNotTold)});
 }
 
 std::vector<Cluster> make_clusters(const ClusterParts& parts) {
@@ -95,13 +95,15 @@ std::vector<Cluster> make_clusters(const ClusterParts& parts) {
     taken[a] = true;
     shared[group[parts.bus_of[a]]].push_back({parts.joints[a], a});
   }
-  std::size_t at = 0;
+  std::size_t at = 0, index = 0;
   for (const auto& joined : parts.trees) {
+    ++index;
     if (joined.empty()) continue;
     for (const std::size_t a : joined) taken[a] = true;
     Tree tree = make_tree(parts, joined);
     tree.joined = true;
     tree.mobility_at = at;
+    tree.index = index - 1;
     at += joined.size() * joined.size();
     trees[group[parts.bus_of[joined.front()]]].push_back(std::move(tree));
   }
@@ -231,32 +233,39 @@ void Cluster::begin_lone(std::int64_t t_ns, std::int64_t dt_ns, std::span<const 
 }
 
 std::size_t Cluster::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
-                             std::span<const double> mobility) noexcept {
-  begin(t_ns, dt_ns, in, mobility);
+                             std::span<const double> mobility, device::Holder* holder) noexcept {
+  begin(t_ns, dt_ns, in, mobility, holder);
   run(t_ns, dt_ns);
-  return end(t_ns + dt_ns, torques_out);
+  return end(t_ns + dt_ns, torques_out, holder);
 }
 
-void Cluster::begin(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<const double> mobility) noexcept {
-  const bool foresees = has_ticks_inside(t_ns, dt_ns);
-  if (foresees || dt_ns > whole_ns_) leave();
-  for (Tree& tree : std::span(trees_).first(foresees ? trees_.size() : lone_at_)) begin_tree(tree, t_ns, dt_ns, in, mobility);
-  if (foresees) {
-    for (Tree& tree : trees_) tree.solver.predict(tree.joints);
-  } else {
-    begin_lone(t_ns, dt_ns, in, mobility);
-  }
+/// Then none of its joints goes in the lanes of those that move alone.
+bool Cluster::is_held(const device::Holder* holder) const noexcept {
+  return holder != nullptr &&
+         std::any_of(trees_.begin(), trees_.end(), [&](const Tree& t) { return t.joined && holder->holds(t.index); });
+}
+
+void Cluster::begin(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<const double> mobility,
+                    const device::Holder* holder) noexcept {
+  const bool foresees = has_ticks_inside(t_ns, dt_ns), by_trees = foresees || is_held(holder);
+  if (by_trees || dt_ns > whole_ns_) leave();
+  for (Tree& tree : std::span(trees_).first(by_trees ? trees_.size() : lone_at_)) begin_tree(tree, t_ns, dt_ns, in, mobility);
+  if (!by_trees) begin_lone(t_ns, dt_ns, in, mobility);
+  if (!foresees) return;
+  for (Tree& tree : trees_) tree.solver.predict(tree.joints);
 }
 
 void Cluster::run(std::int64_t t_ns, std::int64_t dt_ns) noexcept {
   for (std::int64_t at = device::Unit::first_tick_ns(t_ns); at < t_ns + dt_ns; at += firmware::kTickNs) tick(at);
 }
 
-std::size_t Cluster::end(std::int64_t end_ns, std::span<double> torques_out) noexcept {
-  std::size_t unsettled = lone_trials_.solve_each(lone_, lone_torques_);
-  for (std::size_t k = 0; k < lone_.size(); ++k) torques_out[lone_from_[k].actuator] = lone_torques_[k];
-  for (Tree& tree : std::span(trees_).first(lone_at_)) {
-    if (!tree.solver.solve(tree.joints, tree.torques)) unsettled += tree.joints.size();
+std::size_t Cluster::end(std::int64_t end_ns, std::span<double> torques_out, device::Holder* holder) noexcept {
+  const bool held = is_held(holder);
+  std::size_t unsettled = held ? 0 : lone_trials_.solve_each(lone_, lone_torques_);
+  for (std::size_t k = 0; !held && k < lone_.size(); ++k) torques_out[lone_from_[k].actuator] = lone_torques_[k];
+  for (Tree& tree : std::span(trees_).first(held ? trees_.size() : lone_at_)) {
+    device::Holder* const of_it = held && tree.joined && holder->holds(tree.index) ? holder : nullptr;
+    if (!tree.solver.solve(tree.joints, tree.torques, of_it, tree.index)) unsettled += tree.joints.size();
     for (std::size_t i = 0; i < tree.joints.size(); ++i) torques_out[tree.actuators[i]] = tree.torques[i];
   }
   for (BusLine* bus : buses_) bus->end(end_ns);

@@ -26,6 +26,7 @@ struct Tree {
   std::vector<device::JointInStep> joints;
   std::vector<std::size_t> actuators;
   std::size_t mobility_at = 0;  ///< where its matrix begins among the host's
+  std::size_t index = 0;        ///< among those that the host joined
   bool joined = false;          ///< by the host: it may have a matrix
   std::vector<double> scratch;  ///< the diagonal where the host gives no matrix
   std::vector<double> torques;
@@ -49,11 +50,12 @@ class Cluster {
 
   /// One host step of its units; how many of them the solver left unsettled.
   std::size_t advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
-                      std::span<const double> mobility) noexcept;
+                      std::span<const double> mobility, device::Holder* holder) noexcept;
   /// The same in three; shared() are begun before run() and solved before end() by who knows them all.
-  void begin(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<const double> mobility) noexcept;
+  void begin(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<const double> mobility,
+             const device::Holder* holder) noexcept;
   void run(std::int64_t t_ns, std::int64_t dt_ns) noexcept;
-  std::size_t end(std::int64_t end_ns, std::span<double> torques_out) noexcept;
+  std::size_t end(std::int64_t end_ns, std::span<double> torques_out, device::Holder* holder) noexcept;
 
   [[nodiscard]] std::span<const SharedJoint> shared() const noexcept { return shared_; }
 
@@ -73,6 +75,7 @@ class Cluster {
                          std::span<const double> mobility) noexcept;
 
   void find_whole() noexcept;
+  [[nodiscard]] bool is_held(const device::Holder* holder) const noexcept;
   /// All of its ticks at that time.
   void tick(std::int64_t at_ns) noexcept;
   void settle_in(device::JointTrials& trials, std::span<const device::JointInStep> joints);

@@ -70,7 +70,7 @@ void Robot::require_step(const char* here, std::int64_t t_ns, std::int64_t dt_ns
 }
 
 void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
-                    std::span<const double> mobility) noexcept {
+                    std::span<const double> mobility, device::Holder* holder) noexcept {
   constexpr const char* kHere = "vsa::host::Robot::advance";
   require_step(kHere, t_ns, dt_ns, in, torques_out, mobility);
   Impl& d = *impl_;
@@ -80,7 +80,7 @@ void Robot::advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const Joint
     return;
   }
   d.begin_step(t_ns);
-  for (Cluster& cluster : d.clusters) d.state.unsettled += cluster.advance(t_ns, dt_ns, in, torques_out, mobility);
+  for (Cluster& cluster : d.clusters) d.state.unsettled += cluster.advance(t_ns, dt_ns, in, torques_out, mobility, holder);
   d.end_step(t_ns + dt_ns);
 }
 

@@ -24,9 +24,11 @@ RobotGroup::RobotGroup(std::size_t robots, std::vector<std::vector<Joint>> trees
     : joints_(std::move(trees)), shared_(robots), steps_(robots) {
   Problems problems;
   std::size_t numbers = 0;
-  for (const std::vector<Joint>& joints : joints_) {
+  for (std::size_t t = 0; t < joints_.size(); ++t) {
+    const std::vector<Joint>& joints = joints_[t];
     if (joints.empty()) continue;
     Tree tree(joints.size());
+    tree.index = t;
     for (const Joint& joint : joints) {
       const auto there = [&](const std::vector<std::size_t>& all) {
         return std::count(all.begin(), all.end(), joint.actuator) > 0;
@@ -74,7 +76,7 @@ void RobotGroup::begin(Tree& tree, std::int64_t dt_ns) noexcept {
   }
 }
 
-void RobotGroup::advance(std::int64_t dt_ns) noexcept {
+void RobotGroup::advance(std::int64_t dt_ns, device::Holder* holder) noexcept {
   constexpr const char* kHere = "vsa::host::RobotGroup::advance";
   if (steps_.empty()) return;
   for (std::size_t r = 0; r < steps_.size(); ++r) {
@@ -92,8 +94,8 @@ void RobotGroup::advance(std::int64_t dt_ns) noexcept {
     Robot::Impl& d = *s.robot->impl_;
     d.begin_step(s.t_ns);
     for (Cluster& cluster : d.clusters)
-      if (cluster.shared().empty()) d.state.unsettled += cluster.advance(s.t_ns, dt_ns, s.in, s.torques_out, s.mobility);
-    if (Cluster* cluster = sharing(d.clusters)) cluster->begin(s.t_ns, dt_ns, s.in, s.mobility);
+      if (cluster.shared().empty()) d.state.unsettled += cluster.advance(s.t_ns, dt_ns, s.in, s.torques_out, s.mobility, s.holder);
+    if (Cluster* cluster = sharing(d.clusters)) cluster->begin(s.t_ns, dt_ns, s.in, s.mobility, s.holder);
   }
   const auto foresees = [dt_ns](const Step& s) { return has_ticks_inside(s.t_ns, dt_ns); };
   const bool any_foresees = std::any_of(steps_.begin(), steps_.end(), foresees);
@@ -105,13 +107,14 @@ void RobotGroup::advance(std::int64_t dt_ns) noexcept {
     if (Cluster* cluster = sharing(s.robot->impl_->clusters)) cluster->run(s.t_ns, dt_ns);
   for (Tree& tree : trees_) {
     Robot::Impl& first = *steps_[tree.places.front().robot].robot->impl_;
-    if (!tree.solver.solve(tree.joints, tree.torques)) first.state.unsettled += tree.joints.size();
+    device::Holder* const of_it = holder != nullptr && holder->holds(tree.index) ? holder : nullptr;
+    if (!tree.solver.solve(tree.joints, tree.torques, of_it, tree.index)) first.state.unsettled += tree.joints.size();
     for (std::size_t i = 0; i < tree.joints.size(); ++i)
       steps_[tree.places[i].robot].torques_out[tree.places[i].actuator] = tree.torques[i];
   }
   for (Step& s : steps_) {
     Robot::Impl& d = *s.robot->impl_;
-    if (Cluster* cluster = sharing(d.clusters)) d.state.unsettled += cluster->end(s.t_ns + dt_ns, s.torques_out);
+    if (Cluster* cluster = sharing(d.clusters)) d.state.unsettled += cluster->end(s.t_ns + dt_ns, s.torques_out, s.holder);
     d.end_step(s.t_ns + dt_ns);
   }
 }

@@ -204,8 +204,8 @@ struct Robot::Impl {
       member(i).changed = true;
       ActuatorSlot& slot = state.actuators[i];
       for (Track* track : {&slot.equilibrium, &slot.preset}) track->settle(state.time_ns);
-      notice(i, slot.noted_unresolved, slot.unit.unresolved > 0, NoticeKind::unresolved, slot.unit.unresolved);
-      state.stiff = state.stiff || slot.noted_unresolved;
+      notice(i, slot.noted_unresolved, slot.unit.unresolved > device::kUnresolved, NoticeKind::unresolved, slot.unit.unresolved);
+      state.stiff = state.stiff || slot.unit.unresolved > 0;
       sum += slot.unit.actuator.ledger;
     }
     for (const auto& bus : buses) look_at_client(*bus);

@@ -138,7 +138,7 @@ struct RobotState {
   std::int64_t stepped_ns = 0;  ///< the time of all of them
   std::size_t unsettled = 0;    ///< steps of joints whose solution didn't settle
   bool noted_unsettled = false, noted_energy = false;
-  bool stiff = false;  ///< some spring was found unresolved
+  bool stiff = false;  ///< some spring was found hardly resolved
   std::vector<ActuatorSlot> actuators;
 
   static auto fields(auto& s, auto&& visit) {

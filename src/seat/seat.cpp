@@ -165,22 +165,23 @@ bool Seat::can_step(std::int64_t dt_ns) {
   return true;
 }
 
-void Seat::step(std::int64_t dt_ns) {
+void Seat::step(std::int64_t dt_ns, device::Holder* holder) {
   if (!can_step(dt_ns)) return;
-  robot_.advance(own_.now.time_ns, dt_ns, own_.now.in, torques_, own_.mobility);
+  robot_.advance(own_.now.time_ns, dt_ns, own_.now.in, torques_, own_.mobility, holder);
   stepped(dt_ns);
 }
 
-void Seat::step_together(std::span<Seat* const> seats, host::RobotGroup& group, std::int64_t dt_ns) {
+void Seat::step_together(std::span<Seat* const> seats, host::RobotGroup& group, std::int64_t dt_ns, device::Holder* holder) {
   bool all = true;
   for (Seat* seat : seats) all = seat->can_step(dt_ns) && all;
   for (std::size_t i = 0; i < seats.size(); ++i) {
     Seat& seat = *seats[i];
     if (!all && !seat.stopped()) seat.stop("another robot on its kinematic tree has stopped");
-    group.steps()[i] = {&seat.robot_, seat.own_.now.time_ns, seat.own_.now.in, seat.torques_, seat.own_.mobility};
+    host::RobotGroup::Step& step = group.steps()[i];
+    step = {&seat.robot_, seat.own_.now.time_ns, seat.own_.now.in, seat.torques_, seat.own_.mobility, step.holder};
   }
   if (!all) return;
-  group.advance(dt_ns);
+  group.advance(dt_ns, holder);
   for (Seat* seat : seats) seat->stepped(dt_ns);
 }
 

@@ -85,6 +85,7 @@ SeatGroup::SeatGroup(std::vector<Seat*> seats, const Trees& trees) : seats_(std:
       alone_.push_back(members.front());
     } else {
       together_.push_back({members, {}, std::move(group), std::move(common)});
+      together_.back().parts.reserve(members.size());
       for (const std::size_t r : members) together_.back().seats.push_back(seats_[r]);
     }
   }
@@ -101,6 +102,7 @@ SeatGroup SeatGroup::another(const std::vector<Seat*>& seats) const {
   out.sizes_ = sizes_;
   for (const Together& t : together_) {
     out.together_.push_back({t.members, {}, t.group.another(), t.trees});
+    out.together_.back().parts.reserve(t.members.size());
     for (const std::size_t r : t.members) out.together_.back().seats.push_back(seats[r]);
   }
   return out;
@@ -119,9 +121,14 @@ void SeatGroup::update(const Mobility& mobility) {
   for (Together& t : together_) fill(t.trees, t.group.mobility(), mobility);
 }
 
-void SeatGroup::step(std::int64_t dt_ns) {
-  for (const std::size_t r : alone_) seats_[r]->step(dt_ns);
-  for (Together& t : together_) Seat::step_together(t.seats, t.group, dt_ns);
+void SeatGroup::step(std::int64_t dt_ns, device::Holder* holder) {
+  for (const std::size_t r : alone_) seats_[r]->step(dt_ns, Part(holder, own_[r]).get());
+  for (Together& t : together_) {
+    t.parts.clear();
+    for (const std::size_t r : t.members) t.parts.emplace_back(holder, own_[r]);
+    for (std::size_t i = 0; i < t.parts.size(); ++i) t.group.steps()[i].holder = t.parts[i].get();
+    Seat::step_together(t.seats, t.group, dt_ns, Part(holder, t.trees).get());
+  }
 }
 
 }  // namespace vsa::seat

@@ -17,10 +17,10 @@ struct ArmParams {
   static constexpr double m2 = 0.2, c2 = 0.08, i2 = 6e-4;
 };
 
-inline std::string hinge(const std::string& name, const std::string& parent, const std::string& child,
-                         const std::string& more = {}) {
-  return "<joint name='" + name + "' type='revolute'><parent>" + parent + "</parent><child>" + child +
-         "</child><axis><xyz>0 1 0</xyz>" + more + "</axis></joint>";
+inline std::string hinge(const std::string& name, const std::string& parent, const std::string& child, const std::string& more = {},
+                         const std::string& axis = "0 1 0") {
+  return "<joint name='" + name + "' type='revolute'><parent>" + parent + "</parent><child>" + child + "</child><axis><xyz>" +
+         axis + "</xyz>" + more + "</axis></joint>";
 }
 
 inline std::string arm_links() {

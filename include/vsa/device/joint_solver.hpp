@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vsa/device/holder.hpp"
 #include "vsa/device/joint_trials.hpp"
 
 namespace vsa::device {
@@ -31,6 +32,9 @@ inline constexpr double kReach_rad = 0.25;
 /// ends to slide Newton can go to and fro, so after some rounds less is allowed.
 inline constexpr double kOvershoot = 0.9, kOvershootLater = 0.3;
 inline constexpr int kEarly = 8;  ///< rounds before kOvershootLater holds
+/// How often what holds may change while a step is solved; then the torques are those of the last. Mostly it doesn't; seldom it needs
+/// more than four.
+inline constexpr int kMaxChanges = 20;
 /// The torque that may be left over where no round settles.
 inline constexpr double kLeft = 1e-3, kLeft_Nm = 1e-4;  ///< of a torque; N·m
 /// Memory that begins on a line of the cache, for vectors of any width.
@@ -69,7 +73,9 @@ class JointSolver {
   /// Solves, ends every unit's step, writes the torques; one joint alone has its unit solve it, with the entry of B that its step was
   /// begun with. False: after kMaxIterations more than a thousandth of a torque (and more
   /// than 1e-4 N·m) is left over; the torques are those of the last attempt.
-  bool solve(std::span<const JointInStep> joints, std::span<double> torques) noexcept;
+  /// `holder`: of the tree that has this index there; solves anew with what holds, up to kMaxChanges times.
+  bool solve(std::span<const JointInStep> joints, std::span<double> torques, Holder* holder = nullptr,
+             std::size_t tree = 0) noexcept;
 
   static constexpr int kMaxIterations = solver::kMaxIterations;  ///< as the solver has it
 
@@ -85,6 +91,9 @@ class JointSolver {
   bool search(std::span<const JointInStep> joints) noexcept;
   bool near(std::span<const JointInStep> joints) noexcept;
   void guess() noexcept;
+  bool settle(std::span<const JointInStep> joints) noexcept;
+  bool holds_else(std::span<const JointInStep> joints, Holder& holder, std::size_t tree, std::span<double> torques,
+                  bool first) noexcept;
   [[nodiscard]] double along() const noexcept;
 
   bool factor() noexcept;
@@ -100,6 +109,12 @@ class JointSolver {
   solver::Row lower_, upper_, reciprocal_;
   solver::Row off_, move_, change_, gradient_;
   std::vector<double> dy_, factored_, column_;
+  std::vector<double> acceleration_, told_;  // a holder's, its B by rows
+  std::vector<double> between_, way_;        // torques, and from where to where they changed
+  struct Answer {
+    double torque = 0, dy = 0, off = 0;  // the units' Δy with that torque, and how far beyond it the holder has the joint
+  };
+  std::vector<Answer> tried_before_;  // of a holder
   JointTrials trials_;
   TrialColumns tried_;
 };

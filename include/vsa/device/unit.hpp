@@ -60,6 +60,8 @@ struct ShaftMotion {
 };
 
 /// All that changes of a unit; the same size for every unit. It goes on with equal parameters only: Unit::adopt takes it to others.
+inline constexpr double kHardlyResolved = 0.25, kUnresolved = 1.0;  ///< (ω·dt)²
+
 struct UnitState {
   actuator::ActuatorState actuator;  ///< motors, springs, ledger
   Held held;                         ///< by the bridges, until the next tick
@@ -71,10 +73,10 @@ struct UnitState {
   double path_work = 0;              ///< that the actuator booked along its own path, J
   double last_speed = 0;             ///< v at its start, rad/s
   double last_dt = 0;                ///< its length, s
-  double unresolved = 0;             ///< (ω·dt)² of its spring on the inertia behind the joint, where it first went beyond 1
-  ShaftMotion reached;               ///< where the shaft is at the last step's end, as foreseen
-  firmware::ProgramState program;    ///< of a unit without a servo
-  Faults faults;                     ///< in force
+  double unresolved = 0;  ///< (ω·dt)² of its spring on the inertia behind the joint, where it first went beyond ¼, or 1
+  ShaftMotion reached;    ///< where the shaft is at the last step's end, as foreseen
+  firmware::ProgramState program;              ///< of a unit without a servo
+  Faults faults;                               ///< in force
   std::array<std::int32_t, 3> last_encoder{};  ///< what a stuck encoder says
   Dice dice;                                   ///< of the encoders' noise
   control::ServoState servo;                   ///< of a unit that has one

@@ -37,6 +37,7 @@
 
 #include "vsa/bus/master.hpp"
 #include "vsa/device/faults.hpp"
+#include "vsa/device/holder.hpp"
 #include "vsa/device/port_line.hpp"
 #include "vsa/device/reading.hpp"
 #include "vsa/device/unit.hpp"
@@ -55,7 +56,7 @@ struct JointIn {
   double angle_rad = 0;        ///< q at the step's start
   double speed_rad_per_s = 0;  ///< v there
   /// B_jj = (M⁻¹)_jj, 0 … 1e12/(kg·m²); none: the unit's configured shaft_inertia_kgm2 is used. Joints of a tree with a matrix have it
-  /// there.
+  /// there; told besides, it is B_jj as if nothing held the joint, by which a spring is or isn't too fast for the step.
   std::optional<double> inverse_inertia;
   /// Somebody put the joint there since the last step; what that did to angle and speed is neither work nor acceleration.
   bool placed = false;
@@ -132,11 +133,12 @@ class Robot {
 
   /// One host step [t, t + dt) in integer nanoseconds. in/out have one entry an actuator, in config order. dt in 1 ns … 16 ms.
   /// `mobility`: B of each tree, by rows, one after the other in the order of `join`, 1/(kg·m²); empty: each joint by itself.
+  /// `holder`: asked about trees of `join` while they are solved; its accelerations are JointIn::free_acceleration's, which it needs.
   /// Allocates nothing, throws nothing, logs nothing. Spans of another size, a dt outside that range and a t outside 0 … 4e18 ns
   /// are programming errors, as is a robot with shared joints: one line on stderr, and abort. A joint that isn't finite: every
   /// torque is NaN, and the robot stays where it was.
   void advance(std::int64_t t_ns, std::int64_t dt_ns, std::span<const JointIn> in, std::span<double> torques_out,
-               std::span<const double> mobility = {}) noexcept;
+               std::span<const double> mobility = {}, device::Holder* holder = nullptr) noexcept;
 
   /// Where the joints are after the host's step, one entry an actuator, for readings; without it those tell what the units foresaw,
   /// which only differs where contacts or others push. Another size: one line on stderr, and abort.
@@ -179,8 +181,8 @@ class Robot {
   /// Now. InputError, here and below: no such actuator.
   [[nodiscard]] ActuatorReading read(std::size_t actuator, device::Torques torques = device::Torques::told) const;
   [[nodiscard]] std::array<Ticks, 2> received_inputs(std::size_t actuator) const;  ///< references that came over its bus last
-  /// Whether some spring swings faster on what is behind its joint than steps resolve, ω·dt > 1, found in the first step or within 128
-  /// (it is a notice, too). Such a joint answers to contacts, limits and frictions within a step, so its host should foresee them.
+  /// Whether some spring swings so fast on what is behind its joint that steps hardly resolve it, ω·dt > ½, found in the first step or
+  /// within 128 (beyond 1 it is a notice, too). Such a joint answers to contacts, limits and frictions within a step, so its host should foresee them.
   [[nodiscard]] bool is_stiff() const;
   [[nodiscard]] actuator::Ledger ledger(std::size_t actuator) const;  ///< energy ledger since the start or the last reset
   [[nodiscard]] actuator::Ledger ledger() const;                      ///< summed over all actuators

@@ -33,6 +33,7 @@ class RobotGroup {
     std::span<const JointIn> in{};       ///< one entry an actuator
     std::span<double> torques_out{};     ///< likewise
     std::span<const double> mobility{};  ///< of its own trees; empty: each joint by itself
+    device::Holder* holder = nullptr;    ///< of its own trees
   };
 
   /// `trees`: those that several robots drive. Throws InputError for a robot beyond `robots` and for a joint twice.
@@ -47,9 +48,9 @@ class RobotGroup {
   /// B of each tree by rows, one after the other, 1/(kg·m²): to be filled before each step.
   [[nodiscard]] std::span<double> mobility() noexcept { return mobility_; }
 
-  /// A step of all robots, with Robot::advance's terms. Where a joint of any isn't finite, all torques are NaN and all robots stay where
-  /// they were.
-  void advance(std::int64_t dt_ns) noexcept;
+  /// A step of all robots, with Robot::advance's terms; `holder`: of the group's trees. Where a joint of any isn't finite, all torques
+  /// are NaN and all robots stay where they were.
+  void advance(std::int64_t dt_ns, device::Holder* holder = nullptr) noexcept;
 
  private:
   struct Place {
@@ -61,7 +62,7 @@ class RobotGroup {
     std::vector<device::JointInStep> joints;
     std::vector<double> torques;
     std::vector<Place> places;
-    std::size_t mobility_at = 0;
+    std::size_t mobility_at = 0, index = 0;
   };
   void begin(Tree& tree, std::int64_t dt_ns) noexcept;
 

@@ -78,17 +78,24 @@ class Physics {
   /// B of those joints: how advance() answers to torques, (v' − v)/dt = … + B τ, contacts, limits and frictions aside but those
   /// that hold set_stiff() joints. By rows, 1/(kg·m²); between foresee() and advance().
   virtual void mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
+  /// One joint's own entry of B if nothing held it, 1/(kg·m²).
+  virtual double free_mobility(std::size_t joint) = 0;
   /// Degrees of freedom that change B of those joints without being theirs. Fixed for a world.
   [[nodiscard]] virtual std::vector<std::size_t> beside(std::span<const std::size_t> joints) const = 0;
   /// How far the fastest of such goes in the next step at its present speed, rad; a slide counts ten radians for a metre. 0: of none.
   [[nodiscard]] virtual double turned_rad(std::span<const std::size_t> dofs) const = 0;
   /// How advance() would accelerate those joints, rad/s² or m/s², if what pushes the bodies stayed as it was in the last step
-  /// (apply(), pull(), contacts and limits; nothing before the first); what follows from positions and speeds, dampers and equalities
+  /// (apply(), contacts and limits; nothing before the first); what follows from positions and speeds, dampers and equalities
   /// among it, and what was pushed by now, is of now. Between prepare() and apply().
   virtual void foresee(std::span<const std::size_t> joints, std::span<double> out) = 0;
+  /// Whether with these torques on such joints, and on others those of the last call or else of the last step, other limits, contacts and
+  /// frictions hold than those that these joints were told of last, by foresee() or here. If so, tells of those: how advance() would
+  /// accelerate the joints, rad/s², and mobility(). Between foresee() and apply().
+  virtual bool holds_else(std::span<const std::size_t> joints, std::span<const double> torques, std::span<double> accelerations,
+                          std::span<double> mobility) = 0;
   /// Adds to what is applied to a driven one-axis joint, N·m or N.
   virtual void apply(std::size_t joint, double torque) = 0;
-  /// Adds the spring's force to what is applied; after all apply() of the step.
+  /// Adds the spring's force to what is applied, as if all else pushed as in the last step; after all push(), before foresee().
   virtual void pull(const scene::Pull& pull) = 0;
   /// A fault leaves the state as it was at prepare().
   [[nodiscard]] virtual std::optional<Refusal> advance() = 0;

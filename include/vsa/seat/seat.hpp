@@ -105,7 +105,8 @@ class Seat {
   [[nodiscard]] std::span<double> mobility() noexcept { return own_.mobility; }
   /// A step length that the units don't know, or a joint that is no longer finite, stops the actuators with one reported line:
   /// torques are 0 until reset().
-  void step(std::int64_t dt_ns);
+  /// `holder`: as host::Robot::advance has it.
+  void step(std::int64_t dt_ns, device::Holder* holder = nullptr);
   /// Of the last step, N·m (N of a linear actuator), one an actuator.
   [[nodiscard]] std::span<const double> torques() const noexcept { return torques_; }
   [[nodiscard]] bool stopped() const noexcept { return own_.now.stopped; }  ///< whether it gave up, see step()
@@ -187,7 +188,8 @@ class Seat {
 
   Seat(const Seat& other, host::Robot robot);
   /// step() of seats on one tree, in the order of the group's robots, whose mobility() is filled. Where one has stopped all do.
-  static void step_together(std::span<Seat* const> seats, host::RobotGroup& group, std::int64_t dt_ns);
+  /// `holder`: of the group's trees; steps() has those of the robots' own.
+  static void step_together(std::span<Seat* const> seats, host::RobotGroup& group, std::int64_t dt_ns, device::Holder* holder);
   void stop(const std::string& why);
   [[nodiscard]] bool can_step(std::int64_t dt_ns);
   void stepped(std::int64_t dt_ns);

@@ -35,16 +35,32 @@ class SeatGroup {
   /// Once before each step, when the seats' in() are filled. `mobility` is asked where B is due: that of a tree that several seats
   /// drive each time.
   void update(const Mobility& mobility);
-  /// Seat::step of all, after update(). Of seats that step together all stop where one does.
-  void step(std::int64_t dt_ns);
+  /// Seat::step of all, after update(). Of seats that step together all stop where one does. `holder`: of the group's trees.
+  void step(std::int64_t dt_ns, device::Holder* holder = nullptr);
 
  private:
+  /// Some of a holder's trees, numbered as somebody else has them.
+  class Part final : public device::Holder {
+   public:
+    Part(device::Holder* all, const std::vector<std::size_t>& trees) noexcept : all_(all), trees_(&trees) {}
+    [[nodiscard]] device::Holder* get() noexcept { return all_ == nullptr ? nullptr : this; }
+    [[nodiscard]] bool holds(std::size_t tree) const noexcept override { return all_->holds((*trees_)[tree]); }
+    bool holds_else(std::size_t tree, std::span<const double> torques, std::span<double> accelerations,
+                    std::span<double> mobility) noexcept override {
+      return all_->holds_else((*trees_)[tree], torques, accelerations, mobility);
+    }
+
+   private:
+    device::Holder* all_;
+    const std::vector<std::size_t>* trees_;
+  };
   /// Seats that have trees in common.
   struct Together {
     std::vector<std::size_t> members;  ///< into seats_
     std::vector<Seat*> seats;          ///< those
     host::RobotGroup group;            ///< in this order
     std::vector<std::size_t> trees;    ///< of the group
+    std::vector<Part> parts{};         ///< of each seat, in the step under way
   };
   void fill(const std::vector<std::size_t>& trees, std::span<double> out, const Mobility& mobility) const;
 

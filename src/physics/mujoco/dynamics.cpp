@@ -25,11 +25,13 @@ MujocoPhysics::MujocoPhysics(const MujocoPhysics& other)
       before_(other.before_),
       pushed_(other.pushed_),
       asked_(other.asked_),
+      tried_(other.tried_),
       unit_(other.unit_),
       column_(other.column_),
       jacobian_(other.jacobian_),
       mobility_(other.mobility_),
       mass_matrix_(other.mass_matrix_),
+      jacobian_rows_(other.jacobian_rows_),
       damped_(other.damped_) {
   stiff_.reserve(unit_.size());
   make_data();

@@ -59,7 +59,8 @@ class Writer {
                    step_s, text(world_.gravity));
     result_.xml += "<flag filterparent=\"disable\"/></option>\n<default><geom solref=\"0.004 1\"/>";
     result_.xml +=
-        "<joint armature=\"0\" solreflimit=\"0.004 1\" solimplimit=\"0.9 0.9999 0.001\" solreffriction=\"0.004 1\"/></default>\n";
+        "<joint armature=\"0\" solreflimit=\"0.004 1\" solimplimit=\"0.9999 0.9999 0.001\" solreffriction=\"0.004 "
+        "1\"/></default>\n";
     result_.xml += "<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + ground_ + bodies + "</worldbody>\n<contact>\n";
     excludes();
     result_.xml += "</contact>\n<equality>\n";

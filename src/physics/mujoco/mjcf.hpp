@@ -10,8 +10,9 @@
 //                  friction is that of the same shape.
 //   collisions     links joined by a joint never collide; links of one model only where one of them has self_collide
 //   joints         no armature; limits, dry friction and joints that follow others as constraints with solref 0.004 s. A limit
-//                  gives way by a share 1 − d of torque times mobility, so that an actuator would press a light finger far
-//                  beyond it: d grows to 0.9999 within 1 mrad
+//                  gives way by a share 1 − d of torque times mobility, and an actuator would press a light finger far beyond it:
+//                  d is 0.9999 everywhere, for where it grows with depth a stop under load is as stiff as that growth times torque
+//                  times mobility, more than a step of 2 ms can take
 //   loops          Joint::closes as connects (hinge: two, ball: one) or a weld, solref 0.002 s: MuJoCo's constraints know nothing of
 //                  their own curvature, so that a loop gapes by its acceleration times the square of that time
 #pragma once

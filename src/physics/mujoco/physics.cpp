@@ -65,6 +65,8 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::
   unit_.resize(static_cast<std::size_t>(m->nv));
   pushed_.resize(unit_.size());
   asked_.resize(unit_.size());
+  jacobian_rows_.resize(6 * unit_.size());
+  tried_.resize(unit_.size());
   stiff_.reserve(unit_.size());
   column_.resize(unit_.size());
   // Where mj_Euler takes none, nor may what is solved before it.
@@ -175,39 +177,47 @@ std::vector<std::vector<std::size_t>> MujocoPhysics::trees(std::span<const std::
 }
 
 /// Which rows of constraints answer to torques in proportion: equalities; of those that hold, which foresee() has solved, limits, frictions
-/// that stick and contacts. Of a contact that slides only what presses.
-bool MujocoPhysics::answers(int row) const {
-  const mjData& d = *data_;
-  const bool slides = d.efc_state[row] == mjCNSTRSTATE_CONE && d.contact[d.efc_id[row]].efc_address == row;
-  return row < d.ne || d.efc_state[row] == mjCNSTRSTATE_QUADRATIC || slides;
-}
+/// that stick and contacts. Those of a contact that slides do so together.
+bool MujocoPhysics::answers(int row) const { return row < data_->ne || data_->efc_state[row] == mjCNSTRSTATE_QUADRATIC; }
 
-/// With J of the rows that answer and R, by which MuJoCo softens them, B is the joints' part of
-///   (M + J^T R⁻¹ J)⁻¹ = M⁻¹ − M⁻¹ J^T (J M⁻¹ J^T + R)⁻¹ J M⁻¹
+bool MujocoPhysics::slides(int row) const { return row >= data_->ne && data_->efc_state[row] == mjCNSTRSTATE_CONE; }
+
+/// With J of the rows that answer and H, R⁻¹ by which MuJoCo softens them or of a contact that slides the Hessian of its cone's cost, B is
+/// the joints' part of
+///   (M + J^T H J)⁻¹, which is M⁻¹ − M⁻¹ J^T (J M⁻¹ J^T + R)⁻¹ J M⁻¹ where nothing slides
 /// That sum, factored, to held_. False: there is no such row.
 bool MujocoPhysics::hold() {
   const mjModel* m = model_.get();
+  const mjData* d = data_.get();
   const int nv = m->nv;
-  row_.resize(std::max(row_.size(), row_room(*m, *data_)));
+  row_.resize(std::max(row_.size(), row_room(*m, *d)));
   bool any = false;
-  for (int r = 0; r < (stiff_.empty() ? data_->ne : data_->nefc); ++r) {
-    if (!answers(r)) continue;
-    row_[r] = 1;
-    mj_mulJacTVec(m, data_.get(), unit_.data(), row_.data());
-    row_[r] = 0;
-    const auto acts_on = [&](int v) { return unit_[v] != 0; };
-    int first = 0;
-    while (first < nv && !acts_on(first)) ++first;
-    if (first < nv && (r < data_->ne || trees_.held(first))) {
-      if (!any) {
-        held_.resize(static_cast<std::size_t>(nv) * static_cast<std::size_t>(nv));
-        dense_mass(*m, *data_, held_.data());
-      }
-      any = true;
-      for (int i = first; i < nv; ++i)
-        if (acts_on(i)) mju_addToScl(&held_[i * nv], unit_.data(), unit_[i] / data_->efc_R[r], nv);
+  const int rows = stiff_.empty() ? d->ne : d->nefc;
+  for (int r = 0, count = 1; r < rows; r += count) {
+    count = slides(r) ? d->contact[d->efc_id[r]].dim : 1;
+    if (!answers(r) && !slides(r)) continue;
+    int first = nv;  // degree of freedom that they act on
+    for (int k = 0; k < count; ++k) {
+      mjtNum* const acts_on = &jacobian_rows_[k * nv];
+      row_[r + k] = 1;
+      mj_mulJacTVec(m, data_.get(), acts_on, row_.data());
+      row_[r + k] = 0;
+      first = std::min(first, static_cast<int>(std::find_if(acts_on, acts_on + nv, [](mjtNum x) { return x != 0; }) - acts_on));
     }
-    mju_zero(unit_.data(), nv);
+    if (first == nv || (r >= d->ne && !trees_.held(first))) continue;
+    if (!any) {
+      held_.resize(static_cast<std::size_t>(nv) * static_cast<std::size_t>(nv));
+      dense_mass(*m, *d, held_.data());
+    }
+    any = true;
+    for (int k = 0; k < count; ++k) {
+      for (int l = 0; l < count; ++l) {
+        const mjtNum h = slides(r) ? d->contact[d->efc_id[r]].H[k * count + l] : 1 / d->efc_R[r];
+        const mjtNum *const left = &jacobian_rows_[k * nv], *const right = &jacobian_rows_[l * nv];
+        for (int i = first; i < nv; ++i)
+          if (left[i] != 0) mju_addToScl(&held_[i * nv], right, h * left[i], nv);
+      }
+    }
   }
   if (any) mju_cholFactor(held_.data(), nv, mjMINVAL);
   return any;
@@ -230,6 +240,14 @@ void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<doub
   }
   for (std::size_t i = 0; held && i < n; ++i)
     for (std::size_t k = 0; k < i; ++k) out[k * n + i] = out[i * n + k];
+}
+
+double MujocoPhysics::free_mobility(std::size_t joint) {
+  const auto v = static_cast<std::size_t>(joint_[joint].v);
+  unit_[v] = 1;
+  mj_solveM(model_.get(), data_.get(), column_.data(), unit_.data(), 1);
+  unit_[v] = 0;
+  return column_[v];
 }
 
 std::vector<std::size_t> MujocoPhysics::beside(std::span<const std::size_t> joints) const {
@@ -255,15 +273,54 @@ void MujocoPhysics::foresee(std::span<const std::size_t> joints, std::span<doubl
   mj_solveM(m, d, column_.data(), unit_.data(), 1);
   mju_zero(unit_.data(), m->nv);
   if (std::any_of(joints.begin(), joints.end(), tied)) {
-    mju_copy(d->qfrc_applied, pushed_.data(), m->nv);
-    mj_fwdAcceleration(m, d);
-    mj_fwdConstraint(m, d);
-    mju_copy(d->qfrc_applied, asked_.data(), m->nv);
+    mju_copy(tried_.data(), pushed_.data(), m->nv);
+    try_torques();
+    note_held(held_at_first_);
+    tried_joint_ = joint_.size();
     for (int v = 0; v < m->nv; ++v)
       if (trees_.tied(v)) column_[v] = d->qacc[v];
   }
   std::transform(joints.begin(), joints.end(), out.begin(),
                  [&](std::size_t joint) { return column_[static_cast<std::size_t>(joint_[joint].v)]; });
+}
+
+/// v̇ with tried_; qfrc_applied stays.
+void MujocoPhysics::try_torques() {
+  mjData* d = data_.get();
+  mju_copy(d->qfrc_applied, tried_.data(), model_->nv);
+  mj_fwdAcceleration(model_.get(), d);
+  mj_fwdConstraint(model_.get(), d);
+  mju_copy(d->qfrc_applied, asked_.data(), model_->nv);
+  if (stiff_.empty() || std::count(d->efc_state, d->efc_state + d->nefc, mjCNSTRSTATE_CONE) == 0) return;
+  // The Hessians of their cones, which not every solver of MuJoCo's leaves behind.
+  row_.resize(std::max(row_.size(), row_room(*model_, *d)));
+  mj_mulJacVec(model_.get(), d, row_.data(), d->qacc);
+  mju_subFrom(row_.data(), d->efc_aref, d->nefc);
+  mj_constraintUpdate(model_.get(), d, row_.data(), nullptr, 1);
+  std::fill_n(row_.begin(), d->nefc, 0.0);
+}
+
+void MujocoPhysics::note_held(std::vector<char>& out) const {
+  out.clear();
+  for (int r = 0; !stiff_.empty() && r < data_->nefc; ++r) out.push_back(static_cast<char>(data_->efc_state[r]));
+}
+
+bool MujocoPhysics::holds_else(std::span<const std::size_t> joints, std::span<const double> torques,
+                               std::span<double> accelerations, std::span<double> mobility) {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const int v = joint_[joints[i]].v;
+    tried_[v] = asked_[v] + torques[i];
+  }
+  try_torques();
+  if (tried_joint_ != joints.front()) held_now_ = held_at_first_;
+  tried_joint_ = joints.front();
+  std::swap(held_now_, held_before_);
+  note_held(held_now_);
+  const bool proportional = std::find(held_now_.begin(), held_now_.end(), static_cast<char>(mjCNSTRSTATE_CONE)) == held_now_.end();
+  if (proportional && held_now_ == held_before_) return false;
+  for (std::size_t i = 0; i < joints.size(); ++i) accelerations[i] = data_->qacc[joint_[joints[i]].v];
+  this->mobility(joints, mobility);
+  return true;
 }
 
 void MujocoPhysics::apply(std::size_t joint, double torque) { data_->qfrc_applied[joint_[joint].v] += torque; }

@@ -6,7 +6,8 @@
 //                                                      where contacts get a direction of friction, and Coriolis torques
 //                                                      (centered_bias.hpp)
 //   push()     what users apply, before
-//   foresee()  M⁻¹ of forces, or in trees with equalities mj_fwdConstraint, with what else pushed in the last step
+//   foresee()  M⁻¹ of forces, or in trees with equalities or held mj_fwdConstraint, with what else pushed in the last step;
+//              holds_else() again, with torques that are tried
 //   advance()  mj_fwdActuation … mj_fwdConstraint      v̇ with the applied torques
 //              check, mj_Euler, check                  v' = v + dt·(M + dt·B)⁻¹M v̇ with joint damping B; q' = q + dt·v'
 //
@@ -38,9 +39,12 @@ class MujocoPhysics final : public Physics {
   bool is_held(std::span<const std::size_t> joints) const override;
   std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const override;
   void mobility(std::span<const std::size_t> joints, std::span<double> out) override;
+  double free_mobility(std::size_t joint) override;
   std::vector<std::size_t> beside(std::span<const std::size_t> joints) const override;
   double turned_rad(std::span<const std::size_t> dofs) const override;
   void foresee(std::span<const std::size_t> joints, std::span<double> out) override;
+  bool holds_else(std::span<const std::size_t> joints, std::span<const double> torques, std::span<double> accelerations,
+                  std::span<double> mobility) override;
   void apply(std::size_t joint, double torque) override;
   void pull(const scene::Pull& pull) override;
   std::optional<Refusal> advance() override;
@@ -94,6 +98,9 @@ class MujocoPhysics final : public Physics {
   void give_dampers_back();
   [[nodiscard]] std::vector<int> dofs_of(std::span<const std::size_t> joints) const;
   [[nodiscard]] bool answers(int row) const;
+  [[nodiscard]] bool slides(int row) const;
+  void try_torques();
+  void note_held(std::vector<char>& out) const;
   bool hold();
   mjModel& own_model();
 
@@ -114,11 +121,15 @@ class MujocoPhysics final : public Physics {
   std::vector<double> before_;  // the state, of the last prepare()
   std::vector<mjtNum> pushed_;  // in the last step: applied and, in trees without equalities, by constraints
   std::vector<mjtNum> asked_;   // of these: by push()
+  // While torques are tried: what pushes; which rows hold, in foresee() and at the last try, which was of the tree of that joint.
+  std::vector<mjtNum> tried_;
+  std::vector<char> held_at_first_, held_before_, held_now_;
+  std::size_t tried_joint_ = 0;
   std::vector<mjtNum> unit_, column_, jacobian_, mobility_, mass_matrix_;
-  std::vector<mjtNum> row_, held_;  // of constraints: zeros; M + J^T R⁻¹ J, factored
-  std::vector<int> stiff_;          // dofs of joints
-  bool damped_ = false;             // some joint has damping
-  bool stepped_ = false;            // data_ holds the contacts of the last step
+  std::vector<mjtNum> row_, jacobian_rows_, held_;  // of constraints: zeros; J of one's; M + J^T H J, factored
+  std::vector<int> stiff_;                          // dofs of joints
+  bool damped_ = false;                             // some joint has damping
+  bool stepped_ = false;                            // data_ holds the contacts of the last step
 };
 
 }  // namespace vsa::physics

@@ -39,8 +39,9 @@ void MujocoPhysics::pull(const scene::Pull& pull) {
   for (std::size_t i = 0; i < kDim; ++i) {
     const mjtNum* row = jacobian_.data() + i * unit_.size();
     const mjtNum* moved = mobility_.data() + i * unit_.size();
-    const double known =
-        mju_dot(moved, d->qfrc_applied, m->nv) + mju_dot(moved, d->qfrc_passive, m->nv) - mju_dot(moved, d->qfrc_bias, m->nv);
+    const double known = mju_dot(moved, d->qfrc_applied, m->nv) + mju_dot(moved, pushed_.data(), m->nv) -
+                         mju_dot(moved, asked_.data(), m->nv) + mju_dot(moved, d->qfrc_passive, m->nv) -
+                         mju_dot(moved, d->qfrc_bias, m->nv);
     const double v = mju_dot(row, d->qvel, m->nv) + dt * known;
     pulling[i] = k * (pull.target_m[i] - point[i] - dt * v) - c * v;
     for (std::size_t j = 0; j < kDim; ++j) {
