@@ -57,7 +57,9 @@ struct World::Impl {
   std::vector<std::vector<std::size_t>> trees;  ///< of driven joints that move each other, as the group knows them
   std::vector<std::size_t> driven;              ///< the robots' joints, one robot after the other
   std::vector<double> foreseen;                 ///< of those, in the step under way
-  std::vector<std::size_t> stiff;               ///< of those, too: scratch of a step
+  std::vector<std::size_t> stiff;               ///< of those, too: scratch of a step, like the next two
+  std::vector<double> alone;                    ///< B_jj of joints that nothing holds
+  std::vector<char> begins_stiff;               ///< of driven
   std::vector<ActuatorRef> actuators;
   std::vector<Pull> pulls;
   std::vector<std::pair<std::size_t, Wrench>> wrenches;  ///< by link
@@ -76,7 +78,8 @@ struct World::Impl {
   [[nodiscard]] std::int64_t substep_ns() const { return dt_ns / substeps; }
   [[nodiscard]] double substep_s() const { return static_cast<double>(substep_ns()) * 1e-9; }
   void step();
-  [[nodiscard]] bool begins_stiff(const RobotSlot& slot, std::size_t actuator) const;
+  void make_room();
+  void find_first_stiff();
   void join_stiff_trees();
   void find_stiff();
   [[nodiscard]] std::optional<physics::Refusal> substep();

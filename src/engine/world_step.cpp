@@ -23,13 +23,19 @@ constexpr double kNanosecond = 1e-9;
 
 }  // namespace
 
+void World::Impl::make_room() {
+  foreseen.resize(driven.size());
+  stiff.reserve(driven.size());
+  alone.resize(driven.size());
+  begins_stiff.resize(driven.size());
+}
+
 /// Once, when physics is there.
 void World::Impl::join_trees() {
   driven.clear();
   for (const RobotSlot& slot : robots) driven.insert(driven.end(), slot.joints.begin(), slot.joints.end());
   for (RobotSlot& slot : robots) slot.beside = physics->beside(slot.joints);
-  foreseen.resize(driven.size());
-  stiff.reserve(driven.size());
+  make_room();
   trees = physics->trees(driven);
   join_stiff_trees();
   group = seat::SeatGroup(seats(), trees);
@@ -89,8 +95,9 @@ void World::Impl::drive() {
   for (const RobotSlot& slot : robots) {
     tell_joints(slot);
     const bool held = !stiff.empty() && physics->is_held(slot.joints);
+    if (held) physics->free_mobility(slot.joints, alone);
     for (std::size_t i = 0; i < slot.joints.size(); ++i)
-      slot.seat->in()[i].inverse_inertia = held ? std::optional(physics->free_mobility(slot.joints[i])) : std::nullopt;
+      slot.seat->in()[i].inverse_inertia = held ? std::optional(alone[i]) : std::nullopt;
     slot.seat->turned(physics->turned_rad(slot.beside));
     for (host::JointIn& joint : slot.seat->in()) joint.free_acceleration_rad_per_s2 = *next++;
   }
@@ -109,39 +116,43 @@ void World::Impl::observe() {
   }
 }
 
-/// Of an actuator, before its robot has made a step and found out.
-bool World::Impl::begins_stiff(const RobotSlot& slot, std::size_t actuator) const {
-  const double dt_s = substep_s(), stiffness = slot.robot().read(actuator).stiffness_Nm_per_rad;
-  return dt_s * dt_s * physics->free_mobility(slot.joints[actuator]) * stiffness > device::kHardlyResolved;
+/// Before robots have made a step and found out, which joints are.
+void World::Impl::find_first_stiff() {
+  if (driven.empty()) return;
+  const double dt_s = substep_s();
+  physics->first_mobility(driven, alone);
+  std::size_t k = 0;
+  for (const RobotSlot& slot : robots)
+    for (std::size_t i = 0; i < slot.joints.size(); ++i, ++k)
+      begins_stiff[k] = dt_s * dt_s * alone[k] * slot.robot().read(i).stiffness_Nm_per_rad > device::kHardlyResolved ? 1 : 0;
 }
 
 /// Trees of stiff joints that are small enough are solved as one, for where they touch, like two fingers on one thing, the torques of
 /// each hang on the other's within a step.
 void World::Impl::join_stiff_trees() {
   constexpr std::size_t kMostJoints = 32;  // beyond, what touches acts a step late
-  physics->prepare();
-  std::vector<bool> begins;
-  for (const RobotSlot& slot : robots)
-    for (std::size_t i = 0; i < slot.joints.size(); ++i) begins.push_back(begins_stiff(slot, i));
+  find_first_stiff();
   const auto is_stiff = [&](const std::vector<std::size_t>& tree) {
-    return std::any_of(tree.begin(), tree.end(), [&](std::size_t k) { return begins[k]; });
+    return std::any_of(tree.begin(), tree.end(), [&](std::size_t k) { return begins_stiff[k] != 0; });
   };
   std::vector<std::size_t> all;
   for (const auto& tree : trees)
     if (is_stiff(tree)) all.insert(all.end(), tree.begin(), tree.end());
-  if (all.size() > kMostJoints) return;
+  if (all.empty() || all.size() > kMostJoints) return;
   std::erase_if(trees, is_stiff);
-  if (!all.empty()) trees.push_back(std::move(all));
+  trees.push_back(std::move(all));
 }
 
 void World::Impl::find_stiff() {
   stiff.clear();
   const bool begins = time_ns == 0;
-  if (begins) physics->prepare();
+  if (begins) find_first_stiff();
+  std::size_t first = 0;
   for (const RobotSlot& slot : robots) {
-    bool is = slot.robot().is_stiff();
-    for (std::size_t i = 0; begins && i < slot.joints.size(); ++i) is = is || begins_stiff(slot, i);
-    if (is) stiff.insert(stiff.end(), slot.joints.begin(), slot.joints.end());
+    const auto own = std::span(begins_stiff).subspan(first, slot.joints.size());
+    first += slot.joints.size();
+    if (slot.robot().is_stiff() || (begins && std::count(own.begin(), own.end(), 1) > 0))
+      stiff.insert(stiff.end(), slot.joints.begin(), slot.joints.end());
   }
   physics->set_stiff(stiff);
 }

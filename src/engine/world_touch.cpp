@@ -243,8 +243,7 @@ World World::clone() const {
   to->group = impl_->group.another(to->seats());
   to->trees = impl_->trees;
   to->driven = impl_->driven;
-  to->foreseen = impl_->foreseen;
-  to->stiff.reserve(to->driven.size());
+  to->make_room();
   to->actuators = impl_->actuators;
   to->pulls = impl_->pulls;
   to->wrenches = impl_->wrenches;

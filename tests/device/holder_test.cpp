@@ -89,7 +89,8 @@ void expect_solved(const std::vector<Joint>& joints, double preset, double aside
   for (std::size_t i = 0; i < n; ++i) {
     const double speed = joints[i].answer(torques[i]).first, off = std::abs(states[i].reached.speed - speed);
     EXPECT_LT(off * kStep_s, 4e-6 + 2e-4 * std::abs(speed) * kStep_s)
-        << "joint " << i << " of " << n << ": " << torques[i] << " N·m, " << states[i].reached.speed << " and " << speed << " rad/s";
+        << "joint " << i << " of " << n << ": " << torques[i] << " N·m, " << states[i].reached.speed << " and " << speed
+        << " rad/s";
   }
 }
 
@@ -99,7 +100,8 @@ TEST(Holder, JointsGoWhereSpringsAndFrictionHaveThem) {
   for (int k = 0; k < 2000; ++k) {
     std::vector<Joint> joints(1 + static_cast<std::size_t>(k % 3));
     const double preset = draw(0, 0.75), aside = draw(-0.2, 0.2);
-    for (Joint& j : joints) j = {.mobility = std::pow(10, draw(2, 6)), .speed = draw(-5, 5), .friction_Nm = std::pow(10, draw(-3, 1))};
+    for (Joint& j : joints)
+      j = {.mobility = std::pow(10, draw(2, 6)), .speed = draw(-5, 5), .friction_Nm = std::pow(10, draw(-3, 1))};
     expect_solved(joints, preset, aside);
     if (HasFailure()) FAIL() << "robot " << k;
   }

@@ -78,8 +78,10 @@ class Physics {
   /// B of those joints: how advance() answers to torques, (v' − v)/dt = … + B τ, contacts, limits and frictions aside but those
   /// that hold set_stiff() joints. By rows, 1/(kg·m²); between foresee() and advance().
   virtual void mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
-  /// One joint's own entry of B if nothing held it, 1/(kg·m²).
-  virtual double free_mobility(std::size_t joint) = 0;
+  /// B_jj of each of those joints if nothing held it, 1/(kg·m²); after prepare().
+  virtual void free_mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
+  /// The same without prepare(), and but for dampers.
+  virtual void first_mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
   /// Degrees of freedom that change B of those joints without being theirs. Fixed for a world.
   [[nodiscard]] virtual std::vector<std::size_t> beside(std::span<const std::size_t> joints) const = 0;
   /// How far the fastest of such goes in the next step at its present speed, rad; a slide counts ten radians for a metre. 0: of none.

@@ -242,12 +242,25 @@ void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<doub
     for (std::size_t k = 0; k < i; ++k) out[k * n + i] = out[i * n + k];
 }
 
-double MujocoPhysics::free_mobility(std::size_t joint) {
-  const auto v = static_cast<std::size_t>(joint_[joint].v);
-  unit_[v] = 1;
-  mj_solveM(model_.get(), data_.get(), column_.data(), unit_.data(), 1);
-  unit_[v] = 0;
-  return column_[v];
+void MujocoPhysics::solve_diagonal(mjData& d, std::span<const std::size_t> joints, std::span<double> out) {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto v = static_cast<std::size_t>(joint_[joints[i]].v);
+    unit_[v] = 1;
+    mj_solveM(model_.get(), &d, column_.data(), unit_.data(), 1);
+    unit_[v] = 0;
+    out[i] = column_[v];
+  }
+}
+
+void MujocoPhysics::free_mobility(std::span<const std::size_t> joints, std::span<double> out) {
+  solve_diagonal(*data_, joints, out);
+}
+
+void MujocoPhysics::first_mobility(std::span<const std::size_t> joints, std::span<double> out) {
+  static_cast<void>(view());
+  make_mass(*model_, *view_);
+  mj_factorM(model_.get(), view_.get());
+  solve_diagonal(*view_, joints, out);
 }
 
 std::vector<std::size_t> MujocoPhysics::beside(std::span<const std::size_t> joints) const {

@@ -39,7 +39,8 @@ class MujocoPhysics final : public Physics {
   bool is_held(std::span<const std::size_t> joints) const override;
   std::vector<std::vector<std::size_t>> trees(std::span<const std::size_t> joints) const override;
   void mobility(std::span<const std::size_t> joints, std::span<double> out) override;
-  double free_mobility(std::size_t joint) override;
+  void free_mobility(std::span<const std::size_t> joints, std::span<double> out) override;
+  void first_mobility(std::span<const std::size_t> joints, std::span<double> out) override;
   std::vector<std::size_t> beside(std::span<const std::size_t> joints) const override;
   double turned_rad(std::span<const std::size_t> dofs) const override;
   void foresee(std::span<const std::size_t> joints, std::span<double> out) override;
@@ -97,6 +98,7 @@ class MujocoPhysics final : public Physics {
   void take_dampers();
   void give_dampers_back();
   [[nodiscard]] std::vector<int> dofs_of(std::span<const std::size_t> joints) const;
+  void solve_diagonal(mjData& d, std::span<const std::size_t> joints, std::span<double> out);
   [[nodiscard]] bool answers(int row) const;
   [[nodiscard]] bool slides(int row) const;
   void try_torques();
