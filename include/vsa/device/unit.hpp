@@ -59,9 +59,9 @@ struct ShaftMotion {
   static auto fields(auto& s, auto&& visit) { return visit("angle", "rad", s.angle, "speed", "rad/s", s.speed); }
 };
 
-/// All that changes of a unit; the same size for every unit. It goes on with equal parameters only: Unit::adopt takes it to others.
+/// Beyond the first a step hardly resolves a spring's swing, beyond the second it doesn't.
 inline constexpr double kHardlyResolved = 0.25, kUnresolved = 1.0;  ///< (ω·dt)²
-
+/// All that changes of a unit; the same size for every unit. It goes on with equal parameters only: Unit::adopt takes it to others.
 struct UnitState {
   actuator::ActuatorState actuator;  ///< motors, springs, ledger
   Held held;                         ///< by the bridges, until the next tick
