@@ -79,7 +79,7 @@ struct World::Impl {
   [[nodiscard]] double substep_s() const { return static_cast<double>(substep_ns()) * 1e-9; }
   void step();
   void make_room();
-  void find_first_stiff();
+  void find_first_stiff(double dt_s);
   void join_stiff_trees();
   void find_stiff();
   [[nodiscard]] std::optional<physics::Refusal> substep();

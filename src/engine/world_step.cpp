@@ -116,10 +116,9 @@ void World::Impl::observe() {
   }
 }
 
-/// Before robots have made a step and found out, which joints are.
-void World::Impl::find_first_stiff() {
+/// Before robots have made a step and found out, which joints are for such a step.
+void World::Impl::find_first_stiff(double dt_s) {
   if (driven.empty()) return;
-  const double dt_s = substep_s();
   physics->first_mobility(driven, alone);
   std::size_t k = 0;
   for (const RobotSlot& slot : robots)
@@ -131,7 +130,9 @@ void World::Impl::find_first_stiff() {
 /// each hang on the other's within a step.
 void World::Impl::join_stiff_trees() {
   constexpr std::size_t kMostJoints = 32;  // beyond, what touches acts a step late
-  find_first_stiff();
+  constexpr double kUsualStep_s =
+      1e-3;  // not the world's: a state goes to worlds of the file with other steps, so trees are the file's
+  find_first_stiff(kUsualStep_s);
   const auto is_stiff = [&](const std::vector<std::size_t>& tree) {
     return std::any_of(tree.begin(), tree.end(), [&](std::size_t k) { return begins_stiff[k] != 0; });
   };
@@ -146,7 +147,7 @@ void World::Impl::join_stiff_trees() {
 void World::Impl::find_stiff() {
   stiff.clear();
   const bool begins = time_ns == 0;
-  if (begins) find_first_stiff();
+  if (begins) find_first_stiff(substep_s());
   std::size_t first = 0;
   for (const RobotSlot& slot : robots) {
     const auto own = std::span(begins_stiff).subspan(first, slot.joints.size());

@@ -15,6 +15,8 @@
 #include "vsa/config/actuator_type.hpp"
 #include "vsa/elastic/inverse.hpp"
 
+long allocation_count();  // allocation_count.cpp
+
 namespace vsa::engine::testing {
 namespace {
 
@@ -239,22 +241,56 @@ TEST(Foreseen, ChainsBetweenStopsMakeNoEnergyInLongSteps) {
 }
 
 /// Two robots whose tips press on each other.
-TEST(Foreseen, StiffFingersThatPressOnEachOtherMakeNoEnergy) {
-  const auto finger = [](const std::string& name, const std::string& pose, double moment) {
+std::string two_fingers(double moment) {
+  const auto finger = [&](const std::string& name, const std::string& pose) {
     return "<model name='" + name + "'><pose>" + pose + "</pose><link name='l'>" + inertial(0.01, moment) +
            "<collision name='c'><pose>0.05 0 0 0 0 0</pose><geometry><sphere><radius>0.01</radius></sphere></geometry>" +
            friction(1) + "</collision></link>" + hinge(name, "world", "l") + plugin(actuator(name, "tree_lime_50")) + "</model>";
   };
+  return finger("a", "0 0 0.0105 0 0 0") + finger("b", "0 0 -0.0105 0 0 0");
+}
+
+void press(World& w) {
+  w.command("a", 0.3, 0.0);
+  w.command("b", -0.3, 0.0);
+}
+
+TEST(Foreseen, StiffFingersThatPressOnEachOtherMakeNoEnergy) {
   for (const double moment : {1e-4, 1e-3})
     for (const double step_s : {1e-3, 4e-3}) {
-      World w = load(finger("a", "0 0 0.0105 0 0 0", moment) + finger("b", "0 0 -0.0105 0 0 0", moment), step_s);
-      w.command("a", 0.3, 0.0);
-      w.command("b", -0.3, 0.0);
+      World w = load(two_fingers(moment), step_s);
+      press(w);
       w.run(2.0);
       expect_no_energy(w, 1e-3, fmt::format("{} kg·m², {} s", moment, step_s));
       if (step_s > 2e-3) continue;  // there they slip off each other
       EXPECT_LT(std::abs(w.joint_speed("a::a")), 0.02) << moment << " kg·m²";
     }
+}
+
+TEST(Foreseen, FingersGoOnInAWorldOfAnotherStepInEveryWay) {
+  for (const auto& [from_s, to_s] : {std::pair{2e-5, 1e-3}, {1e-3, 2e-5}, {1e-3, 4e-3}}) {
+    World from = load(two_fingers(1e-4), from_s), to = load(two_fingers(1e-4), to_s);
+    press(from);
+    from.run(0.1);
+    to.restore(*from.snapshot());
+    to.run(0.1);
+    std::vector<double> numbers(from.state_size());
+    ASSERT_EQ(to.state_size(), numbers.size());
+    from.save(numbers);
+    to.restore(numbers);
+    to.run(0.1);
+    EXPECT_GT(to.contact_count(), 0) << from_s << ", " << to_s;
+  }
+}
+
+TEST(Foreseen, AStepOfHeldJointsTakesNothingFromTheHeap) {
+  World w = load(two_fingers(1e-3), 1e-3);
+  press(w);
+  w.run(0.5);
+  const long before = allocation_count();
+  for (int k = 0; k < 400; ++k) w.step();
+  EXPECT_EQ(allocation_count() - before, 0);
+  EXPECT_GT(w.contact_count(), 0);
 }
 
 TEST(Foreseen, APullOnAHeldJointMakesNoEnergy) {

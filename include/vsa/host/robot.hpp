@@ -182,7 +182,7 @@ class Robot {
   [[nodiscard]] ActuatorReading read(std::size_t actuator, device::Torques torques = device::Torques::told) const;
   [[nodiscard]] std::array<Ticks, 2> received_inputs(std::size_t actuator) const;  ///< references that came over its bus last
   /// Whether some spring swings so fast on what is behind its joint that steps hardly resolve it, ω·dt > ½, found in the first step or
-  /// within 128 (beyond 1 it is a notice, too). Such a joint answers to contacts, limits and frictions within a step, so its host should foresee them.
+  /// within 128; beyond 1 a notice tells. What such a joint does hangs on contacts, limits and frictions within a step: see `holder`.
   [[nodiscard]] bool is_stiff() const;
   [[nodiscard]] actuator::Ledger ledger(std::size_t actuator) const;  ///< energy ledger since the start or the last reset
   [[nodiscard]] actuator::Ledger ledger() const;                      ///< summed over all actuators
