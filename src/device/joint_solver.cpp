@@ -244,7 +244,12 @@ bool JointSolver::settle(std::span<const JointInStep> joints) noexcept {
 bool JointSolver::holds_else(std::span<const JointInStep> joints, Holder& holder, std::size_t tree, std::span<double> torques,
                              bool first) noexcept {
   constexpr int kShortenings = 8;
-  if (!holder.holds_else(tree, torques, acceleration_, told_)) return false;
+  const auto tells = [&](std::span<const double> with) {
+    const auto finite = [](double x) { return std::isfinite(x); };
+    return holder.holds_else(tree, with, acceleration_, told_) && std::all_of(acceleration_.begin(), acceleration_.end(), finite) &&
+           std::all_of(told_.begin(), told_.end(), finite);
+  };
+  if (!tells(torques)) return false;
   const double dt = static_cast<double>(dt_ns_) * 1e-9;
   const auto off = [&](std::size_t i) { return dt * joints[i].plan->in.speed + 0.5 * dt * dt * acceleration_[i] - dy_[i]; };
   bool same = true;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -116,6 +117,44 @@ TEST(Holder, AndStops) {
     for (Joint& j : joints) j = {.mobility = std::pow(10, draw(2, 6)), .speed = draw(-5, 5), .stop_rad = draw(-1e-3, 5e-3)};
     expect_solved(joints, preset, aside);
     if (HasFailure()) FAIL() << "robot " << k;
+  }
+}
+
+/// Says that others hold, and how they do with numbers that aren't.
+class Nonsense final : public device::Holder {
+ public:
+  explicit Nonsense(double what) noexcept : what_(what) {}
+  [[nodiscard]] bool holds(std::size_t /*tree*/) const noexcept override { return true; }
+  bool holds_else(std::size_t /*tree*/, std::span<const double> /*torques*/, std::span<double> accelerations,
+                  std::span<double> mobility) noexcept override {
+    std::fill(accelerations.begin(), accelerations.end(), what_);
+    std::fill(mobility.begin(), mobility.end(), -what_);
+    return true;
+  }
+
+ private:
+  double what_;
+};
+
+TEST(Holder, OfNonsenseChangesNothing) {
+  const auto solved = [](device::Holder* holder) {
+    device::Unit unit(maker_pro());
+    device::UnitState state = unit.initial(0.1, 0.3, 0.1, 1);
+    device::StepPlan plan;
+    unit.begin_step(state, plan, 0, kStep_ns, {0, 1, 1e4, false, 0});
+    plan.held[plan.held_count++] = state.held;
+    const device::JointInStep joint{&unit, &state, &plan};
+    const double mobility = 1e4;
+    double torque = 0;
+    device::JointSolver solver(1);
+    solver.set({&mobility, 1}, kStep_ns);
+    EXPECT_TRUE(solver.solve({&joint, 1}, {&torque, 1}, holder));
+    return torque;
+  };
+  const double alone = solved(nullptr);
+  for (const double what : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Nonsense nonsense(what);
+    EXPECT_NEAR(solved(&nonsense), alone, 1e-3 * std::abs(alone)) << what;
   }
 }
 

@@ -20,7 +20,7 @@ class Holder {
   [[nodiscard]] virtual bool holds(std::size_t tree) const noexcept = 0;
   /// Whether with these torques, N·m, others hold it than those that the accelerations and B were told with last, or it answers not in
   /// proportion. If so, fills both: the joints' accelerations with these torques, rad/s², and by rows how those change with them,
-  /// 1/(kg·m²).
+  /// 1/(kg·m²). Numbers that aren't finite are taken for none: the torques are those found before.
   virtual bool holds_else(std::size_t tree, std::span<const double> torques, std::span<double> accelerations,
                           std::span<double> mobility) noexcept = 0;
 };
