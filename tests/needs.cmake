@@ -59,6 +59,7 @@ set(VSA_NEEDS_SDF_mjcf
 set(VSA_NEEDS_SDF_fmu
   World.FilesThatOnlyThisMachineFindsAreRefused
   World.OneWithoutActuatorsIsOneToo
+  World.ALinearActuatorsShaftIsInMetresAndNewtons
 )
 set(VSA_NEEDS_SDF_engine
   Foreseen.*
@@ -146,6 +147,8 @@ set(VSA_NEEDS_SDF_linear_world
   Point.RefusesWhatALoopHolds
   Release.OfHangingArmsWithoutSupplyRingsAsThePolesTell
   Release.OfProgrammedArmsRingsAsTheSampledPolesTell
+  Point.ATorqueServosPresetIsTheOneInForce
+  Point.SaysOfAPresetThatNoUnitTakesThatItIsThePreset
 )
 set(VSA_NEEDS_SDF_chain
   SignalChain.SpringMassFrequencyOfTheUnpoweredUnitAtSeveralPresets
@@ -167,6 +170,7 @@ set(VSA_NEEDS_SDF_chain
   Snapshots.TellOfJointsThatWerePutElsewhereAndForgetThoseOfLater
   SerialChain.OfModulesKickedHardAtTheLargestPresetNeverGainsEnergy
   SerialChain.OfBareFlangesGainsNoMoreThanTheStepsInWhichItFolds
+  RestBeside.*
 )
 set(VSA_NEEDS_SDF_apps
   Export.WritesAWorldAsMjcfWhichRunsWhereItStands
@@ -184,6 +188,10 @@ set(VSA_NEEDS_SDF_apps
   Scenario.FilesAreFoundBesideItFromAnyDirectoryAndItsRecordToo
   Scenario.FlagsOverrideIt
   Scenario.AMotionsChangesAndCommandsAreCheckedAgainstTheirs
+  Export.AnMjcfThatSomebodyWroteIsKept
+  Export.OfAnMjcfsFilesNoneIsNewWhereOneCantBeWritten
+  Scenario.AFaultsWordsMayStandApartByAnyBlanks
+  Scenario.NamesThatArentUtf8AreRefusedAndNoRecordIsTouched
 )
 set(VSA_NEEDS_TOPICS_apps
   Command.MovesTheOnlyRobotThatRuns
@@ -192,4 +200,6 @@ set(VSA_NEEDS_TOPICS_apps
   Command.SaysWhichRobotsRunWhereTheWantedOneDoesNot
   Command.SaysThatAPausedWorldDoesNotFollow
   Scenario.CommandsFromTopicsAreOwnedUpTo
+  Command.ALinearActuatorIsToldInItsOwnUnits
+  Command.EndsWellWhileTheOtherTellsOfItself
 )

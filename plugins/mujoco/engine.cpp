@@ -17,6 +17,10 @@ struct Called {
   decltype(&::mj_factorM) factor_m = nullptr;
   decltype(&::mj_mulJacVec) mul_jac_vec = nullptr;
   decltype(&::mj_mulJacTVec) mul_jac_t_vec = nullptr;
+  decltype(&::mj_mulM) mul_m = nullptr;
+  decltype(&::mj_isSparse) is_sparse = nullptr;
+  decltype(&::mj_fwdConstraint) fwd_constraint = nullptr;
+  decltype(&::mj_constraintUpdate) constraint_update = nullptr;
   decltype(&::mju_cholFactor) chol_factor = nullptr;
   decltype(&::mju_cholSolve) chol_solve = nullptr;
 #if mjVERSION_HEADER >= 3005000
@@ -36,6 +40,12 @@ void mj_solveM(const mjModel* m, mjData* d, mjtNum* x, const mjtNum* y, int n) {
 void mj_factorM(const mjModel* m, mjData* d) { called.factor_m(m, d); }
 void mj_mulJacVec(const mjModel* m, const mjData* d, mjtNum* res, const mjtNum* vec) { called.mul_jac_vec(m, d, res, vec); }
 void mj_mulJacTVec(const mjModel* m, const mjData* d, mjtNum* res, const mjtNum* vec) { called.mul_jac_t_vec(m, d, res, vec); }
+void mj_mulM(const mjModel* m, const mjData* d, mjtNum* res, const mjtNum* vec) { called.mul_m(m, d, res, vec); }
+int mj_isSparse(const mjModel* m) { return called.is_sparse(m); }
+void mj_fwdConstraint(const mjModel* m, mjData* d) { called.fwd_constraint(m, d); }
+void mj_constraintUpdate(const mjModel* m, mjData* d, const mjtNum* jar, mjtNum* cost, int hessians) {
+  called.constraint_update(m, d, jar, cost, hessians);
+}
 int mju_cholFactor(mjtNum* mat, int n, mjtNum mindiag) { return called.chol_factor(mat, n, mindiag); }
 void mju_cholSolve(mjtNum* res, const mjtNum* mat, const mjtNum* vec, int n) { called.chol_solve(res, mat, vec, n); }
 #if mjVERSION_HEADER >= 3005000
@@ -77,8 +87,10 @@ bool take(void* library) {
              find(library, "mj_getPluginConfig", e.mj_getPluginConfig) && find(library, "mju_warning", e.mju_warning) &&
              find(library, "mj_id2name", called.id2name) && find(library, "mj_solveM", called.solve_m) &&
              find(library, "mj_factorM", called.factor_m) && find(library, "mj_mulJacVec", called.mul_jac_vec) &&
-             find(library, "mj_mulJacTVec", called.mul_jac_t_vec) && find(library, "mju_cholFactor", called.chol_factor) &&
-             find(library, "mju_cholSolve", called.chol_solve);
+             find(library, "mj_mulJacTVec", called.mul_jac_t_vec) && find(library, "mj_mulM", called.mul_m) &&
+             find(library, "mj_isSparse", called.is_sparse) && find(library, "mj_fwdConstraint", called.fwd_constraint) &&
+             find(library, "mj_constraintUpdate", called.constraint_update) &&
+             find(library, "mju_cholFactor", called.chol_factor) && find(library, "mju_cholSolve", called.chol_solve);
 #if mjVERSION_HEADER >= 3005000
   all = all && find(library, "mj_readCtrl", called.read_ctrl);
 #endif

@@ -8,6 +8,14 @@
 
 namespace vsa::mujoco {
 
+Mobility::Mobility(const mjModel& m)
+    : holding_(m),
+      unit_(static_cast<std::size_t>(m.nv)),
+      column_(unit_.size()),
+      force_(unit_.size()),
+      as_before_(unit_.size()),
+      tried_(unit_.size()) {}
+
 /// MuJoCo steps v' = v + dt·(M + dt·D)⁻¹ f with the joints' damping D: works where mj_solveM() solves with that matrix.
 template <class Work>
 void Mobility::with_dampers(const mjModel& m, mjData& d, Work&& work) {
@@ -21,94 +29,99 @@ void Mobility::with_dampers(const mjModel& m, mjData& d, Work&& work) {
   mj_factorM(&m, &d);
 }
 
+void Mobility::solve(const mjModel& m, mjData& d) { mj_solveM(&m, &d, column_.data(), unit_.data(), 1); }
+
+void Mobility::look(const mjModel& m, const mjData& d, std::span<const int> stiff) {
+  holding_.set_stiff(stiff);
+  holding_.look(m, d);
+  any_tied_ = false;
+  for (int v = 0; v < static_cast<int>(m.nv); ++v) any_tied_ = any_tied_ || holding_.tied(v);
+}
+
 void Mobility::of(const mjModel& m, mjData& d, std::span<const int> dofs, std::span<double> out) {
   with_dampers(m, d, [&] {
-    const auto nv = static_cast<std::size_t>(m.nv);
-    unit_.assign(nv, 0);
-    column_.resize(nv);
     const std::size_t n = dofs.size();
+    const bool tied = std::any_of(dofs.begin(), dofs.end(), [&](int v) { return holding_.tied(v); }) && holding_.factor(m, d);
     for (std::size_t i = 0; i < n; ++i) {
       unit_[static_cast<std::size_t>(dofs[i])] = 1;
-      solve(m, d);
+      if (tied) {
+        holding_.solve(column_, unit_);
+      } else {
+        solve(m, d);
+      }
       unit_[static_cast<std::size_t>(dofs[i])] = 0;
       for (std::size_t k = 0; k < n; ++k) out[i * n + k] = column_[static_cast<std::size_t>(dofs[k])];
     }
-    tie(m, d, dofs, out);
+    for (std::size_t i = 0; tied && i < n; ++i)
+      for (std::size_t k = 0; k < i; ++k) out[k * n + i] = out[i * n + k];
   });
 }
 
-void Mobility::solve(const mjModel& m, mjData& d) { mj_solveM(&m, &d, column_.data(), unit_.data(), 1); }
-
-/// tied_ := M⁻¹ Jᵀ by rows, ties_ := the factor of J M⁻¹ Jᵀ + R; M as solve() has it.
-void Mobility::factor_ties(const mjModel& m, mjData& d) {
-  const auto rows = static_cast<std::size_t>(d.ne), nv = static_cast<std::size_t>(m.nv);
-  row_.assign(static_cast<std::size_t>(d.nefc), 0);
-  moved_.resize(row_.size());
-  tied_.resize(rows * nv);
-  ties_.resize(rows * rows);
-  of_joint_.resize(2 * rows);
-  for (std::size_t r = 0; r < rows; ++r) {
-    row_[r] = 1;
-    mj_mulJacTVec(&m, &d, unit_.data(), row_.data());
-    row_[r] = 0;
-    solve(m, d);
-    std::copy(column_.begin(), column_.end(), &tied_[r * nv]);
-    mj_mulJacVec(&m, &d, moved_.data(), column_.data());
-    std::copy_n(moved_.begin(), rows, &ties_[r * rows]);
-    ties_[r * rows + r] += d.efc_R[r];
-  }
-  mju_cholFactor(ties_.data(), static_cast<int>(rows), mjMINVAL);
+void Mobility::of_each(const mjModel& m, mjData& d, std::span<const int> dofs, std::span<double> out) {
+  with_dampers(m, d, [&] {
+    for (std::size_t i = 0; i < dofs.size(); ++i) {
+      const auto v = static_cast<std::size_t>(dofs[i]);
+      unit_[v] = 1;
+      solve(m, d);
+      unit_[v] = 0;
+      out[i] = column_[v];
+    }
+  });
 }
 
-void Mobility::tie(const mjModel& m, mjData& d, std::span<const int> dofs, std::span<double> out) {
-  const auto rows = static_cast<std::size_t>(d.ne), nv = static_cast<std::size_t>(m.nv), n = dofs.size();
-  if (rows == 0) return;
-  factor_ties(m, d);
-  double *const x = of_joint_.data(), *const y = x + rows;
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t r = 0; r < rows; ++r) x[r] = tied_[r * nv + static_cast<std::size_t>(dofs[i])];
-    mju_cholSolve(y, ties_.data(), x, static_cast<int>(rows));
-    for (std::size_t k = 0; k <= i; ++k) {
-      double sum = 0;
-      for (std::size_t r = 0; r < rows; ++r) sum += tied_[r * nv + static_cast<std::size_t>(dofs[k])] * y[r];
-      out[i * n + k] -= sum;
-      if (k < i) out[k * n + i] -= sum;
+/// force_ with all constraints: their forces to qfrc_constraint, which MuJoCo works out with M, taking dampers implicitly after that. All
+/// that this changes MuJoCo works out anew in this step.
+void Mobility::constrain(const mjModel& m, mjData& d) {
+  std::copy(force_.begin(), force_.end(), d.qfrc_smooth);
+  mj_solveM(&m, &d, d.qacc_smooth, d.qfrc_smooth, 1);
+  holding_.constrain(m, d);
+}
+
+std::span<const double> Mobility::foresee(const mjModel& m, mjData& d, Pushed pushed) {
+  const auto nv = static_cast<std::size_t>(m.nv);
+  for (std::size_t v = 0; v < nv; ++v) as_before_[v] = d.qfrc_passive[v] - d.qfrc_bias[v] + pushed.forces[v];
+  force_ = tried_ = as_before_;
+  if (any_tied_) {
+    constrain(m, d);
+    holding_.begin(d);
+  }
+  for (int v = 0; v < static_cast<int>(m.nv); ++v) {
+    if (holding_.tied(v)) {
+      force_[v] += d.qfrc_constraint[v];
+    } else if (!holding_.trees().stiff(v)) {  // what held a stiff one in the last step has let go
+      force_[v] += pushed.constraints[v];
     }
   }
-}
-
-std::span<const double> Mobility::foresee(const mjModel& m, mjData& d, std::span<const double> pushed) {
-  const auto rows = static_cast<std::size_t>(d.ne), nv = static_cast<std::size_t>(m.nv);
-  unit_.resize(nv);
-  column_.resize(nv);
-  force_.resize(nv);
-  for (std::size_t i = 0; i < nv; ++i) force_[i] = d.qfrc_passive[i] - d.qfrc_bias[i] + pushed[i];
-  if (rows > 0) {  // MuJoCo works constraints out with M, and takes dampers implicitly after that
-    factor_ties(m, d);
-    unit_ = force_;
-    solve(m, d);
-    mj_mulJacVec(&m, &d, moved_.data(), column_.data());
-    double *const x = of_joint_.data(), *const f = x + rows;
-    for (std::size_t r = 0; r < rows; ++r) x[r] = d.efc_aref[r] - moved_[r];
-    mju_cholSolve(f, ties_.data(), x, static_cast<int>(rows));
-    std::copy_n(f, rows, row_.begin());
-    mj_mulJacTVec(&m, &d, unit_.data(), row_.data());
-    std::transform(force_.begin(), force_.end(), unit_.begin(), force_.begin(), std::plus<>());
-  }
-  unit_ = force_;
-  with_dampers(m, d, [&] { solve(m, d); });
+  accelerate(m, d);
   return column_;
 }
 
-void Mobility::push(const mjModel& m, mjData& d, std::span<double> out) {
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = d.qfrc_smooth[i] - d.qfrc_passive[i] + d.qfrc_bias[i] + d.qfrc_constraint[i];
-  if (d.ne == 0) return;
-  row_.assign(static_cast<std::size_t>(d.nefc), 0);
-  std::copy_n(d.efc_force, d.ne, row_.begin());
-  unit_.resize(out.size());
-  mj_mulJacTVec(&m, &d, unit_.data(), row_.data());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] -= unit_[i];
+/// column_: what force_ does.
+void Mobility::accelerate(const mjModel& m, mjData& d) {
+  with_dampers(m, d, [&] { mj_solveM(&m, &d, column_.data(), force_.data(), 1); });
+}
+
+bool Mobility::holds_else(const mjModel& m, mjData& d, std::span<const int> dofs, std::span<const double> more,
+                          std::span<double> accelerations, std::span<double> mobility) {
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const auto v = static_cast<std::size_t>(dofs[i]);
+    tried_[v] = as_before_[v] + more[i];
+  }
+  force_ = tried_;
+  constrain(m, d);
+  if (!holding_.changed(d, dofs.front()) && !damps_implicitly(m)) return false;
+  std::transform(force_.begin(), force_.end(), d.qfrc_constraint, force_.begin(), std::plus<>());
+  accelerate(m, d);
+  for (std::size_t i = 0; i < dofs.size(); ++i) accelerations[i] = column_[static_cast<std::size_t>(dofs[i])];
+  of(m, d, dofs, mobility);
+  return true;
+}
+
+void Mobility::push(const mjModel& m, const mjData& d, Pushed out) {
+  for (std::size_t v = 0; v < static_cast<std::size_t>(m.nv); ++v) {
+    out.forces[v] = d.qfrc_smooth[v] - d.qfrc_passive[v] + d.qfrc_bias[v];
+    out.constraints[v] = d.qfrc_constraint[v];
+  }
 }
 
 }  // namespace vsa::mujoco

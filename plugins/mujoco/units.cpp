@@ -11,8 +11,10 @@
 #include "versions.hpp"
 #include "vsa/actuator/heat.hpp"
 #include "vsa/config/faults_text.hpp"
+#include "vsa/device/holder.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/physics/dofs_beside.hpp"
+#include "vsa/seat/stiff_trees.hpp"
 
 namespace vsa::mujoco {
 namespace {
@@ -38,8 +40,8 @@ bool is_broken(const UnitSpec& spec) { return !spec.get("faults").empty(); }
 
 // In a state.
 constexpr std::size_t kCount = 0, kBegun = 1, kTaken = 2;
-/// Behind kTaken two numbers a unit, then one a degree of freedom: what pushed it.
-std::size_t head(std::size_t units, std::size_t dofs) { return kTaken + 2 * units + dofs; }
+/// Behind kTaken two numbers a unit, then two a degree of freedom: what pushed it, all of the first before all of the second.
+std::size_t head(std::size_t units, std::size_t dofs) { return kTaken + 2 * units + 2 * dofs; }
 
 /// What a state has at most.
 std::size_t size_of(const seat::Seat& seat, std::size_t units, std::size_t dofs) {
@@ -58,6 +60,10 @@ void put(std::span<const double> now, std::span<double> state) {
   std::copy(now.begin(), now.end(), state.begin());
   const std::span<double> rest = state.first(before >= 0 && before <= most ? static_cast<std::size_t>(before) : state.size());
   if (rest.size() > now.size()) std::fill(rest.begin() + static_cast<std::ptrdiff_t>(now.size()), rest.end(), 0.0);
+}
+
+char is_stiff(double inverse_inertia, double stiffness, double dt_s) {
+  return dt_s * dt_s * inverse_inertia * stiffness > device::kHardlyResolved ? 1 : 0;
 }
 
 std::int64_t step_ns(const mjModel& m) { return std::llround(m.opt.timestep * 1e9); }
@@ -87,15 +93,22 @@ Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units
   problems.throw_if_any();
   seat_ = make_seat(specs, joints, library);
   size_ = state_size(specs, dofs_);
-  const auto trees = trees_of(m, ids);
-  for (const auto& tree : trees) {
+  trees_ = trees_of(m, ids);
+  std::vector<char> stiff;
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    stiff.push_back(is_stiff(m.dof_invweight0[joints_[i].v], seat_->robot().read(i).stiffness_Nm_per_rad, seat::kUsualStep_s));
+  seat::join_stiff_trees(trees_, stiff);
+  for (const auto& tree : trees_) {
     tree_dofs_.emplace_back();
     for (const std::size_t i : tree) tree_dofs_.back().push_back(joints_[i].v);
   }
-  std::vector<int> driven;
-  for (const Joint& joint : joints_) driven.push_back(joint.v);
-  beside_ = physics::dofs_beside(m, driven);
-  seat_->join(trees);
+  for (const Joint& joint : joints_) driven_.push_back(joint.v);
+  beside_ = physics::dofs_beside(m, driven_);
+  alone_.resize(driven_.size());
+  last_.resize(driven_.size());
+  more_.resize(driven_.size());
+  mobility_ = Mobility(m);
+  seat_->join(trees_);
   for (std::size_t i = 0; i < units_.size(); ++i) {
     if (is_broken(specs[i])) seat_->robot().set_faults(i, faults_of(specs[i]));  // throws here what no unit of that type can have
   }
@@ -109,10 +122,16 @@ Units::Units(const Units& other, std::unique_ptr<seat::Seat> seat)
       dofs_(other.dofs_),
       joints_(other.joints_),
       volts_(other.volts_),
+      trees_(other.trees_),
       tree_dofs_(other.tree_dofs_),
+      driven_(other.driven_),
+      alone_(other.alone_),
+      last_(other.last_),
+      more_(other.more_),
       beside_(other.beside_),
       seat_(std::move(seat)),
       size_(other.size_),
+      mobility_(other.mobility_),
       here_(head(units_.size(), dofs_), seat_->state_size()),
       there_(true),
       first_(other.first_) {
@@ -200,11 +219,65 @@ void Units::command(const mjModel& m, const mjData& d) {
   }
 }
 
+Pushed Units::pushed() noexcept {
+  const std::span<double> both = here_.own().last(2 * dofs_);
+  return {both.first(dofs_), both.last(dofs_)};
+}
+
+/// A robot with one spring that the step hardly resolves is stiff as a whole; of the first step it doesn't know yet.
+void Units::find_stiff(const mjModel& m, mjData& d) {
+  bool stiff = seat_->robot().is_stiff();
+  if (here_.own()[kBegun] == 0) {
+    mobility_.of_each(m, d, driven_, alone_);
+    for (std::size_t i = 0; i < driven_.size(); ++i)
+      stiff = stiff || is_stiff(alone_[i], seat_->robot().read(i).stiffness_Nm_per_rad, m.opt.timestep) != 0;
+  }
+  stiff_.assign(driven_.begin(), stiff ? driven_.end() : driven_.begin());
+}
+
+bool Units::held(std::size_t tree) const {
+  return std::any_of(tree_dofs_[tree].begin(), tree_dofs_[tree].end(), [this](int v) { return mobility_.held(v); });
+}
+
+/// What holds a stiff joint is in B, in this step; what lets go of it isn't, in the next one.
+void Units::renew_held() {
+  for (std::size_t t = 0; t < trees_.size(); ++t)
+    if (held(t)) seat_->moved();
+}
+
+/// What holds the trees of stiff joints, while their step is solved.
+class Units::Holds final : public device::Holder {
+ public:
+  Holds(Units& units, const mjModel& m, mjData& d) noexcept : units_(units), m_(m), d_(d) {}
+  [[nodiscard]] bool holds(std::size_t tree) const noexcept override { return units_.held(tree); }
+  bool holds_else(std::size_t tree, std::span<const double> torques, std::span<double> accelerations,
+                  std::span<double> mobility) noexcept override {
+    const std::vector<std::size_t>& of = units_.trees_[tree];
+    const std::span<double> more = std::span(units_.more_).first(of.size());
+    for (std::size_t k = 0; k < of.size(); ++k) more[k] = torques[k] - units_.last_[of[k]];
+    return units_.mobility_.holds_else(m_, d_, units_.tree_dofs_[tree], more, accelerations, mobility);
+  }
+
+ private:
+  Units& units_;
+  const mjModel& m_;
+  mjData& d_;
+};
+
 /// A step of the seat, from here_ to here_.
 void Units::step(const mjModel& m, mjData& d) {
+  find_stiff(m, d);
+  mobility_.look(m, d, stiff_);
+  renew_held();
+  const bool any_held = std::any_of(stiff_.begin(), stiff_.end(), [this](int v) { return mobility_.held(v); });
   const std::span<const double> free = mobility_.foresee(m, d, pushed());
   for (std::size_t i = 0; i < joints_.size(); ++i)
     seat_->in()[i].free_acceleration_rad_per_s2 = free[static_cast<std::size_t>(joints_[i].v)];
+  if (any_held) mobility_.of_each(m, d, driven_, alone_);
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    seat_->in()[i].inverse_inertia = any_held ? std::optional(alone_[i]) : std::nullopt;
+    if (any_held) last_[i] = seat_->robot().read(i, device::Torques::left_out).mean_torque_Nm;
+  }
   seat_->turned(physics::turned_rad(m, d.qvel, beside_, m.opt.timestep));
   if (seat_->wants_mobility()) {
     std::span<double> rest = seat_->mobility();
@@ -214,7 +287,9 @@ void Units::step(const mjModel& m, mjData& d) {
       rest = rest.subspan(n);
     }
   }
-  seat_->step(step_ns(m));
+  Holds holds(*this, m, d);
+  seat_->step(step_ns(m), any_held ? &holds : nullptr);
+  renew_held();
   here_.own()[kBegun] = 1;
   note();
 }
@@ -236,7 +311,7 @@ void Units::compute(const mjModel& m, mjData& d, std::span<const double> state) 
 void Units::advance(const mjModel& m, mjData& d, std::span<double> state) {
   if (!computed_) return;
   computed_ = false;
-  mobility_.push(m, d, pushed());
+  Mobility::push(m, d, pushed());
   put(here_.numbers(), state);
   seat_->publish(0);
 }

@@ -14,7 +14,7 @@
 // likes. So a MuJoCo that steps several mjData needs one object each, and none of them knows of another.
 //
 // STATE of n units: [how many numbers of it count, begun, which controls were taken as commands (n × 2), what pushed each
-// of the model's degrees of freedom in the last step, the seat's without the room
+// of the model's degrees of freedom in the last step, what constraints did, the seat's without the room
 // that nothing takes (vsa/seat/seat.hpp), 0 …]. There is room for one tree of all, and for no knots of trajectories, which nobody can
 // command here. Before anything is made of a state, all of it that counts is compared with the one that this object is at.
 //
@@ -99,20 +99,28 @@ class Units {
     double start = 0;
   };
   Units(const Units& other, std::unique_ptr<seat::Seat> seat);
+  class Holds;
   void begin();
+  void find_stiff(const mjModel& m, mjData& d);
+  [[nodiscard]] bool held(std::size_t tree) const;
+  void renew_held();
   void command(const mjModel& m, const mjData& d);
   void step(const mjModel& m, mjData& d);
   [[nodiscard]] bool is_at(std::span<const double> state) const;
   void take(std::span<const double> state);
-  void note();                                                                           ///< here_, of the seat
-  [[nodiscard]] std::span<double> pushed() noexcept { return here_.own().last(dofs_); }  ///< in the last step, by degree of freedom
+  void note();                             ///< here_, of the seat
+  [[nodiscard]] Pushed pushed() noexcept;  ///< in the last step
 
   std::vector<Unit> units_;
   std::size_t dofs_ = 0;  ///< the model's
   std::vector<Joint> joints_;
-  std::vector<bool> volts_;                  ///< the unit's controls are its motors' voltages
-  std::vector<std::vector<int>> tree_dofs_;  ///< as the seat joins them
-  std::vector<std::size_t> beside_;          ///< what else changes B (physics/dofs_beside.hpp)
+  std::vector<bool> volts_;                      ///< the unit's controls are its motors' voltages
+  std::vector<std::vector<std::size_t>> trees_;  ///< as the seat joins them
+  std::vector<std::vector<int>> tree_dofs_;      ///< of them
+  std::vector<int> driven_, stiff_;  ///< degrees of freedom: of all units; of those, if the step hardly resolves a spring
+  std::vector<double> alone_, last_,
+      more_;                         ///< by unit: B_jj as if free; torques of the last step; by unit of a tree: more than those
+  std::vector<std::size_t> beside_;  ///< what else changes B (physics/dofs_beside.hpp)
   std::unique_ptr<seat::Seat> seat_;
   std::size_t size_ = 0;
   Mobility mobility_;

@@ -80,7 +80,6 @@ struct World::Impl {
   void step();
   void make_room();
   void find_first_stiff(double dt_s);
-  void join_stiff_trees();
   void find_stiff();
   [[nodiscard]] std::optional<physics::Refusal> substep();
   class Holds;

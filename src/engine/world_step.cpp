@@ -15,6 +15,7 @@
 
 #include "engine/run_length.hpp"
 #include "engine/world_impl.hpp"
+#include "vsa/seat/stiff_trees.hpp"
 
 namespace vsa::engine {
 namespace {
@@ -37,7 +38,8 @@ void World::Impl::join_trees() {
   for (RobotSlot& slot : robots) slot.beside = physics->beside(slot.joints);
   make_room();
   trees = physics->trees(driven);
-  join_stiff_trees();
+  find_first_stiff(seat::kUsualStep_s);
+  seat::join_stiff_trees(trees, begins_stiff);
   group = seat::SeatGroup(seats(), trees);
   for (auto& tree : trees)
     for (std::size_t& k : tree) k = driven[k];
@@ -124,24 +126,6 @@ void World::Impl::find_first_stiff(double dt_s) {
   for (const RobotSlot& slot : robots)
     for (std::size_t i = 0; i < slot.joints.size(); ++i, ++k)
       begins_stiff[k] = dt_s * dt_s * alone[k] * slot.robot().read(i).stiffness_Nm_per_rad > device::kHardlyResolved ? 1 : 0;
-}
-
-/// Trees of stiff joints that are small enough are solved as one, for where they touch, like two fingers on one thing, the torques of
-/// each hang on the other's within a step.
-void World::Impl::join_stiff_trees() {
-  constexpr std::size_t kMostJoints = 32;  // beyond, what touches acts a step late
-  constexpr double kUsualStep_s =
-      1e-3;  // not the world's: a state goes to worlds of the file with other steps, so trees are the file's
-  find_first_stiff(kUsualStep_s);
-  const auto is_stiff = [&](const std::vector<std::size_t>& tree) {
-    return std::any_of(tree.begin(), tree.end(), [&](std::size_t k) { return begins_stiff[k] != 0; });
-  };
-  std::vector<std::size_t> all;
-  for (const auto& tree : trees)
-    if (is_stiff(tree)) all.insert(all.end(), tree.begin(), tree.end());
-  if (all.empty() || all.size() > kMostJoints) return;
-  std::erase_if(trees, is_stiff);
-  trees.push_back(std::move(all));
 }
 
 void World::Impl::find_stiff() {

@@ -257,7 +257,7 @@ for seed in range(3):
         told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=pathlib.Path(__file__).parent)
         self.assertEqual(told.stderr, "")
         once, again, thrice = map(float, told.stdout.split())
-        self.assertLess(max(again, thrice), 3.0)  # times a state's numbers
+        self.assertLess(max(again, thrice), 6.0)  # times a state's numbers: 1.0 with Debian 12's C library, 3.5 with Debian 13's; a model is more
         self.assertLess(max(again, thrice), 1.3 * once)
 
 

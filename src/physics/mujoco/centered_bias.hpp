@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "physics/mujoco/implicit_bias.hpp"
-#include "physics/mujoco/tied_trees.hpp"
 #include "vsa/physics/mujoco.hpp"
+#include "vsa/physics/tied_trees.hpp"
 
 namespace vsa::physics {
 

@@ -18,7 +18,7 @@ MujocoPhysics::MujocoPhysics(const MujocoPhysics& other)
       root_(other.root_),
       weightless_(other.weightless_),
       directed_(other.directed_),
-      trees_(other.trees_),
+      holding_(other.holding_),
       centered_(other.centered_),
       q_owner_(other.q_owner_),
       v_owner_(other.v_owner_),
@@ -31,7 +31,6 @@ MujocoPhysics::MujocoPhysics(const MujocoPhysics& other)
       jacobian_(other.jacobian_),
       mobility_(other.mobility_),
       mass_matrix_(other.mass_matrix_),
-      jacobian_rows_(other.jacobian_rows_),
       damped_(other.damped_) {
   stiff_.reserve(unit_.size());
   make_data();

@@ -60,12 +60,11 @@ MujocoPhysics::MujocoPhysics(std::shared_ptr<mjModel> model, const description::
     if (world.links[l].weightless && !objects_.is_static[l] && !switched_off(*m, {"Gravity"})) weightless_.push_back(l);
   }
   directed_ = DirectedFriction(objects_.directions, *m);
-  trees_ = TiedTrees(*m);
+  holding_ = Holding(*m);
   centered_ = CenteredBias(*m, coriolis);
   unit_.resize(static_cast<std::size_t>(m->nv));
   pushed_.resize(unit_.size());
   asked_.resize(unit_.size());
-  jacobian_rows_.resize(6 * unit_.size());
   tried_.resize(unit_.size());
   stiff_.reserve(unit_.size());
   column_.resize(unit_.size());
@@ -86,6 +85,7 @@ void MujocoPhysics::make_data() {
   view_.reset(mj_makeData(model_.get()));
   if (!data_ || !view_) throw SimulationError("MuJoCo: no memory for the world's state");
   view_stale_ = true;
+  holding_.reserve(row_room(*model_, *data_));
 }
 
 bool MujocoPhysics::grow(bool contacts_only) {
@@ -112,11 +112,11 @@ std::vector<int> MujocoPhysics::dofs_of(std::span<const std::size_t> joints) con
 void MujocoPhysics::set_stiff(std::span<const std::size_t> joints) {
   stiff_.clear();
   for (const std::size_t joint : joints) stiff_.push_back(joint_[joint].v);
-  trees_.set_stiff(stiff_);
+  holding_.set_stiff(stiff_);
 }
 
 bool MujocoPhysics::is_held(std::span<const std::size_t> joints) const {
-  return std::any_of(joints.begin(), joints.end(), [this](std::size_t joint) { return trees_.held(joint_[joint].v); });
+  return std::any_of(joints.begin(), joints.end(), [this](std::size_t joint) { return holding_.held(joint_[joint].v); });
 }
 
 void MujocoPhysics::prepare() {
@@ -135,8 +135,8 @@ void MujocoPhysics::prepare() {
   take_dampers();
   mj_fwdVelocity(m, data_.get());
   hold_up(*data_, data_->qfrc_passive, 1);
-  trees_.look(*m, *data_);
-  centered_.set(*m, *data_, trees_, pushed_.data());
+  holding_.look(*m, *data_);
+  centered_.set(*m, *data_, holding_.trees(), pushed_.data());
   mju_zero(data_->qfrc_applied, m->nv);
 }
 
@@ -176,63 +176,16 @@ std::vector<std::vector<std::size_t>> MujocoPhysics::trees(std::span<const std::
   return grouped(roots);
 }
 
-/// Which rows of constraints answer to torques in proportion: equalities; of those that hold, which foresee() has solved, limits, frictions
-/// that stick and contacts. Those of a contact that slides do so together.
-bool MujocoPhysics::answers(int row) const { return row < data_->ne || data_->efc_state[row] == mjCNSTRSTATE_QUADRATIC; }
-
-bool MujocoPhysics::slides(int row) const { return row >= data_->ne && data_->efc_state[row] == mjCNSTRSTATE_CONE; }
-
-/// With J of the rows that answer and H, R⁻¹ by which MuJoCo softens them or of a contact that slides the Hessian of its cone's cost, B is
-/// the joints' part of
-///   (M + J^T H J)⁻¹, which is M⁻¹ − M⁻¹ J^T (J M⁻¹ J^T + R)⁻¹ J M⁻¹ where nothing slides
-/// That sum, factored, to held_. False: there is no such row.
-bool MujocoPhysics::hold() {
-  const mjModel* m = model_.get();
-  const mjData* d = data_.get();
-  const int nv = m->nv;
-  row_.resize(std::max(row_.size(), row_room(*m, *d)));
-  bool any = false;
-  const int rows = stiff_.empty() ? d->ne : d->nefc;
-  for (int r = 0, count = 1; r < rows; r += count) {
-    count = slides(r) ? d->contact[d->efc_id[r]].dim : 1;
-    if (!answers(r) && !slides(r)) continue;
-    int first = nv;  // degree of freedom that they act on
-    for (int k = 0; k < count; ++k) {
-      mjtNum* const acts_on = &jacobian_rows_[k * nv];
-      row_[r + k] = 1;
-      mj_mulJacTVec(m, data_.get(), acts_on, row_.data());
-      row_[r + k] = 0;
-      first = std::min(first, static_cast<int>(std::find_if(acts_on, acts_on + nv, [](mjtNum x) { return x != 0; }) - acts_on));
-    }
-    if (first == nv || (r >= d->ne && !trees_.held(first))) continue;
-    if (!any) {
-      held_.resize(static_cast<std::size_t>(nv) * static_cast<std::size_t>(nv));
-      dense_mass(*m, *d, held_.data());
-    }
-    any = true;
-    for (int k = 0; k < count; ++k) {
-      for (int l = 0; l < count; ++l) {
-        const mjtNum h = slides(r) ? d->contact[d->efc_id[r]].H[k * count + l] : 1 / d->efc_R[r];
-        const mjtNum *const left = &jacobian_rows_[k * nv], *const right = &jacobian_rows_[l * nv];
-        for (int i = first; i < nv; ++i)
-          if (left[i] != 0) mju_addToScl(&held_[i * nv], right, h * left[i], nv);
-      }
-    }
-  }
-  if (any) mju_cholFactor(held_.data(), nv, mjMINVAL);
-  return any;
-}
-
 void MujocoPhysics::mobility(std::span<const std::size_t> joints, std::span<double> out) {
   const mjModel* m = model_.get();
   const std::size_t n = joints.size();
-  const bool held =
-      std::any_of(joints.begin(), joints.end(), [&](std::size_t joint) { return trees_.tied(joint_[joint].v); }) && hold();
+  const bool held = std::any_of(joints.begin(), joints.end(), [&](std::size_t joint) { return holding_.tied(joint_[joint].v); }) &&
+                    holding_.factor(*m, *data_);
   for (std::size_t i = 0; i < n; ++i) {
     const int v = joint_[joints[i]].v;
     unit_[static_cast<std::size_t>(v)] = 1;
     if (held)
-      mju_cholSolve(column_.data(), held_.data(), unit_.data(), m->nv);
+      holding_.solve(column_, unit_);
     else
       mj_solveM(m, data_.get(), column_.data(), unit_.data(), 1);
     unit_[static_cast<std::size_t>(v)] = 0;
@@ -276,7 +229,7 @@ double MujocoPhysics::turned_rad(std::span<const std::size_t> dofs) const {
 void MujocoPhysics::foresee(std::span<const std::size_t> joints, std::span<double> out) {
   const mjModel* m = model_.get();
   mjData* d = data_.get();
-  const auto tied = [&](std::size_t joint) { return trees_.tied(joint_[joint].v); };
+  const auto tied = [&](std::size_t joint) { return holding_.tied(joint_[joint].v); };
   mj_fwdActuation(m, d);
   mju_sub(unit_.data(), d->qfrc_passive, d->qfrc_bias, m->nv);
   mju_addTo(unit_.data(), d->qfrc_actuator, m->nv);
@@ -288,10 +241,9 @@ void MujocoPhysics::foresee(std::span<const std::size_t> joints, std::span<doubl
   if (std::any_of(joints.begin(), joints.end(), tied)) {
     mju_copy(tried_.data(), pushed_.data(), m->nv);
     try_torques();
-    note_held(held_at_first_);
-    tried_joint_ = joint_.size();
+    holding_.begin(*d);
     for (int v = 0; v < m->nv; ++v)
-      if (trees_.tied(v)) column_[v] = d->qacc[v];
+      if (holding_.tied(v)) column_[v] = d->qacc[v];
   }
   std::transform(joints.begin(), joints.end(), out.begin(),
                  [&](std::size_t joint) { return column_[static_cast<std::size_t>(joint_[joint].v)]; });
@@ -302,20 +254,8 @@ void MujocoPhysics::try_torques() {
   mjData* d = data_.get();
   mju_copy(d->qfrc_applied, tried_.data(), model_->nv);
   mj_fwdAcceleration(model_.get(), d);
-  mj_fwdConstraint(model_.get(), d);
+  holding_.constrain(*model_, *d);
   mju_copy(d->qfrc_applied, asked_.data(), model_->nv);
-  if (stiff_.empty() || std::count(d->efc_state, d->efc_state + d->nefc, mjCNSTRSTATE_CONE) == 0) return;
-  // The Hessians of their cones, which not every solver of MuJoCo's leaves behind.
-  row_.resize(std::max(row_.size(), row_room(*model_, *d)));
-  mj_mulJacVec(model_.get(), d, row_.data(), d->qacc);
-  mju_subFrom(row_.data(), d->efc_aref, d->nefc);
-  mj_constraintUpdate(model_.get(), d, row_.data(), nullptr, 1);
-  std::fill_n(row_.begin(), d->nefc, 0.0);
-}
-
-void MujocoPhysics::note_held(std::vector<char>& out) const {
-  out.clear();
-  for (int r = 0; !stiff_.empty() && r < data_->nefc; ++r) out.push_back(static_cast<char>(data_->efc_state[r]));
 }
 
 bool MujocoPhysics::holds_else(std::span<const std::size_t> joints, std::span<const double> torques,
@@ -325,12 +265,7 @@ bool MujocoPhysics::holds_else(std::span<const std::size_t> joints, std::span<co
     tried_[v] = asked_[v] + torques[i];
   }
   try_torques();
-  if (tried_joint_ != joints.front()) held_now_ = held_at_first_;
-  tried_joint_ = joints.front();
-  std::swap(held_now_, held_before_);
-  note_held(held_now_);
-  const bool proportional = std::find(held_now_.begin(), held_now_.end(), static_cast<char>(mjCNSTRSTATE_CONE)) == held_now_.end();
-  if (proportional && held_now_ == held_before_) return false;
+  if (!holding_.changed(*data_, joint_[joints.front()].v)) return false;
   for (std::size_t i = 0; i < joints.size(); ++i) accelerations[i] = data_->qacc[joint_[joints[i]].v];
   this->mobility(joints, mobility);
   return true;
@@ -380,7 +315,7 @@ std::optional<Refusal> MujocoPhysics::advance() {
     mj_Euler(m, d);
     mju_copy(pushed_.data(), d->qfrc_applied, m->nv);
     for (int v = 0; v < m->nv; ++v)
-      if (!trees_.tied(v)) pushed_[v] += d->qfrc_constraint[v];
+      if (!holding_.tied(v)) pushed_[v] += d->qfrc_constraint[v];
     fault = check(d->qvel, m->nv, false, "speed");
     if (!fault) fault = check(d->qpos, m->nq, true, "position");
     if (!fault) fault = find_fault();

@@ -25,6 +25,7 @@
 #include "physics/mujoco/centered_bias.hpp"
 #include "physics/mujoco/directed_friction.hpp"
 #include "physics/mujoco/model.hpp"
+#include "vsa/physics/holding.hpp"
 #include "vsa/physics/mujoco.hpp"
 #include "vsa/physics/physics.hpp"
 
@@ -99,11 +100,7 @@ class MujocoPhysics final : public Physics {
   void give_dampers_back();
   [[nodiscard]] std::vector<int> dofs_of(std::span<const std::size_t> joints) const;
   void solve_diagonal(mjData& d, std::span<const std::size_t> joints, std::span<double> out);
-  [[nodiscard]] bool answers(int row) const;
-  [[nodiscard]] bool slides(int row) const;
   void try_torques();
-  void note_held(std::vector<char>& out) const;
-  bool hold();
   mjModel& own_model();
 
   std::shared_ptr<mjModel> model_;  // of all of the file: never changed, but replaced by grow() and own_model()
@@ -117,21 +114,17 @@ class MujocoPhysics final : public Physics {
   std::vector<int> root_;                       // of a link: the joint id of its free root, −1: tied to the world
   std::vector<std::size_t> weightless_;         // links that gravity leaves alone
   DirectedFriction directed_;
-  TiedTrees trees_;
+  Holding holding_;
   CenteredBias centered_;
   std::vector<std::string> q_owner_, v_owner_;
   std::vector<double> before_;  // the state, of the last prepare()
   std::vector<mjtNum> pushed_;  // in the last step: applied and, in trees without equalities, by constraints
   std::vector<mjtNum> asked_;   // of these: by push()
-  // While torques are tried: what pushes; which rows hold, in foresee() and at the last try, which was of the tree of that joint.
-  std::vector<mjtNum> tried_;
-  std::vector<char> held_at_first_, held_before_, held_now_;
-  std::size_t tried_joint_ = 0;
+  std::vector<mjtNum> tried_;   // what pushes while torques are tried
   std::vector<mjtNum> unit_, column_, jacobian_, mobility_, mass_matrix_;
-  std::vector<mjtNum> row_, jacobian_rows_, held_;  // of constraints: zeros; J of one's; M + J^T H J, factored
-  std::vector<int> stiff_;                          // dofs of joints
-  bool damped_ = false;                             // some joint has damping
-  bool stepped_ = false;                            // data_ holds the contacts of the last step
+  std::vector<int> stiff_;  // dofs of joints
+  bool damped_ = false;     // some joint has damping
+  bool stepped_ = false;    // data_ holds the contacts of the last step
 };
 
 }  // namespace vsa::physics
