@@ -101,6 +101,7 @@ set(VSA_NEEDS_SDF_engine
   Hostile.GaitsThatCannotBePlayedAreRefused
   Run.*
   DirectedFriction.*
+  Displaced.*
   Weightless.*
   SecondLoad.GivesTheSameBitsAndTheSameWarnings
   SecondLoad.HasTheStepThatWasAskedFor

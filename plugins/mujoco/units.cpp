@@ -14,6 +14,7 @@
 #include "vsa/device/holder.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/physics/dofs_beside.hpp"
+#include "vsa/physics/reach.hpp"
 #include "vsa/seat/stiff_trees.hpp"
 
 namespace vsa::mujoco {
@@ -62,10 +63,6 @@ void put(std::span<const double> now, std::span<double> state) {
   if (rest.size() > now.size()) std::fill(rest.begin() + static_cast<std::ptrdiff_t>(now.size()), rest.end(), 0.0);
 }
 
-char is_stiff(double inverse_inertia, double stiffness, double dt_s) {
-  return dt_s * dt_s * inverse_inertia * stiffness > device::kHardlyResolved ? 1 : 0;
-}
-
 std::int64_t step_ns(const mjModel& m) { return std::llround(m.opt.timestep * 1e9); }
 
 }  // namespace
@@ -93,16 +90,16 @@ Units::Units(const mjModel& m, std::vector<Unit> units) : units_(std::move(units
   problems.throw_if_any();
   seat_ = make_seat(specs, joints, library);
   size_ = state_size(specs, dofs_);
+  for (const Joint& joint : joints_) driven_.push_back(joint.v);
   trees_ = trees_of(m, ids);
   std::vector<char> stiff;
   for (std::size_t i = 0; i < joints_.size(); ++i)
-    stiff.push_back(is_stiff(m.dof_invweight0[joints_[i].v], seat_->robot().read(i).stiffness_Nm_per_rad, seat::kUsualStep_s));
-  seat::join_stiff_trees(trees_, stiff);
+    stiff.push_back(seat::may_be_stiff(seat_->robot(), i, m.dof_invweight0[joints_[i].v]) ? 1 : 0);
+  seat::join_stiff_trees(trees_, stiff, physics::Reach(m).neighbours(driven_));
   for (const auto& tree : trees_) {
     tree_dofs_.emplace_back();
     for (const std::size_t i : tree) tree_dofs_.back().push_back(joints_[i].v);
   }
-  for (const Joint& joint : joints_) driven_.push_back(joint.v);
   beside_ = physics::dofs_beside(m, driven_);
   alone_.resize(driven_.size());
   last_.resize(driven_.size());
@@ -230,7 +227,8 @@ void Units::find_stiff(const mjModel& m, mjData& d) {
   if (here_.own()[kBegun] == 0) {
     mobility_.of_each(m, d, driven_, alone_);
     for (std::size_t i = 0; i < driven_.size(); ++i)
-      stiff = stiff || is_stiff(alone_[i], seat_->robot().read(i).stiffness_Nm_per_rad, m.opt.timestep) != 0;
+      stiff = stiff ||
+              m.opt.timestep * m.opt.timestep * alone_[i] * seat_->robot().read(i).stiffness_Nm_per_rad > device::kHardlyResolved;
   }
   stiff_.assign(driven_.begin(), stiff ? driven_.end() : driven_.begin());
 }

@@ -86,6 +86,9 @@ struct World::Impl {
   void keep();     ///< what a fault goes back to
   void go_back();  ///< to it
   void join_trees();
+  [[nodiscard]] std::vector<std::vector<std::size_t>> find_trees();  ///< of driven
+  void take_trees(std::vector<std::vector<std::size_t>> of_driven);
+  void join_trees_anew();
   [[nodiscard]] std::vector<seat::Seat*> seats() const;
   void tell_joints(const RobotSlot& slot) const;
   void drive();

@@ -82,8 +82,11 @@ void hash(std::uint32_t& sum, std::string_view text) {
 }
 
 std::string text(const Link& l) {
-  return fmt::format("link {}: {} kg, centre {} {} {}, {} shapes{}", l.name, l.mass, l.com.X(), l.com.Y(), l.com.Z(),
-                     l.collisions.size(), l.is_static ? ", static" : "");
+  const auto& i = l.inertia;
+  const auto& at = l.pose.Pos();
+  return fmt::format("link {}: {} kg, centre {} {} {}, moments {} {} {} kg·m², at {} {} {}, {} shapes{}", l.name, l.mass, l.com.X(),
+                     l.com.Y(), l.com.Z(), i(0, 0), i(1, 1), i(2, 2), at.X(), at.Y(), at.Z(), l.collisions.size(),
+                     l.is_static ? ", static" : "");
 }
 std::string text(const Joint& j) {
   return fmt::format("joint {}: kind {}, links {} and {}", j.name, static_cast<int>(j.kind), j.parent.value_or(0),

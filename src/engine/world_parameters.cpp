@@ -126,6 +126,7 @@ void World::set_parameters(const Parameters& to) {
     impl_->forget_mobility();
   }
   for (std::size_t r = 0; r < impl_->robots.size(); ++r) impl_->robots[r].robot().set_parameters(to.robots[r]);
+  impl_->join_trees_anew();
 }
 
 void World::use(const Parameters& to) {

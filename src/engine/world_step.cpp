@@ -37,12 +37,40 @@ void World::Impl::join_trees() {
   for (const RobotSlot& slot : robots) driven.insert(driven.end(), slot.joints.begin(), slot.joints.end());
   for (RobotSlot& slot : robots) slot.beside = physics->beside(slot.joints);
   make_room();
-  trees = physics->trees(driven);
-  find_first_stiff(seat::kUsualStep_s);
-  seat::join_stiff_trees(trees, begins_stiff);
-  group = seat::SeatGroup(seats(), trees);
+  take_trees(find_trees());
+}
+
+/// By what the file and parameters say, wherever the world is.
+std::vector<std::vector<std::size_t>> World::Impl::find_trees() {
+  std::vector<std::vector<std::size_t>> found = physics->trees(driven);
+  physics->zero_mobility(driven, alone);
+  std::size_t k = 0;
+  for (const RobotSlot& slot : robots)
+    for (std::size_t i = 0; i < slot.joints.size(); ++i, ++k)
+      begins_stiff[k] = seat::may_be_stiff(slot.robot(), i, alone[k]) ? 1 : 0;
+  if (std::count(begins_stiff.begin(), begins_stiff.end(), 1) > 1)
+    seat::join_stiff_trees(found, begins_stiff, physics->neighbours(driven));
+  return found;
+}
+
+void World::Impl::take_trees(std::vector<std::vector<std::size_t>> of_driven) {
+  group = seat::SeatGroup(seats(), of_driven);
+  trees = std::move(of_driven);
   for (auto& tree : trees)
     for (std::size_t& k : tree) k = driven[k];
+}
+
+/// Other parameters may make other trees stiff.
+void World::Impl::join_trees_anew() {
+  std::vector<std::vector<std::size_t>> found = find_trees();
+  const auto at = [this](const std::vector<std::size_t>& tree) {
+    std::vector<std::size_t> out;
+    for (const std::size_t k : tree) out.push_back(driven[k]);
+    return out;
+  };
+  if (std::equal(found.begin(), found.end(), trees.begin(), trees.end(), [&](const auto& a, const auto& b) { return at(a) == b; }))
+    return;
+  take_trees(std::move(found));
 }
 
 std::vector<seat::Seat*> World::Impl::seats() const {

@@ -225,8 +225,14 @@ void Seat::restore(const Snapshot& snapshot) {
   set_own(snapshot.own);
 }
 
+/// Of a seat whose trees were joined otherwise B is no B of these.
 void Seat::set_own(const Own& own) {
+  const std::size_t numbers = own_.mobility.size();
   own_ = own;
+  if (own.mobility.size() != numbers) {
+    own_.mobility.assign(numbers, 0.0);
+    own_.watch.again();
+  }
   std::fill(torques_.begin(), torques_.end(), 0.0);  // the next step's; one that has stopped makes none
   last_told_ = -1;
   pace_.stood();

@@ -283,6 +283,110 @@ TEST(Foreseen, FingersGoOnInAWorldOfAnotherStepInEveryWay) {
   }
 }
 
+/// Two fingers on the world, 0.08 m apart, that squeeze a ball between them.
+std::string gripper(const std::string& type, double moment, const std::string& more = {}) {
+  const auto finger = [&](const std::string& name, double x) {
+    return "<model name='" + name + "'><pose>" + std::to_string(x) + " 0 0 0 0 0</pose><link name='l'>" +
+           inertial(0.02, moment, "0 0 0.04 0 0 0") +
+           "<collision name='c'><pose>0 0 0.05 0 0 0</pose><geometry><box><size>0.01 0.02 0.08</size></box></geometry>" +
+           friction(1) + "</collision></link>" + hinge(name, "world", "l") + plugin(actuator(name, type)) + "</model>";
+  };
+  return finger("a", -0.04) + finger("b", 0.04) + "<model name='ball'><pose>0 0 0.06 0 0 0</pose><link name='l'>" +
+         inertial(0.05, 2e-5) + "<collision name='c'><geometry><sphere><radius>0.03</radius></sphere></geometry>" + friction(1) +
+         "</collision></link></model>" + more;
+}
+
+void squeeze(World& w, double by, double preset) {
+  w.command("a", by, preset);
+  w.command("b", -by, preset);
+}
+
+double fingers_rms(World& w, double time_s) {
+  double squares = 0;
+  int n = 0;
+  for (const double end = w.time_s() + time_s; w.time_s() < end; n += 2) {
+    w.step();
+    for (const char* joint : {"a::a", "b::b"}) squares += std::pow(w.joint_speed(joint), 2);
+  }
+  return std::sqrt(squares / n);
+}
+
+TEST(Foreseen, FingersWhosePresetIsRaisedHoldAThing) {
+  for (const double moment : {1e-5, 2e-4})
+    for (const double step_s : {1e-3, 2e-3}) {
+      World w = load(gripper("qbmove_maker_pro_6_1", moment), step_s);
+      squeeze(w, 0.4, 0.0);
+      w.run(1.0);
+      squeeze(w, 0.4, 0.7);
+      w.run(1.5);
+      EXPECT_GE(w.contact_count(), 2);
+      EXPECT_LT(fingers_rms(w, 0.3), 0.06) << moment << " kg·m², " << step_s << " s";
+    }
+}
+
+TEST(Foreseen, FarRobotsChangeNothingHoweverMany) {
+  std::string far;
+  for (int i = 0; i < 40; ++i) {
+    const std::string name = "far" + std::to_string(i);
+    far += "<model name='" + name + "'><pose>" + std::to_string(50 + i) + " 0 0 0 0 0</pose><link name='l'>" +
+           inertial(0.02, 1e-4) +
+           "<collision name='c'><geometry><sphere><radius>0.02</radius></sphere></geometry></collision></link>" +
+           hinge(name, "world", "l") + plugin(actuator(name, "tree_lime_50")) + "</model>";
+  }
+  World w = load(gripper("tree_lime_50", 1e-4, far), 1e-3);
+  squeeze(w, 0.4, 0.0);
+  w.run(1.5);
+  EXPECT_GE(w.contact_count(), 2);
+  EXPECT_LT(fingers_rms(w, 0.3), 0.06);
+}
+
+TEST(Foreseen, ParametersThatMakeFingersStiffAreAsGoodAsAFileWithThem) {
+  const auto links_of = [](World& w, double moment) {
+    for (const char* finger : {"a::l", "b::l"}) {
+      LinkParameters to = w.link_parameters(w.link(finger));
+      to.inertia_kgm2 = {moment, moment, moment};
+      w.set_link_parameters(w.link(finger), to);
+    }
+  };
+  World file = load(gripper("tree_lime_50", 1e-4), 1e-3), told = load(gripper("tree_lime_50", 0.5), 1e-3);
+  links_of(told, 1e-4);
+  for (World* w : {&file, &told}) {
+    squeeze(*w, 0.4, 0.0);
+    w->run(0.5);
+  }
+  EXPECT_EQ(file.joint_angle("a::a"), told.joint_angle("a::a"));
+  EXPECT_EQ(file.joint_speed("b::b"), told.joint_speed("b::b"));
+  // And back, while they hold it.
+  links_of(told, 0.5);
+  told.run(0.2);
+  EXPECT_TRUE(std::isfinite(told.joint_angle("a::a")));
+}
+
+TEST(Foreseen, ASnapshotGoesToAWorldWhoseTreesAreJoinedOtherwise) {
+  // In one model, so that the seat has the matrix of both fingers, or one for each.
+  const std::string links = "<link name='k'><pose>0.075 0 0 0 0 0</pose>" + inertial(0.02, 2e-3, "0 0 0.04 0 0 0") +
+                            "<collision name='c'><geometry><sphere><radius>0.02</radius></sphere></geometry></collision></link>";
+  const std::string model = "<model name='m'><link name='l'>" + inertial(0.02, 2e-3, "0 0 0.04 0 0 0") +
+                            "<collision name='c'><geometry><sphere><radius>0.0551</radius></sphere></geometry></collision></link>" +
+                            links + hinge("a", "world", "l") + hinge("b", "world", "k") +
+                            plugin(actuator("a", "sea_example") + actuator("b", "sea_example", 2)) + "</model>";
+  const auto with = [&](const char* stiffness) {
+    WorldOptions options;
+    options.actuator.overrides = {{"elastic.stiffness_Nm_per_rad", stiffness}};
+    return World::load_string(world(model, "0 0 0"), options);
+  };
+  for (const auto& [own, others] : {std::pair{"5", "1000"}, {"1000", "5"}}) {
+    World from = with(own), to = with(others);
+    EXPECT_NE(from.state_size(), to.state_size()) << "their trees are joined alike";
+    from.command("a", 0.2, 0.0);
+    from.run(0.5);
+    to.restore(*from.snapshot());
+    to.run(0.5);
+    EXPECT_NEAR(to.joint_angle("m::a"), 0.2, 0.06) << others;
+    EXPECT_GE(to.ledger().coupling, -1e-3 * to.ledger().moved()) << others;
+  }
+}
+
 TEST(Foreseen, AStepOfHeldJointsTakesNothingFromTheHeap) {
   World w = load(two_fingers(1e-3), 1e-3);
   press(w);

@@ -3,6 +3,7 @@
 // Hands that pull, and the contacts that the engine tells of.
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "engine/worlds.hpp"
 
@@ -48,6 +49,31 @@ TEST(Pull, NeverPullsHarderThanItsLimit) {
   w.pull({{link_of(w, "ball::l"), {}, {0, 100, 0}, 1000, 0, 4}});
   w.run(1);
   EXPECT_NEAR(pose_of(w, "ball::l").position[1], 0.5 * (4.0 / 2) * 1, 2e-3);
+}
+
+TEST(Pull, AtItsLimitPullsTowardsItsTargetWhateverItsSpringDamperAndTheStep) {
+  // A rod of 0.1 m that hangs on a hinge with a spring of 2 N·m/rad; its tip can go along x only, the target is up there, too.
+  const std::string rod =
+      "<model name='m'><pose>0 0 1 0 0 0</pose><link name='l'>" + inertial(0.05, 1e-4, "0 0 -0.05 0 0 0") +
+      "</link><joint name='j' type='revolute'><parent>world</parent><child>l</child><axis><xyz>0 1 0</xyz>"
+      "<dynamics><damping>0.02</damping><spring_stiffness>2</spring_stiffness></dynamics></axis></joint></model>";
+  constexpr double kMost_N = 10, kLength_m = 0.1;
+  double low = -1.5, high = 0;  // of the balance of torques about the hinge
+  for (int n = 0; n < 60; ++n) {
+    const double q = (low + high) / 2, x = -kLength_m * std::sin(q), z = -kLength_m * std::cos(q), dx = 1 - x, dz = 1 - z;
+    const double force = kMost_N / std::hypot(dx, dz);
+    (z * force * dx - x * force * dz - 2 * q > 0 ? low : high) = q;
+  }
+  for (const double step_s : {1e-3, 4e-3}) {
+    for (const auto& [k, c] : {std::pair{100.0, 5.0}, {1000.0, 50.0}, {1e5, 1e4}}) {
+      WorldOptions options;
+      options.step_s = step_s;
+      World w = World::load_string(world(rod, "0 0 0"), options);
+      w.pull({{link_of(w, "m::l"), {0, 0, -kLength_m}, {1, 0, 2}, k, c, kMost_N}});
+      w.run(4);
+      EXPECT_NEAR(w.joint_angle("m::j"), low, 1e-5) << k << " N/m, " << c << " N·s/m, " << step_s << " s";
+    }
+  }
 }
 
 TEST(Pull, AtAPointBesideTheCentreOfMassTurnsTheBody) {

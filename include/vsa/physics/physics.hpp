@@ -82,6 +82,10 @@ class Physics {
   virtual void free_mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
   /// The same without prepare(), and but for dampers.
   virtual void first_mobility(std::span<const std::size_t> joints, std::span<double> out) = 0;
+  /// The same with all joints at their zeros, whatever they are at.
+  virtual void zero_mobility(std::span<const std::size_t> joints, std::span<double> out) const = 0;
+  /// For each of those joints a number, equal where their trees may ever touch each other, or the same thing. Fixed for a world.
+  [[nodiscard]] virtual std::vector<std::size_t> neighbours(std::span<const std::size_t> joints) const = 0;
   /// Degrees of freedom that change B of those joints without being theirs. Fixed for a world.
   [[nodiscard]] virtual std::vector<std::size_t> beside(std::span<const std::size_t> joints) const = 0;
   /// How far the fastest of such goes in the next step at its present speed, rad; a slide counts ten radians for a metre. 0: of none.

@@ -4,32 +4,25 @@
 // they are solved as one tree (docs/explanation/7-host.md, "What holds stiff joints").
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
-#include <utility>
 #include <vector>
+
+#include "vsa/host/robot.hpp"
 
 namespace vsa::seat {
 
-/// By which joints are stiff when trees are joined. Not the step of the world, whose states go to worlds of other steps: trees are the
-/// model's.
-inline constexpr double kUsualStep_s = 1e-3;
+/// The step by which joints are taken for stiff when trees are joined, s: not the world's, whose states go to worlds of other steps.
+inline constexpr double kUsualStep_s = 2e-3;
 /// Beyond so many joints what touches acts a step late.
 inline constexpr std::size_t kMostJoined = 32;
 
-/// Makes one of those trees that have a stiff joint, behind the others, where they have kMostJoined joints at most. `stiff`: by the
-/// numbers that the trees hold, each below its size.
-inline void join_stiff_trees(std::vector<std::vector<std::size_t>>& trees, std::span<const char> stiff) {
-  const auto is_stiff = [&](const std::vector<std::size_t>& tree) {
-    return std::any_of(tree.begin(), tree.end(), [&](std::size_t k) { return stiff[k] != 0; });
-  };
-  std::vector<std::size_t> all;
-  for (const auto& tree : trees)
-    if (is_stiff(tree)) all.insert(all.end(), tree.begin(), tree.end());
-  if (all.empty() || all.size() > kMostJoined) return;
-  std::erase_if(trees, is_stiff);
-  trees.push_back(std::move(all));
-}
+/// Whether a step of kUsualStep_s hardly resolves an actuator's spring (device::kHardlyResolved), unloaded and with the largest preset. `inverse_inertia`: B_jj of its joint, 1/(kg·m²). Throws InputError for an actuator that there isn't.
+[[nodiscard]] bool may_be_stiff(const host::Robot& robot, std::size_t actuator, double inverse_inertia);
+
+/// Makes one of those trees that have a stiff joint and may touch, where they have kMostJoined joints at most. By the numbers that the
+/// trees hold, each below their size: `stiff`: which are; `neighbours`: equal numbers where they may touch.
+void join_stiff_trees(std::vector<std::vector<std::size_t>>& trees, std::span<const char> stiff,
+                      std::span<const std::size_t> neighbours);
 
 }  // namespace vsa::seat

@@ -9,6 +9,7 @@
 #include "physics/mujoco/versions.hpp"
 #include "vsa/grouped.hpp"
 #include "vsa/physics/dofs_beside.hpp"
+#include "vsa/physics/reach.hpp"
 #include "vsa/physics/tree_roots.hpp"
 
 namespace vsa::physics {
@@ -214,6 +215,14 @@ void MujocoPhysics::first_mobility(std::span<const std::size_t> joints, std::spa
   make_mass(*model_, *view_);
   mj_factorM(model_.get(), view_.get());
   solve_diagonal(*view_, joints, out);
+}
+
+void MujocoPhysics::zero_mobility(std::span<const std::size_t> joints, std::span<double> out) const {
+  for (std::size_t i = 0; i < joints.size(); ++i) out[i] = model_->dof_invweight0[joint_[joints[i]].v];
+}
+
+std::vector<std::size_t> MujocoPhysics::neighbours(std::span<const std::size_t> joints) const {
+  return Reach(*model_).neighbours(dofs_of(joints));
 }
 
 std::vector<std::size_t> MujocoPhysics::beside(std::span<const std::size_t> joints) const {

@@ -42,6 +42,8 @@ class MujocoPhysics final : public Physics {
   void mobility(std::span<const std::size_t> joints, std::span<double> out) override;
   void free_mobility(std::span<const std::size_t> joints, std::span<double> out) override;
   void first_mobility(std::span<const std::size_t> joints, std::span<double> out) override;
+  void zero_mobility(std::span<const std::size_t> joints, std::span<double> out) const override;
+  std::vector<std::size_t> neighbours(std::span<const std::size_t> joints) const override;
   std::vector<std::size_t> beside(std::span<const std::size_t> joints) const override;
   double turned_rad(std::span<const std::size_t> dofs) const override;
   void foresee(std::span<const std::size_t> joints, std::span<double> out) override;

@@ -56,13 +56,18 @@ bool MujocoPhysics::displace(std::span<const std::size_t> links, double yaw, con
   const description::Quat turn(half_cos / length, 0, 0, half_sin / length);
   for (const int id : roots) {
     mjtNum* q = data_->qpos + model_->jnt_qposadr[id];
-    mjtNum* v = data_->qvel + model_->jnt_dofadr[id];
+    const int dof = model_->jnt_dofadr[id];
+    mjtNum* v = data_->qvel + dof;
     const Vec3 position = turn * Vec3(q[0], q[1], q[2]) + Vec3(shift[0], shift[1], shift[2]);
     const description::Quat rotation = turn * description::Quat(q[3], q[4], q[5], q[6]);
     const Vec3 velocity = turn * Vec3(v[0], v[1], v[2]);  // the angular one is in the body's own axes
     for (std::size_t k = 0; k < 3; ++k) {
       q[k] = position[k];
       v[k] = velocity[k];
+    }
+    for (mjtNum* in_world_axes : {data_->qacc_warmstart + dof, pushed_.data() + dof, asked_.data() + dof}) {
+      const Vec3 turned = turn * Vec3(in_world_axes[0], in_world_axes[1], in_world_axes[2]);
+      for (std::size_t k = 0; k < 3; ++k) in_world_axes[k] = turned[k];
     }
     q[3] = rotation.W(), q[4] = rotation.X(), q[5] = rotation.Y(), q[6] = rotation.Z();
   }
