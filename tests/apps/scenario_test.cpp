@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <sstream>
 
 #include "subprocess.hpp"
 
@@ -140,6 +141,23 @@ TEST(Scenario, AFaultsWordsMayStandApartByAnyBlanks) {
   ASSERT_NE(energies("all none"), off);
   EXPECT_EQ(energies("all\toff"), off);
   EXPECT_EQ(energies(" all off"), off);
+}
+
+TEST(Scenario, CommandsAfterItsEndAreTold) {
+  const Scratch scratch;
+  const auto told = [&](const std::string& times) {
+    std::string text = "[scenario]\nworld = \"bench_free\"\nduration_s = 0.05\ntopics = false\n";
+    std::istringstream in(times);
+    for (std::string time; in >> time;) text += "[[command]]\ntime_s = " + time + "\nactuator = \"shaft\"\nequilibrium_rad = 0.1\n";
+    write_file(scratch / "s.toml", text);
+    const auto r = run_vsa({"run", (scratch / "s.toml").string()});
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    return r.out + r.err;
+  };
+  EXPECT_EQ(told("0.0 0.049").find("given"), std::string::npos);
+  EXPECT_NE(told("0.0 0.05").find("warning: 1 command isn't given, the run ends at 0.05 s: shaft at 0.05 s\n"), std::string::npos);
+  EXPECT_NE(told("0.0 0.1 5.0").find("warning: 2 commands aren't given, the run ends at 0.05 s: shaft at 0.1 s is the first\n"),
+            std::string::npos);
 }
 
 TEST(Scenario, WhatAFlagNeedsTheFileMayHave) {

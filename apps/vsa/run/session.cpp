@@ -65,7 +65,20 @@ RunSession::RunSession(const RunOptions& options, Console& console)
     tell_of_other_records();
     write_scenario({"This run hasn't come to its end."});
   }
-  if (options_.duration_s) end_ns_ = world_.time_ns() + std::llround(*options_.duration_s * 1e9);
+  if (options_.duration_s) {
+    end_ns_ = world_.time_ns() + std::llround(*options_.duration_s * 1e9);
+    tell_of_late_commands(*options_.duration_s);
+  }
+}
+
+void RunSession::tell_of_late_commands(double duration_s) const {
+  const auto is_late = [&](const scenario::Command& c) { return c.time_s >= duration_s; };
+  const auto late = std::count_if(options_.commands.begin(), options_.commands.end(), is_late);
+  if (late == 0) return;
+  const scenario::Command& first = *std::find_if(options_.commands.begin(), options_.commands.end(), is_late);
+  console_.line("warning: " + std::to_string(late) + (late == 1 ? " command isn't" : " commands aren't") +
+                " given, the run ends at " + config::number_text(duration_s) + " s: " + first.actuator + " at " +
+                config::number_text(first.time_s) + " s" + (late == 1 ? "" : " is the first"));
 }
 
 void RunSession::open_view(const RunOptions& options) {

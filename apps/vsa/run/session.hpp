@@ -41,6 +41,7 @@ class RunSession {
   void open_view(const RunOptions& options);
   void open_ports();
   void tell_of_other_records();
+  void tell_of_late_commands(double duration_s) const;
   void write_scenario(std::vector<std::string> remarks);
   [[nodiscard]] std::vector<std::string> outside();
   void step();
