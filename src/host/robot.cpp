@@ -52,7 +52,10 @@ void Robot::join(std::vector<std::vector<std::size_t>> trees, std::vector<std::s
   for (const auto& tree : trees) take(tree);
   take(shared);
   problems.throw_if_any();
-  impl_->make_clusters(std::move(trees), std::move(shared));
+  {
+    const QuietBuses quiet(impl_->buses);
+    impl_->make_clusters(std::move(trees), std::move(shared));
+  }
   impl_->keep();  // what was kept went with the clusters
 }
 

@@ -384,6 +384,32 @@ TEST(Foreseen, ASnapshotGoesToAWorldWhoseTreesAreJoinedOtherwise) {
     to.run(0.5);
     EXPECT_NEAR(to.joint_angle("m::a"), 0.2, 0.06) << others;
     EXPECT_GE(to.ledger().coupling, -1e-3 * to.ledger().moved()) << others;
+    to.reset();
+    to.run(0.1);
+  }
+}
+
+TEST(Foreseen, ASnapshotGoesToAWorldWhoseTreesAnEqualityTies) {
+  const auto crank = [](const std::string& x, const std::string& name) {
+    return "<body name='" + name + "' pos='" + x + " 0 0'><joint name='" + name +
+           "' axis='0 1 0'/><inertial mass='0.1' pos='0 0 0.05' diaginertia='1e-4 1e-4 1e-4'/></body>";
+  };
+  const auto load_with = [&](const std::string& more) {
+    const std::string element = plugin(actuator("a") + actuator("b", "qbmove_maker_pro_6_1", 2));
+    std::string escaped;
+    for (const char c : element) escaped += c == '<' ? "&lt;" : c == '\'' ? "&apos;" : std::string(1, c);
+    return World::load_string("<mujoco><option timestep='0.001'/><custom><text name='vsa::Robot' data='" + escaped +
+                              "'/></custom><worldbody>" + crank("0", "a") + crank("0.2", "b") + "</worldbody>" + more +
+                              "</mujoco>");
+  };
+  const std::string tie = "<equality><weld body1='a' body2='b'/></equality>";
+  for (const bool tied : {true, false}) {
+    World from = load_with(tied ? tie : ""), to = load_with(tied ? "" : tie);
+    from.command("a", 0.2, 0.3);
+    from.run(0.3);
+    to.restore(*from.snapshot());
+    to.run(0.3);
+    EXPECT_NEAR(to.joint_angle("model::a"), tied ? 0.2 : 0, tied ? 0.15 : 0.05);
   }
 }
 
