@@ -23,6 +23,10 @@ struct Called {
   decltype(&::mj_constraintUpdate) constraint_update = nullptr;
   decltype(&::mju_cholFactor) chol_factor = nullptr;
   decltype(&::mju_cholSolve) chol_solve = nullptr;
+  decltype(&::mju_norm3) norm3 = nullptr;
+  decltype(&::mju_dist3) dist3 = nullptr;
+  decltype(&::mju_rotVecQuat) rot_vec_quat = nullptr;
+  decltype(&::mju_mulQuat) mul_quat = nullptr;
 #if mjVERSION_HEADER >= 3005000
   decltype(&::mj_readCtrl) read_ctrl = nullptr;
 #endif
@@ -48,6 +52,10 @@ void mj_constraintUpdate(const mjModel* m, mjData* d, const mjtNum* jar, mjtNum*
 }
 int mju_cholFactor(mjtNum* mat, int n, mjtNum mindiag) { return called.chol_factor(mat, n, mindiag); }
 void mju_cholSolve(mjtNum* res, const mjtNum* mat, const mjtNum* vec, int n) { called.chol_solve(res, mat, vec, n); }
+mjtNum mju_norm3(const mjtNum vec[3]) { return called.norm3(vec); }
+mjtNum mju_dist3(const mjtNum pos1[3], const mjtNum pos2[3]) { return called.dist3(pos1, pos2); }
+void mju_rotVecQuat(mjtNum res[3], const mjtNum vec[3], const mjtNum quat[4]) { called.rot_vec_quat(res, vec, quat); }
+void mju_mulQuat(mjtNum res[4], const mjtNum quat1[4], const mjtNum quat2[4]) { called.mul_quat(res, quat1, quat2); }
 #if mjVERSION_HEADER >= 3005000
 mjtNum mj_readCtrl(const mjModel* m, const mjData* d, int id, mjtNum time, int interp) {
   return called.read_ctrl(m, d, id, time, interp);
@@ -90,7 +98,9 @@ bool take(void* library) {
              find(library, "mj_mulJacTVec", called.mul_jac_t_vec) && find(library, "mj_mulM", called.mul_m) &&
              find(library, "mj_isSparse", called.is_sparse) && find(library, "mj_fwdConstraint", called.fwd_constraint) &&
              find(library, "mj_constraintUpdate", called.constraint_update) &&
-             find(library, "mju_cholFactor", called.chol_factor) && find(library, "mju_cholSolve", called.chol_solve);
+             find(library, "mju_cholFactor", called.chol_factor) && find(library, "mju_cholSolve", called.chol_solve) &&
+             find(library, "mju_norm3", called.norm3) && find(library, "mju_dist3", called.dist3) &&
+             find(library, "mju_rotVecQuat", called.rot_vec_quat) && find(library, "mju_mulQuat", called.mul_quat);
 #if mjVERSION_HEADER >= 3005000
   all = all && find(library, "mj_readCtrl", called.read_ctrl);
 #endif

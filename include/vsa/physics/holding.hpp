@@ -36,10 +36,14 @@ class Holding {
   [[nodiscard]] bool tied(int dof) const noexcept { return trees_.tied(dof); }    ///< as TiedTrees has it
   [[nodiscard]] bool held(int dof) const noexcept { return trees_.held(dof); }    ///< as TiedTrees has it
 
-  /// v̇ to qacc, from qfrc_smooth and qacc_smooth; qacc_warmstart goes along.
+  /// v̇ to qacc, from qfrc_smooth and qacc_smooth; in some versions qacc_warmstart goes along.
   void constrain(const mjModel& m, mjData& d) {
     mj_fwdConstraint(&m, &d);
+#if mjVERSION_HEADER >= 333
+    if (!trees_.any_stiff() || d.nefc == 0) return;  // solvers of islands leave efc_state as the warm start had it
+#else
     if (!trees_.any_stiff() || std::count(d.efc_state, d.efc_state + d.nefc, mjCNSTRSTATE_CONE) == 0) return;
+#endif
     // The Hessians of their cones, which not every solver of MuJoCo's leaves behind.
     reserve(static_cast<std::size_t>(d.nefc));
     mj_mulJacVec(&m, &d, row_.data(), d.qacc);
