@@ -26,20 +26,15 @@ void join_stiff_trees(std::vector<std::vector<std::size_t>>& trees, std::span<co
   const auto is_stiff = [&](const std::vector<std::size_t>& tree) {
     return std::any_of(tree.begin(), tree.end(), [&](std::size_t k) { return stiff[k] != 0; });
   };
-  // Trees that an equality ties may have several neighbourhoods, which are one then.
-  std::vector<std::size_t> label(neighbours.begin(), neighbours.end());
-  for (const auto& tree : trees) {
-    for (const std::size_t k : tree) std::replace(label.begin(), label.end(), label[k], label[tree.front()]);
-  }
   std::map<std::size_t, std::vector<std::size_t>> joined;  // by label
   for (const auto& tree : trees) {
     if (!is_stiff(tree)) continue;
-    std::vector<std::size_t>& all = joined[label[tree.front()]];
+    std::vector<std::size_t>& all = joined[neighbours[tree.front()]];
     all.insert(all.end(), tree.begin(), tree.end());
   }
   std::erase_if(joined, [](const auto& group) { return group.second.size() > kMostJoined; });
-  std::erase_if(trees, [&](const auto& tree) { return is_stiff(tree) && joined.contains(label[tree.front()]); });
-  for (auto& [of_label, all] : joined) trees.push_back(std::move(all));
+  std::erase_if(trees, [&](const auto& tree) { return is_stiff(tree) && joined.contains(neighbours[tree.front()]); });
+  for (auto& [label, all] : joined) trees.push_back(std::move(all));
 }
 
 }  // namespace vsa::seat

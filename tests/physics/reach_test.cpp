@@ -13,8 +13,8 @@
 namespace vsa::physics {
 namespace {
 
-std::vector<std::size_t> neighbours(const std::string& bodies, const std::vector<int>& dofs) {
-  const std::string xml = "<mujoco><worldbody>" + bodies + "</worldbody></mujoco>";
+std::vector<std::size_t> neighbours(const std::string& bodies, const std::vector<int>& dofs, const std::string& more = {}) {
+  const std::string xml = "<mujoco><worldbody>" + bodies + "</worldbody>" + more + "</mujoco>";
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
 #if mjVERSION_HEADER >= 300
@@ -76,6 +76,44 @@ TEST(Reach, OfADrivenOneThatFloatsIsEverywhere) {
 
 TEST(Reach, OfWhatCollidesWithNothingIsNone) {
   EXPECT_EQ(neighbours("<body><joint/><geom size='1' contype='0' conaffinity='0'/></body>" + finger(0), {0, 1}), (Labels{0, 1}));
+}
+
+TEST(Reach, OfOneBetweenTwoNeighbourhoodsMakesThemOne) {
+  // The last touches the first, then one of two that are neighbours already.
+  EXPECT_EQ(neighbours(finger(0) + finger(0.4) + finger(0.6) + finger(0.2), {0, 1, 2, 3}), (Labels{0, 0, 0, 0}));
+  EXPECT_EQ(neighbours(finger(0.4) + finger(0.6) + finger(0) + finger(-0.2) + finger(0.2), {0, 1, 2, 3, 4}),
+            (Labels{0, 0, 0, 0, 0}));
+}
+
+TEST(Reach, OfACrankIsThatOfTheFingerThatItMoves) {
+  const auto linkage = [](const std::string& name, double x) {
+    return "<body name='crank" + name + "' pos='" + std::to_string(x) +
+           " 0 0'><joint/><inertial mass='1' pos='0 0 0' "
+           "diaginertia='1 1 1'/></body><body name='finger" +
+           name + "' pos='" + std::to_string(x) + " 0 0'><joint/><geom size='0.01' pos='0.1 0 0'/></body>";
+  };
+  const std::string bodies = linkage("a", 0) + linkage("b", 0.2);
+  const std::string tie =
+      "<equality><connect body1='cranka' body2='fingera' anchor='0.05 0 0'/>"
+      "<connect body1='crankb' body2='fingerb' anchor='0.05 0 0'/></equality>";
+  EXPECT_EQ(neighbours(bodies, {0, 2}, tie), (Labels{0, 0}));
+  EXPECT_EQ(neighbours(bodies, {0, 2}), (Labels{0, 2})) << "without the ties the cranks have no shapes";
+}
+
+TEST(Reach, OfOneOnWhatAProgramMovesIsEverywhere) {
+  EXPECT_EQ(neighbours("<body mocap='true' pos='9 0 0'>" + finger(0) + "</body>" + finger(0), {0, 1}), (Labels{0, 0}));
+}
+
+TEST(Reach, CountsShapesOfNamedPairsAndMargins) {
+  const std::string bodies =
+      "<body><joint/><geom name='g' size='0.1' contype='0' conaffinity='0'/></body><body pos='0.15 0 0'><joint/>"
+      "<geom name='h' size='0.1' contype='0' conaffinity='0'/></body>";
+  EXPECT_EQ(neighbours(bodies, {0, 1}, "<contact><pair geom1='g' geom2='h'/></contact>"), (Labels{0, 0}));
+  EXPECT_EQ(neighbours(bodies, {0, 1}), (Labels{0, 1}));
+  EXPECT_EQ(
+      neighbours("<body><joint/><geom size='0.1' margin='0.02'/></body><body pos='0.21 0 0'><joint/><geom size='0.1'/></body>",
+                 {0, 1}),
+      (Labels{0, 0}));
 }
 
 TEST(Reach, CountsWhatIsFixedToTheWorldAsAPlace) {

@@ -21,7 +21,8 @@ inline constexpr std::size_t kMostJoined = 32;
 [[nodiscard]] bool may_be_stiff(const host::Robot& robot, std::size_t actuator, double inverse_inertia);
 
 /// Makes one of those trees that have a stiff joint and may touch, where they have kMostJoined joints at most. By the numbers that the
-/// trees hold, each below their size: `stiff`: which are; `neighbours`: equal numbers where they may touch.
+/// trees hold, each below their size: `stiff`: which are; `neighbours`: equal numbers where they may touch, so in
+/// one tree, too.
 void join_stiff_trees(std::vector<std::vector<std::size_t>>& trees, std::span<const char> stiff,
                       std::span<const std::size_t> neighbours);
 
