@@ -27,15 +27,15 @@ using Clock = bus::SerialLine::Clock;
 
 constexpr std::size_t kReadBytes = 4096;
 
-/// Written by one thread, read by any.
+/// Written by one thread, read by any: who reads a count finds done what it counts.
 template <class T>
 class Counter {
  public:
-  void add(T n) noexcept { value_.store(value_.load(std::memory_order_relaxed) + n, std::memory_order_relaxed); }
+  void add(T n) noexcept { value_.store(value_.load(std::memory_order_relaxed) + n, std::memory_order_release); }
   void at_least(T n) noexcept {
-    if (n > value_.load(std::memory_order_relaxed)) value_.store(n, std::memory_order_relaxed);
+    if (n > value_.load(std::memory_order_relaxed)) value_.store(n, std::memory_order_release);
   }
-  [[nodiscard]] T get() const noexcept { return value_.load(std::memory_order_relaxed); }
+  [[nodiscard]] T get() const noexcept { return value_.load(std::memory_order_acquire); }
 
  private:
   std::atomic<T> value_{0};
@@ -168,20 +168,21 @@ bool VirtualPort::Server::clients_left() {
     send();
     return true;
   }
-  clients_gone_.add(1);
   answer_.clear();
   if (held) {
     pair_.restore();
-    return true;
+  } else {
+    try {
+      // The old one goes last: until then an opener is told that it is busy.
+      TerminalPair fresh;
+      link_.point_to(fresh.device());
+      pair_ = std::move(fresh);
+    } catch (const std::exception&) {
+      return false;
+    }
   }
-  try {
-    // The old one goes last: until then an opener is told that it is busy.
-    TerminalPair fresh;
-    link_.point_to(fresh.device());
-    pair_ = std::move(fresh);
-  } catch (const std::exception&) {
-    return false;
-  }
+  // Last: who sees it counted finds the port as new.
+  clients_gone_.add(1);
   return true;
 }
 
