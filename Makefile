@@ -4,7 +4,7 @@
 # make demo-python   set up, build the Python module, let a small policy learn to balance a pole, say where its replay page lies
 # make test    set up, build, run the tests
 # make test-long   the tests that take minutes
-# make flakes      every test FLAKES_N times (50), beside 0, 2 and 6 busy processes: which fail now and then; hours. FLAKES_FILTER chooses (ctest -R)
+# make flakes      every test FLAKES_N times (50), beside 0, 2 and 6 busy processes and with late threads (FLAKES_LOADS): which fail now and then; hours. FLAKES_FILTER chooses (ctest -R)
 # make mutants     one-line mistakes, one at a time, in a copy: which test notices (scripts/mutants.toml); two hours. MUTANTS_FILTER chooses, MUTANTS_JOBS builds
 # make validate    compare the simulator with the hardware's recordings (docs/validation.md); a minute
 # make docs    the manual with the C++ and Python names as a site that needs no network, in build/release/docs/site; checks its links
