@@ -77,6 +77,7 @@ F real(const char* name, F& kept) noexcept {
 }  // namespace
 
 // NAME(…) as the C library's, late before and after. noexcept or not as its header has it.
+// NOLINTBEGIN(bugprone-macro-parentheses): types and lists
 #define VSA_LATE(result, name, parameters, arguments, exceptions)               \
   extern "C" [[gnu::visibility("default")]] result name parameters exceptions { \
     static result(*kept) parameters = nullptr;                                  \
@@ -85,6 +86,7 @@ F real(const char* name, F& kept) noexcept {
     maybe_late();                                                               \
     return r;                                                                   \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 
 VSA_LATE(int, pthread_mutex_lock, (pthread_mutex_t * m), (m), noexcept)
 VSA_LATE(int, pthread_mutex_unlock, (pthread_mutex_t * m), (m), noexcept)
