@@ -81,6 +81,12 @@ py::array_t<bool> status(PyBatch& b) {
   return out;
 }
 
+std::vector<std::pair<std::size_t, std::string>> take_notices(PyBatch& b) {
+  std::vector<std::pair<std::size_t, std::string>> out;
+  for (batch::Notice& n : b.get().take_notices()) out.emplace_back(n.copy, std::move(n.text));
+  return out;
+}
+
 using Commands = std::span<double> (Batch::*)();
 
 void bind_commands(BatchClass& c, const char* name, Commands which, const char* doc) {
@@ -158,6 +164,12 @@ constexpr const char* kStep =
     "infinite command, n out of range, a `which` of another dtype or shape, a copy named twice; IndexError: no such copy. Nothing "
     "is\n"
     "stepped then.";
+constexpr const char* kNotices =
+    "What was clamped or couldn't be resolved, and energy out of nothing, since the last call: list of (copy, str), by copies. "
+    "Each is\n"
+    "told once until its copy is reset; not what the World had told before. Of a copy that nobody asks of for long the first 32 "
+    "are\n"
+    "kept, and a line that says so.";
 constexpr const char* kRestore =
     "That copy goes on, with its own parameters, from the numbers of World.state() or Batch.state() of a world of this file: (n,) "
     "of\n"
@@ -180,7 +192,8 @@ void bind_batch(py::module_& m) {
             const std::size_t copy = b.copy(which);
             return b.get().failure(copy);
           },
-          py::arg("copy"), "Why that copy failed: str; empty: it didn't.");
+          py::arg("copy"), "Why that copy failed: str; empty: it didn't.")
+      .def("take_notices", &take_notices, kNotices);
   bind_batch_parameters(m, c);
   bind_names(c);
   bind_commands(

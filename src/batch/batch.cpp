@@ -67,6 +67,7 @@ Batch::Impl::Impl(const engine::World& world, std::size_t copies, std::size_t th
   numbers.resize(copies * first.size());
   parameters.assign(copies, book.first());
   failure.resize(copies);
+  notices.resize(copies);
   all.resize(copies);
   std::iota(all.begin(), all.end(), std::size_t{0});
   const std::size_t n = world.actuators().size();
@@ -148,6 +149,18 @@ void Batch::Impl::put(std::size_t worker, std::size_t copy) {
   read(worlds[worker], copy);
 }
 
+void Batch::Impl::note(engine::World& world, std::size_t copy) {
+  std::vector<std::string>& all_of_it = notices[copy];
+  for (std::size_t r = 0; r < world.robot_count(); ++r) {
+    for (host::Notice& n : world.robot(r).take_notices()) {
+      if (all_of_it.size() < kMostNotices)
+        all_of_it.push_back(std::move(n.text));
+      else if (all_of_it.size() == kMostNotices)
+        all_of_it.emplace_back("more notices were left out");
+    }
+  }
+}
+
 /// A step that fails leaves the world where it was before it; a state that can't be saved leaves the copy where it was before all.
 void Batch::Impl::step(std::size_t worker, std::size_t copy, int steps, bool commanded) noexcept {
   engine::World& world = worlds[worker];
@@ -159,6 +172,7 @@ void Batch::Impl::step(std::size_t worker, std::size_t copy, int steps, bool com
     } catch (const engine::SimulationError& error) {
       failure[copy] = reason(error);
     }
+    note(world, copy);
     put(worker, copy);
   } catch (const std::exception& error) {
     failure[copy] = reason(error);
@@ -310,6 +324,14 @@ std::shared_ptr<const engine::World::Parameters> Batch::parameters(std::size_t c
 const std::string& Batch::failure(std::size_t copy) const {
   impl_->check_copy(copy);
   return impl_->failure[copy];
+}
+std::vector<Notice> Batch::take_notices() {
+  std::vector<Notice> out;
+  for (std::size_t copy = 0; copy < size(); ++copy) {
+    for (std::string& text : impl_->notices[copy]) out.push_back({copy, std::move(text)});
+    impl_->notices[copy].clear();
+  }
+  return out;
 }
 Status Batch::status(std::size_t copy) const { return failure(copy).empty() ? Status::running : Status::failed; }
 

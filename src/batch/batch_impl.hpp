@@ -31,6 +31,7 @@ struct Batch::Impl {
   /// The copy's parameters and state into that World, and from it.
   void take(engine::World& world, std::size_t copy);
   void put(std::size_t worker, std::size_t copy);
+  void note(engine::World& world, std::size_t copy);
   void step(std::size_t worker, std::size_t copy, int steps, bool commanded) noexcept;
   void step(int steps, std::span<const std::size_t> which, const std::function<void()>& between);
   void begin(std::size_t worker, std::size_t copy);  ///< where all began
@@ -58,6 +59,7 @@ struct Batch::Impl {
   bool parameters_differ = false;          ///< they did once: a thread's World may have any
   bool own_memories = true;                ///< no program held other firmware parameters than its actuator's when all began
   std::vector<std::string> failure;
+  std::vector<std::vector<std::string>> notices;  ///< of a copy, since they were taken
   std::vector<std::size_t> all;
   std::vector<double> equilibrium, preset;
   std::vector<double> time, shaft, speed, torque, stiffness, motor, position, joint_speed;

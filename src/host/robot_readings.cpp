@@ -63,12 +63,12 @@ std::vector<Notice> Robot::take_notices() {
   std::vector<Notice> out;
   for (const RawNotice& n : impl_->notices.take()) {
     const ActuatorConfig& a = impl_->config.actuators[n.actuator];
-    const auto unit = std::string(a.unit.preset_unit());
+    const std::string unit = a.unit.preset_unit().empty() ? "" : " " + std::string(a.unit.preset_unit());
     const std::string limit = Checks::text(a.unit.preset_max);
     std::string text = a.name;
     switch (n.kind) {
       case NoticeKind::preset:
-        text += ": preset " + Checks::text(n.value) + " " + unit + " is beyond ±" + limit + ": clamped";
+        text += ": preset " + Checks::text(n.value) + unit + " is beyond ±" + limit + unit + ": clamped";
         break;
       case NoticeKind::limits:
         text += ": equilibrium " + Checks::text(n.value) +

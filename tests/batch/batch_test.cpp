@@ -162,6 +162,32 @@ TEST(Batch, ACopyThatBlowsUpIsMarkedAndTheOthersGoOn) {
   EXPECT_EQ(first_difference(batch.state(3), good.state(3)), std::nullopt);
 }
 
+/// Copies share the Worlds of their threads: what one has to tell is its own, whoever steps it.
+TEST(Batch, NoticesAreOfTheirCopy) {
+  const World w = World::load("bench_load.sdf");
+  for (const std::size_t threads : {1, 3}) {
+    Batch batch(w, 40, threads);
+    for (std::size_t c = 0; c < 40; c += 3) batch.preset()[c] = 100.0 + static_cast<double>(c);
+    batch.step(5);
+    const std::vector<Notice> told = batch.take_notices();
+    ASSERT_EQ(told.size(), 14u);
+    for (std::size_t k = 0; k < told.size(); ++k) {
+      EXPECT_EQ(told[k].copy, 3 * k);
+      EXPECT_NE(told[k].text.find(": preset " + std::to_string(100 + 3 * k)), std::string::npos) << told[k].text;
+    }
+    batch.step(5);
+    EXPECT_TRUE(batch.take_notices().empty()) << "each once";
+    for (int episode = 0; episode < 100; ++episode) {
+      batch.reset();
+      batch.step(5);
+    }
+    const std::vector<Notice> many = batch.take_notices();
+    EXPECT_EQ(many.size(), 14 * (Batch::kMostNotices + 1)) << "nobody asked";
+    EXPECT_NE(many[Batch::kMostNotices].text.find("left out"), std::string::npos);
+    EXPECT_TRUE(batch.take_notices().empty());
+  }
+}
+
 TEST(Batch, RefusesWhatItCantDoBeforeAnythingMoves) {
   const World w = World::load("bench_load.sdf");
   Batch batch(w, 3, 2);

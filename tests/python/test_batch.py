@@ -281,6 +281,22 @@ class Failures(unittest.TestCase):
         self.assertFalse(batch.status.any())
         self.assertEqual(batch.state(1).tobytes(), good.state(1).tobytes())
 
+    def test_notices_are_told_of_the_copy_once_until_it_is_reset(self):
+        world = loaded()
+        batch = vsasim.Batch(world, 3, threads=2)
+        batch.preset[1] = 9.0
+        batch.step(20)
+        told = batch.take_notices()
+        self.assertEqual([c for c, _ in told], [1] * len(world.actuators))
+        world.command_all(preset=9.0)
+        world.step(20)
+        self.assertEqual([text for _, text in told], world.take_notices())
+        batch.step(20)
+        self.assertEqual(batch.take_notices(), [])
+        batch.reset([1])
+        batch.step(20)
+        self.assertEqual(batch.take_notices(), told)
+
     def test_commands_that_are_no_numbers_or_do_not_fit_are_told(self):
         batch = vsasim.Batch(loaded(), 2)
         for infinite in (np.inf, -np.inf):

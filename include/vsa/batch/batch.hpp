@@ -32,6 +32,11 @@ namespace vsa::batch {
 
 /// Of a copy; failed: it is stepped no more until it is set anew.
 enum class Status { running, failed };
+/// What a robot of a copy has to tell (host::Notice): what was clamped, what a step can't resolve, energy out of nothing.
+struct Notice {
+  std::size_t copy = 0;  ///< below Batch::size()
+  std::string text;      ///< one line, with the numbers
+};
 
 /// Many copies of a world: states and parameters as rows, stepped by a crew of threads. One thread calls; blocks until all have
 /// stepped.
@@ -103,6 +108,10 @@ class Batch {
 
   [[nodiscard]] Status status(std::size_t copy) const;               ///< InputError: no such copy
   [[nodiscard]] const std::string& failure(std::size_t copy) const;  ///< why it failed; empty: it didn't
+  /// Since the last call, by copies, in the order of their steps. Each is told once until its copy is reset; not what the World had told
+  /// before the Batch began. Of a copy that nobody asks of for long the first kMostNotices are kept, and a line that says so.
+  [[nodiscard]] std::vector<Notice> take_notices();
+  static constexpr std::size_t kMostNotices = 32;  ///< of a copy, between two calls
 
   /// Readings after the last step(), reset() or restore() of each copy, as World has them.
   [[nodiscard]] std::span<const double> time_s() const;                 ///< size()
