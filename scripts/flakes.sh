@@ -28,7 +28,7 @@ if [ -n "$(ls -A "$out" 2>/dev/null)" ] && [ ! -f "$results" ]; then
   refuse "FLAKES_OUT = '$out'" "a new or empty folder, or one with an earlier run's runs.txt"
 fi
 mkdir -p "$out"
-rm -f "$results" "$out"/*.[0-9]*.[0-9]*.txt
+rm -f "$results" "$out"/*.[0-9]*.[0-9]*.txt "$out"/*.late.[0-9]*.txt
 : > "$results"
 
 # A busy process looks now and then whether this one is still there, should it be killed without a chance to end them.

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
 
 #include "vsa/config/older_plugin.hpp"
 #include "vsa/config/plugin_xml.hpp"
@@ -19,6 +22,28 @@ constexpr std::array<std::pair<Joint::Kind, const char*>, 5> kTypes{{{Joint::Kin
                                                                      {Joint::Kind::slide, "prismatic"},
                                                                      {Joint::Kind::ball, "ball"},
                                                                      {Joint::Kind::universal, "universal"}}};
+
+enum class Looks { like_xml, empty, otherwise };
+
+/// Like XML: there is a '<', whatever the encoding. So does a file that can't be read: its reader says why.
+Looks look_of(std::istream& in) {
+  Looks out = Looks::empty;
+  if (!in) return Looks::like_xml;
+  for (int c = in.get(); c != EOF; c = in.get()) {
+    if (c == '<') return Looks::like_xml;
+    if (c != ' ' && c != '\t' && c != '\r' && c != '\n') out = Looks::otherwise;
+  }
+  return out;
+}
+
+Looks look_of(const SdfSource& source) {
+  if (source.path.empty()) {
+    std::istringstream text{std::string(source.text)};
+    return look_of(text);
+  }
+  std::ifstream file(source.path, std::ios::binary);
+  return look_of(file);
+}
 
 }  // namespace
 
@@ -40,11 +65,10 @@ bool is_there(const SdfSource& source, Problems& problems) {
     problems.add({source.path.string(), "", "", "no such file", "an SDF or URDF file"});
     return false;
   }
-  if (!source.path.empty() ? std::filesystem::file_size(source.path, ignored) == 0 : source.text.empty()) {
-    problems.add({source.label(), "", "", "is empty", "an SDF or URDF file"});
-    return false;
-  }
-  return true;
+  const Looks looks = look_of(source);
+  if (looks == Looks::like_xml) return true;
+  problems.add({source.label(), "", "", looks == Looks::empty ? "is empty" : "isn't XML", "an SDF or URDF file"});
+  return false;
 }
 
 void take_plugin(Reading& r, const PluginElement& plugin, const ModelScope& scope) {

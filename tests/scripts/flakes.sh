@@ -2,6 +2,7 @@
 #
 # scripts/flakes.sh on a tree of made-up tests: it runs what it says that it runs, or refuses.  bash flakes.sh SOURCE LATE_LIBRARY
 set -eu
+unset LD_PRELOAD VSA_LATE_IN VSA_LATE_SEED FLAKES_FILTER # of flakes.sh that runs this
 flakes=$1/scripts/flakes.sh
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

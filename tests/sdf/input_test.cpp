@@ -113,6 +113,13 @@ TEST(BadInput, BrokenXmlIsRefusedAndNothingIsPrinted) {
   EXPECT_EQ(printed, "");
 }
 
+TEST(BadInput, WhatIsNoXmlIsCalledThat) {
+  for (const char* text : {"[scenario]\nworld = 'snake_flat'\n", "snake_flat", "\n  {\"world\": 1}", ")"})
+    EXPECT_EQ(problems_of(text), "SDF text: isn't XML (allowed: an SDF or URDF file)") << text;
+  for (const char* text : {"", " \n\t"}) EXPECT_EQ(problems_of(text), "SDF text: is empty (allowed: an SDF or URDF file)") << text;
+  for (const char* before : {"", "\n ", "\xEF\xBB\xBF"}) EXPECT_EQ(problems_of(before + model(link("a", ""))), "") << before;
+}
+
 TEST(BadInput, SdfErrorsArePrintedNowhereButInTheException) {
   ::testing::internal::CaptureStderr();
   ::testing::internal::CaptureStdout();
