@@ -84,8 +84,8 @@ bool TerminalPair::take_hold(bool clients) noexcept {
 }
 
 void TerminalPair::restore() noexcept {
-  tcflush(theirs_.get(), TCIFLUSH);
   static_cast<void>(make_raw(theirs_.get()));
+  tcflush(theirs_.get(), TCIFLUSH);
 }
 
 }  // namespace vsa::serial

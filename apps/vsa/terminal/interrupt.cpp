@@ -6,23 +6,37 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <iostream>
 #include <stdexcept>
 
 namespace vsa::app {
 namespace {
 
-std::atomic<int> noted{0};
-static_assert(std::atomic<int>::is_always_lock_free);
+/// timeout(1) sends its signal to its child and then to all of its group, which the child is in, too.
+constexpr std::int64_t kSameWish_ns = 500'000'000;
 
-extern "C" void vsa_note_signal(int signal) { noted.store(signal); }
+std::atomic<int> noted{0};
+std::atomic<std::int64_t> noted_at_ns{0};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
+
+extern "C" void vsa_note_signal(int signal) {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const std::int64_t now_ns = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  std::int64_t first_ns = 0;
+  if (noted_at_ns.compare_exchange_strong(first_ns, now_ns)) return noted.store(signal);
+  if (now_ns - first_ns < kSameWish_ns) return;
+  std::signal(signal, SIG_DFL);
+  raise(signal);  // and ends the process when this returns
+}
 
 }  // namespace
 
 void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = vsa_note_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);  // a script that began this with & had it ignored, and may send it all the same
   sigaction(SIGTERM, &action, nullptr);

@@ -3,7 +3,8 @@
 
 namespace vsa::app {
 
-/// From now on the first SIGINT or SIGTERM is noted, so that a loop can end in good order; a second one ends the process.
+/// From now on the first SIGINT, SIGTERM or SIGHUP is noted, so that a loop can end in good order; one that comes more than half a second
+/// later ends the process.
 void catch_interrupts();
 
 /// Makes SIGPIPE and SIGXFSZ errors of the write that met them. Call once, first.

@@ -10,7 +10,7 @@
 //
 // What a pseudo-terminal can't do: a second opener can't be told apart; both write to the same units and share what comes back.
 // In the microseconds between a client's end and our look, the next one may find that one's answers (host libraries throw pending
-// input away before they ask) or its lock (EBUSY). Bytes take no time on the way. The line is told the rate that the client's end
+// input away before they ask) or its lock (EBUSY), or lose settings of its own, where that one didn't leave raw mode. Bytes take no time on the way. The line is told the rate that the client's end
 // is set to when its bytes are read: a client that changes it just after a write has sent that at the new one.
 #pragma once
 
