@@ -14,7 +14,6 @@ namespace vsa::serial {
 bool make_raw(int fd) noexcept {
   termios2 t{};
   if (ioctl(fd, TCGETS2, &t) != 0) return false;
-  const termios2 before = t;
   t.c_iflag = 0;
   t.c_oflag = 0;
   t.c_lflag = 0;
@@ -22,10 +21,14 @@ bool make_raw(int fd) noexcept {
   t.c_cflag |= CS8 | CREAD | CLOCAL;
   t.c_cc[VMIN] = 1;
   t.c_cc[VTIME] = 0;
-  // What is so already isn't set: a client that opened meanwhile may just have set its rate, which goes along.
-  const bool is_raw = t.c_iflag == before.c_iflag && t.c_oflag == before.c_oflag && t.c_lflag == before.c_lflag &&
-                      t.c_cflag == before.c_cflag && before.c_cc[VMIN] == 1 && before.c_cc[VTIME] == 0;
-  return is_raw || ioctl(fd, TCSETS2, &t) == 0;
+  return ioctl(fd, TCSETS2, &t) == 0;
+}
+
+bool is_raw(int fd) noexcept {
+  termios2 t{};
+  constexpr tcflag_t kFrame = CSIZE | PARENB | CSTOPB | CRTSCTS | CREAD | CLOCAL;
+  return ioctl(fd, TCGETS2, &t) == 0 && t.c_iflag == 0 && t.c_oflag == 0 && t.c_lflag == 0 &&
+         (t.c_cflag & kFrame) == (CS8 | CREAD | CLOCAL);
 }
 
 std::int64_t baud_of(int fd) noexcept {

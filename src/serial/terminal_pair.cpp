@@ -84,7 +84,8 @@ bool TerminalPair::take_hold(bool clients) noexcept {
 }
 
 void TerminalPair::restore() noexcept {
-  static_cast<void>(make_raw(theirs_.get()));
+  // What a client left raw stays as it is, as on a real port: one that opens just now may be setting its own.
+  if (!is_raw(theirs_.get())) static_cast<void>(make_raw(theirs_.get()));
   tcflush(theirs_.get(), TCIFLUSH);
 }
 

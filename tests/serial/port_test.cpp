@@ -130,6 +130,24 @@ TEST(VirtualPort, ALockAndSettingsThatADeadClientLeftAreTakenOff) {
   EXPECT_EQ(second.read(1), Bytes{'\r'});
 }
 
+/// Nothing is set that another client may just be setting; VMIN and VTIME stay on a real port, too.
+TEST(VirtualPort, RawModeThatADeadClientLeftStaysAsItIs) {
+  EchoPort p;
+  RawClient first(p.port.path());
+  termios t{};
+  tcgetattr(first.fd(), &t);
+  t.c_cc[VMIN] = 0;
+  t.c_cc[VTIME] = 1;
+  ASSERT_EQ(tcsetattr(first.fd(), TCSANOW, &t), 0);
+  first.leave();
+  ASSERT_TRUE(eventually([&p] { return p.port.counters().clients_gone == 1U; }));
+  const RawClient second(p.port.path());
+  tcgetattr(second.fd(), &t);
+  EXPECT_EQ(t.c_cc[VMIN], 0);
+  EXPECT_EQ(t.c_cc[VTIME], 1);
+  EXPECT_EQ(t.c_lflag & static_cast<tcflag_t>(ICANON | ECHO), 0U);
+}
+
 TEST(VirtualPort, ASecondOpenerThatLeavesTakesNothingFromTheFirst) {
   EchoPort p;
   const RawClient first(p.port.path());
