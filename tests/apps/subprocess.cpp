@@ -43,6 +43,7 @@ Ends make_terminal() {
     setrlimit(RLIMIT_FSIZE, &limit);
     signal(SIGXFSZ, SIG_IGN);
   }
+  for (const char* name : {"VSA_DATA_DIR", "VSA_ACTUATOR_PATH", "VSA_LAW_PATH"}) unsetenv(name);  // those of who runs the tests
   for (const auto& [name, value] : around.environment) setenv(name.c_str(), value.c_str(), 1);
   const std::string program = std::filesystem::path(VSA_BINARY_DIR) / "bin" / around.program;
   std::vector<char*> argv{const_cast<char*>(program.c_str())};

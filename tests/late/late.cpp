@@ -1,12 +1,11 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// Makes threads late, at random: preloaded (LD_PRELOAD) into a program, it lets calls of the C library by which
-// threads and programs meet sleep before or after. What is done in the wrong order for another thread to see then fails in a run or two,
-// where a busy machine shows it once in thousands.
+// Makes threads late, at random: preloaded (LD_PRELOAD) into a program, it lets calls of the C library by which threads and programs meet
+// sleep before or after. What is done in the wrong order for another thread to see then fails once in tens of runs, where a busy machine
+// shows it once in thousands.
 //
 // VSA_LATE_IN: only programs whose file is below this folder; unset: all. VSA_LATE_SEED: another pattern, 1 unless given.
 #include <dlfcn.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
 #include <sys/eventfd.h>
