@@ -30,11 +30,12 @@ std::size_t thread_count(std::size_t asked, std::size_t copies) {
 class NoMemory : public std::bad_alloc {
  public:
   NoMemory(std::size_t copies, std::size_t threads)
-      : text_("no memory for a batch of copies = " + std::to_string(copies) + " on threads = " + std::to_string(threads)) {}
-  [[nodiscard]] const char* what() const noexcept override { return text_.what(); }
+      : text_(std::make_shared<const std::string>("no memory for a batch of copies = " + std::to_string(copies) +
+                                                  " on threads = " + std::to_string(threads))) {}
+  [[nodiscard]] const char* what() const noexcept override { return text_->c_str(); }
 
  private:
-  std::runtime_error text_;  // whose copies can't fail
+  std::shared_ptr<const std::string> text_;  // whose copies can't fail
 };
 
 /// A clone doesn't step: what the engine fails at is memory.

@@ -83,6 +83,10 @@ class Holding {
     out.clear();
     for (int r = 0; trees_.any_stiff() && r < d.nefc; ++r) out.push_back(static_cast<char>(d.efc_state[r]));
   }
+  /// A contact's k-th row in jacobian_.
+  [[nodiscard]] mjtNum* acting_on(const mjModel& m, int k) {
+    return &jacobian_[static_cast<std::size_t>(k) * static_cast<std::size_t>(m.nv)];
+  }
   [[nodiscard]] int find_acting_on(const mjModel& m, mjData& d, int row, int count);
   void take_mass(const mjModel& m, mjData& d);
 
@@ -98,7 +102,7 @@ inline int Holding::find_acting_on(const mjModel& m, mjData& d, int row, int cou
   const int nv = static_cast<int>(m.nv);
   int first = nv;
   for (int k = 0; k < count; ++k) {
-    mjtNum* const acts_on = &jacobian_[static_cast<std::size_t>(k * nv)];
+    mjtNum* const acts_on = acting_on(m, k);
     row_[row + k] = 1;
     mj_mulJacTVec(&m, &d, acts_on, row_.data());
     row_[row + k] = 0;
@@ -138,10 +142,9 @@ inline bool Holding::factor(const mjModel& m, mjData& d) {
     for (int k = 0; k < count; ++k) {
       for (int l = 0; l < count; ++l) {
         const mjtNum h = slides(d, r) ? d.contact[d.efc_id[r]].H[k * count + l] : 1 / d.efc_R[r];
-        const mjtNum *const left = &jacobian_[static_cast<std::size_t>(k * nv)], *const right =
-                                                                                     &jacobian_[static_cast<std::size_t>(l * nv)];
+        const mjtNum *const left = acting_on(m, k), *const right = acting_on(m, l);
         for (int i = first; i < nv; ++i)
-          for (int j = first; left[i] != 0 && j < nv; ++j) sum_[static_cast<std::size_t>(i * nv + j)] += h * left[i] * right[j];
+          for (int j = first; left[i] != 0 && j < nv; ++j) sum_[static_cast<std::size_t>(i) * size + j] += h * left[i] * right[j];
       }
     }
   }
