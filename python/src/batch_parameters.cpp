@@ -48,8 +48,9 @@ std::vector<double> spread_out(const py::object& value, std::size_t copies, std:
 
 void set(PyBatch& b, const py::object& which, const py::object& who, const std::string& key, const py::object& value) {
   const std::vector<std::size_t> copies = copies_of(b, which);
-  if (std::set<std::size_t>(copies.begin(), copies.end()).size() != copies.size())
-    throw InputError({"", "which", "", "names a copy twice", "each copy once"});
+  std::set<std::size_t> seen;
+  for (const std::size_t c : copies)
+    if (!seen.insert(c).second) throw InputError({"", "which", std::to_string(c), "is named twice", "each copy once"});
   const std::string name = who_of(b, who);
   std::vector<batch::Setting> settings;
   if (py::isinstance<py::str>(value) || py::isinstance<py::bool_>(value)) {

@@ -45,6 +45,10 @@ toml::table parse_toml(const std::filesystem::path& file) {
   }
 }
 
+std::string place_of(const std::filesystem::path& file, const toml::node& node) {
+  return file.string() + ":" + std::to_string(node.source().begin.line);
+}
+
 TomlSection::TomlSection(const toml::table* table, std::string place, std::string scope, Problems& problems)
     : table_(table), place_(std::move(place)), scope_(std::move(scope)), problems_(problems) {}
 

@@ -53,7 +53,7 @@ std::vector<What> read_all(Item& top, const char* key, const std::string& file, 
                            What (*read)(Item&, const std::string&)) {
   std::vector<What> out;
   for (const toml::table* table : top.tables(key)) {
-    const std::string place = file + ':' + std::to_string(table->source().begin.line);
+    const std::string place = config::place_of(file, *table);
     Item item(table, place, "", problems);
     out.push_back(read(item, place));
     item.refuse_others();

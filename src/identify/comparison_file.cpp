@@ -143,7 +143,7 @@ void read_hypotheses(const std::vector<const toml::table*>& tables, Comparison& 
                      Problems& problems) {
   for (const toml::table* entry : tables) {
     const std::string name = (*entry)["name"].value_or(std::to_string(out.hypotheses.size() + 1));
-    const std::string place = fmt::format("{}:{}: hypothesis {}", out.file.string(), entry->source().begin.line, name);
+    const std::string place = fmt::format("{}: hypothesis {}", config::place_of(out.file, *entry), name);
     Section section(entry, place, "", problems);
     Hypothesis h = read_hypothesis(section, out, library);
     const auto same = [&](const Hypothesis& other) { return other.name == h.name; };

@@ -3,6 +3,7 @@
 
 #include "vsa/elastic/inverse.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 #include "vsa/serial/ports.hpp"
 
 namespace vsa::ports {
@@ -39,10 +40,10 @@ void RobotPorts::open(host::Robot& robot, const std::string& model, const Report
           *line, serial::VirtualPortOptions{serial::port_path(bus.serial_port.value_or(bus.name))}));
       const std::string& path = ports_.back()->path();
       report("serial port " + path + ": bus " + bus.name + " of " + model + ", units " + ids_on(robot.config(), b) + "; vsa ping " +
-             path);
+             shell_word(path));
       if (const std::string others = others_on(robot.config(), b); !others.empty())
-        report("serial port " + path + ": the references of unit " + others + " aren't equilibrium ± preset; use vsa set " + path +
-               " inputs …");
+        report("serial port " + path + ": the references of unit " + others + " aren't equilibrium ± preset; use vsa set " +
+               shell_word(path) + " inputs …");
     } catch (const InputError& error) {
       problems.add_all(error);
     }

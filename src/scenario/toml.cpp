@@ -59,7 +59,7 @@ void read_motion(const toml::table* table, const fs::path& file, Problems& probl
 
 void read_commands(const std::vector<const toml::table*>& all, const fs::path& file, Problems& problems, Scenario& out) {
   for (const toml::table* table : all) {
-    const std::string place = file.string() + ":" + std::to_string(table->source().begin.line);
+    const std::string place = config::place_of(file, *table);
     TomlSection s(table, place, "command.", problems);
     s.need("time_s", "0 … 1e8").need("actuator", "its name");
     Command c;

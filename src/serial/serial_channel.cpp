@@ -47,6 +47,8 @@ int wait_for(int fd, short events, Time timeout) {
 }  // namespace
 
 SerialChannel::SerialChannel(const std::string& path, std::int64_t baud_Hz) {
+  if (baud_Hz < 1 || baud_Hz > kMostBaud_Hz)
+    throw InputError({path, "baud_Hz", std::to_string(baud_Hz), "out of range", "1 to " + std::to_string(kMostBaud_Hz)});
   Descriptor fd = open_port(path);
   if (isatty(fd.get()) == 0) refuse(path, "is no serial port", "such as /dev/ttyUSB0, or what vsa emulate prints");
   if (flock(fd.get(), LOCK_EX | LOCK_NB) != 0) {

@@ -190,7 +190,7 @@ Plan Plan::load(const fs::path& file) {
   impl->limit_s = limits.number("run_s", 1e-3, 1e7).value_or(impl->limit_s);
   limits.refuse_others();
   const auto vary = top.tables("vary"), measure = top.tables("measure");
-  const auto place = [&](const toml::table* t) { return file.string() + ":" + std::to_string(t->source().begin.line); };
+  const auto place = [&](const toml::table* t) { return config::place_of(file, *t); };
   for (const toml::table* t : vary) impl->axes.push_back(read_axis({t, place(t), "vary.", problems}));
   for (const toml::table* t : measure) {
     const TomlSection section(t, place(t), "measure.", problems);

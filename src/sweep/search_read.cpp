@@ -37,8 +37,7 @@ void read_search(TomlSection& top, const std::string& file, Plan::Impl& out, Pro
   if (objectives.empty()) top.add("objective", "", "is missing", "[[objective]] with measure and goal");
   Search search;
   for (const toml::table* t : objectives)
-    search.objectives.push_back(
-        read_objective({t, file + ":" + std::to_string(t->source().begin.line), "objective.", problems}, out.measures));
+    search.objectives.push_back(read_objective({t, config::place_of(file, *t), "objective.", problems}, out.measures));
   TomlSection s(table, file, "optimize.", problems);
   const bool several = objectives.size() > 1;
   const std::vector<std::string> known =

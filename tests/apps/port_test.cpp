@@ -359,6 +359,13 @@ TEST(Emulate, AStoredMultiplierThatIsNoNumberHasTheFileWrittenOnce) {
          {"unit[0].user.multiplier", "nan"});
 }
 
+TEST(Ping, SaysWhichRatesThereAre) {
+  Emulated units({"--units", "1"});
+  ASSERT_TRUE(units.ready);
+  for (const std::string rate : {"-1", "0", "100000001"})
+    expect(units.vsa({"ping", "--baud-Hz", rate}), 2, {"--baud-Hz = " + rate + ": out of range (allowed: 1 to 100000000)"});
+}
+
 TEST(GetAndSet, ABaudrateActsAtOnceForTheUnitThatIsTold) {
   Emulated units({"--units", "2"});
   ASSERT_TRUE(units.ready);

@@ -24,6 +24,22 @@ class Files : public testing::Test {
   fs::path folder;
 };
 
+TEST_F(Files, AShellTakesAWordAsTheTextItWas) {
+  for (const std::string text :
+       {"", " ", "/tmp/a b", "it's", "''", "$HOME", "`x`", "a\nb", "~", "*", "\\", "a;b", "#", "é ü", "!x", "\"q\""}) {
+    const fs::path out = folder / "word";
+    const std::string command = "printf %s " + vsa::shell_word(text) + " > " + vsa::shell_word(out.string());
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    EXPECT_EQ(vsa::read_file(out), text) << command;
+  }
+}
+
+TEST_F(Files, AWordThatAShellTakesAsItIsHasNoQuotes) {
+  for (const std::string text : {"/dev/ttyUSB0", "vsa-qbmove_maker_pro_6_1", "drive.supply_V=24", "é", "a:1,2@%+"})
+    EXPECT_EQ(vsa::shell_word(text), text);
+  EXPECT_EQ(vsa::shell_word("/tmp/a b"), "'/tmp/a b'");
+}
+
 TEST_F(Files, AreReadByteForByte) {
   const std::string bytes = std::string("a\0\r\n\xff", 5) + ", no line's end";
   std::ofstream(folder / "some", std::ios::binary) << bytes;

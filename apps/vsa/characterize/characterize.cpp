@@ -19,6 +19,7 @@
 #include "terminal/output_files.hpp"
 #include "terminal/step.hpp"
 #include "vsa/config/text.hpp"
+#include "vsa/files.hpp"
 
 namespace vsa::app {
 namespace {
@@ -57,7 +58,7 @@ study::CharacterizationOptions study_of(const CharacterizeOptions& o) {
 
 /// The command again, with what was given.
 std::string command_of(const CharacterizeOptions& o) {
-  std::string out = "vsa characterize " + o.type;
+  std::string out = "vsa characterize " + shell_word(o.type);
   for (const auto& e : o.experiments) out += " --experiment " + e;
   if (!o.preset_rad.empty()) out += fmt::format(" --preset-rad {}", fmt::join(o.preset_rad, " "));
   if (o.period_s) out += fmt::format(" --period-s {}", *o.period_s);
@@ -65,7 +66,7 @@ std::string command_of(const CharacterizeOptions& o) {
   if (o.cycles) out += fmt::format(" --cycles {}", *o.cycles);
   if (o.load_kg) out += fmt::format(" --load-kg {}", *o.load_kg);
   if (o.step_s) out += fmt::format(" --step-s {}", *o.step_s);
-  for (const auto& s : o.set) out += " --set " + s;
+  for (const auto& s : o.set) out += " --set " + shell_word(s);
   return out;
 }
 

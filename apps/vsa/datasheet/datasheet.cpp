@@ -19,6 +19,7 @@
 #include "terminal/step.hpp"
 #include "terminal/table.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 
 namespace vsa::app {
 namespace {
@@ -42,9 +43,9 @@ void check_writable(const std::filesystem::path& file) {
 }
 
 std::string command_of(const DatasheetOptions& o) {
-  std::string out = "vsa datasheet " + o.type;
+  std::string out = "vsa datasheet " + shell_word(o.type);
   if (o.step_s) out += fmt::format(" --step-s {}", *o.step_s);
-  for (const auto& s : o.set) out += " --set " + s;
+  for (const auto& s : o.set) out += " --set " + shell_word(s);
   return out;
 }
 

@@ -14,6 +14,7 @@
 #include "terminal/output_files.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 #include "vsa/hash.hpp"
 #include "vsa/output_file.hpp"
 #include "vsa/study/characterization.hpp"
@@ -182,9 +183,11 @@ sweep::Series Asked::series(std::vector<identify::Job> jobs) const {
 std::string Asked::command() const {
   const IdentifyOptions& o = options_;
   const IdentifyOptions usual;
-  std::string out = "vsa identify " + config::join(o.recordings, " ") + " --type " + o.type + " --parameters " + o.parameters;
-  for (const auto& s : o.set) out += " --set " + s;
-  if (o.name != usual.name) out += " --name " + o.name;
+  std::string out = "vsa identify";
+  for (const auto& r : o.recordings) out += ' ' + shell_word(r);
+  out += " --type " + shell_word(o.type) + " --parameters " + shell_word(o.parameters);
+  for (const auto& s : o.set) out += " --set " + shell_word(s);
+  if (o.name != usual.name) out += " --name " + shell_word(o.name);
   if (o.period_s != usual.period_s) out += fmt::format(" --period-s {}", o.period_s);
   if (o.amplitude_rad) out += fmt::format(" --amplitude-rad {}", *o.amplitude_rad);
   if (o.load_kg != usual.load_kg) out += fmt::format(" --load-kg {}", o.load_kg);
@@ -195,7 +198,7 @@ std::string Asked::command() const {
   if (o.iterations != usual.iterations) out += fmt::format(" --iterations {}", o.iterations);
   if (o.profile != usual.profile) out += fmt::format(" --profile {}", o.profile);
   if (o.bootstrap != usual.bootstrap) out += fmt::format(" --bootstrap {}", o.bootstrap);
-  if (o.weights != usual.weights) out += " --weights " + o.weights;
+  if (o.weights != usual.weights) out += " --weights " + shell_word(o.weights);
   if (o.no_cross_validation) out += " --no-cross-validation";
   return out;
 }

@@ -19,6 +19,7 @@
 #include "vsa/config/find_file.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 #include "vsa/output_file.hpp"
 
 namespace vsa::app {
@@ -161,12 +162,12 @@ study::WorldLinearization world_of(const LinearizeOptions& o) {
 
 /// The command again, with what was given.
 std::string command_of(const LinearizeOptions& o) {
-  std::string out = "vsa linearize " + o.target;
+  std::string out = "vsa linearize " + shell_word(o.target);
   const auto put = [&out](const char* flag, const std::optional<double>& value) {
     if (value) out += fmt::format(" {} {}", flag, *value);
   };
   const auto put_all = [&out](const char* flag, const std::vector<std::string>& all) {
-    for (const std::string& s : all) out += fmt::format(" {} {}", flag, s);
+    for (const std::string& s : all) out += fmt::format(" {} {}", flag, shell_word(s));
   };
   put("--at-rad", o.at_rad);
   put("--load-Nm", o.load_Nm);
@@ -178,7 +179,7 @@ std::string command_of(const LinearizeOptions& o) {
   put("--inertia-kgm2", o.inertia_kgm2);
   put("--damping-Nms-per-rad", o.damping_Nms_per_rad);
   out += " --firmware " + o.firmware + " --friction " + o.friction;
-  if (!o.type.empty()) out += " --type " + o.type;
+  if (!o.type.empty()) out += " --type " + shell_word(o.type);
   put_all("--set", o.set);
   return out;
 }

@@ -14,6 +14,7 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/numbers.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 #include "vsa/output_file.hpp"
 #include "vsa/sweep/optimize.hpp"
 #include "vsa/sweep/summary.hpp"
@@ -38,7 +39,8 @@ void write_findings(const sweep::Optimum& found, const SweepOptions& options, Co
   const std::filesystem::path folder = folder_of(options);
   write_whole(folder / "candidates.csv", sweep::candidates_csv(found));
   const auto tables = sweep::write_tables(folder, found.plan, sweep::read_logs(folder, found.plan));
-  const bool page = write_page(sweep::optimum_page(found, "vsa optimize " + options.plan), folder / "page.html", console);
+  const bool page =
+      write_page(sweep::optimum_page(found, "vsa optimize " + shell_word(options.plan)), folder / "page.html", console);
   console.wipe();
   const sweep::Search& search = *found.plan.search();
   std::cout << fmt::format("candidates          {} in {} generations by {}, {} runs\n", found.plan.candidates(),

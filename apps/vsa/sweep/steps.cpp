@@ -15,6 +15,7 @@
 #include "terminal/exit_codes.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 #include "vsa/sweep/summary.hpp"
 
 namespace vsa::app {
@@ -183,7 +184,7 @@ int merge(const sweep::Plan& plan, const SweepOptions& options, Console& console
   const sweep::Results results = sweep::read_logs(folder, plan);
   auto files = sweep::write_tables(folder, plan, results);
   const fs::path page = folder / "page.html";
-  if (write_page(sweep::summary(plan, results, "vsa sweep " + options.plan), page, console)) files.push_back(page);
+  if (write_page(sweep::summary(plan, results, "vsa sweep " + shell_word(options.plan)), page, console)) files.push_back(page);
   console.wipe();
   if (results.damaged > 0)
     console.line(
@@ -194,7 +195,8 @@ int merge(const sweep::Plan& plan, const SweepOptions& options, Console& console
     if (!o.notice.empty() && told++ < 3) console.line(fmt::format("warning: run {}: {}", o.run, o.notice));
     if (o.error.empty()) continue;
     if (failed++ < kShown)
-      console.line(fmt::format("run {} failed: {}\n  again: vsa sweep {} --run {}", o.run, o.error, options.plan, o.run));
+      console.line(
+          fmt::format("run {} failed: {}\n  again: vsa sweep {} --run {}", o.run, o.error, shell_word(options.plan), o.run));
   }
   if (told > 3) console.line(fmt::format("warning: {} more runs have notices; column notice", told - 3));
   if (failed > kShown) console.line(fmt::format("… and {} more; column error", failed - kShown));

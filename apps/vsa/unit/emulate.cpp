@@ -30,6 +30,7 @@
 #include "vsa/device/emulation.hpp"
 #include "vsa/elastic/inverse.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 #include "vsa/serial/ports.hpp"
 #include "vsa/serial/processors_awake.hpp"
 #include "vsa/serial/virtual_port.hpp"
@@ -215,11 +216,12 @@ void introduce(const EmulateOptions& o, const device::Emulation& emulation, cons
       ids.size() == 1 ? fmt::format("unit {}", ids.front()) : fmt::format("{} units, ids {}", ids.size(), ids_text(ids, " to "));
   std::cout << fmt::format("{:<20}{}  ({}, dialect {}, motors {})\n", "port", path, units, static_cast<int>(dialect),
                            motors_text(emulation))
-            << fmt::format("{:<20}vsa ping {}\n", "talk to it", path)
-            << fmt::format("{:<20}vsa set {} active on --id {}\n", "", path, ids.front()) << fmt::format("{:<20}Ctrl-C\n", "end it")
-            << std::flush;
+            << fmt::format("{:<20}vsa ping {}\n", "talk to it", shell_word(path))
+            << fmt::format("{:<20}vsa set {} active on --id {}\n", "", shell_word(path), ids.front())
+            << fmt::format("{:<20}Ctrl-C\n", "end it") << std::flush;
   if (!antagonists)
-    std::cerr << fmt::format("warning: {}: its references aren't equilibrium ± preset; use vsa set {} inputs …\n", o.type, path);
+    std::cerr << fmt::format("warning: {}: its references aren't equilibrium ± preset; use vsa set {} inputs …\n", o.type,
+                             shell_word(path));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "terminal/exit_codes.hpp"
 #include "terminal/numbers.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/files.hpp"
 #include "vsa/serial/ports.hpp"
 
 namespace vsa::app {
@@ -31,6 +32,9 @@ UnitPortOptions checked(UnitPortOptions options) {
   if (!(options.timeout_ms > 0 && options.timeout_ms <= 60000)) {
     throw InputError({"", "--timeout-ms", fmt::format("{}", options.timeout_ms), "out of range", "above 0 to 60000 ms"});
   }
+  if (options.baud_Hz < 1 || options.baud_Hz > serial::kMostBaud_Hz)
+    throw InputError(
+        {"", "--baud-Hz", fmt::format("{}", options.baud_Hz), "out of range", fmt::format("1 to {}", serial::kMostBaud_Hz)});
   return options;
 }
 
@@ -114,7 +118,8 @@ void UnitPort::fail(bus::ClientError error, std::uint8_t id, const std::string& 
   const double slow_ms =
       std::chrono::duration<double, std::milli>(client_options(options_, bus::Dialect::six).slow_timeout).count();
   if (error == bus::ClientError::timeout)
-    text += fmt::format(" within {} ms (vsa ping {} lists the units)", waited == Wait::slow ? slow_ms : options_.timeout_ms, path_);
+    text += fmt::format(" within {} ms (vsa ping {} lists the units)", waited == Wait::slow ? slow_ms : options_.timeout_ms,
+                        shell_word(path_));
   throw NoAnswer(text);
 }
 

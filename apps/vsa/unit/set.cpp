@@ -15,6 +15,7 @@
 
 #include "terminal/exit_codes.hpp"
 #include "vsa/config/unit_parameters.hpp"
+#include "vsa/files.hpp"
 
 namespace vsa::app {
 namespace {
@@ -111,7 +112,7 @@ void Told::check_free(std::uint8_t id) const {
   if (!there && there.error() == bus::ClientError::timeout) return;
   if (!there && there.error() == bus::ClientError::closed) static_cast<void>(port_.take(there, id, "a ping"));
   throw InputError({"", "id", std::to_string(id), "is that of a unit that answers on " + port_.path() + " already",
-                    "an id that nobody has; vsa ping " + port_.path() + " lists them"});
+                    "an id that nobody has; vsa ping " + shell_word(port_.path()) + " lists them"});
 }
 
 std::string Told::activate(config::ValueReader& reader) {
@@ -123,7 +124,7 @@ std::string Told::activate(config::ValueReader& reader) {
   while (port_.take(client_.active(id_), id_, "active") != on) {
     if (std::chrono::steady_clock::now() < end) continue;
     throw NoAnswer(fmt::format("{}: unit {}: the motors stay {} (a sensor beyond ±142.8° keeps them off; see vsa get {} --id {})",
-                               port_.path(), id_, on ? "off" : "on", port_.path(), id_));
+                               port_.path(), id_, on ? "off" : "on", shell_word(port_.path()), id_));
   }
   return on ? "motors on" : "motors off";
 }
@@ -191,7 +192,7 @@ std::string Told::memory() {
   static_cast<void>(port_.take(client_.acknowledge(id_, request), id_, options_.what, UnitPort::Wait::slow));
   if (!restores) return "stored as its defaults, and in force";
   return port_.look_for(id_) ? "has its defaults, stored"
-                             : "has its defaults, stored, and with them another id: vsa ping " + port_.path() +
+                             : "has its defaults, stored, and with them another id: vsa ping " + shell_word(port_.path()) +
                                    " finds it, unless another unit has that id too: then both answer at once";
 }
 

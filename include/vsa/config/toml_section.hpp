@@ -20,6 +20,9 @@ namespace vsa::config {
 /// Throws InputError: can't be read, or no TOML (with the line).
 [[nodiscard]] toml::table parse_toml(const std::filesystem::path& file);
 
+/// "FILE:LINE" of what stands there.
+[[nodiscard]] std::string place_of(const std::filesystem::path& file, const toml::node& node);
+
 /// One table whose keys are asked for one by one; what is wrong with one is a problem, and the answer is then none. A value that isn't
 /// there is none without a problem, but for need().
 class TomlSection {

@@ -11,12 +11,14 @@
 
 namespace vsa::serial {
 
+constexpr std::int64_t kMostBaud_Hz = 100'000'000;  ///< beyond what any port has
+
 /// A client's end of a serial port, virtual or real, opened for this program alone.
 class SerialChannel final : public bus::Channel {
  public:
   /// Opens the port for this program alone: raw, eight bits, no parity, pending input thrown away. Two locks: flock, which our own
   /// programs look at, and TIOCEXCL, which keeps out others (not those of the administrator). Throws InputError: no such port, no
-  /// serial port, taken, or a rate it can't do.
+  /// serial port, taken, or a rate that isn't 1 to kMostBaud_Hz or that it can't do.
   explicit SerialChannel(const std::string& path, std::int64_t baud_Hz = bus::kDefaultBaud_Hz);
   ~SerialChannel() override;
 
