@@ -71,11 +71,13 @@ namespace {
 
 /// The parser tells of no line: its way through the text does.
 struct Counting {
+  // NOLINTBEGIN(readability-identifier-naming): iterators have these
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
   using difference_type = std::ptrdiff_t;
   using pointer = const char*;
   using reference = const char&;
+  // NOLINTEND(readability-identifier-naming)
   const char* at;
   std::size_t* line;
   reference operator*() const { return *at; }
