@@ -17,7 +17,12 @@ using batch::Distribution;
 
 std::string who_of(const PyBatch& b, const py::object& who) {
   if (who.is_none()) return {};
-  if (py::isinstance<py::str>(who)) return py::cast<std::string>(who);
+  if (py::isinstance<py::str>(who)) {
+    auto name = py::cast<std::string>(who);
+    if (name.empty())
+      throw InputError({"", "who", "''", "is no name", "a name, an index into actuators, None: all that have the key"});
+    return name;
+  }
   if (!py::hasattr(who, "__index__"))
     throw py::type_error("who: " + std::string(py::str(py::type::of(who))) + " (allowed: a name, an index into actuators, None)");
   const py::object index = who.attr("__index__")();
@@ -169,6 +174,7 @@ void bind_batch_parameters(py::module_& m, BatchClass& c) {
           "text",
           [](PyBatch& b, const py::object& which, const py::object& who, const std::string& key) {
             const std::size_t copy = b.copy(which);
+            if (who.is_none()) throw py::type_error("who: None (allowed: a name, an index into actuators)");
             const std::string name = who_of(b, who);
             return b.get().text(copy, name, key);
           },

@@ -82,7 +82,7 @@ void Batch::Impl::randomize(std::uint64_t seed, std::span<const Spread> what, st
     for (std::size_t k = 0; k < what.size(); ++k) {
       for (const std::size_t owner : owners[k]) {
         double value = drawn(what[k].draw, seed, copy, book.owner_name(world, what[k].key, owner), what[k].key);
-        if (what[k].draw.times_nominal) value *= book.number(world, book.first(), owner, what[k].key);
+        if (what[k].draw.times_nominal) value *= book.nominal(world, owner, what[k].key);
         out.back().changes.push_back({owner, &what[k].key, book.rounded(world, owner, what[k].key, value)});
       }
     }

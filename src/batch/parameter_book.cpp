@@ -31,10 +31,30 @@ std::string recipe(const std::string& type, const std::vector<Override>& values)
   return out;
 }
 
+/// Null: a law's, or none.
+const config::Parameter* parameter(std::string_view key) {
+  const auto all = config::parameters();
+  const auto at = std::find_if(all.begin(), all.end(), [key](const config::Parameter& p) { return p.key == key; });
+  return at == all.end() ? nullptr : &*at;
+}
+
 /// "drive_2.friction_Nm": who has none has motors alike.
 bool of_second_motor(std::string_view key) {
-  const auto all = config::parameters();
-  return std::any_of(all.begin(), all.end(), [key](const config::Parameter& p) { return p.key == key && p.second; });
+  const config::Parameter* p = parameter(key);
+  return p != nullptr && p->second;
+}
+
+/// "drive_2.friction_Nm" → "drive.friction_Nm".
+std::string of_first_motor(std::string key) {
+  const std::size_t mark = key.find("_2.");
+  return mark == std::string::npos ? key : key.erase(mark, 2);
+}
+
+/// Also of what a type may have and this one hasn't.
+config::Kind kind_of(const config::Entry* entry, std::string_view key) {
+  if (entry != nullptr) return entry->kind;
+  const config::Parameter* p = parameter(key);
+  return p == nullptr ? config::Kind::number : p->kind;
 }
 
 std::string value_text(const std::variant<double, std::string>& value, config::Kind kind) {
@@ -44,11 +64,12 @@ std::string value_text(const std::variant<double, std::string>& value, config::K
   return config::number_text(number);
 }
 
-/// The text of an entry as a number, as config::Entry has it.
-double number_of(const std::string& text, const config::Entry* entry) {
+/// The text of a value as a number, as config::Entry has it.
+double number_of(const std::string& text, const config::Entry* entry, std::string_view key) {
   if (text == "true" || text == "false") return text == "true" ? 1 : 0;
-  if (entry != nullptr && entry->kind == config::Kind::word) {
-    const std::vector<std::string> words = config::split(entry->bounds, ',');
+  if (kind_of(entry, key) == config::Kind::word) {
+    const std::vector<std::string> words =
+        entry != nullptr ? config::split(entry->bounds, ',') : config::split(std::string(parameter(key)->words), '|');
     for (std::size_t k = 0; k < words.size(); ++k)
       if (words[k].substr(std::min(words[k].find_first_not_of(' '), words[k].size())) == text) return static_cast<double>(k);
   }
@@ -124,7 +145,8 @@ std::vector<std::size_t> ParameterBook::owners(const engine::World& world, const
     } else {
       const engine::ActuatorRef& ref = world.actuator(who);
       out.push_back(static_cast<std::size_t>(&ref - world.actuators().data()));
-      static_cast<void>(kind(world, out.front()));
+      if (entry(world, out.front(), key) == nullptr && parameter(key) == nullptr)
+        refuse_unknown(world, out.front(), key, owner_name(world, key, out.front()) + ": ");
     }
     return out;
   }
@@ -142,10 +164,15 @@ std::vector<std::size_t> ParameterBook::owners(const engine::World& world, const
     if (out.empty()) throw InputError(Problem{"", key, "", links ? "no link has it" : "no actuator has it", ""});
     return out;
   }
+  refuse_unknown(world, 0, key, "");
+}
+
+void ParameterBook::refuse_unknown(const engine::World& world, std::size_t actuator, const std::string& key,
+                                   const std::string& of) {
   std::vector<std::string> keys;
-  for (const config::Entry& e : kind(world, 0).entries) keys.push_back(e.key);
+  for (const config::Entry& e : kind(world, actuator).entries) keys.push_back(e.key);
   throw InputError(
-      Problem{"", key, "", "unknown key" + config::did_you_mean(key, keys), "what vsa actuators TYPE lists, or link.…"});
+      Problem{"", of + key, "", "unknown key" + config::did_you_mean(key, keys), "what vsa actuators TYPE lists, or link.…"});
 }
 
 std::string ParameterBook::owner_name(const engine::World& world, std::string_view key, std::size_t owner) const {
@@ -161,10 +188,18 @@ double ParameterBook::number(const engine::World& world, const CopyParameters& c
   }
   const config::Entry* at_first = entry(world, owner, key);
   const std::string* text = put_into(world.actuator_parameters(*copy.of, world.actuators()[owner]), key);
-  if (text != nullptr) return number_of(*text, at_first);
+  if (text != nullptr) return number_of(*text, at_first, key);
   if (at_first != nullptr) return at_first->number;
   if (has(world, owner, key)) return kNone;
   throw InputError(Problem{"", owner_name(world, key, owner) + ": " + key, "", "unknown key", "what vsa actuators TYPE lists"});
+}
+
+double ParameterBook::nominal(const engine::World& world, std::size_t owner, const std::string& key) {
+  double out = number(world, first_, owner, key);
+  if (std::isnan(out) && of_second_motor(key)) out = number(world, first_, owner, of_first_motor(key));
+  if (!std::isnan(out)) return out;
+  throw InputError(Problem{"", owner_name(world, key, owner) + ": " + key, "", "began with none: there is nothing to multiply",
+                           "a draw of the value itself"});
 }
 
 std::string ParameterBook::text(const engine::World& world, const CopyParameters& copy, std::size_t owner, const std::string& key) {
@@ -178,9 +213,9 @@ std::string ParameterBook::text(const engine::World& world, const CopyParameters
 
 double ParameterBook::rounded(const engine::World& world, std::size_t owner, const std::string& key, double value) {
   if (is_of_links(key)) return value;
-  const config::Entry* e = entry(world, owner, key);
-  if (e == nullptr || e->kind == config::Kind::number) return value;
-  if (e->kind == config::Kind::integer) return std::round(value);
+  const config::Kind kind = kind_of(entry(world, owner, key), key);
+  if (kind == config::Kind::number) return value;
+  if (kind == config::Kind::integer) return std::round(value);
   throw InputError(
       Problem{"", owner_name(world, key, owner) + ": " + key, "", "is no number: nothing can be drawn for it", "set()"});
 }
@@ -202,7 +237,7 @@ std::vector<Override> ParameterBook::values_with(const host::ActuatorConfig& now
   for (const Change* c : changes) {
     const auto e = std::find_if(kind.entries.begin(), kind.entries.end(), [&](const auto& x) { return x.key == *c->key; });
     std::erase_if(values, [&](const Override& o) { return o.key == *c->key; });
-    values.push_back({*c->key, value_text(c->value, e == kind.entries.end() ? config::Kind::number : e->kind)});
+    values.push_back({*c->key, value_text(c->value, kind_of(e == kind.entries.end() ? nullptr : &*e, *c->key))});
   }
   return values;
 }

@@ -43,6 +43,8 @@ class ParameterBook {
   /// NaN: an optional one that isn't given. A word: its place among the words.
   [[nodiscard]] double number(const engine::World& world, const CopyParameters& copy, std::size_t owner, const std::string& key);
   [[nodiscard]] std::string text(const engine::World& world, const CopyParameters& copy, std::size_t owner, const std::string& key);
+  /// What a draw multiplies: of a second motor that is as the first, that one's. InputError: there is none.
+  [[nodiscard]] double nominal(const engine::World& world, std::size_t owner, const std::string& key);
   /// What a draw for it is set as; InputError for a word or a switch.
   [[nodiscard]] double rounded(const engine::World& world, std::size_t owner, const std::string& key, double value);
 
@@ -61,6 +63,7 @@ class ParameterBook {
   const Kind& kind(const engine::World& world, std::size_t actuator);
   [[nodiscard]] const config::Entry* entry(const engine::World& world, std::size_t actuator, const std::string& key);
   [[nodiscard]] bool has(const engine::World& world, std::size_t owner, const std::string& key);
+  [[noreturn]] void refuse_unknown(const engine::World& world, std::size_t actuator, const std::string& key, const std::string& of);
   using Law = std::shared_ptr<const elastic::Transmission>;
   [[nodiscard]] static std::vector<config::Override> values_with(const host::ActuatorConfig& now, const Kind& kind,
                                                                  const std::vector<const Change*>& changes);

@@ -33,7 +33,7 @@ const std::string& has_name(const std::string& path) {
 
 }  // namespace
 
-PortLink::PortLink(const std::string& path) : path_(has_name(path)), lock_(path) {
+PortLink::PortLink(const std::string& path) : path_(has_name(path)), lock_(path, "another program serves this port") {
   struct stat there {};
   if (lstat(path_.c_str(), &there) != 0) return;
   // Ours that was killed left its lock file behind; another program's link has none, and is in use unless it points nowhere.

@@ -1,11 +1,9 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
 //
-// The stable name of a pseudo-terminal: a symbolic link, and elsewhere a locked file (PortLock) that says its owner lives.
+// The stable name of a pseudo-terminal: a symbolic link, and elsewhere a locked file (PathLock) that says its owner lives.
 #pragma once
 
 #include <string>
-
-#include "serial/port_lock.hpp"
 
 namespace vsa::serial {
 
@@ -23,7 +21,7 @@ class PortLink {
 
  private:
   std::string path_, target_;
-  PortLock lock_;  // goes after the link
+  PathLock lock_;  // goes after the link
 };
 
 }  // namespace vsa::serial

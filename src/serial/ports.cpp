@@ -40,26 +40,28 @@ std::string hash_of(const std::string& text) {
   return hex.data();
 }
 
-enum class Which { all, served, left_behind };
+enum class Served { yes, no, never };  // no: not any more
 
 /// Its owner holds a lock; one that was killed leaves its lock's file, or at least a link to a terminal that is gone.
-bool is(const fs::path& link, Which which) {
+Served served(const fs::path& link) {
   std::error_code none;
   const Descriptor fd(open(lock_path(link.string()).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NOCTTY | O_NONBLOCK));
-  const bool served = fd && flock(fd.get(), LOCK_SH | LOCK_NB) != 0;
-  if (which == Which::served) return served;
+  if (fd && flock(fd.get(), LOCK_SH | LOCK_NB) != 0) return Served::yes;
   const bool to_terminal = fs::read_symlink(link, none).string().rfind("/dev/pts/", 0) == 0;
-  return !served && (fd || (to_terminal && !fs::exists(link, none)));
+  return fd || (to_terminal && !fs::exists(link, none)) ? Served::no : Served::never;
 }
 
-std::vector<std::string> names_in(const fs::path& where, std::string_view prefix, Which which) {
+bool is_link(const fs::path& path) {
+  std::error_code none;
+  return fs::is_symlink(fs::symlink_status(path, none));
+}
+
+std::vector<std::string> names_in(const fs::path& where, std::string_view prefix) {
   std::vector<std::string> names;
   std::error_code error;
   for (fs::directory_iterator at(where, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
-    std::error_code ignored;
-    if (name.rfind(prefix, 0) != 0 || (which != Which::all && !at->is_symlink(ignored))) continue;
-    if (which == Which::all || is(at->path(), which)) names.push_back(at->path().string());
+    if (name.rfind(prefix, 0) == 0) names.push_back(at->path().string());
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -82,12 +84,17 @@ std::string lock_path(std::string_view port) {
   return (lock_directory() / (std::string(kPrefix) + name + "-" + hash_of(place.string()) + ".lock")).string();
 }
 
+bool is_left_behind(const std::string& port) { return is_link(port) && served(port) == Served::no; }
+
 PortList find_ports() {
   PortList list;
-  list.virtual_ports = names_in(directory(), kPrefix, Which::served);
-  list.left_behind = names_in(directory(), kPrefix, Which::left_behind);
+  for (const std::string& name : names_in(directory(), kPrefix)) {
+    if (!is_link(name)) continue;
+    const Served state = served(name);
+    if (state != Served::never) (state == Served::yes ? list.virtual_ports : list.left_behind).push_back(name);
+  }
   for (const char* prefix : {"ttyUSB", "ttyACM"}) {
-    const auto found = names_in("/dev", prefix, Which::all);
+    const auto found = names_in("/dev", prefix);
     list.devices.insert(list.devices.end(), found.begin(), found.end());
   }
   return list;

@@ -17,6 +17,7 @@
 #include "serial/refuse.hpp"
 #include "serial/terminal.hpp"
 #include "vsa/errors.hpp"
+#include "vsa/serial/ports.hpp"
 
 namespace vsa::serial {
 namespace {
@@ -25,6 +26,7 @@ using Time = bus::Channel::Time;
 constexpr Time kWritePatience = std::chrono::seconds(1);
 
 Descriptor open_port(const std::string& path) {
+  if (is_left_behind(path)) refuse(path, "nobody serves this port any more: its owner was killed", "a port that is served");
   Descriptor fd(open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (fd) return fd;
   if (errno == EBUSY) refuse(path, "another program has it open for itself", "a free port, or end that program first");

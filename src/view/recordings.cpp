@@ -18,7 +18,7 @@ std::string free_name(const fs::path& under) {
   for (int n = 1; n < kNumbersTried; ++n) {
     std::string name = fmt::format("recording-{:03}", n);
     std::error_code ignored;
-    if (!fs::exists(under / name, ignored)) return name;
+    if (!fs::exists(fs::symlink_status(under / name, ignored))) return name;
   }
   throw record::RecordError(under.string() + ": too many recordings");
 }

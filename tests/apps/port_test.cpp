@@ -279,8 +279,69 @@ TEST(Emulate, AMemoryInAFileOutlivesTheProgram) {
 TEST(Emulate, AMemoryThatCantBeWrittenIsToldBeforeThereIsAPort) {
   const Scratch scratch;
   const Result r = run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--memory", "/nosuch/x"});
-  expect(r, 2, {"vsa: --memory = /nosuch/x: can't be written: No such file or directory (allowed: a file in a directory"});
+  expect(r, 2, {"vsa: --memory = /nosuch/x: can't open for writing: No such file or directory (allowed: a file in a directory"});
   EXPECT_EQ(r.out, "") << "no port is announced";
+  std::filesystem::create_symlink("loop", scratch / "loop");
+  std::filesystem::create_symlink("nowhere/x", scratch / "dangling");
+  for (const std::string& name : {std::string("loop"), std::string("dangling"), std::string(250, 'n')}) {
+    const Result bad = run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--memory",
+                                (scratch / name).string(), "--duration-s", "0.05"});
+    expect(bad, 2, {"vsa: --memory = " + (scratch / name).string() + ": can't open for writing: "});
+    EXPECT_EQ(bad.out, "") << name;
+  }
+}
+
+TEST(Emulate, AMemoryIsKeptByOneProgramAtATime) {
+  const Scratch scratch;
+  const std::string file = (scratch / "units.toml").string();
+  std::filesystem::create_symlink("units.toml", scratch / "other_name");
+  Emulated first({"--memory", file});
+  ASSERT_TRUE(first.ready);
+  while (!std::filesystem::exists(file)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (const std::string& name : {file, (scratch / "other_name").string()}) {
+    const Result second = run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--memory", name});
+    expect(second, 2, {"another program keeps this memory (process "});
+    EXPECT_EQ(second.out, "");
+  }
+  first.end();
+  expect(
+      run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--memory", file, "--duration-s", "0.05"}),
+      0, {"simulated time"});
+}
+
+TEST(Emulate, UnitsOutliveAMemoryThatCantBeWrittenForAWhile) {
+  const Scratch scratch;
+  const std::filesystem::path folder = scratch / "folder", away = scratch / "away";
+  std::filesystem::create_directory(folder);
+  const std::string file = (folder / "units.toml").string();
+  Emulated units({"--memory", file});
+  ASSERT_TRUE(units.ready);
+  while (!std::filesystem::exists(file)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  std::filesystem::rename(folder, away);
+  expect(units.vsa({"set", "position_pid", "0.25", "0", "0.5"}, {"--store"}), 0, {"stored"});
+  for (int i = 0; i < 20; ++i) expect(units.vsa({"get", "position_pid"}), 0, {"P 0.25"});
+  std::filesystem::rename(away, folder);
+  const auto begun = std::chrono::steady_clock::now();
+  while (vsa::test::read_file(file).find("\"position.p\" = [16384]") == std::string::npos)
+    ASSERT_LT(std::chrono::steady_clock::now() - begun, vsa::test::kPatience) << vsa::test::read_file(file);
+  std::filesystem::rename(folder, away);
+  expect(units.vsa({"set", "position_pid", "0.5", "0", "0.5"}, {"--store"}), 0, {"stored"});
+  expect(units.end(), 1, {"exchanges"});
+}
+
+TEST(Emulate, WhatAMemoryOverrulesIsTold) {
+  const Scratch scratch;
+  const std::string file = (scratch / "units.toml").string();
+  const auto run = [&](Arguments more) {
+    Arguments all{"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--memory",
+                  file,      "--duration-s",         "0.05"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run_vsa(all);
+  };
+  const Arguments of_memory{"--first-id", "5", "--set", "firmware.limit_low_raw=-100"};
+  EXPECT_EQ(run(of_memory).err, "") << "the units begin with these";
+  EXPECT_EQ(run({"--set", "drive.friction_Nm=0.1"}).err, "") << "no unit stores it";
+  expect(run(of_memory), 0, {"warning: --first-id = 5: left out", "warning: --set: of what a unit stores, " + file + " counts"});
 }
 
 TEST(Emulate, UnitsAreKnownByTheIdsThatTheirMemoryHas) {
@@ -307,7 +368,7 @@ TEST(Emulate, UnitsAreKnownByTheIdsThatTheirMemoryHas) {
   expect(run_vsa(broken), 2, {"--fault", "no such unit", "all, 5,2,3"});
 }
 
-TEST(Emulate, AMemoryThatNoUnitCouldHaveStoredIsRefused) {
+TEST(Emulate, AMemoryThatVsaSetWouldNotStoreIsTold) {
   const Scratch scratch;
   const std::string file = (scratch / "units.toml").string();
   const Arguments emulate{"emulate", "qbmove_maker_pro_6_1", "--port", (scratch / "port").string(), "--memory",
@@ -320,10 +381,18 @@ TEST(Emulate, AMemoryThatNoUnitCouldHaveStoredIsRefused) {
     write_file(file, text.replace(at, text.find(']', at) - at, values));
     return run_vsa(emulate);
   };
-  expect(with("resolution", "200, 1, 1"), 2, {file, "unit[0].user.resolution", "200", "0 … 8"});
-  expect(with("multiplier", "1, nan, 1"), 2, {file, "unit[0].user.multiplier", "nan", "finite"});
-  expect(with("limit_low", "-30000, 40000"), 2, {file, "unit[0].user.limit_low", "40000", "below 30000"});
+  // A client can, and the unit goes on with it.
+  expect(with("resolution", "200, 1, 1"), 0, {"warning: " + file, "unit[0].user.resolution", "200", "0 … 8"});
+  expect(with("multiplier", "1, nan, 1"), 0, {"warning: " + file, "unit[0].user.multiplier", "nan", "finite"});
+  expect(with("limit_low", "-30000, 40000"), 0,
+         {"warning: " + file, "unit[0].user.limit_low", "40000", "limit_high", "below 30000"});
   expect(with("limit_low", "30000, -30000"), 0, {"simulated time"});  // vsa set limits takes them so
+  // No page can have these.
+  expect(with("id", "\"x\""), 2, {file, "unit[0].user.id[0]: isn't a number"});
+  write_file(file, "foo = 1\n" + kept);
+  expect(run_vsa(emulate), 2, {file, "foo: unknown key", "type, unit"});
+  write_file(file, kept + "[unit.third]\n");
+  expect(run_vsa(emulate), 2, {file, "unit[0].third: unknown key", "user, factory"});
 }
 
 /// As a client of its own does; without waiting for an answer.
@@ -355,8 +424,8 @@ TEST(Emulate, AStoredMultiplierThatIsNoNumberHasTheFileWrittenOnce) {
   for (int i = 0; i < 20; ++i) expect(unit.vsa({"get", "active"}), 0, {"off"});
   EXPECT_EQ(std::filesystem::last_write_time(file), written);
   unit.end();
-  expect(run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", unit.path, "--memory", file}), 2,
-         {"unit[0].user.multiplier", "nan"});
+  expect(run_vsa({"emulate", "qbmove_maker_pro_6_1", "--port", unit.path, "--memory", file, "--duration-s", "0.05"}), 0,
+         {"warning: ", "unit[0].user.multiplier", "nan"});
 }
 
 TEST(Ping, SaysWhichRatesThereAre) {

@@ -203,6 +203,25 @@ TEST(BatchParameters, OfTheSecondMotorAreOfThoseWhoseTypeHasThem) {
   EXPECT_EQ(alike.value(0, "shaft", "drive_2.friction_Nm"), 0.6) << "who is named gets it";
 }
 
+TEST(BatchParameters, OfTheSecondMotorAreReadAndDrawnAsThoseOfTheFirst) {
+  Batch b(World::load("bench_load.sdf"), 2, 1);
+  for (const std::string motor : {"drive", "drive_2"}) {
+    b.set(0, "shaft", motor + ".off_mode", "coast");
+    EXPECT_EQ(b.value(0, "shaft", motor + ".off_mode"), 1) << motor << ": its place among brake, coast";
+    b.set(0, "shaft", motor + ".polarity", "-1");
+    EXPECT_EQ(b.value(0, "shaft", motor + ".polarity"), 0) << motor << ": its place among -1, 1";
+  }
+  const double nominal = b.value(1, "shaft", "drive.friction_Nm");
+  b.set(0, "shaft", "drive.friction_Nm", 7 * nominal);
+  b.randomize(1, std::vector<Spread>{{"shaft", "sensor_2.encoder_bits", {Kind::uniform, 8, 14}},
+                                     {"shaft", "drive_2.friction_Nm", {Kind::uniform, 2, 3, true}}});
+  for (std::size_t copy = 0; copy < 2; ++copy) {
+    const double bits = b.value(copy, "shaft", "sensor_2.encoder_bits"), friction = b.value(copy, "shaft", "drive_2.friction_Nm");
+    EXPECT_TRUE(bits == std::round(bits) && bits >= 8 && bits <= 14) << bits;
+    EXPECT_TRUE(friction >= 2 * nominal && friction <= 3 * nominal) << friction << ": times what the Batch began with";
+  }
+}
+
 std::string error_of(const std::function<void()>& work) {
   try {
     work();
@@ -224,7 +243,7 @@ TEST(BatchParameters, WhatCantBeIsToldWithCopyNameAndKeyAndNothingChanges) {
   };
   const std::string flange = "qbmove_bench_load::flange", nan = "nan";
   for (const Wrong& wrong : std::vector<Wrong>{
-           {{1, "shaft", "drive.fricton_Nm", 0.7}, {"copy 1, shaft: drive.fricton_Nm", "unknown key", "drive.friction_Nm"}},
+           {{1, "shaft", "drive.fricton_Nm", 0.7}, {"shaft: drive.fricton_Nm", "unknown key", "drive.friction_Nm"}},
            {{1, "", "drive.fricton_Nm", 0.7}, {"drive.fricton_Nm", "unknown key", "drive.friction_Nm"}},
            {{1, "shaft", "drive.friction_Nm", -1.0}, {"copy 1, shaft: drive.friction_Nm", "-1", "N·m"}},
            {{1, "shaft", "drive.friction_Nm", std::nan("")}, {"copy 1, shaft: drive.friction_Nm", "nan"}},

@@ -211,6 +211,8 @@ class Parameters(unittest.TestCase):
             ((3, "shaft", "drive.friction_Nm", 0.7), IndexError, "copy 3"),
             ((0, 1, "drive.friction_Nm", 0.7), IndexError, "actuator 1"),
             ((0, 0.5, "drive.friction_Nm", 0.7), TypeError, "who"),
+            ((0, "", "drive.friction_Nm", 0.7), vsasim.InputError, "who = ''"),
+            (([2, 1, 2], "shaft", "drive.friction_Nm", 0.7), vsasim.InputError, "which = 2: is named twice"),
             ((0, "terrain_flat::link", "link.mass_kg", 0.7), vsasim.InputError, "static"),
         ):
             with self.subTest(arguments=arguments), self.assertRaisesRegex(error, text):
@@ -220,6 +222,8 @@ class Parameters(unittest.TestCase):
             ({5: vsasim.uniform(0, 1)}, TypeError, "key"),
             ({"drive.friction_Nm": vsasim.uniform(1, 0.5)}, vsasim.InputError, "low, high"),
             ({"drive.off_mode": vsasim.uniform(0, 1)}, vsasim.InputError, "no number"),
+            ({("", "drive.friction_Nm"): vsasim.uniform(0.1, 1)}, vsasim.InputError, "who = ''"),
+            ({("shaft", "drive_2.inductance_H"): vsasim.uniform(1, 2, times_nominal=True)}, vsasim.InputError, "began with none"),
         ):
             with self.subTest(what=what), self.assertRaisesRegex(error, text):
                 batch.randomize(1, what)
@@ -227,6 +231,8 @@ class Parameters(unittest.TestCase):
             with self.subTest(seed=seed), self.assertRaisesRegex(error, "seed"):
                 batch.randomize(seed, {})
         batch.randomize(2**64 - 1, {})
+        with self.assertRaisesRegex(TypeError, "who"):
+            batch.text(0, None, "drive.friction_Nm")
         np.testing.assert_array_equal(batch.values("drive.friction_Nm"), before)
         world = vsasim.World.load("bench_load")
         with self.assertRaisesRegex(vsasim.InputError, "mass_kg"):

@@ -205,6 +205,28 @@ TEST(Channel, ThatIsTakenIsRefusedAndFreeAgainAfterwards) {
   EXPECT_EQ(refusal([&] { SerialChannel again(port.path()); }), "no refusal");
 }
 
+TEST(Channel, OfAKilledOwnerIsRefusedWhoeverHasItsTerminalByNow) {
+  const Scratch scratch;
+  serve_and_be_killed(scratch / "arm");
+  EXPECT_NE(refusal([&] { SerialChannel c(scratch / "arm"); }).find("nobody serves this port any more"), std::string::npos);
+  // Another program's terminal gets the number that has become free.
+  const std::string terminal = fs::read_symlink(scratch / "arm");
+  std::vector<int> others;
+  while (!fs::exists(terminal) && others.size() < 100) {
+    others.push_back(posix_openpt(O_RDWR | O_NOCTTY));
+    grantpt(others.back());
+    unlockpt(others.back());
+  }
+  ASSERT_TRUE(fs::exists(terminal));
+  EXPECT_TRUE(is_left_behind(scratch / "arm"));
+  EXPECT_NE(refusal([&] { SerialChannel c(scratch / "arm"); }).find("nobody serves this port any more"), std::string::npos);
+  // Not so a link of another program, which has no lock.
+  fs::create_symlink(terminal, scratch / "others");
+  EXPECT_FALSE(is_left_behind(scratch / "others"));
+  EXPECT_EQ(refusal([&] { SerialChannel c(scratch / "others"); }), "no refusal");
+  for (const int other : others) close(other);
+}
+
 TEST(Channel, NeedsASerialPort) {
   const Scratch scratch;
   std::ofstream(scratch / "file") << "text";

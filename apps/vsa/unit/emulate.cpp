@@ -31,6 +31,7 @@
 #include "vsa/elastic/inverse.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/files.hpp"
+#include "vsa/output_file.hpp"
 #include "vsa/serial/ports.hpp"
 #include "vsa/serial/processors_awake.hpp"
 #include "vsa/serial/virtual_port.hpp"
@@ -71,15 +72,6 @@ void check(const EmulateOptions& o) {
   problems.throw_if_any();
 }
 
-/// Known before the port is there, and before what units store is lost.
-void check_memory(const std::string& file) {
-  std::error_code error;
-  const std::filesystem::path folder = std::filesystem::absolute(std::filesystem::weakly_canonical(file, error)).parent_path();
-  if (::access(folder.c_str(), W_OK) == 0) return;
-  throw InputError({"", "--memory", file, "can't be written: " + std::system_category().message(errno),
-                    "a file in a directory that can be written"});
-}
-
 std::vector<device::EmulatedUnit> units_of(const EmulateOptions& o) {
   const config::ActuatorType type = config::TypeLibrary().load(o.type, config::parse_overrides(o.set, "--set"));
   if (type.unit.servo)
@@ -95,6 +87,14 @@ std::vector<device::EmulatedUnit> units_of(const EmulateOptions& o) {
     units[i].held = o.held;
   }
   return units;
+}
+
+/// A unit that has a memory begins with that.
+void tell_left_out(const EmulateOptions& o, const firmware::Memory& asked) {
+  if (o.first_id != EmulateOptions().first_id)
+    std::cerr << fmt::format("warning: --first-id = {}: left out: the units have the ids of {}\n", o.first_id, o.memory);
+  if (!o.set.empty() && !(asked == config::TypeLibrary().load(o.type, {}).unit.memory))
+    std::cerr << fmt::format("warning: --set: of what a unit stores, {} counts\n", o.memory);
 }
 
 /// As the units have them, from their memory of an earlier day too: an id twice where two were given the same.
@@ -152,6 +152,7 @@ class Runner {
   int run() {
     const auto start = Clock::now();
     pace_.anchor(0, start);
+    keep();
     const std::int64_t end_ns = duration_s_ ? std::llround(*duration_s_ * 1e9) : std::numeric_limits<std::int64_t>::max();
     while (interrupted() == 0 && sim_ns_ < end_ns) {
       sim_ns_ += kStepNs;
@@ -160,19 +161,32 @@ class Runner {
       constexpr std::int64_t kShow = 100 * kStepNs;
       if (sim_ns_ % kShow == 0) {
         tell_wrong_rate();
-        if (memory_ != nullptr) memory_->keep(emulation_);
+        keep();
         show(Clock::now() - start);
       }
     }
     tell_wrong_rate();
+    keep();
     console_.wipe();
     wall_s_ = std::chrono::duration<double>(Clock::now() - start).count();
     return sim_ns_ < end_ns ? interrupted() : 0;
   }
   [[nodiscard]] double simulated_s() const { return static_cast<double>(sim_ns_) * 1e-9; }
   [[nodiscard]] double wall_s() const { return wall_s_; }
+  [[nodiscard]] bool kept() const { return kept_; }  ///< what the units have stored, as far as a file keeps it
 
  private:
+  /// Where it can't, the units go on, and it is tried again.
+  void keep() {
+    if (memory_ == nullptr) return;
+    try {
+      memory_->keep(emulation_);
+      kept_ = true;
+    } catch (const OutputError& error) {
+      if (std::exchange(kept_, false))
+        console_.line(fmt::format("warning: {}; what the units store is lost until it can", error.what()));
+    }
+  }
   void tell_late() {
     if (std::exchange(told_, true)) return;
     console_.line("warning: this machine can't keep up with real time for so many units; simulated time falls behind");
@@ -197,7 +211,7 @@ class Runner {
   RealTimePace pace_;
   std::int64_t sim_ns_ = 0;
   double wall_s_ = 0;
-  bool told_ = false, told_rate_ = false;
+  bool told_ = false, told_rate_ = false, kept_ = true;
 };
 
 /// "on", "off", or "on of 2,7": whose motors are on from the start.
@@ -231,9 +245,10 @@ int run_emulate(const EmulateOptions& options) {
   std::vector<device::EmulatedUnit> units = units_of(options);
   std::optional<UnitMemory> memory;
   if (!options.memory.empty()) {
-    check_memory(options.memory);
     memory.emplace(options.memory, options.type, units.size());
     for (std::size_t i = 0; i < memory->pages().size(); ++i) units[i].pages = memory->pages()[i];
+    if (!memory->pages().empty()) tell_left_out(options, units.front().config.memory);
+    for (const Problem& notice : memory->notices()) std::cerr << "warning: " << notice.text() << '\n';
   }
   const bus::Dialect dialect = units.front().config.program.dialect;
   device::Emulation emulation(units);
@@ -243,16 +258,17 @@ int run_emulate(const EmulateOptions& options) {
   if (options.low_latency) awake.emplace();
   catch_interrupts();
   int signal = 0;
+  bool kept = true;
   {
     const serial::VirtualPort port(emulation.line(), {serial::port_path(options.port.empty() ? options.type : options.port)});
     introduce(options, emulation, port.path(), dialect, elastic::antagonistic(*units.front().config.actuator.transmission));
-    if (memory) memory->keep(emulation);
     Runner runner(emulation, port, options.duration_s, memory ? &*memory : nullptr);
     signal = runner.run();
-    if (memory) memory->keep(emulation);
+    kept = runner.kept();
     std::cout << fmt::format("{:<20}{:.3f} s in {:.3f} s of wall time\n", "simulated time", runner.simulated_s(), runner.wall_s())
               << port_report(port.counters(), emulation.line().lost(), emulation.line().wrong_rate().bytes);
   }
+  if (!kept) return kFailed;
   return signal != 0 && options.duration_s ? kSignalled + signal : kDone;
 }
 

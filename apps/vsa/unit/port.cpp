@@ -79,6 +79,9 @@ int for_each_unit(const std::vector<std::uint8_t>& ids, const std::function<void
   for (const std::uint8_t id : ids) {
     try {
       each(id);
+    } catch (const PortGone& error) {
+      silent.emplace_back(error.what());
+      break;
     } catch (const NoAnswer& error) {
       silent.emplace_back(error.what());
     }
@@ -113,7 +116,7 @@ bus::Dialect UnitPort::dialect(std::uint8_t id) {
 }
 
 void UnitPort::fail(bus::ClientError error, std::uint8_t id, const std::string& what, Wait waited) const {
-  if (error == bus::ClientError::closed) throw NoAnswer(path_ + ": the port is gone");
+  if (error == bus::ClientError::closed) throw PortGone(path_ + ": the port is gone");
   std::string text = fmt::format("{}: unit {}, {}: {}", path_, id, what, bus::describe(error));
   const double slow_ms =
       std::chrono::duration<double, std::milli>(client_options(options_, bus::Dialect::six).slow_timeout).count();

@@ -37,6 +37,12 @@ class NoAnswer : public std::runtime_error {
   using runtime_error::runtime_error;
 };
 
+/// No unit will answer there any more.
+class PortGone : public NoAnswer {
+ public:
+  using NoAnswer::NoAnswer;
+};
+
 /// References as they were sent. The advanced unit's program inverts what comes and not what goes, but where a reference is one of
 /// deflection or is the third encoder's.
 [[nodiscard]] std::array<Ticks, 2> as_told(std::array<Ticks, 2> has, const bus::ParameterValues& of);

@@ -2,6 +2,7 @@
 #include "unit/unit_memory.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -34,8 +35,8 @@ std::string page_text(const char* name, const Memory& memory) {
   return out;
 }
 
-/// What `vsa set` would store: what it wouldn't is a slip of the hand that wrote the file.
-void check_page(const Memory& memory, const std::string& file, const std::string& key, Problems& problems) {
+/// What `vsa set` would not store.
+void look_at(const Memory& memory, const std::string& file, const std::string& key, Problems& notices) {
   Memory asked = memory;
   for (std::size_t i = 0; i < 2; ++i) {  // limits that leave a motor one place can be stored; a type can't have them
     if (asked.limit_low[i] != asked.limit_high[i]) continue;
@@ -46,11 +47,13 @@ void check_page(const Memory& memory, const std::string& file, const std::string
   firmware::validate(asked, key + ".", found);
   for (const Problem& p : found.list()) {
     const std::size_t raw = p.key.rfind("_raw");  // of a type's keys, which have their unit
-    problems.add({file, p.key.substr(0, raw), p.value, p.message, p.allowed});
+    const bool limit = raw != std::string::npos;
+    notices.add({file, p.key.substr(0, raw), p.value, limit ? "isn't below limit_high" : p.message, p.allowed});
   }
 }
 
-Memory read_page(const toml::table& unit, const char* name, const std::string& file, const std::string& where, Problems& problems) {
+Memory read_page(const toml::table& unit, const char* name, const std::string& file, const std::string& where, Problems& problems,
+                 Problems& notices) {
   Memory out;
   const StateLayout layout = state::layout_of<Memory>();
   const std::string key = where + "." + name;
@@ -66,7 +69,8 @@ Memory read_page(const toml::table& unit, const char* name, const std::string& f
     const bool fits = values != nullptr && values->size() == e.count;
     for (std::size_t i = 0; fits && i < e.count; ++i) {
       const auto number = (*values)[i].value<double>();
-      numbers[e.offset + i] = number.value_or(std::numeric_limits<double>::quiet_NaN());
+      if (!number) problems.add({file, fmt::format("{}.{}[{}]", key, e.name, i), "", "isn't a number", ""});
+      numbers[e.offset + i] = number.value_or(0);
     }
     if (!fits) problems.add({file, key + "." + e.name, "", "isn't there in full", fmt::format("{} numbers", e.count)});
   }
@@ -83,7 +87,7 @@ Memory read_page(const toml::table& unit, const char* name, const std::string& f
       for (const Problem& p : error.problems()) problems.add({file, key + "." + p.key, p.value, p.message, p.allowed});
     }
   } else if (out.valid) {
-    check_page(out, file, key, problems);
+    look_at(out, file, key, notices);
   }
   return out;
 }
@@ -95,15 +99,41 @@ bool same(Memory a, Memory b) {
   return factors && a == b;
 }
 
+/// Known before the port is there, and before what units store is lost.
+std::filesystem::path writable(std::filesystem::path file) {
+  struct Tried {};
+  try {
+    write_whole(file, [](const std::filesystem::path& /*beside*/) { throw Tried(); });
+  } catch (const Tried&) {
+    return file;
+  } catch (const OutputError& error) {
+    const std::string why = std::string(error.what()).substr(file.string().size() + 2);
+    throw InputError({"", "--memory", file.string(), why, "a file in a directory that can be written"});
+  }
+  return file;
+}
+
+/// Of all names that lead there.
+std::string by_one_name(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path there = std::filesystem::weakly_canonical(file, error);
+  return error ? file.string() : there.string();
+}
+
 }  // namespace
 
 UnitMemory::UnitMemory(std::filesystem::path file, std::string type, std::size_t units)
-    : file_(std::move(file)), type_(std::move(type)) {
+    : file_(writable(std::move(file))), type_(std::move(type)), lock_(by_one_name(file_), "another program keeps this memory") {
   std::error_code none;
   if (!std::filesystem::exists(file_, none)) return;
   const toml::table root = config::parse_toml(file_);
   const std::string name = file_.string();
   Problems problems;
+  const auto only = [&](const toml::table& table, const std::string& where, std::initializer_list<std::string_view> keys) {
+    for (const auto& entry : table)
+      if (std::find(keys.begin(), keys.end(), entry.first.str()) == keys.end())
+        problems.add({name, where + std::string(entry.first.str()), "", "unknown key", fmt::format("{}", fmt::join(keys, ", "))});
+  };
   const auto of = root["type"].value<std::string>();
   if (!of || *of != type_) problems.add({name, "type", of.value_or(""), "isn't the type that is emulated", type_});
   const toml::array* list = root["unit"].as_array();
@@ -117,10 +147,12 @@ UnitMemory::UnitMemory(std::filesystem::path file, std::string type, std::size_t
       problems.add({name, where, "", "isn't a table", ""});
       continue;
     }
-    const Memory user = read_page(*unit, "user", name, where, problems),
-                 factory = read_page(*unit, "factory", name, where, problems);
+    only(*unit, where + ".", {"user", "factory"});
+    const Memory user = read_page(*unit, "user", name, where, problems, notices_),
+                 factory = read_page(*unit, "factory", name, where, problems, notices_);
     pages_.push_back({user, factory});
   }
+  only(root, "", {"type", "unit"});
   problems.throw_if_any();
 }
 

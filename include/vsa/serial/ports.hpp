@@ -16,6 +16,9 @@ namespace vsa::serial {
 /// programs for the hardware list what lies in /dev.
 [[nodiscard]] std::string lock_path(std::string_view port);
 
+/// Whether it is the link of a virtual port whose owner was killed. The terminal that it points to may be anybody's by now.
+[[nodiscard]] bool is_left_behind(const std::string& port);
+
 /// The serial ports of this machine that vsasim knows.
 struct PortList {
   std::vector<std::string> virtual_ports;  ///< "vsa-…" in the place above; those whose owner was killed are left out

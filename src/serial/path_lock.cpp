@@ -1,5 +1,5 @@
 // Copyright 2026 The vsasim authors. SPDX-License-Identifier: Apache-2.0
-#include "serial/port_lock.hpp"
+#include "vsa/serial/path_lock.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "serial/descriptor.hpp"
 #include "serial/refuse.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/serial/ports.hpp"
@@ -42,9 +43,9 @@ std::string owner_in(int fd) {
 }
 
 /// For the message to those whom we refuse, and for the one who tidies up after us.
-void sign(int fd, const std::string& port) {
+void sign(int fd, const std::string& path) {
   std::error_code none;
-  const std::string text = std::to_string(getpid()) + '\n' + fs::absolute(port, none).string();
+  const std::string text = std::to_string(getpid()) + '\n' + fs::absolute(path, none).string();
   fchmod(fd, 0644);  // readable for others, whose lock it must keep out, whatever the umask
   if (ftruncate(fd, 0) != 0 || pwrite(fd, text.data(), text.size(), 0) < 0) return;  // another user's: as it was
 }
@@ -84,37 +85,38 @@ bool lock(int fd) {
 
 }  // namespace
 
-PortLock::PortLock(const std::string& port) : path_(lock_path(port)) {
-  take(port);
-  tidy_directory(fs::path(path_).parent_path(), path_);
+PathLock::PathLock(const std::string& path, const std::string& taken) : lock_(lock_path(path)) {
+  take(path, taken);
+  tidy_directory(fs::path(lock_).parent_path(), lock_);
 }
 
-void PortLock::take(const std::string& port) {
+void PathLock::take(const std::string& path, const std::string& taken) {
   while (true) {
-    Descriptor file(open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | kFlags, 0644));
+    Descriptor file(open(lock_.c_str(), O_RDWR | O_CREAT | O_EXCL | kFlags, 0644));
     is_new_ = static_cast<bool>(file);
-    if (!file) file = Descriptor(open(path_.c_str(), O_RDWR | kFlags));
-    if (!file) file = Descriptor(open(path_.c_str(), O_RDONLY | kFlags));                 // another user's: enough for a lock
-    if (!file && errno == ENOENT && fs::exists(fs::path(path_).parent_path())) continue;  // gone meanwhile
+    if (!file) file = Descriptor(open(lock_.c_str(), O_RDWR | kFlags));
+    if (!file) file = Descriptor(open(lock_.c_str(), O_RDONLY | kFlags));                 // another user's: enough for a lock
+    if (!file && errno == ENOENT && fs::exists(fs::path(lock_).parent_path())) continue;  // gone meanwhile
     if (!file) {
       const std::string why = std::strerror(errno);
-      refuse(port, "its lock " + path_ + " can't be made: " + why, "a directory for locks that can be written");
+      refuse(path, "its lock " + lock_ + " can't be made: " + why, "a directory for locks that can be written");
     }
     if (!lock(file.get())) {
-      refuse(port, "another program serves this port" + owner_in(file.get()), "another path, or end that program first");
+      refuse(path, taken + owner_in(file.get()), "another path, or end that program first");
     }
     // An owner that ended between our two calls has removed the file that we locked.
-    if (!same_file(file.get(), path_)) continue;
-    sign(file.get(), port);
-    fd_ = std::move(file);
+    if (!same_file(file.get(), lock_)) continue;
+    sign(file.get(), path);
+    fd_ = file.release();
     return;
   }
 }
 
-PortLock::~PortLock() {
-  unlink(path_.c_str());
+PathLock::~PathLock() {
+  unlink(lock_.c_str());
   // A child that was forked and has not called exec holds the same lock.
-  flock(fd_.get(), LOCK_UN);
+  flock(fd_, LOCK_UN);
+  close(fd_);
 }
 
 }  // namespace vsa::serial
