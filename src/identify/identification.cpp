@@ -145,6 +145,7 @@ void fit_about(Identification& r, const IdentificationOptions& o, const DoJobs& 
   for (std::size_t i = profiles; i < done.size(); ++i) {
     if (done[i].result) {
       b.values.push_back(done[i].result->to);
+      b.unconverged += done[i].result->converged ? 0 : 1;
     } else {
       ++b.failed;
     }

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "vsa/serial/path_lock.hpp"
+
 namespace vsa::serial {
 
 class PortLink {

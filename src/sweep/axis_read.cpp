@@ -68,7 +68,10 @@ void read_spaced(TomlSection& s, Axis& axis, const char* key, bool log) {
   const auto [a, b] = *ends;
   if (a == b) s.add(key, config::number_text(a), "is empty: both ends are the same", "from < to");
   if (log && !(a > 0 && b > 0)) s.add(key, "", "a logarithmic range needs numbers above 0", "0 < from, to");
-  if (count && (!log || (a > 0 && b > 0))) axis.values = spaced(a, b, static_cast<std::size_t>(*count), log);
+  if (count && (!log || (a > 0 && b > 0))) {
+    axis.values = spaced(a, b, static_cast<std::size_t>(*count), log);
+    axis.spaced = true;
+  }
 }
 
 void read_drawn(TomlSection& s, Axis& axis, const char* key) {

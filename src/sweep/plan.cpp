@@ -8,6 +8,7 @@
 
 #include "sweep/plan_impl.hpp"
 #include "vsa/batch/spread.hpp"
+#include "vsa/config/find_file.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/scenario/toml.hpp"
@@ -115,12 +116,30 @@ std::vector<Value> Plan::Impl::values(std::size_t point) const {
   return out;
 }
 
+Value Plan::Impl::placed(const std::string& key, const Value& value) const {
+  const auto* name = std::get_if<std::string>(&value);
+  const bool world = key == "scenario.world", gait = key == "motion.file";
+  if (name == nullptr || base_file == file || !(world || gait)) return value;
+  const std::filesystem::path beside = file.parent_path();
+  try {
+    const auto found = world ? config::find_file(*name, key, "models/worlds", ".sdf", beside)
+                             : config::find_file(*name, key, "models/gaits", ".toml", beside);
+    return std::filesystem::absolute(found).string();
+  } catch (const InputError& error) {
+    Problem problem = error.problems().front();
+    problem.file = file.string();
+    throw InputError(std::move(problem));
+  }
+}
+
 scenario::Scenario Plan::Impl::scenario_with(const std::vector<Value>& with, std::size_t repetition) const {
   constexpr std::uint64_t kApart = 1'000'003;  // between the repetitions' seeds
   toml::table root = base;
+  if (const auto gait = root.at_path("motion.file").value<std::string>(); gait && own_motion)
+    put(root, "motion.file", placed("motion.file", *gait));
   for (std::size_t k = 0; k < axes.size(); ++k)
     for (const std::string& key : axes[k].keys)
-      if (!axes[k].parameter) put(root, key, with[k]);
+      if (!axes[k].parameter) put(root, key, placed(key, with[k]));
   Problems problems;
   TomlSection top(&root, base_file.string(), "", problems);
   TomlSection run(top.table("scenario"), base_file.string(), "scenario.", problems);
@@ -129,7 +148,8 @@ scenario::Scenario Plan::Impl::scenario_with(const std::vector<Value>& with, std
   top.refuse_others();
   if (!out.duration_s) run.need("duration_s", "seconds; a sweep's runs end");
   problems.throw_if_any();
-  if (!out.faults.empty()) out.seed = out.seed.value_or(seed) + kApart * repetition;
+  if (!out.faults.empty())
+    out.seed = (out.seed.value_or(seed) + kApart * repetition) % (static_cast<std::uint64_t>(scenario::kLargestSeed) + 1);
   return out;
 }
 

@@ -20,6 +20,7 @@ struct Plan::Impl {
   std::string title;
   toml::table base;                 ///< the scenario's tables
   std::filesystem::path base_file;  ///< where they stand
+  bool own_motion = false;          ///< but for [motion], which is the plan's
   std::vector<Axis> axes;
   std::vector<Measure> measures;
   Start start;
@@ -30,6 +31,8 @@ struct Plan::Impl {
   double limit_s = 3600;
 
   [[nodiscard]] std::vector<Value> values(std::size_t point) const;
+  /// A file that the plan names is beside the plan, wherever its scenario is. Throws InputError: no such file.
+  [[nodiscard]] Value placed(const std::string& key, const Value& value) const;
   [[nodiscard]] bool is_study() const { return base.contains("study"); }
   /// The scenario with these values, of which those of parameters have no place in it. Throws InputError.
   [[nodiscard]] scenario::Scenario scenario_with(const std::vector<Value>& values, std::size_t repetition) const;

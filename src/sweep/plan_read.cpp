@@ -5,6 +5,7 @@
 #include <boost/random/sobol.hpp>
 #include <cmath>
 #include <limits>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <tuple>
@@ -29,7 +30,8 @@ void refuse_twice(const std::vector<Item>& items, const char* key, const std::st
   for (const Item& item : items) {
     if (!item.name.empty() && !names.insert(item.name).second)
       problems.add({file, key, item.name, "two columns of one name", "names that differ"});
-    if (item.name == ".") problems.add({file, key, item.name, "is no column's name in HDF5", "another name"});
+    if (item.name == "." || std::any_of(item.name.begin(), item.name.end(), [](unsigned char c) { return c < ' '; }))
+      problems.add({file, key, item.name, "is no column's name in HDF5", "another name"});
   }
 }
 
@@ -62,15 +64,37 @@ std::string type_contents(const std::string& name) {
   return all;
 }
 
+/// Of the types that a world's text names.
+std::string types_in(const std::string& world) {
+  static const std::regex kType("<type>\\s*([^<\\s]+)\\s*</type>");
+  std::set<std::string> names;
+  for (std::sregex_iterator at(world.begin(), world.end(), kType), end; at != end; ++at) names.insert((*at)[1]);
+  std::string all;
+  for (const std::string& name : names) {
+    try {
+      all += type_contents(name);
+    } catch (const InputError&) {
+      continue;  // Plan::check tells
+    }
+  }
+  return all;
+}
+
+/// A world's file, of an MJCF the actuators beside it, and the types that they name.
+std::string world_contents(fs::path file) {
+  std::string all = read_file(file).value_or("");
+  if (file.extension() == ".xml") all += read_file(file.replace_extension(".vsa.xml")).value_or("");
+  return all + types_in(all);
+}
+
 /// What a key of the scenario names as files, as they are now.
 std::string contents(const std::string& key, const std::string& name, const fs::path& beside) {
   const bool world = key == "scenario.world", gait = key == "motion.file", type = key == "scenario.type" || key == "study.type";
   if (!world && !gait && !type) return "";
   try {
     if (type) return type_contents(name);
-    const auto file = world ? config::find_file(name, "world", "models/worlds", ".sdf", beside)
-                            : config::find_file(name, "gait", "models/gaits", ".toml", beside);
-    return read_file(file).value_or("");
+    if (world) return world_contents(config::find_file(name, "world", "models/worlds", ".sdf", beside));
+    return read_file(config::find_file(name, "gait", "models/gaits", ".toml", beside)).value_or("");
   } catch (const InputError&) {
     return "";  // Plan::check tells
   }
@@ -92,12 +116,13 @@ std::uint64_t recordings_hashed(std::uint64_t h, const Plan::Impl& plan) {
 }
 
 std::uint64_t fingerprint_of(const toml::table& root, const Plan::Impl& plan) {
-  std::uint64_t h = hashed(fnv1a(""), "vsasim sweep 1");
+  std::uint64_t h = hashed(fnv1a(""), "vsasim sweep 2");
   h = hashed(h, shown(root));
   h = hashed(h, shown(plan.base));
-  const fs::path beside = plan.base_file.parent_path();
-  for (const char* key : {"scenario.world", "motion.file", "scenario.type", "study.type"}) {
-    if (const auto name = plan.base.at_path(key).value<std::string>()) h = hashed(h, contents(key, *name, beside));
+  const fs::path beside = plan.file.parent_path();
+  for (const std::string key : {"scenario.world", "motion.file", "scenario.type", "study.type"}) {
+    const fs::path place = key == "motion.file" && plan.own_motion ? beside : plan.base_file.parent_path();
+    if (const auto name = plan.base.at_path(key).value<std::string>()) h = hashed(h, contents(key, *name, place));
   }
   for (const Axis& axis : plan.axes) {
     for (const Value& value : axis.values)
@@ -110,6 +135,7 @@ std::uint64_t fingerprint_of(const toml::table& root, const Plan::Impl& plan) {
 /// The tables of the scenario that the plan has itself, or those of the file that it names.
 void read_base(TomlSection& top, Plan::Impl& out, Problems& problems) {
   bool own = false;
+  out.own_motion = top.find("motion") != nullptr;
   for (const char* part : kParts) {
     const toml::node* node = top.find(part);
     if (node == nullptr || (std::string(part) == "scenario" && !node->is_table())) continue;
@@ -139,6 +165,18 @@ void read_base(TomlSection& top, Plan::Impl& out, Problems& problems) {
     out.base = std::move(base);
   } catch (const InputError& error) {
     problems.add_all(error);
+  }
+}
+
+/// Where two axes set the same, one of them would do nothing.
+void refuse_shared_keys(const Plan::Impl& plan, Problems& problems) {
+  std::set<std::pair<std::string, std::string>> seen;
+  for (const Axis& axis : plan.axes) {
+    for (const std::string& key : axis.keys) {
+      const std::string of_type = key.rfind("set.", 0) == 0 ? key.substr(4) : key;
+      if (!key.empty() && !seen.emplace(of_type, axis.of).second)
+        problems.add({plan.file.string(), "vary.key", key, "is varied twice", "each key once, by itself or as set.KEY"});
+    }
   }
 }
 
@@ -199,6 +237,7 @@ Plan Plan::load(const fs::path& file) {
   for (const Axis& axis : impl->axes)
     if (impl->is_study() && axis.parameter)
       problems.add({file.string(), "vary.key", config::join(axis.keys), "is no key of a study", "study.…, set.…"});
+  refuse_shared_keys(*impl, problems);
   if (measure.empty()) top.add("measure", "", "is missing", "[[measure]] with name and signal");
   std::set<std::string> names{"point", "repetition", "notice", "error"};
   refuse_twice(impl->axes, "vary.name", file.string(), names, problems);

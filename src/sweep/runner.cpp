@@ -69,15 +69,22 @@ struct Runner::Impl {
         if (axis.factor) {
           for (const std::string& owner : book->owners(axis.of, key))
             settings.push_back({0, owner, key, number_of(with[k]) * book->value(0, owner, key)});
-        } else if (const auto* word = std::get_if<std::string>(&with[k])) {
-          settings.push_back({0, axis.of, key, *word});
+        } else if (std::holds_alternative<std::string>(with[k]) || std::holds_alternative<bool>(with[k])) {
+          settings.push_back({0, axis.of, key, value_text(with[k])});
         } else {
           settings.push_back({0, axis.of, key, number_of(with[k])});
         }
       }
     }
     if (!book) return;
-    book->set(settings);
+    try {
+      book->set(settings);
+    } catch (const InputError& error) {  // in which nobody knows of copies
+      std::vector<Problem> problems = error.problems();
+      for (Problem& p : problems)
+        if (constexpr std::string_view kOnly = "copy 0, "; p.key.rfind(kOnly, 0) == 0) p.key.erase(0, kOnly.size());
+      throw InputError(std::move(problems));
+    }
     world.set_parameters(*book->parameters(0));
   }
 
@@ -230,8 +237,7 @@ void Plan::check() const {
   for (std::size_t k = 0; k < axes().size(); ++k) {
     const Axis& axis = axes()[k];
     std::vector<Value> tried = axis.values;
-    const bool numbers = !tried.empty() && std::holds_alternative<double>(tried.front());
-    if (numbers) tried = {axis.values.front(), axis.values.back()};
+    if (axis.spaced) tried = {axis.values.front(), axis.values.back()};
     if (axis.kind != Axis::Kind::listed)
       tried = axis.law == Axis::Law::normal ? std::vector<Value>{axis.a - 3 * axis.b, axis.a + 3 * axis.b}
                                             : std::vector<Value>{axis.a, axis.b};

@@ -127,6 +127,13 @@ TEST(Identification, GoesOnWhereOthersFailAndSaysWhatFailedWhereNoneIsLeft) {
   const Identification half = identify(make(task), o, failing([](std::size_t, const Job& job) { return job.draw % 2 == 1; }));
   EXPECT_EQ(half.bootstrap->values.size(), 2u);
   EXPECT_EQ(half.bootstrap->failed, 2u);
+  EXPECT_EQ(half.bootstrap->unconverged, 0u);
+  const DoJobs cut_short = [&](const std::vector<Job>& jobs) {
+    std::vector<Done> out = serial(jobs);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i].result->converged = jobs[i].draw != 3;
+    return out;
+  };
+  EXPECT_EQ(identify(make(task), o, cut_short).bootstrap->unconverged, 1u);
   try {
     (void)identify(make(task), o, failing([](std::size_t, const Job&) { return true; }));
     FAIL() << "no start is left";

@@ -120,6 +120,76 @@ TEST(Plan, ItsFingerprintIsThatOfWhatItSaysAndOfTheFilesThatItNames) {
   EXPECT_NE(before, print(own));
 }
 
+TEST(Plan, AnMjcfsActuatorsAndTheTypesThatAWorldNamesAreSuchFiles) {
+  const Scratch scratch;
+  setenv("VSA_ACTUATOR_PATH", (scratch / "").c_str(), 1);
+  const auto own = [&](const std::string& world) {
+    const std::string text = "\n[scenario]\nworld = \"" + world + "\"\nduration_s = 0.05\n" + kMeasure;
+    return plan_of(scratch, text).fingerprint();
+  };
+  scratch.write("a.xml", "<mujoco/>");
+  scratch.write("a.vsa.xml", "<actuator><type>mine</type></actuator>");
+  scratch.write("b.sdf", "<actuator name='a'><type> mine </type></actuator>");
+  scratch.write("mine.toml", "[type]\nname = \"mine\"\n");
+  const auto mjcf = own("a.xml"), sdf = own("b.sdf");
+  scratch.write("mine.toml", "[type]\nname = \"mine\"\n# another\n");
+  EXPECT_NE(mjcf, own("a.xml"));
+  EXPECT_NE(sdf, own("b.sdf"));
+  const auto other_type = own("a.xml");
+  scratch.write("a.vsa.xml", "<actuator><type>sea_example</type></actuator>");
+  EXPECT_NE(other_type, own("a.xml"));
+  unsetenv("VSA_ACTUATOR_PATH");
+}
+
+TEST(Plan, WhatItNamesIsBesideItWhereverItsScenarioIs) {
+  const Scratch scratch;
+  fs::create_directories(scratch / "a");
+  fs::create_directories(scratch / "b");
+  const auto gait = [](const char* amplitude) {
+    return "[group.shaft]\nkind = \"sine\"\namplitude_deg = " + std::string(amplitude) + "\n";
+  };
+  scratch.write("b/s.toml", kScenario + "[motion]\nfile = \"of_scenario.toml\"\n");
+  scratch.write("b/of_scenario.toml", gait("1.0"));
+  scratch.write("a/of_plan.toml", gait("2.0"));
+  scratch.write("b/of_plan.toml", gait("3.0"));
+  const auto said = [&](const std::string& more) {
+    const Plan plan = Plan::load(scratch.write("a/p.toml", "scenario = \"../b/s.toml\"\n" + more + kMeasure));
+    try {
+      return plan.scenario_text(0);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  const auto names = [&](const std::string& text, const fs::path& file) {
+    return text.find(fs::absolute(file).string()) != text.npos;
+  };
+  EXPECT_TRUE(names(said(""), scratch / "b/of_scenario.toml") || names(said(""), scratch / "a/../b/of_scenario.toml")) << said("");
+  const std::string own = "[motion]\nfile = \"of_plan.toml\"\n",
+                    varied = "[[vary]]\nkey = \"motion.file\"\nlist = [\"of_plan.toml\"]\n";
+  EXPECT_TRUE(names(said(own), scratch / "a/of_plan.toml")) << said(own);
+  EXPECT_TRUE(names(said(varied), scratch / "a/of_plan.toml")) << said(varied);
+  const auto print = [&] { return Plan::load(scratch / "a/p.toml").fingerprint(); };
+  for (const std::string& plan : {own, varied}) {
+    static_cast<void>(said(plan));
+    scratch.write("a/of_plan.toml", gait("2.0"));
+    const auto before = print();
+    scratch.write("b/of_plan.toml", gait("4.0"));
+    EXPECT_EQ(print(), before);
+    scratch.write("a/of_plan.toml", gait("5.0"));
+    EXPECT_NE(print(), before);
+  }
+  const std::string nowhere = said("[[vary]]\nkey = \"scenario.world\"\nlist = [\"nowhere.sdf\"]\n");
+  EXPECT_EQ(nowhere.rfind((scratch / "a/p.toml").string() + ": scenario.world = nowhere.sdf: no such file", 0), 0U) << nowhere;
+}
+
+TEST(Plan, SeedsOfRepetitionsAreSeeds) {
+  const Scratch scratch;
+  const std::string faults = "\n[scenario]\nworld = \"bench_load\"\nduration_s = 0.05\nfaults = [\"shaft noise_rad=0.01\"]\n";
+  const Plan plan = plan_of(scratch, "seed = 1000000000000000\nrepetitions = 2\n" + faults + kMeasure);
+  EXPECT_NE(plan.scenario_text(0).find("seed = 1000000000000000"), std::string::npos) << plan.scenario_text(0);
+  EXPECT_NE(plan.scenario_text(1).find("seed = 1000002"), std::string::npos) << plan.scenario_text(1);
+}
+
 TEST(Plan, RecordingsAndATypesGridAreSuchFiles) {
   const Scratch scratch;
   const std::string fit =
@@ -215,6 +285,24 @@ INSTANTIATE_TEST_SUITE_P(
             "two columns of one name"},
         Bad{"ColumnThatHdf5HasNot", kScenario + kMeasure + "[[measure]]\nname = \".\"\nsignal = \"supply_J\"",
             "no column's name in HDF5"},
+        Bad{"ColumnWithAControlCharacter",
+            measure("signal = \"supply_J\"") + "\n[[measure]]\nname = \"a\\u0000b\"\nsignal = \"supply_J\"",
+            "no column's name in HDF5"},
+        Bad{"AKeyOfTwoAxes",
+            vary("name = \"a\"\nkey = \"drive.supply_V\"\nlist = [6, 12]\n[[vary]]\nkey = \"drive.supply_V\"\nlist = [8]"),
+            "vary.key = drive.supply_V: is varied twice"},
+        Bad{"AKeyOfTheTypeAndOfAll",
+            vary("key = \"set.drive.supply_V\"\nlist = [6]\n[[vary]]\nkey = \"drive.supply_V\"\nlist = [8]"), "is varied twice"},
+        Bad{"AFactorOfWhatIsListed",
+            vary("key = \"drive.supply_V\"\nlist = [6]\n[[vary]]\nname = \"f\"\nkey = \"drive.supply_V\"\nfactor = true\nlist = "
+                 "[1.1]"),
+            "is varied twice"},
+        Bad{"AFloatInTheMiddleOfAList", vary("key = \"drive.supply_V\"\nlist = [10.0, -1.0, 12.0]"), "(with drive.supply_V = -1)",
+            true},
+        Bad{"TrueForANumber", vary("key = \"drive.supply_V\"\nlist = [10, true]"), "plan.toml: shaft: drive.supply_V = \"true\"",
+            true},
+        Bad{"TrueForALink", vary("key = \"link.mass_kg\"\nof = \"qbmove_bench_load::flange\"\nlist = [1.0, true]"),
+            "true: isn't a number", true},
         Bad{"UnknownStatistic", measure("signal = \"supply_J\"\nstatistic = \"average\""), "statistic = average"},
         Bad{"SettleWithoutBand", measure("signal = \"shaft_rad\"\nstatistic = \"settle_s\"\nactuator = \"shaft\""),
             "measure.band: is missing"},

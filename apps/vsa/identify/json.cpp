@@ -101,7 +101,11 @@ Json bootstrap_json(const Identification& r) {
                           {"standard_error", real(b.standard_error[k])},
                           {"interval_95", {real(b.low[k]), real(b.high[k])}}});
   }
-  return {{"draws", b.values.size()}, {"failed", b.failed}, {"parameters", parameters}, {"values", b.values}};
+  return {{"draws", b.values.size()},
+          {"failed", b.failed},
+          {"unconverged", b.unconverged},
+          {"parameters", parameters},
+          {"values", b.values}};
 }
 
 Json residuals_json(const Identification& r) {

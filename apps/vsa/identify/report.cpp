@@ -237,6 +237,9 @@ std::vector<std::string> warnings(const Identification& r) {
   }
   if (!r.found.fit.starts.empty() && !r.found.fit.starts.front().converged)
     out.push_back("the iterations ran out before the solution converged");
+  if (const auto& b = r.found.bootstrap; b && b->unconverged > 0)
+    out.push_back(fmt::format("the iterations ran out for {} of {} draws of the bootstrap: they may scatter too little",
+                              b->unconverged, b->values.size()));
   return out;
 }
 

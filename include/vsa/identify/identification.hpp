@@ -39,6 +39,7 @@ struct Bootstrap {
       low,                                  ///< 2.5 % of the draws lie below
       high;                                 ///< 2.5 % of the draws lie above
   std::size_t failed = 0;                   ///< draws that couldn't be fitted; they aren't among the above
+  std::size_t unconverged = 0;              ///< draws among the above whose iterations ran out
 };
 
 /// What an identification is to find out, beside the estimate.

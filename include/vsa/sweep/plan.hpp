@@ -41,6 +41,7 @@ struct Axis {
   bool parameter = false;  ///< key is a parameter of actuators or links (batch::Batch::set), not of the scenario
   bool factor = false;     ///< of parameters: times what the world has
   std::vector<Value> values;  ///< of listed ones, ranges and logs written out
+  bool spaced = false;        ///< listed ones that are a range or a log
   /// Of the others: bounds, or mean and standard deviation (cut off at three).
   double a = 0, b = 0;  ///< of the others: bounds, or mean and standard deviation (cut off at three)
 };
