@@ -20,13 +20,14 @@ void fail_allocation(long nth) { until_failure = nth; }
 
 // Also what libraries take without `new`, as Eigen does; sanitizers have a malloc of their own.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-extern "C" void* __libc_malloc(std::size_t size) noexcept;  // NOLINT(bugprone-reserved-identifier,readability-identifier-naming)
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
+extern "C" void* __libc_malloc(std::size_t size) noexcept;
 extern "C" void* malloc(std::size_t size) noexcept {
   count.fetch_add(1, std::memory_order_relaxed);
   return __libc_malloc(size);
 }
-extern "C" void* __libc_calloc(std::size_t number,
-                               std::size_t size) noexcept;  // NOLINT(bugprone-reserved-identifier,readability-identifier-naming)
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
+extern "C" void* __libc_calloc(std::size_t number, std::size_t size) noexcept;
 extern "C" void* calloc(std::size_t number, std::size_t size) noexcept {
   count.fetch_add(1, std::memory_order_relaxed);
   return __libc_calloc(number, size);
