@@ -34,16 +34,19 @@ constexpr const char* kState =
     "is\n"
     "under way than the layout has room for (a trajectory of many knots, a long speech on a bus); snapshot() takes that, too.";
 constexpr const char* kRestore =
-    "Back to the numbers of state(), bit by bit: (n,) of float64. Numbers don't tell whose they are: those of another actuator "
-    "type\n"
-    "are taken where its layout is the same, and mean something else; snapshot() and save_file() tell. InputError: another shape, "
-    "or\n"
+    "Back to the numbers of state(), bit by bit: (n,) of float64. Numbers don't tell whose they are: those of other parameters or "
+    "of\n"
+    "another actuator type are taken where the layout is the same, and mean something else: springs are where the other's were, "
+    "and\n"
+    "the ledger is off by the difference. A snapshot() is carried over to a World's own parameters. InputError: another shape, or\n"
     "numbers that no state has, with the name of the first one. TypeError: another dtype. Then nothing has changed.";
 constexpr const char* kLayout =
     "What the numbers of state() are, in order and without gaps: list of dicts of name (\"robot[0]/elbow/unit.…\"), unit (\"\": a\n"
     "number), kind (real, single, whole, wide, flag, choice or bytes), offset and count.";
 constexpr const char* kSaveFile =
-    "Writes state() into a file that tells version, layout and kinds of actuators, too. OutputError: it can't be written; what was "
+    "Writes state() into a file that tells version, layout and kinds of actuators (controllers, models), not their parameters, "
+    "which\n"
+    "must be the same where it is read. OutputError: it can't be written; what was "
     "there stays.";
 constexpr const char* kRestoreFile =
     "Back to the state in a file of save_file(). InputError: a file of another layout, version or length, of other kinds of\n"

@@ -54,7 +54,8 @@ JointInfo info_of(const Joint& joint) {
 [[noreturn]] void unknown(const char* key, std::string_view name, const char* message,
                           const std::map<std::string, std::size_t, std::less<>>& there) {
   std::vector<std::string> names;
-  for (const auto& [known, index] : there) names.push_back(known);
+  for (const auto& [known, index] : there)
+    if (index != WorldNames::kSeveral) names.push_back(known);
   throw InputError(Problem{"", key, std::string(name), message, list(std::move(names))});
 }
 

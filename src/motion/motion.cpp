@@ -7,7 +7,7 @@
 namespace vsa::motion {
 
 double motion_time(const MotionParams& motion, double t_s) {
-  if (!motion.loop_from_s || t_s <= motion.end_s) return t_s;
+  if (!motion.loop_from_s || t_s < motion.end_s) return t_s;
   return *motion.loop_from_s + std::fmod(t_s - motion.end_s, motion.end_s - *motion.loop_from_s);
 }
 

@@ -205,14 +205,9 @@ CsvFiles::CsvFiles(const RunInfo& info, const fs::path& directory, const std::ve
   for (const std::string& name : others) can_be_opened(name);
   problems.throw_if_any();
   for (std::size_t i = 0; i < names.size(); ++i) {
-    try {
-      impl_->files.emplace_back(directory / names[i]);
-      impl_->files.back().append(impl_->headers[i]);
-    } catch (const RecordError& e) {
-      problems.add({"", "", "", e.what(), ""});
-    }
+    impl_->files.emplace_back(directory / names[i]);
+    impl_->files.back().append(impl_->headers[i]);
   }
-  problems.throw_if_any();
 }
 
 CsvFiles::~CsvFiles() = default;

@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "vsa/checks.hpp"
+#include "vsa/config/faults_text.hpp"
 #include "vsa/config/find_file.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 #include "vsa/motion/gait_text.hpp"
 #include "vsa/scoped_name.hpp"
-#include "vsa/seat/seat.hpp"
 #include "vsa/units.hpp"
 
 namespace vsa::scenario {
@@ -27,6 +27,23 @@ constexpr std::string_view kBlanks = " \t\n\r\f\v";
 
 engine::Concave concave_of(const std::string& text) {
   return text == "hull" ? engine::Concave::hull : text == "decompose" ? engine::Concave::decompose : engine::Concave::refuse;
+}
+
+/// Its problems once, and not as those of the type's file.
+void check_type(const engine::WorldOptions& with, const std::string& type) {
+  try {
+    static_cast<void>(with.types.load(type, with.actuator.overrides));
+  } catch (const InputError& error) {
+    constexpr std::string_view kMark = "override ";
+    std::vector<Problem> problems = error.problems();
+    for (Problem& p : problems) {
+      if (p.key.rfind(kMark, 0) != 0) continue;
+      p.key = with.actuator.flag + " " + p.key.substr(kMark.size());
+      p.message += " (type " + type + ")";
+      p.file.clear();
+    }
+    throw InputError(std::move(problems));
+  }
 }
 
 engine::ImpossibleInertia impossible_inertia_of(const std::string& text) {
@@ -82,7 +99,7 @@ engine::World load_world(const Scenario& scenario) {
   with.actuator.overrides = last_of_each(config::parse_overrides(scenario.set, with.actuator.flag));
   if (!scenario.type.empty()) {
     with.actuator.type = scenario.type;
-    static_cast<void>(with.types.load(scenario.type, with.actuator.overrides));  // its problems, once and by their own names
+    check_type(with, scenario.type);
   }
   return engine::World::load(config::find_file(scenario.world, "world", "models/worlds", ".sdf"), std::move(with));
 }
@@ -113,23 +130,37 @@ std::vector<std::string> seeded_faults(const Scenario& scenario) {
   return faults;
 }
 
+/// Those that a fault's first word names.
+std::vector<engine::ActuatorRef> broken_by(const engine::World& world, const std::string& who, const std::string& source) {
+  if (world.actuators().empty()) throw InputError({"", source, who, "the world has no actuator", ""});
+  if (who == "all") return world.actuators();
+  try {
+    return {world.actuator(who)};
+  } catch (const InputError& error) {
+    Problem problem = error.problems().front();
+    problem.key = source;
+    problem.allowed = "all, " + problem.allowed;
+    throw InputError(std::move(problem));
+  }
+}
+
 void break_robots(engine::World& world, const std::vector<std::string>& faults) {
+  constexpr const char* kSource = "--fault";
   Problems problems;
   for (const std::string& text : faults) {
     const std::string_view trimmed = config::trim(text);
-    const std::string who(trimmed.substr(0, trimmed.find_first_of(kBlanks)));
-    bool known = false;
+    const std::size_t end = std::min(trimmed.find_first_of(kBlanks), trimmed.size());
     try {
-      for (std::size_t i = 0; i < world.robot_count(); ++i) {
-        const bool last = i + 1 == world.robot_count() && !known;
-        if (who != "all" && !world.robot(i).find(who) && !last) continue;
-        known = true;
-        (void)world.seat(i).apply_faults(text, "--fault");
+      device::Faults each = config::read_faults(trimmed.substr(end), kSource);
+      const std::vector<engine::ActuatorRef> who = broken_by(world, std::string(trimmed.substr(0, end)), kSource);
+      for (const engine::ActuatorRef& a : who) world.robot(a.robot).check_faults(a.index, each);
+      for (const engine::ActuatorRef& a : who) {
+        world.robot(a.robot).set_faults(a.index, each);
+        ++each.seed;  // actuators have their own luck
       }
     } catch (const InputError& error) {
       problems.add_all(error);
     }
-    if (world.robot_count() == 0) problems.add({"", "--fault", text, "the world has no actuator", ""});
   }
   problems.throw_if_any();
 }

@@ -155,6 +155,9 @@ TEST(Scenario, CommandsAfterItsEndAreTold) {
     return r.out + r.err;
   };
   EXPECT_EQ(told("0.0 0.049").find("given"), std::string::npos);
+  // Steps begin at 0, 0.001, … 0.049.
+  EXPECT_NE(told("0.0 0.0495").find("warning: 1 command isn't given, the run ends at 0.05 s: shaft at 0.0495 s\n"),
+            std::string::npos);
   EXPECT_NE(told("0.0 0.05").find("warning: 1 command isn't given, the run ends at 0.05 s: shaft at 0.05 s\n"), std::string::npos);
   EXPECT_NE(told("0.0 0.1 5.0").find("warning: 2 commands aren't given, the run ends at 0.05 s: shaft at 0.1 s is the first\n"),
             std::string::npos);

@@ -44,6 +44,7 @@ TEST(Motion, LoopsFromTheTimeThatItsFileSays) {
   EXPECT_EQ(motion_time(motion, 7), 7);
   motion.loop_from_s = 2;
   EXPECT_EQ(motion_time(motion, 4), 4);
+  for (const double end : {5, 8, 11}) EXPECT_EQ(motion_time(motion, end), 2) << "each time the same";
   EXPECT_NEAR(motion_time(motion, 6), 3, 1e-12);
   EXPECT_NEAR(motion_time(motion, 5 + 3 * 100 + 1), 3, 1e-9);
 }

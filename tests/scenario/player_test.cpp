@@ -5,8 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <utility>
 
 #include "vsa/scenario/toml.hpp"
 
@@ -101,6 +105,52 @@ TEST(Scenario, WhatIsWrittenIsReadAgain) {
   ASSERT_EQ(again.commands.size(), 1U);
   EXPECT_EQ(again.commands[0].equilibrium_rad, 0.25);
   EXPECT_EQ(vsa::scenario::load_motion(again)->params().frequency_rad_per_s, 4.0);
+}
+
+/// Two models of one make, "a" and "b", each with an actuator "j".
+std::string two_robots() {
+  std::string text = "<?xml version=\"1.0\"?><sdf version=\"1.9\"><world name=\"w\">";
+  for (const char* name : {"a", "b"}) {
+    text +=
+        std::string("<model name=\"") + name +
+        "\"><link name=\"l\"><inertial><mass>0.3</mass><inertia><ixx>1e-3</ixx><iyy>1e-3</iyy>" +
+        "<izz>1e-3</izz></inertia></inertial></link><joint name=\"j\" type=\"revolute\"><parent>world</parent><child>l</child>" +
+        "<axis><xyz>0 1 0</xyz></axis></joint><plugin name=\"vsa::Robot\" filename=\"x\"><actuator><joint>j</joint>" +
+        "<type>qbmove_maker_pro_6_1</type></actuator></plugin></model>";
+  }
+  return text + "</world></sdf>";
+}
+
+TEST(Faults, OfSeveralRobotsAreEachTheirOwn) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "vsa_two_robots.sdf";
+  std::ofstream(file) << two_robots();
+  Scenario s;
+  s.world = file.string();
+  const auto ticks = [&](const std::vector<std::string>& faults) {
+    vsa::engine::World world = vsa::scenario::load_world(s);
+    vsa::scenario::break_robots(world, faults);
+    std::array<double, 2> off{};
+    for (int i = 0; i < 20; ++i) {
+      world.step();
+      for (std::size_t r = 0; r < 2; ++r) off[r] += world.read(r == 0 ? "a/j" : "b/j").measured[2].value * (i + 1.0);
+    }
+    return off;
+  };
+  const auto both = ticks({"all noise_rad=0.05 seed=7"});
+  EXPECT_NE(both[0], both[1]) << "robots with the same luck";
+  const auto first = ticks({"a/j noise_rad=0.05 seed=7"});
+  EXPECT_EQ(first[0], both[0]);
+  EXPECT_NE(first[0], first[1]);
+  EXPECT_EQ(ticks({"b/j noise_rad=0.05 seed=8"})[1], both[1]);
+  for (const auto& [fault, told] : {std::pair{"j off", "--fault = j: several models have it (allowed: all, a/j, b/j)"},
+                                    std::pair{"c off", "--fault = c: no such actuator (allowed: all, a/j, b/j)"}}) {
+    try {
+      (void)ticks({fault});
+      ADD_FAILURE() << fault;
+    } catch (const vsa::InputError& error) {
+      EXPECT_EQ(std::string(error.what()), told);
+    }
+  }
 }
 
 TEST(Player, ACommandTakesItsActuatorFromTheGaitUntilTheReset) {

@@ -22,7 +22,10 @@ std::string path_at(TomlSection& section, const char* key, const fs::path& scena
 std::string speed_at(TomlSection& section) {
   const toml::node* node = section.find("speed");
   if (node == nullptr) return "";
-  if (node->is_string()) return section.word("speed", {"max"}).value_or("");
+  if (node->is_string() && node->value<std::string>() != "max")
+    section.add("speed", '"' + node->value_or(std::string()) + '"', "is no speed",
+                config::range_text(kSlowest, kFastest) + ", or \"max\"");
+  if (node->is_string()) return "max";
   const auto factor = section.number("speed", kSlowest, kFastest);
   return factor ? config::number_text(*factor) : "";
 }

@@ -72,7 +72,9 @@ RunSession::RunSession(const RunOptions& options, Console& console)
 }
 
 void RunSession::tell_of_late_commands(double duration_s) const {
-  const auto is_late = [&](const scenario::Command& c) { return c.time_s >= duration_s; };
+  // Steps take what is due when they begin.
+  const double step_s = world_.step_s(), last_s = (std::ceil(duration_s / step_s * (1 - 1e-12)) - 1) * step_s;
+  const auto is_late = [&](const scenario::Command& c) { return c.time_s > last_s * (1 + 1e-12); };
   const auto late = std::count_if(options_.commands.begin(), options_.commands.end(), is_late);
   if (late == 0) return;
   const scenario::Command& first = *std::find_if(options_.commands.begin(), options_.commands.end(), is_late);
