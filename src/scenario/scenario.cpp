@@ -130,6 +130,8 @@ std::vector<std::string> seeded_faults(const Scenario& scenario) {
   return faults;
 }
 
+namespace {
+
 /// Those that a fault's first word names.
 std::vector<engine::ActuatorRef> broken_by(const engine::World& world, const std::string& who, const std::string& source) {
   if (world.actuators().empty()) throw InputError({"", source, who, "the world has no actuator", ""});
@@ -143,6 +145,8 @@ std::vector<engine::ActuatorRef> broken_by(const engine::World& world, const std
     throw InputError(std::move(problem));
   }
 }
+
+}  // namespace
 
 void break_robots(engine::World& world, const std::vector<std::string>& faults) {
   constexpr const char* kSource = "--fault";

@@ -5,7 +5,6 @@
 #include <boost/random/sobol.hpp>
 #include <cmath>
 #include <limits>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <tuple>
@@ -66,9 +65,14 @@ std::string type_contents(const std::string& name) {
 
 /// Of the types that a world's text names.
 std::string types_in(const std::string& world) {
-  static const std::regex kType("<type>\\s*([^<\\s]+)\\s*</type>");
+  constexpr std::string_view kBegin = "<type>", kEnd = "</type>";
   std::set<std::string> names;
-  for (std::sregex_iterator at(world.begin(), world.end(), kType), end; at != end; ++at) names.insert((*at)[1]);
+  for (std::size_t at = world.find(kBegin); at != std::string::npos; at = world.find(kBegin, at)) {
+    at += kBegin.size();
+    const std::size_t end = world.find(kEnd, at);
+    if (end == std::string::npos) break;
+    names.insert(std::string(config::trim(std::string_view(world).substr(at, end - at))));
+  }
   std::string all;
   for (const std::string& name : names) {
     try {
