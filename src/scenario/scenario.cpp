@@ -29,23 +29,6 @@ engine::Concave concave_of(const std::string& text) {
   return text == "hull" ? engine::Concave::hull : text == "decompose" ? engine::Concave::decompose : engine::Concave::refuse;
 }
 
-/// Its problems once, and not as those of the type's file.
-void check_type(const engine::WorldOptions& with, const std::string& type) {
-  try {
-    static_cast<void>(with.types.load(type, with.actuator.overrides));
-  } catch (const InputError& error) {
-    constexpr std::string_view kMark = "override ";
-    std::vector<Problem> problems = error.problems();
-    for (Problem& p : problems) {
-      if (p.key.rfind(kMark, 0) != 0) continue;
-      p.key = with.actuator.flag + " " + p.key.substr(kMark.size());
-      p.message += " (type " + type + ")";
-      p.file.clear();
-    }
-    throw InputError(std::move(problems));
-  }
-}
-
 engine::ImpossibleInertia impossible_inertia_of(const std::string& text) {
   return text == "lower" ? engine::ImpossibleInertia::lower : engine::ImpossibleInertia::refuse;
 }
@@ -99,7 +82,7 @@ engine::World load_world(const Scenario& scenario) {
   with.actuator.overrides = last_of_each(config::parse_overrides(scenario.set, with.actuator.flag));
   if (!scenario.type.empty()) {
     with.actuator.type = scenario.type;
-    check_type(with, scenario.type);
+    static_cast<void>(with.types.load(scenario.type, with.actuator.overrides));  // its problems, once and by their own names
   }
   return engine::World::load(config::find_file(scenario.world, "world", "models/worlds", ".sdf"), std::move(with));
 }
