@@ -220,8 +220,11 @@ TEST(Channel, OfAKilledOwnerIsRefusedWhoeverHasItsTerminalByNow) {
   ASSERT_TRUE(fs::exists(terminal));
   EXPECT_TRUE(is_left_behind(scratch / "arm"));
   EXPECT_NE(refusal([&] { SerialChannel c(scratch / "arm"); }).find("nobody serves this port any more"), std::string::npos);
-  // Not so a link of another program, which has no lock.
-  fs::create_symlink(terminal, scratch / "others");
+  // Not so a link of another program, which has no lock; to a terminal of our own, for that other one may be a stranger's.
+  others.push_back(posix_openpt(O_RDWR | O_NOCTTY));
+  grantpt(others.back());
+  unlockpt(others.back());
+  fs::create_symlink(ptsname(others.back()), scratch / "others");
   EXPECT_FALSE(is_left_behind(scratch / "others"));
   EXPECT_EQ(refusal([&] { SerialChannel c(scratch / "others"); }), "no refusal");
   for (const int other : others) close(other);
