@@ -138,6 +138,9 @@ set(VSA_NEEDS_SDF_batch
   LinkParameters.APairHasTheSmallerOfItsTwoFrictions
   LinkParameters.ThatNoBodyHasAreRefusedAndNothingChanges
 )
+set(VSA_NEEDS_SDF_scenario
+  Faults.*
+)
 set(VSA_NEEDS_SDF_linear_world
   Point.HasTheArmsMassMatrixAndGravitysStiffness
   Point.OfAPassivePendulumSwingsAsTheTextbookTells

@@ -4,6 +4,7 @@
 #include "vsa/scenario/player.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdint>
@@ -122,7 +123,7 @@ std::string two_robots() {
 }
 
 TEST(Faults, OfSeveralRobotsAreEachTheirOwn) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "vsa_two_robots.sdf";
+  const auto file = std::filesystem::path(testing::TempDir()) / ("vsa_two_robots_" + std::to_string(getpid()) + ".sdf");
   std::ofstream(file) << two_robots();
   Scenario s;
   s.world = file.string();
@@ -151,6 +152,7 @@ TEST(Faults, OfSeveralRobotsAreEachTheirOwn) {
       EXPECT_EQ(std::string(error.what()), told);
     }
   }
+  std::filesystem::remove(file);
 }
 
 TEST(Player, ACommandTakesItsActuatorFromTheGaitUntilTheReset) {
