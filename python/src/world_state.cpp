@@ -44,13 +44,11 @@ constexpr const char* kLayout =
     "What the numbers of state() are, in order and without gaps: list of dicts of name (\"robot[0]/elbow/unit.…\"), unit (\"\": a\n"
     "number), kind (real, single, whole, wide, flag, choice or bytes), offset and count.";
 constexpr const char* kSaveFile =
-    "Writes state() into a file that tells version, layout and kinds of actuators (controllers, models), not their parameters, "
-    "which\n"
-    "must be the same where it is read. OutputError: it can't be written; what was "
-    "there stays.";
+    "Writes state() into a file that tells version, layout, kinds of actuators, and the links' and actuators' parameters, which\n"
+    "must be the same where it is read. OutputError: it can't be written; what was there stays.";
 constexpr const char* kRestoreFile =
-    "Back to the state in a file of save_file(). InputError: a file of another layout, version or length, of other kinds of\n"
-    "actuators (as restore()), a damaged one or none; then nothing has changed.";
+    "Back to the state in a file of save_file(). InputError: a file of another layout or version, of other kinds of actuators (as\n"
+    "restore()), of other parameters, with the names of whose they are, a damaged one or none; then nothing has changed.";
 
 }  // namespace
 

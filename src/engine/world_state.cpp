@@ -11,6 +11,7 @@
 #include "engine/world_check.hpp"
 #include "engine/world_impl.hpp"
 #include "vsa/bits.hpp"
+#include "vsa/device/parameter_hash.hpp"
 #include "vsa/files.hpp"
 #include "vsa/host/unit_kind.hpp"
 #include "vsa/output_file.hpp"
@@ -30,18 +31,42 @@ struct WorldClock {
 constexpr std::size_t kClockSize = 4;
 
 constexpr std::string_view kMagic = "VSASTATE";
-constexpr std::uint64_t kVersion = 2;  // 1: without the kinds
+constexpr std::uint64_t kVersion = 3;  // 1: without kinds and parameters; 2: without parameters
 constexpr std::size_t kLeastHeader = 5;
 
-/// Magic, version, layout, count, hash of the numbers; kinds.
-std::size_t header_numbers(std::uint64_t version) { return version == 1 ? kLeastHeader : kLeastHeader + 1; }
+/// Magic, version, layout, count, hash of the numbers; kinds; a hash of the links' parameters and of each actuator's.
+std::size_t header_numbers(std::uint64_t version, const World& world) {
+  return kLeastHeader + (version > 1 ? 1 : 0) + (version > 2 ? 1 + world.actuators().size() : 0);
+}
+
+const host::ActuatorConfig& config_of(const World& world, const ActuatorRef& a) {
+  return world.robot(a.robot).config().actuators[a.index];
+}
 
 /// Of all actuators' units: other types may have the same layout, and a state means something else to them.
 std::uint64_t hash_of_kinds(const World& world) {
   std::vector<double> kinds;
   for (const ActuatorRef& a : world.actuators())
-    for (const int word : host::kind_of(world.robot(a.robot).config().actuators[a.index].unit)) kinds.push_back(word);
+    for (const int word : host::kind_of(config_of(world, a).unit)) kinds.push_back(word);
   return vsa::state_hash(kinds);
+}
+
+/// As a state's layout begins its names.
+std::string actuator_key(const World& world, std::size_t k) {
+  const ActuatorRef& a = world.actuators()[k];
+  return fmt::format("robot[{}]/{}", a.robot, config_of(world, a).name);
+}
+
+/// Numbers that aren't kept with a state and without which it means something else: first of the links, then of each actuator.
+std::vector<std::uint64_t> hashes_of_parameters(const World& world, std::span<const LinkParameters> links) {
+  std::vector<double> bodies;
+  for (const LinkParameters& link : links) {
+    bodies.insert(bodies.end(), {link.mass_kg, link.friction ? 1.0 : 0.0, link.friction.value_or(0)});
+    bodies.insert(bodies.end(), link.inertia_kgm2.begin(), link.inertia_kgm2.end());
+  }
+  std::vector<std::uint64_t> hashes{vsa::state_hash(bodies)};
+  for (const ActuatorRef& a : world.actuators()) hashes.push_back(device::parameter_hash(config_of(world, a).unit));
+  return hashes;
 }
 
 /// Eight bytes, the lowest first, on every machine.
@@ -147,6 +172,7 @@ void World::save_file(const std::filesystem::path& file) const {
   for (const std::uint64_t word :
        {kVersion, state_layout().hash(), std::uint64_t{numbers.size()}, vsa::state_hash(numbers), hash_of_kinds(*this)})
     put_word(text, word);
+  for (const std::uint64_t hash : hashes_of_parameters(*this, impl_->physics->bodies()->links())) put_word(text, hash);
   for (const double v : numbers) put_word(text, bits_as<std::uint64_t>(v));
   write_whole(file, text);
 }
@@ -160,7 +186,7 @@ void World::restore_file(const std::filesystem::path& file) {
   const std::uint64_t version = word_at(*text, 1), layout = word_at(*text, 2), count = word_at(*text, 3);
   if (version < 1 || version > kVersion)
     refuse(file, "version", fmt::format("{}", version), "isn't known", fmt::format("1 … {}", kVersion));
-  const std::size_t header = header_numbers(version);
+  const std::size_t header = header_numbers(version, *this);
   if (layout != ours.hash() || count != ours.size())
     refuse(file, "layout", fmt::format("{:016x}, {} numbers", layout, count), "is of another world",
            fmt::format("{:016x}, {} numbers", ours.hash(), ours.size()));
@@ -169,6 +195,19 @@ void World::restore_file(const std::filesystem::path& file) {
   if (header > kLeastHeader && word_at(*text, kLeastHeader) != hash_of_kinds(*this))
     refuse(file, "actuators", "", "are of other kinds than this world's",
            "the same controllers, firmware models and dialects, and numbers of motors");
+  if (version > 2) {
+    const std::vector<std::uint64_t> hashes = hashes_of_parameters(*this, impl_->physics->bodies()->links());
+    Problems problems;
+    for (std::size_t k = 0; k < hashes.size(); ++k) {
+      if (word_at(*text, kLeastHeader + 1 + k) == hashes[k]) continue;
+      const bool links = k == 0;
+      problems.add({file.string(), links ? "links" : actuator_key(*this, k - 1), "",
+                    links ? "had other masses, inertias or friction when the state was saved"
+                          : "had other parameters when the state was saved",
+                    "a state goes on with the parameters that it was saved under"});
+    }
+    problems.throw_if_any();
+  }
   std::vector<double> numbers(count);
   for (std::size_t k = 0; k < count; ++k) numbers[k] = bits_as<double>(word_at(*text, header + k));
   if (vsa::state_hash(numbers) != word_at(*text, 4)) refuse(file, "", "", "is damaged", "numbers with the hash of its header");

@@ -109,9 +109,9 @@ class World::Impl::Holds final : public device::Holder {
  public:
   explicit Holds(Impl& world) noexcept : world_(world) {}
   [[nodiscard]] bool holds(std::size_t tree) const noexcept override { return world_.physics->is_held(world_.trees[tree]); }
-  bool holds_else(std::size_t tree, std::span<const double> torques, std::span<double> accelerations,
+  bool holds_else(std::size_t tree, std::span<const double> torques_Nm, std::span<double> accelerations,
                   std::span<double> mobility) noexcept override {
-    return world_.physics->holds_else(world_.trees[tree], torques, accelerations, mobility);
+    return world_.physics->holds_else(world_.trees[tree], torques_Nm, accelerations, mobility);
   }
 
  private:

@@ -154,7 +154,7 @@ TEST_F(StateFile, BringsAWorldBack) {
   move(w, 30);
   w.save_file(file);
   const Numbers at = numbers_of(w);
-  EXPECT_EQ(std::filesystem::file_size(file), 48 + 8 * at.size());
+  EXPECT_EQ(std::filesystem::file_size(file), 8 * (6 + 1 + w.actuators().size() + at.size()));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1) << "nothing else is left";
   move(w, 30);
   w.restore_file(file);
@@ -175,9 +175,10 @@ TEST_F(StateFile, IsRefusedWhereItDoesntFit) {
     return out;
   };
   std::string other_version = good, damaged = good, poisoned = good;
-  other_version[8] = 3;
-  damaged[60] = static_cast<char>(damaged[60] ^ 1);
-  EXPECT_NE(said(other_version).find("version = 3"), std::string::npos);
+  other_version[8] = 4;
+  char& last = damaged[damaged.size() - 8];
+  last = static_cast<char>(last ^ 1);
+  EXPECT_NE(said(other_version).find("version = 4"), std::string::npos);
   EXPECT_NE(said(damaged).find("damaged"), std::string::npos);
   EXPECT_NE(said(good.substr(0, good.size() - 8)).find("another length"), std::string::npos);
   EXPECT_NE(said(good.substr(0, 30)).find("no world's state"), std::string::npos);
@@ -195,8 +196,6 @@ TEST_F(StateFile, OfActuatorsOfAnotherKindIsRefusedAsTheirSnapshotIs) {
   };
   const World w = of("qbmove_maker_pro_6_1");
   w.save_file(file);
-  World alike = of("qbmove_maker_pro_paper");
-  EXPECT_EQ(what_of([&] { alike.restore_file(file); }), "");
   World other = of("sea_example");
   const Numbers before = numbers_of(other);
   ASSERT_EQ(other.state_layout().hash(), w.state_layout().hash());
@@ -205,18 +204,54 @@ TEST_F(StateFile, OfActuatorsOfAnotherKindIsRefusedAsTheirSnapshotIs) {
   EXPECT_EQ(first_difference(numbers_of(other), before), std::nullopt);
 }
 
-TEST_F(StateFile, OfTheFirstVersionIsStillRead) {
+TEST_F(StateFile, OfOtherParametersIsRefusedWithTheirOwner) {
+  World w = World::load_string(arm());
+  move(w, 30);
+  w.save_file(file);
+  const auto refused = [&](World& other, const char* owner) {
+    const Numbers before = numbers_of(other);
+    const std::string said = what_of([&] { other.restore_file(file); });
+    EXPECT_NE(said.find(owner), std::string::npos) << said;
+    EXPECT_EQ(first_difference(numbers_of(other), before), std::nullopt);
+  };
+  const ActuatorRef& last = w.actuators().back();
+  World weaker = World::load_string(arm());
+  host::UnitConfig unit = weaker.robot(last.robot).config().actuators[last.index].unit;
+  unit.actuator.supply_V -= 1;
+  weaker.robot(last.robot).set_parameters(last.index, unit);
+  refused(weaker, ("robot[0]/" + w.robot(last.robot).config().actuators[last.index].name).c_str());
+  unit.actuator.supply_V += 1;
+  weaker.robot(last.robot).set_parameters(last.index, unit);
+  EXPECT_EQ(what_of([&] { weaker.restore_file(file); }), "") << "the same again";
+
+  World heavier = World::load_string(arm());
+  for (const scene::LinkInfo& link : heavier.links()) {
+    if (link.is_static) continue;
+    const LinkHandle handle = heavier.link(link.name);
+    LinkParameters parameters = heavier.link_parameters(handle);
+    parameters.mass_kg *= 1.01;
+    heavier.set_link_parameters(handle, parameters);
+    break;
+  }
+  refused(heavier, "links");
+}
+
+TEST_F(StateFile, OfEarlierVersionsIsStillRead) {
   World w = World::load_string(arm());
   move(w, 30);
   w.save_file(file);
   const Numbers at = numbers_of(w);
-  std::string first = text();
-  first[8] = 1;
-  first.erase(40, 8);  // the kinds
-  write(first);
-  move(w, 30);
-  w.restore_file(file);
-  EXPECT_EQ(first_difference(numbers_of(w), at), std::nullopt);
+  const std::string now = text();
+  for (const int version : {1, 2}) {
+    std::string earlier = now;
+    earlier[8] = static_cast<char>(version);
+    earlier.erase(48, 8 * (1 + w.actuators().size()));  // the parameters
+    if (version == 1) earlier.erase(40, 8);             // the kinds
+    write(earlier);
+    move(w, 30);
+    w.restore_file(file);
+    EXPECT_EQ(first_difference(numbers_of(w), at), std::nullopt) << version;
+  }
 }
 
 TEST_F(StateFile, ThatCantBeWrittenLeavesWhatWasThere) {

@@ -240,8 +240,9 @@ class World : public motion::Stage, public host::Simulation {
   void save(std::span<double> out) const;          ///< fills state_size() numbers
   void restore(std::span<const double> in);        ///< as of a snapshot; kinds of units (host/unit_kind.hpp) go unseen
   [[nodiscard]] std::uint64_t state_hash() const;  ///< of the numbers that save() gives; allocates
-  /// The numbers behind 48 bytes that tell version, layout and kinds of units. restore_file throws InputError where those are others,
-  /// for another length and a damaged one, and nothing has changed; save_file OutputError, and what was there stays.
+  /// The numbers behind some that tell version, layout, kinds of units, and links' and actuators' parameters. restore_file throws
+  /// InputError where those are others, for another length and a damaged one, and nothing has changed; save_file OutputError, and
+  /// what was there stays.
   void save_file(const std::filesystem::path& file) const;
   void restore_file(const std::filesystem::path& file);  ///< as restore(), from such a file
 
