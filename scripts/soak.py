@@ -8,9 +8,9 @@ from SEED: clients of the port that come, go and are killed; viewers of the page
 faults of joints by the service; short recorded runs; modules that are spawned in Gazebo, moved and removed.
 
 Looks at memory, descriptors and threads of these programs, at answers and round trips of the port's clients, and at whether equal runs gave
-equal bytes. Ctrl-C or SIGTERM ends it earlier, and what it has seen until then is judged. Writes OUT/soak.html and OUT/soak.json; prints the
-verdicts; exit code 1 where one is broken, 2 for wrong use
-and for what can't be written.
+equal bytes. Ctrl-C or SIGTERM ends it earlier, and what it has seen until then is judged. Writes OUT/soak.html and OUT/soak.json, what there
+is so far every few minutes, and prints the verdicts; exit code 1 where one is broken, 2 for wrong use and for what can't be written. A
+program that ends before its time is told at once, and has no more visitors.
 """
 import hashlib
 import importlib.util
@@ -41,6 +41,8 @@ OF_GAZEBO = "clients of Gazebo that published"
 GROWTH = 1.05  # of resident memory, last quarter over second: what a program may gain
 KEPT_MB = 0.032  # by ZeroMQ of each client of topics that has gone (libzmq 4286), for as long as the world lives
 ANSWERED = 0.9  # of exchanges: bytes are lost and flipped on purpose, which took the answers of 2.5 % of them in an hour
+LEAVE_S = 300  # between two states of the page: whoever kills this script loses as much
+RUNS = "it runs"
 SLACK = (0, 5, 0)  # memory, descriptors, threads after the visitors, over before them: ZeroMQ's connections to clients that have gone
 
 
@@ -59,7 +61,7 @@ class Subject:
     """A program that must live through it."""
 
     def __init__(self, name, command, out, environment=None):
-        self.name, self.samples = name, []
+        self.name, self.samples, self.told = name, [], False
         self.log = open(out / f"{name}.log", "w+b")
         # Here and below, sessions of their own: a Ctrl-C in the terminal is for this script, which ends them once it has counted them.
         self.process = subprocess.Popen(command, stdout=self.log, stderr=subprocess.STDOUT, env=environment, start_new_session=True)
@@ -69,7 +71,7 @@ class Subject:
 
     def wait_for(self, pattern, seconds=60):
         end = time.monotonic() + seconds
-        while time.monotonic() < end and self.process.poll() is None:
+        while time.monotonic() < end and self.ended() is None:
             found = re.search(pattern, self.said())
             if found:
                 return found
@@ -79,13 +81,20 @@ class Subject:
     def pid(self):
         return self.process.pid
 
+    def ended(self):
+        """Exit code; None: it runs."""
+        return self.process.poll()
+
     def sample(self, at):
+        if self.ended() is not None and not self.told:
+            self.told = True
+            print(f"{self.name} has ended after {at / 60:.0f} min: exit code {self.ended()}", flush=True)
         now = usage(self.pid())
         if now:
             self.samples.append((at, *now))
 
     def stop(self):
-        if self.process.poll() is None and self.pid():
+        if self.ended() is None and self.pid():
             os.kill(self.pid(), signal.SIGINT)
         try:
             return self.process.wait(60)
@@ -120,12 +129,12 @@ class Soak:
         with self.lock:
             self.wrong.append(what)
 
-    def until_the_end(self, number, visit, pause):
-        """A thread: visits with pauses, from a seed of its own."""
+    def until_the_end(self, number, visit, pause, of):
+        """A thread: visits of a program (None: of none) with pauses, from a seed of its own."""
 
         def loop():
             chance = random.Random(self.seed * 1000 + number)
-            while time.monotonic() < self.end:
+            while time.monotonic() < self.end and (of is None or of.ended() is None):
                 try:
                     visit(chance)
                 except Exception as error:  # a visitor's own mistake ends the soak's claim, not the soak
@@ -206,7 +215,6 @@ class Soak:
             self.digests.add(digest.hexdigest())
         self.count("recorded runs")
 
-
     def spawned_module(self, chance):
         name, place = f"visitor_{chance.getrandbits(32)}", [chance.choice((-1, 1)) * chance.uniform(1, 5) for _ in range(2)]
         wrong, clients = self.gazebo.visit(name, place, chance.uniform(0.1, 0.55))  # where its motors stall is 0.6 rad
@@ -240,9 +248,9 @@ def quarter(values, which):
     return values[n * which // 4 : n * (which + 1) // 4]
 
 
-def answered(soak):
-    """(answers, exchanges) in each quarter of the time. What came after the end is of the last."""
-    long, found = max(soak.end - soak.begin, 1e-9), [[0, 0] for _ in range(4)]
+def answered(soak, end):
+    """(answers, exchanges) in each quarter of the time until then. What came after it is of the last."""
+    long, found = max(end - soak.begin, 1e-9), [[0, 0] for _ in range(4)]
     for at, trip in soak.trips:
         of = found[min(max(int(4 * (at - soak.begin) / long), 0), 3)]
         of[0] += trip is not None
@@ -256,17 +264,20 @@ def slack(soak, name, k):
     return SLACK[k] + (soak.counts.get(OF_GAZEBO, 0) if name == "gazebo" and k == 1 else 0)
 
 
-def verdicts(soak, subjects, idle, ends):
-    """(what, held, figure) each."""
+def verdicts(soak, subjects, idle, ends, end):
+    """(what, held, figure) each, at that time; `idle` has one entry as long as there are visitors."""
     out = []
     for s in subjects:
-        out.append((f"{s.name} lives to the end and ends well by Ctrl-C", ends[s.name] == 0, f"exit code {ends[s.name]}"))
+        out.append((f"{s.name} lives to the end and ends well by Ctrl-C", ends[s.name] in (0, RUNS),
+                    RUNS if ends[s.name] == RUNS else f"exit code {ends[s.name]}"))
         before, after = (statistics.median([m for _, m, _, _ in quarter(s.samples, k)] or [0]) for k in (1, 3))
         # Between the middles of the two quarters lies half of the time.
         kept = KEPT_MB * 0.5 * sum(soak.counts.get(c, 0) for c in OF_TOPICS) if s.name == "run" else 0.0
         most = GROWTH * before + kept
         out.append((f"{s.name}: memory, second quarter to last, at most {GROWTH} times" + (f" and {kept:.1f} MB that ZeroMQ keeps" if kept else ""),
                     after <= most, f"{before:.1f} → {after:.1f} MB"))
+        if len(idle) < 2:
+            continue
         first, now = (place[s.name] for place in idle)
         for k, what in ((1, "descriptors"), (2, "threads")):
             more = slack(soak, s.name, k)
@@ -277,7 +288,7 @@ def verdicts(soak, subjects, idle, ends):
     rounds = set(re.findall(r"[0-9a-f]{64}", subjects[2].said()))
     out.append(("rounds of the batch come to the same", len(rounds) == 1, f"{len(rounds)} results"))
     out.append(("visitors had nothing to complain of", not soak.wrong, "; ".join(soak.wrong[:5]) or "nothing"))
-    parts = answered(soak)
+    parts = answered(soak, end)
     out.append((f"units answer at least {100 * ANSWERED:.0f} % of the exchanges in each quarter of the time",
                 all(n > 0 and yes >= ANSWERED * n for yes, n in parts), ", ".join(f"{100 * yes / n:.1f} % of {n}" if n else "no exchange" for yes, n in parts)))
     trips = [trip for _, trip in sorted(soak.trips, key=lambda exchange: exchange[0]) if trip is not None]
@@ -286,17 +297,35 @@ def verdicts(soak, subjects, idle, ends):
     return out
 
 
+def leave(soak, subjects, found, lasted, out):
+    """The numbers first, which outlive a page that can't be drawn."""
+    with soak.lock:
+        numbers = {"hours": lasted, "seed": soak.seed, "without_gazebo": soak.gazebo.missing, "verdicts": found, "counts": dict(soak.counts),
+                   "wrong": list(soak.wrong), "samples": {s.name: s.samples for s in subjects}}
+    (out / "soak.json").write_text(json.dumps(numbers, indent=1), encoding="utf-8")
+    soak_page.write_page(subjects, numbers, out)
+
+
+def leave_so_far(soak, subjects, idle, begin, out):
+    """A disk that is full for a while ends nothing."""
+    now = time.monotonic()
+    ends = {s.name: RUNS if s.ended() is None else s.ended() for s in subjects}
+    with soak.lock:
+        found = verdicts(soak, subjects, idle, ends, now)
+    try:
+        leave(soak, subjects, found, (now - begin) / 3600, out)
+    except OSError as problem:
+        print(f"soak.py: {problem.filename or out}: {problem.strerror or problem}", file=sys.stderr, flush=True)
+
+
 def told(soak, subjects, found, lasted, out):
     """Prints the verdicts, writes OUT/soak.json and the page; the exit code. Hours of them outlive a disk that is full by now, so what was
-    found is printed first; then the numbers, which outlive a page that can't be drawn."""
+    found is printed first."""
     for what, held, figure in found:
         print(f"{'holds ' if held else 'BROKEN'}  {what}: {figure}", flush=True)
     if soak.gazebo.missing:
         print(f"left out: Gazebo Classic: {soak.gazebo.missing}", flush=True)
-    (out / "soak.json").write_text(json.dumps({"hours": lasted, "seed": soak.seed, "without_gazebo": soak.gazebo.missing,
-                                               "verdicts": found, "counts": soak.counts, "wrong": soak.wrong,
-                                               "samples": {s.name: s.samples for s in subjects}}, indent=1), encoding="utf-8")
-    soak_page.write_page(soak, subjects, found, 3600 * lasted, out)
+    leave(soak, subjects, found, lasted, out)
     print(f"{out}/soak.html")
     return 0 if all(held for _, held, _ in found) else 1
 
@@ -332,27 +361,31 @@ def main(build, hours, out, seed):
         signal.signal(number, end_now)
     time.sleep(5)
     idle = [{s.name: usage(s.pid()) for s in subjects}]
-    visits = [(soak.port_client, (0, 1)), (soak.viewer, (0, 2)), (soak.viewer, (0, 5)), (soak.viewer, (0, 5)), (soak.commander, (5, 15)),
-              (soak.recorded_run, (5, 20))]
+    units, world = subjects[:2]
+    visits = [(soak.port_client, (0, 1), units), (soak.viewer, (0, 2), world), (soak.viewer, (0, 5), world), (soak.viewer, (0, 5), world),
+              (soak.commander, (5, 15), world), (soak.recorded_run, (5, 20), None)]
     if os.path.exists(SERVICE):
-        visits.append((soak.saboteur, (5, 15)))
+        visits.append((soak.saboteur, (5, 15), world))
     if not soak.gazebo.missing:
-        visits.append((soak.spawned_module, (0, 5)))
+        visits.append((soak.spawned_module, (0, 5), subjects[3]))
     soak.begin = time.monotonic()
-    threads = [soak.until_the_end(i, visit, pause) for i, (visit, pause) in enumerate(visits)]
-    period, next_look = max(1.0, 3600 * hours / 1000), 0.0
+    threads = [soak.until_the_end(i, *visit) for i, visit in enumerate(visits)]
+    period, next_look, next_page = max(1.0, 3600 * hours / 1000), 0.0, soak.begin + LEAVE_S
     while time.monotonic() < soak.end:
         if time.monotonic() >= next_look:
             next_look = time.monotonic() + period
             for s in subjects:
                 s.sample(time.monotonic() - begin)
+        if time.monotonic() >= next_page:
+            next_page = time.monotonic() + LEAVE_S
+            leave_so_far(soak, subjects, idle, begin, out)
         time.sleep(1)
     lasted = (time.monotonic() - begin) / 3600
     for thread in threads:
         thread.join()
     idle.append(settled(soak, subjects, idle[0]))
     ends = {s.name: s.stop() for s in subjects}
-    found = verdicts(soak, subjects, idle, ends)
+    found = verdicts(soak, subjects, idle, ends, soak.end)
     return told(soak, subjects, found, lasted, out)
 
 

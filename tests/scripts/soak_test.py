@@ -2,11 +2,13 @@
 """What scripts/soak.py makes of an hour, by made-up ones in which all else is in order."""
 import contextlib
 import io
+import json
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 import soak  # noqa: E402
@@ -19,7 +21,10 @@ class MadeUp:
     """A program that lived and used as much all the time."""
 
     def __init__(self, name):
-        self.name, self.samples = name, [(at, 50.0, 10, 4) for at in range(100)]
+        self.name, self.samples, self.code = name, [(at, 50.0, 10, 4) for at in range(100)], None
+
+    def ended(self):
+        return self.code
 
     def said(self):
         return "a" * 64 if self.name == "batch" else ""
@@ -31,7 +36,7 @@ def verdicts(exchanges):
     hour.begin, hour.digests = BEGIN, {"equal"}
     hour.trips = [(BEGIN + at, trip) for at, trip in exchanges]
     idle = {name: (50.0, 10, 4) for name in NAMES}
-    found = soak.verdicts(hour, [MadeUp(name) for name in NAMES], [idle, idle], dict.fromkeys(NAMES, 0))
+    found = soak.verdicts(hour, [MadeUp(name) for name in NAMES], [idle, idle], dict.fromkeys(NAMES, 0), BEGIN + HOUR)
     return {what: figure for what, held, figure in found if not held}
 
 
@@ -83,7 +88,7 @@ class Gazebo(unittest.TestCase):
         names = (*NAMES, "gazebo")
         before, after = ({name: (50.0, 10, 4) for name in names} for _ in range(2))
         after["gazebo"] = (50.0, descriptors, threads)
-        found = soak.verdicts(hour, [MadeUp(name) for name in names], [before, after], dict.fromkeys(names, 0))
+        found = soak.verdicts(hour, [MadeUp(name) for name in names], [before, after], dict.fromkeys(names, 0), BEGIN + HOUR)
         return [figure for _, held, figure in found if not held]
 
     def test_a_socket_a_client_is_allowed_for(self):
@@ -91,6 +96,34 @@ class Gazebo(unittest.TestCase):
 
     def test_more_of_them_and_threads_of_modules_that_have_gone_are_noticed(self):
         self.assertEqual(self.broken(116, 6), ["10 → 116", "4 → 6"])
+
+
+class SoFar(unittest.TestCase):
+    """What is left every few minutes, while the visitors are there."""
+
+    def left(self, programs):
+        hour = soak.Soak(pathlib.Path("build"), pathlib.Path("out"), 1, BEGIN + HOUR)
+        hour.begin, hour.digests, hour.trips = BEGIN, {"equal"}, [(BEGIN + at, 300.0) for at in seconds(0, 1200)]
+        hour.gazebo.missing = None
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch("time.monotonic", lambda: BEGIN + 1200):
+            with unittest.mock.patch("soak.soak_page.chart", lambda *_: ""):
+                soak.leave_so_far(hour, programs, [{p.name: (50.0, 10, 4) for p in programs}], BEGIN, pathlib.Path(folder))
+            page = (pathlib.Path(folder) / "soak.html").read_text(encoding="utf-8")
+            numbers = json.loads((pathlib.Path(folder) / "soak.json").read_text(encoding="utf-8"))
+        self.assertIn("0.33 hours", page)
+        self.assertEqual(page.count("<tr"), len(numbers["verdicts"]))
+        return numbers
+
+    def test_a_third_of_an_hour_in_which_all_is_well_holds(self):
+        numbers = self.left([MadeUp(name) for name in NAMES])
+        self.assertEqual([figure for _, held, figure in numbers["verdicts"] if not held], [])
+        self.assertIn("100.0 % of 300, 100.0 % of 300, 100.0 % of 300, 100.0 % of 300", [figure for *_, figure in numbers["verdicts"]])
+        self.assertEqual(len(numbers["samples"]["run"]), 100)
+
+    def test_a_program_that_has_ended_is_noticed(self):
+        programs = [MadeUp(name) for name in NAMES]
+        programs[1].code = -6
+        self.assertEqual([figure for _, held, figure in self.left(programs)["verdicts"] if not held], ["exit code -6"])
 
 
 class Writing(unittest.TestCase):
