@@ -13,9 +13,10 @@
 # make asan    all tests in a debug build under the address and undefined-behaviour sanitizers, and worlds and batches made and ended 10,000 times; make check-asan   those of the rooms without engine
 # make check-without-sdf   all tests in a build without SDF and topics, as Debian 13 and Ubuntu 24.04 have it; half an hour
 # make check-tsan   what has threads under the thread sanitizer; make tidy   clang-tidy, TIDY_S bounds its seconds
+# make check-alone   each source compiles without the others of its room, ALONE_S bounds its seconds
 # make soak HOURS=6   port, page, topics, faults, batch and short runs at once for so long: memory, descriptors, threads, equal bytes; a page
 # make coverage   what of include and src the tests run, by rooms; an error below 90 % of the lines; half an hour; make check-coverage   of the rooms without engine
-# make check-all    the last three whole: CI has time for a part of them
+# make check-all    the last four whole: CI has time for a part of them
 # make fuzz    any bytes into the frame parser and into whole units, with clang's libFuzzer and sanitizers; FUZZ_S seconds each (300)
 # make test-gazebo   the plug-in in a real Gazebo Classic 11; where the system has none, in a private Debian 11 (0.5 GB, made once)
 # make test-gazebo-long   ten simulated minutes there, with test-long; make bench-gazebo   what the plug-in costs there, or beside another plug-in (VSA_PEER_WORLD)
@@ -44,7 +45,7 @@ CONFIGURE = sh scripts/configure.sh release -DVSA_COMMANDS=all $(CMAKE_FLAGS)
 # Asked when it is needed, since setup.sh may have to install Ninja first.
 QUIET = $$(sh scripts/quiet.sh)
 
-.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench bench-ratios record-ratios fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage check-coverage soak check-without-sdf check-asan check-tsan tidy check-all format \
+.PHONY: all setup build demo demo-python test test-long flakes mutants validate docs bench bench-ratios record-ratios fuzz test-gazebo test-gazebo-long bench-gazebo test-gz asan coverage check-coverage soak check-without-sdf check-asan check-tsan tidy check-alone check-all format \
   check-format stiffness-uses snake-travel packages check-packages check-abi record-abi dist check-dist check-reproducible sign clean
 
 all: build
@@ -192,7 +193,12 @@ tidy:
 	@sh scripts/configure.sh release -B build/tidy -DVSA_COMMANDS=all -DVSA_UNITY=OFF $(CMAKE_FLAGS)
 	@python3 scripts/tidy.py build/tidy
 
-check-all: check-format asan check-tsan tidy
+check-alone:
+	@sh scripts/setup.sh test
+	@sh scripts/configure.sh release -B build/tidy -DVSA_COMMANDS=all -DVSA_UNITY=OFF $(CMAKE_FLAGS)
+	@python3 scripts/alone.py build/tidy
+
+check-all: check-format asan check-tsan tidy check-alone
 
 format:
 	@files=$$(sh scripts/sources.sh) && printf '%s\n' "$$files" | xargs -d '\n' clang-format -i

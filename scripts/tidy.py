@@ -82,13 +82,13 @@ def include_folders(command):
     return [word[2:] or after for word, after in zip(words, [*words[1:], ""]) if word.startswith("-I")]
 
 
-def states(commands):
-    """Of each source: a sum of all that decides what clang-tidy says of it."""
-    tool = subprocess.run(["clang-tidy", "--version"], capture_output=True, text=True, check=False).stdout
+def states(commands, script):
+    """Of each source: a sum of all that decides what is said of it by `script`, or by clang-tidy."""
+    tool = "" if script != __file__ else subprocess.run(["clang-tidy", "--version"], capture_output=True, text=True, check=False).stdout
     out = {}
     for file, command in commands.items():
         folders = tuple(f for f in include_folders(command["command"]) if pathlib.Path(f).is_relative_to(ROOT))
-        parts = [tool, command["command"], digest(__file__), digest(ROOT / ".clang-tidy"), *(f + digest(f) for f in reached(file, folders))]
+        parts = [tool, command["command"], digest(script), digest(ROOT / ".clang-tidy"), *(f + digest(f) for f in reached(file, folders))]
         out[file] = hashlib.sha256("\n".join(parts).encode()).hexdigest()
     return out
 
@@ -149,29 +149,42 @@ def look(files, commands, folder):
     return 1, [(files[0], run.stdout)]
 
 
-def main():
+def newest(files, rank):
+    return min(rank.get(os.path.relpath(file, ROOT), len(rank)) for file in files)
+
+
+def listing_of(script):
+    """The list of commands of the one argument; ends the script where that isn't one."""
     if len(sys.argv) != 2:
-        print("usage: tidy.py BUILD", file=sys.stderr)
-        return 2
+        print(f"usage: {script} BUILD", file=sys.stderr)
+        sys.exit(2)
     listing = pathlib.Path(sys.argv[1]) / "compile_commands.json"
     if not listing.exists():
-        print(f"tidy.py: {sys.argv[1]}: no compile_commands.json: configure it first", file=sys.stderr)
-        return 2
-    seconds, jobs = setting("TIDY_S", 0), setting("TIDY_JOBS", os.cpu_count())
-    rank, generated = age(), ROOT / "build"
+        print(f"{script}: {sys.argv[1]}: no compile_commands.json: configure it first", file=sys.stderr)
+        sys.exit(2)
+    return listing
+
+
+def sources(listing, script):
+    """The project's own, with their commands."""
+    generated = ROOT / "build"
     listed = json.loads(listing.read_text(encoding="utf-8"))
     if any("/Unity/unity_" in c["file"] for c in listed):
-        print(f"tidy.py: {sys.argv[1]}: compiles sources together, which hides them: configure it with -DVSA_UNITY=OFF", file=sys.stderr)
-        return 2
-    commands = {
-        c["file"]: c for c in listed
-        if c["file"].endswith(".cpp") and ROOT in pathlib.Path(c["file"]).parents and generated not in pathlib.Path(c["file"]).parents}
-    clean = Clean(listing.with_name("tidy.json"), states(commands))
+        print(f"{script}: {listing.parent}: compiles sources together, which hides them: configure it with -DVSA_UNITY=OFF", file=sys.stderr)
+        sys.exit(2)
+    return {c["file"]: c for c in listed
+            if c["file"].endswith(".cpp") and ROOT in pathlib.Path(c["file"]).parents and generated not in pathlib.Path(c["file"]).parents}
+
+
+def main():
+    listing = listing_of("tidy.py")
+    seconds, jobs = setting("TIDY_S", 0), setting("TIDY_JOBS", os.cpu_count())
+    rank, commands = age(), sources(listing, "tidy.py")
+    clean = Clean(listing.with_name("tidy.json"), states(commands, __file__))
     known = [file for file in commands if clean.has(file)]
     for file in known:
         del commands[file]
-    newest = lambda files: min(rank.get(os.path.relpath(file, ROOT), len(rank)) for file in files)  # noqa: E731
-    order = sorted(groups(commands), key=newest)
+    order = sorted(groups(commands), key=lambda files: newest(files, rank))
     start, checked, unclean = time.monotonic(), 0, []
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(max(1, jobs)) as pool:
         begun = lambda files: look(files, commands, folder) if not seconds or time.monotonic() - start < seconds else (0, [])  # noqa: E731

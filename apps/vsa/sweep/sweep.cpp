@@ -15,6 +15,7 @@
 #include "sweep/steps.hpp"
 #include "terminal/exit_codes.hpp"
 #include "terminal/interrupt.hpp"
+#include "terminal/numbers.hpp"
 #include "vsa/config/text.hpp"
 #include "vsa/errors.hpp"
 
