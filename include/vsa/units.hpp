@@ -35,6 +35,9 @@ struct MilliVolt {
 inline constexpr double kPi = 3.14159265358979323846;  ///< half a turn, rad
 inline constexpr double kRawPerTurn = 65536.0;         ///< a turn
 
+/// A time in s, as people write it: 3 000 000 ns is the double that "0.003" reads as. Times 1e-9 it is another in four of ten.
+[[nodiscard]] constexpr double seconds_of(std::int64_t ns) noexcept { return static_cast<double>(ns) / 1e9; }
+
 /// Words of a turning shaft as a sliding one has them: "torque [N·m]" → "force [N]", "load_torque_Nm" → "load_force_N", "N·m/rad" →
 /// "N/m", "deflection_rad" → "deflection_m", "rad/s" → "m/s". What has nothing of that stays.
 [[nodiscard]] std::string sliding(std::string_view words);

@@ -235,12 +235,12 @@ void bind_state(Class& c) {
           "time_s",
           [](const PyUnit& u) {
             u.refuse_others();
-            return static_cast<double>(u.time_ns) * 1e-9;
+            return seconds_of(u.time_ns);
           },
           "Its own time, s: the steps' sum.")
       .def("__repr__", [](const PyUnit& u) {
         return u.stepping ? std::string("<vsasim.Unit, being stepped>")
-                          : "<vsasim.Unit at " + config::number_text(static_cast<double>(u.time_ns) * 1e-9) + " s>";
+                          : "<vsasim.Unit at " + config::number_text(seconds_of(u.time_ns)) + " s>";
       });
 }
 

@@ -26,7 +26,7 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 const std::string& World::name() const { return impl_->world->name; }
-double World::step_s() const { return static_cast<double>(impl_->dt_ns) * 1e-9; }
+double World::step_s() const { return seconds_of(impl_->dt_ns); }
 int World::substeps() const { return impl_->substeps; }
 std::int64_t World::time_ns() const { return impl_->time_ns; }
 const std::vector<std::string>& World::warnings() const { return impl_->warnings; }

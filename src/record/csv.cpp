@@ -214,7 +214,7 @@ CsvFiles::~CsvFiles() = default;
 
 void CsvFiles::write(const Sample& sample) {
   impl_->time.clear();
-  put(impl_->time, static_cast<double>(sample.time_ns) / 1e9);
+  put(impl_->time, seconds_of(sample.time_ns));
   std::size_t first = 0;
   for (std::size_t i = 0; i < impl_->robots.size(); ++i) {
     impl_->write_robot(i, sample, first);

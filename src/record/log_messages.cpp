@@ -76,7 +76,7 @@ void member(std::string& out, std::string_view name, std::span<const double> val
 
 void begin(std::string& out, std::int64_t time_ns) {
   out = "{\"time_s\":";
-  put(out, static_cast<double>(time_ns) / 1e9);
+  put(out, seconds_of(time_ns));
 }
 
 void actuator(std::string& out, const ActuatorInfo& info, const ActuatorReading& r) {

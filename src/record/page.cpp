@@ -104,7 +104,7 @@ void PageData::halve() {
 void PageData::add(const Sample& sample) {
   if (time_.empty()) first_ = sample.poses;
   if (frames() >= frames_max_) halve();
-  time_.push_back(static_cast<double>(sample.time_ns) / 1e9);
+  time_.push_back(seconds_of(sample.time_ns));
   data_.append(sample, moving_);
   cadence_.taken(sample.time_ns);
 }

@@ -43,7 +43,7 @@ std::string template_for(const RecorderOptions& options, std::string& why_none) 
 }
 
 std::string seconds(std::int64_t time_ns) {
-  std::string text = std::to_string(static_cast<double>(time_ns) / 1e9);
+  std::string text = std::to_string(seconds_of(time_ns));
   return text.substr(0, text.size() - 3) + " s";
 }
 

@@ -227,8 +227,7 @@ struct Observer::Impl {
 
   void sample(const World& world) {
     look(world);
-    // Divided, a time has the digits that a plan gives it: a product with 1e-9 may lie beside them.
-    const double t = static_cast<double>(world.time_ns()) / 1e9;
+    const double t = world.time_s();
     for (Watch& w : watches) {
       if (!(t > w.from_s && t <= w.to_s)) continue;
       if (w.actuator != nullptr && w.which) {

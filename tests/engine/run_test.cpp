@@ -3,6 +3,9 @@
 // Runs that somebody looks into.
 #include "vsa/engine/run.hpp"
 
+#include <sstream>
+#include <string>
+
 #include "arm.hpp"
 #include "vsa/errors.hpp"
 
@@ -34,6 +37,16 @@ TEST(Run, EndsBetweenTwoStepsWhereItIsToldToOrWhereTheLookerThrows) {
   EXPECT_THROW(run(w, -1.0, [] { return true; }), InputError);
   EXPECT_THROW(run(w, std::nan(""), [] { return true; }), InputError);
   EXPECT_NEAR(w.time_s(), 4 * w.step_s(), 1e-12);
+}
+
+TEST(Run, TimesAreThoseThatPeopleWrite) {
+  World w = World::load_string(arm());
+  for (int step = 1; step <= 200; ++step) {
+    w.step();
+    std::ostringstream text;
+    text << step << "e-3";
+    ASSERT_EQ(w.time_s(), std::stod(text.str())) << "a command at that time is of this step, and records have it so";
+  }
 }
 
 }  // namespace

@@ -114,8 +114,7 @@ void RunSession::tell_of_other_records() {
 
 void RunSession::write_scenario(std::vector<std::string> remarks) {
   for (std::string& remark : remarks) std::replace(remark.begin(), remark.end(), '\n', ' ');
-  const double duration_s =
-      done() || world_.time_ns() == 0 ? options_.duration_s.value_or(0) : static_cast<double>(world_.time_ns()) / 1e9;
+  const double duration_s = done() || world_.time_ns() == 0 ? options_.duration_s.value_or(0) : world_.time_s();
   write_whole(std::filesystem::path(options_.record) / kScenario, scenario_text(options_, duration_s, remarks));
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "vsa/device/unit_batch.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::device {
 
@@ -33,7 +34,7 @@ class LeverBatch {
   [[nodiscard]] std::size_t size() const noexcept { return units_.size(); }  ///< units
   [[nodiscard]] const UnitBatch& units() const noexcept { return units_; }   ///< to look at; LeverBatch moves them
   /// Simulated, since the start.
-  [[nodiscard]] double time_s() const noexcept { return 1e-9 * static_cast<double>(units_.time_ns()); }
+  [[nodiscard]] double time_s() const noexcept { return seconds_of(units_.time_ns()); }
 
   /// From the next step on. InputError: no such unit, out of range.
   void set_lever(std::size_t unit, const Lever& lever);

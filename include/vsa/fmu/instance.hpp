@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "vsa/fmu/model.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::fmu {
 
@@ -67,7 +68,7 @@ class Instance {
   /// From t to t + h, h > 0, t where the last step ended.
   Status step(const char* call, double t_s, double h_s) noexcept;
   /// Start plus what was stepped.
-  [[nodiscard]] double time_s() const noexcept { return start_s_ + static_cast<double>(model_->time_ns()) * 1e-9; }
+  [[nodiscard]] double time_s() const noexcept { return start_s_ + seconds_of(model_->time_ns()); }
 
   /// Saved states: values, time and mode. They are the instance's, and go with it at the latest; a pointer that is none of them is
   /// refused, whatever it points to.

@@ -15,6 +15,7 @@
 #include "vsa/scene/energy.hpp"
 #include "vsa/scene/link.hpp"
 #include "vsa/scene/touch.hpp"
+#include "vsa/units.hpp"
 
 namespace vsa::host {
 
@@ -24,10 +25,10 @@ class Simulation {
  public:
   virtual ~Simulation() = default;
 
-  [[nodiscard]] virtual const std::string& name() const = 0;                             ///< the world's
-  [[nodiscard]] virtual double step_s() const = 0;                                       ///< of the simulator, s
-  [[nodiscard]] virtual std::int64_t time_ns() const = 0;                                ///< simulated, since its start
-  [[nodiscard]] double time_s() const { return static_cast<double>(time_ns()) * 1e-9; }  ///< the same in s
+  [[nodiscard]] virtual const std::string& name() const = 0;             ///< the world's
+  [[nodiscard]] virtual double step_s() const = 0;                       ///< of the simulator, s
+  [[nodiscard]] virtual std::int64_t time_ns() const = 0;                ///< simulated, since its start
+  [[nodiscard]] double time_s() const { return seconds_of(time_ns()); }  ///< the same in s, as records have it
   /// What a reader of its pages must know: parts of the description that are left out, say.
   [[nodiscard]] virtual const std::vector<std::string>& warnings() const = 0;
 
