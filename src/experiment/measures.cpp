@@ -84,6 +84,24 @@ Slope local_stiffness(const std::vector<double>& torque, const std::vector<doubl
   return {scaled.value / widest, scaled.variance / (widest * widest)};
 }
 
+bool has_width(const Branches& b, std::size_t i) { return std::isfinite(b.falling_rad[i] - b.rising_rad[i]); }
+
+/// At the torques at which the other has a width, too.
+Branches shared(const Branches& of, const Branches& other) {
+  constexpr double kSame_Nm = 1e-6;
+  Branches out;
+  for (std::size_t i = 0; i < of.torque_Nm.size(); ++i) {
+    bool there = false;
+    for (std::size_t k = 0; k < other.torque_Nm.size() && !there; ++k)
+      there = std::abs(other.torque_Nm[k] - of.torque_Nm[i]) < kSame_Nm && has_width(other, k);
+    if (!there) continue;
+    out.torque_Nm.push_back(of.torque_Nm[i]);
+    out.rising_rad.push_back(of.rising_rad[i]);
+    out.falling_rad.push_back(of.falling_rad[i]);
+  }
+  return out;
+}
+
 double largest_magnitude(const std::vector<double>& v) {
   double out = kNaN;
   for (const double x : v) out = std::isfinite(x) ? std::fmax(out, std::abs(x)) : out;
@@ -115,6 +133,8 @@ Loop loop(const Branches& branches) {
   out.peak_falling_rad = largest_magnitude(branches.falling_rad);
   return out;
 }
+
+std::array<Loop, 2> loops(const Branches& a, const Branches& b) { return {loop(shared(a, b)), loop(shared(b, a))}; }
 
 std::vector<StiffnessPoint> stiffness_curve(const Branches& branches, double window_Nm) {
   std::vector<StiffnessPoint> out;

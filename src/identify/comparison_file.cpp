@@ -123,6 +123,7 @@ void read_recordings(Comparison& out, const Sources& sources, Problems& problems
       problems.add_all(error);
     }
   }
+  check_each_once(out.recordings, problems);
   if (sources.by_scatter) weigh_by_scatter(out.recordings);
   for (const Hypothesis& h : out.hypotheses) {
     for (const Observation& o : out.recordings) {

@@ -152,6 +152,40 @@ Observation read_observation(const std::filesystem::path& file, const config::Ac
 
 namespace {
 
+std::string measurement_of(const std::string& file) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(file, error);
+  std::string out = error ? file : whole.string();
+  for (const std::string_view end : {"_branches.csv", "_samples.csv", ".csv"}) {
+    if (out.size() < end.size() || out.compare(out.size() - end.size(), end.size(), end) != 0) continue;
+    out.resize(out.size() - end.size());
+    break;
+  }
+  return out;
+}
+
+bool equal(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
+}  // namespace
+
+void check_each_once(const std::vector<Observation>& recordings, Problems& problems) {
+  for (auto it = recordings.begin(); it != recordings.end(); ++it) {
+    const auto again = [&](const Observation& before) {
+      const experiment::Branches &a = before.data, &b = it->data;
+      return measurement_of(before.name) == measurement_of(it->name) ||
+             (before.preset == it->preset && equal(a.torque_Nm, b.torque_Nm) && equal(a.rising_rad, b.rising_rad) &&
+              equal(a.falling_rad, b.falling_rad));
+    };
+    if (const auto first = std::find_if(recordings.begin(), it, again); first != it)
+      problems.add({it->name, "", "", "is the measurement of " + first->name + " again", "each measurement once"});
+  }
+}
+
+namespace {
+
 /// None: no point has a scatter.
 std::optional<double> scatter(const experiment::Branches& data) {
   double sum = 0, n = 0;

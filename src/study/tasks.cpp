@@ -45,6 +45,11 @@ void check(const TaskOptions& o, Problems& problems) {
   if (o.inertia_kgm2) require("--inertia-kgm2", *o.inertia_kgm2, 1e-6, 1e3, "kg·m²");
   if (o.load_Nm) require("--load-Nm", *o.load_Nm, 1e-6, 1e5, "N·m");
   require("--step-s", o.step_s, 1e-5, 1e-3, "s");
+  if (const double most = kMostBlow_Nm * o.step_s / kBlow_rad_per_s; problems.empty() && o.inertia_kgm2 && *o.inertia_kgm2 > most)
+    problems.add({"", "--inertia-kgm2", fmt::format("{}", *o.inertia_kgm2),
+                  fmt::format("is too much for a blow of one step of {} s", o.step_s), fmt::format("1e-06 … {:.4g} kg·m²", most)});
+  for (auto it = o.types.begin(); it != o.types.end(); ++it)
+    if (std::find(o.types.begin(), it, *it) != it) problems.add({"", "--types", *it, "is named twice", "each type once"});
 }
 
 /// Of the results that count, the best; `worse(a, b)`: b is better.

@@ -17,7 +17,7 @@ constexpr double kSample_s = 1e-3;  // commands and samples
 constexpr double kRest_s = 2;       // before each task
 constexpr double kSwing_rad = 1, kSwingStep_s = 0.05, kAfter_s = 1.5;
 constexpr int kSwings = 25;
-constexpr double kBlow_rad_per_s = 2, kSettleWithin_s = 20, kBand = 0.05, kTail = 0.1;
+constexpr double kSettleWithin_s = 20, kBand = 0.05, kTail = 0.1;
 constexpr double kGrow_s = 1, kWait_s = 4, kHold_s = 10, kMean_s = 1, kCreep_rad = 0.01;
 constexpr double kThrow_s = kRest_s + (kSwings - 1) * kSwingStep_s + kAfter_s;
 constexpr double kSettle_s = kRest_s + kSettleWithin_s;

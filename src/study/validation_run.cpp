@@ -88,7 +88,8 @@ void compare_stiffness(Validation& v, const Characterization& done, const std::v
     const Recording& recording = recordings[i % recordings.size()];
     const experiment::Branches data = within(recording.data);
     const experiment::Difference rms = experiment::difference(r.branches, data);
-    v.periods.push_back({recording.preset, r.options.period_s, rms, r.loop});
+    const auto [our_loop, data_loop] = experiment::loops(r.branches, data);
+    v.periods.push_back({recording.preset, r.options.period_s, rms, our_loop});
     if (i >= recordings.size()) continue;
     RecordingCheck& check = v.recordings.emplace_back();
     check.file = recording.file;
@@ -97,8 +98,8 @@ void compare_stiffness(Validation& v, const Characterization& done, const std::v
     check.kind = experiment::kind_of(v.evidence, config::experiment_name("stiffness", recording.preset));
     check.data = data;
     check.ours = r.branches;
-    check.data_loop = experiment::loop(data);
-    check.our_loop = r.loop;
+    check.data_loop = data_loop;
+    check.our_loop = our_loop;
     check.rms = rms;
     check.torque = experiment::torque_difference(r.branches, data);
     check.published = published_of(published, recording.preset);

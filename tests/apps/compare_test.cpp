@@ -75,6 +75,17 @@ std::string rows_of(const Result& r) {
   return out;
 }
 
+TEST(Compare, RefusesAMeasurementThatIsThereTwice) {
+  const Scratch scratch;
+  std::string text = comparison(hypothesis("one", ""));
+  text.replace(text.find("0.0000rad_branches"), 18, "0.6903rad_samples");
+  write_file(scratch / "two.toml", text);
+  const Result r = compare(scratch);
+  EXPECT_EQ(r.exit_code, 2) << r.err;
+  EXPECT_NE(r.err.find("is the measurement of"), std::string::npos) << r.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
 class CompareRanks : public vsa::test::WithRanks {};
 
 TEST_F(CompareRanks, AndPartsJudgeTheSame) {

@@ -62,8 +62,17 @@ TEST(Experiments, RefuseBadInputBeforeTheyRun) {
   refused({"--types", "qbmove_9000"}, {"qbmove_9000", "sea_example"});
   refused({"--inertia-kgm2", "0", "--load-Nm", "-1"}, {"--inertia-kgm2", "--load-Nm", "out of range"});
   refused({"--step-s", "0.1"}, {"--step-s"});
+  refused({"--types", "sea_example", "--inertia-kgm2", "200"}, {"--inertia-kgm2 = 200", "125"});
+  refused({"--types", "sea_example", "sea_example"}, {"--types = sea_example", "twice"});
   refused({"--types", "sea_example", "--set", "drive.supply_V"}, {"--set", "key=value"});
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
+TEST(Experiments, SayWhyNothingWasMeasured) {
+  const Scratch scratch;
+  const Result off = run_vsa({"experiments", "--types", "sea_example", "--set", "drive.supply_V=0.1", "--out", scratch / "out"});
+  EXPECT_EQ(off.exit_code, 0) << off.err;
+  EXPECT_NE(off.err.find("sea_example: its motors move no load"), std::string::npos) << off.err;
 }
 
 TEST(Experiments, LeaveNoFolderWhereASignalEndsThem) {

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <regex>
 
 #include "pool_runs.hpp"
 
@@ -154,6 +155,29 @@ TEST(Identify, RefusesBadRecordingsAllAtOnceAndWritesNothing) {
                                (scratch / "out").string()});
   expect_refused(beyond, "beyond what");
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
+TEST(Identify, RefusesAMeasurementThatIsThereTwice) {
+  const Scratch scratch;
+  const std::string samples = std::regex_replace(kRecording, std::regex("_branches"), "_samples");
+  const auto copy = scratch / std::filesystem::path(kRecording).filename();
+  std::filesystem::copy_file(kRecording, copy);
+  for (const std::string& again : {kRecording, samples, copy.string()}) {
+    const auto r = run_vsa({"identify", kRecording, again, "--type", "qbmove_maker_pro", "--parameters", "shaft.friction_Nm",
+                            "--out", (scratch / "out").string()});
+    expect_refused(r, "is the measurement of");
+  }
+}
+
+TEST(Identify, WarnsOfALoadThatTheRecordingHardlyReaches) {
+  const Scratch scratch;
+  const auto with = [&](const std::string& load_kg) {
+    return run_vsa({"identify", std::regex_replace(kRecording, std::regex("_branches"), "_samples"), "--type", "qbmove_maker_pro",
+                    "--parameters", "shaft.friction_Nm", "--starts", "1", "--iterations", "1", "--no-cross-validation",
+                    "--no-global", "--period-s", "2", "--load-kg", load_kg, "--out", (scratch / "out").string()});
+  };
+  EXPECT_NE(with("20").err.find("points of it count"), std::string::npos);
+  EXPECT_EQ(with("1").err.find("points of it count"), std::string::npos);
 }
 
 TEST(Identify, NamesARecordingWithoutPoints) {

@@ -106,6 +106,7 @@ TEST(Linearize, RefusesBadInputAndWritesNothing) {
   refused({"snake_flat"}, {"flies free"});
   refused({"manipulator_3r", "--at", "wrist=0.1"}, {"--at = wrist", "no such joint"});
   refused({"manipulator_3r", "--at", "0.1"}, {"--at", "elbow=0.3"});
+  refused({"manipulator_3r", "--at", "joint_1=0.1", "--at", "joint_1=0.2"}, {"--at", "joint_1=0.2", "named twice"});
   refused({"manipulator_3r", "--preset-of", "wrist=0.1"}, {"--preset-of = wrist", "no such actuator"});
   refused({"manipulator_3r", "--preset-rad", "0.9"}, {"--preset-rad = 0.9", "0.785"});
   refused({"manipulator_3r", "--at-rad", "0.1", "--inertia-kgm2", "1"}, {"--at-rad", "--inertia-kgm2", "is a world"});

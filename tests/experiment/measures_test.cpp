@@ -72,6 +72,24 @@ TEST(Loop, OnlyWhatBothBranchesHaveCounts) {
   EXPECT_TRUE(std::isnan(loop({}).mean_width_rad));
 }
 
+TEST(Loop, OfTwoEachIsOfTheTorquesThatBothHave) {
+  const Branches whole = on_grid([](double t) { return t; }, [](double t) { return t + 0.02; });
+  Branches part = on_grid([](double t) { return t; }, [](double t) { return t + 0.01; });
+  for (std::size_t i = 0; i < 28; ++i) part.falling_rad[i] = kNaN;  // none below 0
+  part.rising_rad[56] = kNaN;
+  const auto cut = [&part](std::size_t i) {
+    for (auto* column : {&part.torque_Nm, &part.rising_rad, &part.falling_rad})
+      column->erase(column->begin() + static_cast<std::ptrdiff_t>(i));
+  };
+  cut(40);  // a row that isn't there
+  const auto [of_part, of_whole] = loops(part, whole);
+  EXPECT_NEAR(of_part.area_Nm_rad, 0.01 * 1.35, 1e-12);
+  EXPECT_NEAR(of_whole.area_Nm_rad, 0.02 * 1.35, 1e-12);
+  EXPECT_NEAR(of_whole.mean_width_rad, 0.02, 1e-12);
+  EXPECT_NEAR(of_whole.peak_falling_rad, 1.37, 1e-12);
+  EXPECT_NEAR(loops(whole, whole)[0].area_Nm_rad, loop(whole).area_Nm_rad, 0.0);
+}
+
 TEST(StiffnessCurve, AStraightLineIsMetExactlyAndWithoutError) {
   const auto branch = [](double t) { return 0.1 + 0.2 * t; };
   const auto curve = stiffness_curve(on_grid(branch, branch));

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -67,6 +68,13 @@ int run_experiments(const ExperimentsOptions& options) {
   if (!done) {
     console.line("stopped: nothing was written");
     return kSignalled + interrupted();
+  }
+  for (const study::TaskResults& r : done->each) {
+    if (!std::isfinite(r.inertia_kgm2)) {
+      console.line("warning: " + r.actuator.name + ": its motors move no load at any preset, so nothing was measured");
+    } else if (!r.cheapest()) {
+      console.line(fmt::format("warning: {}: holds {:.4g} N·m at no preset", r.actuator.name, r.load_Nm));
+    }
   }
   const std::string command = command_of(options);
   make_directory(folder, "--out");

@@ -57,6 +57,7 @@ identify::Task read_task(const IdentifyOptions& o, const config::ActuatorType& t
   for (const std::string& file : o.recordings) {
     collect([&] { task.observations.push_back(identify::read_observation(file, type, o.load_kg)); });
   }
+  identify::check_each_once(task.observations, problems);
   problems.throw_if_any();
   if (o.weights == "scatter") identify::weigh_by_scatter(task.observations);
   check_enough(task);
@@ -108,7 +109,7 @@ int write_results(const Asked& asked, Identification r, Console& console) {
   report::write_report(identification_report(r), out / "report.html");
   console.wipe();
   for (const std::string& w : warnings(r)) console.line("warning: " + w);
-  for (const std::string& w : asked.beyond_the_grid()) console.line("warning: " + w);
+  for (const std::string& w : asked.off_the_grid()) console.line("warning: " + w);
   std::cout << identification_text(r) << "written: " << (out / "report.html").string() << ", results.json";
   std::cout << (determined ? ", " + r.name + ".toml\n" : "; no type, as the data don't determine it\n");
   return determined ? kDone : kFailed;
@@ -141,15 +142,27 @@ identify::Task Asked::task(unsigned threads, experiment::Watch* watch) const {
   return out;
 }
 
-std::vector<std::string> Asked::beyond_the_grid() const {
-  constexpr double kFew = 0.01;  // a hand's last push
+std::vector<std::string> Asked::off_the_grid() const {
+  constexpr double kFew = 0.01;     // a hand's last push
+  constexpr double kLittle = 0.25;  // of the grid: the simulated load swings over all of it
+  const double most_Nm = experiment::BranchOptions{}.max_Nm * options_.load_kg;
+  const std::string load = fmt::format("±{:.3g} N·m, what a load of {} kg gives", most_Nm, options_.load_kg);
   std::vector<std::string> out;
-  for (const identify::Observation& o : bare_.observations)
+  for (const identify::Observation& o : bare_.observations) {
     if (o.beyond > kFew)
-      out.push_back(
-          fmt::format("{}: {:.0f} % of its samples lie beyond ±{:.3g} N·m, what a load of {} kg gives, and count for "
-                      "nothing: --load-kg tells of another",
-                      o.name, 100 * o.beyond, experiment::BranchOptions{}.max_Nm * options_.load_kg, options_.load_kg));
+      out.push_back(fmt::format("{}: {:.0f} % of its samples lie beyond {}, and count for nothing: --load-kg tells of another",
+                                o.name, 100 * o.beyond, load));
+    double reached_Nm = 0;
+    int points = 0;
+    for (std::size_t i = 0; i < o.data.torque_Nm.size(); ++i) {
+      const int here = (std::isfinite(o.data.rising_rad[i]) ? 1 : 0) + (std::isfinite(o.data.falling_rad[i]) ? 1 : 0);
+      points += here;
+      if (here > 0) reached_Nm = std::max(reached_Nm, std::abs(o.data.torque_Nm[i]));
+    }
+    if (!o.points && reached_Nm < kLittle * most_Nm)
+      out.push_back(fmt::format("{}: it reaches {:.3g} N·m of {}, so {} points of it count: --load-kg tells of another", o.name,
+                                reached_Nm, load, points));
+  }
   return out;
 }
 

@@ -30,7 +30,7 @@ class Asked {
   [[nodiscard]] identify::Task task(unsigned threads, experiment::Watch* watch) const;
   [[nodiscard]] identify::IdentificationOptions settings() const;
   /// Which recordings go further than their grid.
-  [[nodiscard]] std::vector<std::string> beyond_the_grid() const;
+  [[nodiscard]] std::vector<std::string> off_the_grid() const;
   /// These jobs' runs.
   [[nodiscard]] sweep::Series series(std::vector<identify::Job> jobs) const;
   [[nodiscard]] std::size_t parameters() const { return bare_.parameters.size(); }

@@ -93,7 +93,10 @@ linear_world::Named named(const std::vector<std::string>& texts, const char* fla
   for (const std::string& text : texts) {
     const std::size_t at = text.rfind('=');
     const auto value = at == std::string::npos ? std::nullopt : config::parse_number(text.substr(at + 1));
-    if (value && at > 0) {
+    const auto same = [&](const auto& before) { return before.first == text.substr(0, at); };
+    if (value && at > 0 && std::any_of(out.begin(), out.end(), same)) {
+      problems.add({"", flag, '"' + text + '"', text.substr(0, at) + " is named twice", "each name once"});
+    } else if (value && at > 0) {
       out.emplace_back(text.substr(0, at), *value);
     } else {
       problems.add({"", flag, '"' + text + '"', "isn't a name and its number", "NAME=NUMBER, as elbow=0.3"});

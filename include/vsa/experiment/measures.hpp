@@ -3,6 +3,7 @@
 // What the experiments measure, from samples alone: simulated or recorded.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "vsa/experiment/recording.hpp"
@@ -21,6 +22,8 @@ struct Loop {
 };
 /// All NaN with fewer than two common points.
 [[nodiscard]] Loop loop(const Branches& branches);
+/// Of two at the torques at which both have a width: what one of them lacks is no difference of the two.
+[[nodiscard]] std::array<Loop, 2> loops(const Branches& a, const Branches& b);
 
 /// Stiffness against deflection, σ = dτ/dδ. About each torque of the grid a cubic τ(δ) is fitted by least squares to the points of
 /// each branch within ±window/2; its slope in the middle and that slope's standard error follow from the residuals; then the

@@ -77,6 +77,9 @@ struct Task {
 [[nodiscard]] Observation read_observation(const std::filesystem::path& file, const config::ActuatorType& type);
 /// Of a bench that carries another mass, 1 for its own 1 kg: samples' torque grid, 0.05 N·m within ±1.4 N·m, is as many times as wide.
 [[nodiscard]] Observation read_observation(const std::filesystem::path& file, const config::ActuatorType& type, double load_share);
+/// Adds each recording that is one before it again, which would count twice: the same file, another of a measurement's three (X.csv,
+/// X_samples.csv, X_branches.csv), or the same data.
+void check_each_once(const std::vector<Observation>& recordings, Problems& problems);
 
 /// 1 / root mean square of the recording's own scatter about its branches, so that a curve counts as much as it is known.
 [[nodiscard]] double scatter_weight(const experiment::Branches& data);

@@ -53,6 +53,9 @@ struct SettleResult {
   double way_rad = 0;    ///< largest way from where it comes to rest
 };
 
+inline constexpr double kBlow_rad_per_s = 2;  ///< which a blow of one step gives the link that is to settle
+inline constexpr double kMostBlow_Nm = 1e6;   ///< J·kBlow/step, at most
+
 /// What holding the load costs, at one preset.
 struct HoldResult {
   double preset = 0;    ///< in the law's unit
