@@ -8,9 +8,11 @@
 
 namespace vsa::actuator {
 
-ActuatorState Actuator::initial(const std::array<double, 2>& pulleys, double shaft) const noexcept {
+ActuatorState Actuator::initial(const std::array<double, 2>& pulleys, double shaft,
+                                const std::array<double, 2>& pulley_speeds) const noexcept {
   ActuatorState s;
   for (int i = 0; i < 2; ++i) s.motor[i].angle = s.motor_anchor[i] = pulleys[i];
+  for (int i = 0; i < motors(); ++i) s.motor[i].speed = pulley_speeds[i];
   place(s, shaft);
   return s;
 }

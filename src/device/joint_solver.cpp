@@ -226,10 +226,33 @@ bool JointSolver::search(std::span<const JointInStep> joints) noexcept {
   return false;
 }
 
+/// Where a friction's edge, narrow beside a step, keeps Newton going to and fro: each of its ways is gone to where the slope along it
+/// ends, which lies between two places of it, for the torques fall with Δy. There Newton sees the edge.
+bool JointSolver::search_closely(std::span<const JointInStep> joints) noexcept {
+  constexpr double kFlat = 0.1;  // of the slope that a way begins with
+  attempt(joints, false);
+  for (int way = 0; way < kMaxWays; ++way) {
+    if (!fresh_newton()) return false;
+    if (near(joints)) return true;
+    double part = 1, low = 0, high = std::numeric_limits<double>::infinity();
+    const double descent = set_out(part);
+    for (int k = 0; k < kMaxHalvings; ++k) {
+      attempt(joints, false);
+      const double now = along();
+      if (std::abs(now) <= -kFlat * descent || (now < 0 && high > 1)) break;
+      (now < 0 ? low : high) = part;
+      const double middle = 0.5 * (low + high);
+      for (std::size_t i = 0; i < n_; ++i) dy_[i] += (middle - part) * move_[i];
+      part = middle;
+    }
+  }
+  return false;
+}
+
 /// From dy_ on.
 bool JointSolver::settle(std::span<const JointInStep> joints) noexcept {
-  if (search(joints)) return true;
-  // Where a friction's edge keeps Newton going to and fro, what is left may be little all the same.
+  if (search(joints) || search_closely(joints)) return true;
+  // As near as it comes, what is left may be little all the same.
   std::fill(move_.begin(), move_.end(), 0.0);
   attempt(joints, false);
   near(joints);

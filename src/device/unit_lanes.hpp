@@ -122,7 +122,9 @@ class AloneSolver {
     if (lanes::any(led)) lead(led);
     Truth settled = search(!led) | led;
     if (lanes::all(settled)) return settled;
-    // Where a friction's edge keeps Newton going to and fro, what is left may be little all the same.
+    settled = settled | close_in(!settled);
+    if (lanes::all(settled)) return settled;
+    // As near as it comes, what is left may be little all the same.
     const Truth left = !settled;
     move_ = lanes::select(left, T(0.0), move_);
     attempt(false, left);
@@ -190,6 +192,7 @@ class AloneSolver {
     dy_ = lanes::select(good, lanes::clamp(dy_ + step, -T(solver::kReach_rad), solver::kReach_rad), dy_);
   }
   Truth search(Truth all) noexcept;
+  Truth close_in(Truth all) noexcept;
 
   Joint* joint_ = nullptr;
   T inertia_ = 0.0, dy_ = 0.0, move_ = 0.0, gradient_ = 0.0, torque_ = 0.0, slope_ = 0.0, factor_ = 0.0, part_ = 1.0,
@@ -239,6 +242,36 @@ lanes::Truth<T> AloneSolver<T, Joint>::search(Truth goes_on) noexcept {
     forward = forward & !found;
     set_out(forward);
     some = some & ((part_ == 1.0) | !forward);
+  }
+  return settled;
+}
+
+/// Where a friction's edges keep Newton going to and fro: Newton between two Δy of which one lies too far, else their middle. The torque
+/// falls with Δy, so from anywhere the other end is no farther than what acts there would move the joint by itself.
+template <class T, class Joint>
+lanes::Truth<T> AloneSolver<T, Joint>::close_in(Truth goes_on) noexcept {
+  const auto reached = [](T dy) { return lanes::clamp(dy, -T(solver::kReach_rad), solver::kReach_rad); };
+  dy_ = lanes::select(goes_on, reached(joint_->free), dy_);
+  attempt(false, goes_on);
+  T low = dy_, high = dy_, before = std::numeric_limits<double>::infinity();
+  const T end = reached(dy_ - gradient_ / inertia_);
+  low = lanes::select(gradient_ < 0.0, low, end);
+  high = lanes::select(gradient_ < 0.0, end, high);
+  Truth settled = lanes::truth<T>(false);
+  for (int k = 0; k < solver::kMaxHalvings; ++k) {
+    goes_on = goes_on & factor(goes_on);
+    newton(goes_on);
+    const Truth found = goes_on & near(goes_on);
+    settled = settled | found;
+    goes_on = goes_on & !found;
+    if (!lanes::any(goes_on)) break;
+    const T tangent = dy_ + move_, now = lanes::abs(gradient_);
+    const Truth newtons = (tangent > low) & (tangent < high) & (now <= 0.5 * before);
+    before = now;
+    dy_ = lanes::select(goes_on, lanes::select(newtons, tangent, 0.5 * (low + high)), dy_);
+    attempt(false, goes_on);
+    low = lanes::select(goes_on & (gradient_ < 0.0), dy_, low);
+    high = lanes::select(goes_on & (gradient_ > 0.0), dy_, high);
   }
   return settled;
 }

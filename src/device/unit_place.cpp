@@ -78,8 +78,7 @@ void Unit::place(UnitState& s, const UnitPlace& at) const noexcept {
   auto x = config_.actuator.transmission->references({at.equilibrium, at.preset});
   const auto speed = pulley_speeds(*config_.actuator.transmission, at);
   for (std::size_t i = 0; i < 2; ++i) x[i] -= at.lag_s * speed[i];
-  placed.actuator = actuator_.initial(x, at.shaft_rad - at.lag_s * at.speed);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(actuator_.motors()); ++i) placed.actuator.motor[i].speed = speed[i];
+  placed.actuator = actuator_.initial(x, at.shaft_rad - at.lag_s * at.speed, speed);
 
   firmware::ControllerState& loop = placed.program.loop;
   const firmware::ControllerState before = s.program.loop;
@@ -101,6 +100,12 @@ void Unit::place(UnitState& s, const UnitPlace& at) const noexcept {
   placed.program.enable = s.program.enable;
   placed.limit_pct = loop.limit_pct;
   s = placed;
+}
+
+void Unit::relocate(UnitState& s, double shaft_rad, double speed) const noexcept {
+  const double y = shaft_rad - 0.5 * s.last_dt * speed;
+  s.started ? actuator_.relocate(s.actuator, y) : actuator_.place(s.actuator, y);
+  s.reached = {shaft_rad, speed};
 }
 
 void Unit::adopt(UnitState& s, const UnitConfig& from) const noexcept {

@@ -73,8 +73,7 @@ void Unit::place_servo(UnitState& placed, const UnitPlace& at) const noexcept {
   const auto speed = series ? std::array{at.speed / lead(), 0.0} : pulley_speeds(*config_.actuator.transmission, at);
   std::array<double, 2> x{placed.actuator.motor[0].angle, placed.actuator.motor[1].angle};
   for (std::size_t i = 0; i < 2; ++i) x[i] -= at.lag_s * speed[i];
-  placed.actuator = actuator_.initial(x, at.shaft_rad - at.lag_s * at.speed);
-  for (int i = 0; i < actuator_.motors(); ++i) placed.actuator.motor[i].speed = speed[i];
+  placed.actuator = actuator_.initial(x, at.shaft_rad - at.lag_s * at.speed, speed);
   placed.servo.speed = {speed[0], speed[1], config_.actuator.shaft_scale * at.speed};
   placed.servo.fresh = false;
 }

@@ -164,6 +164,11 @@ std::unique_ptr<World::Impl> World::Impl::load(const reader::SdfSource& source, 
   impl->tell_open_loops();
   impl->tell_overlaps();
   impl->index_names();
+  // Whatever a unit was told first: its shaft is where the file has the joint.
+  for (const RobotSlot& slot : impl->robots) {
+    impl->tell_joints(slot);
+    for (std::size_t i = 0; i < slot.joints.size(); ++i) slot.robot().relocate(i, slot.seat->in()[i].angle_rad);
+  }
   impl->initial = impl->snapshot();
   return impl;
 }

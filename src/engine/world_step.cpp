@@ -91,8 +91,11 @@ void World::Impl::renew_held() {
 void World::Impl::placed(std::size_t joint) {
   forget_mobility();
   for (RobotSlot& slot : robots) {
-    for (std::size_t i = 0; i < slot.joints.size(); ++i)
-      if (slot.joints[i] == joint) slot.seat->moved(i);
+    for (std::size_t i = 0; i < slot.joints.size(); ++i) {
+      if (slot.joints[i] != joint) continue;
+      tell_joints(slot);
+      slot.seat->moved(i);
+    }
   }
 }
 

@@ -115,12 +115,14 @@ void World::Impl::put(std::size_t joint, physics::JointState state, const physic
   } else {
     put_here.push_back(joint);
     constexpr double kMoved = 1e-9;
+    std::vector<std::size_t> along;
     for (const auto& [j, to] : posture.along) {
       const physics::JointState now = physics->joint(j);
       const bool moves = std::abs(to.position - now.position) > kMoved || std::abs(to.speed - now.speed) > kMoved;
-      if (moves && std::find(driven.begin(), driven.end(), j) != driven.end()) placed(j);
+      if (moves && std::find(driven.begin(), driven.end(), j) != driven.end()) along.push_back(j);
     }
     physics->take(posture);
+    for (const std::size_t j : along) placed(j);
   }
   set_followers(joint);
 }

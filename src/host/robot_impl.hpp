@@ -199,16 +199,21 @@ struct Robot::Impl {
   /// What a user should know of the run as a whole; now and then.
   void look() noexcept {
     static_cast<void>(shown());
-    actuator::Ledger sum;
     for (std::size_t i = 0; i < units.size(); ++i) {
       member(i).changed = true;
       ActuatorSlot& slot = state.actuators[i];
       for (Track* track : {&slot.equilibrium, &slot.preset}) track->settle(state.time_ns);
       notice(i, slot.noted_unresolved, slot.unit.unresolved > device::kUnresolved, NoticeKind::unresolved, slot.unit.unresolved);
       state.stiff = state.stiff || slot.unit.unresolved > 0;
-      sum += slot.unit.actuator.ledger;
     }
     for (const auto& bus : buses) look_at_client(*bus);
+    look_at_energy();
+  }
+
+  /// Reads what the units have and changes nothing of it.
+  void look_at_energy() noexcept {
+    actuator::Ledger sum;
+    for (const ActuatorSlot& slot : shown().actuators) sum += slot.unit.actuator.ledger;
     notice(0, state.noted_unsettled, state.unsettled > 0, NoticeKind::unsettled, static_cast<double>(state.unsettled));
     // A motor that holds turns 15 W into heat, beside which a joint that shakes for ever is nothing: so by what shafts exchange, too.
     const double at_rest =
@@ -235,7 +240,13 @@ struct Robot::Impl {
   void end_step(std::int64_t end_ns) noexcept {
     state.stepped_ns += end_ns - state.time_ns;
     state.time_ns = end_ns;
-    if (++state.steps % kLookSteps == 1 && !units.empty()) look();
+    const std::int64_t steps = ++state.steps;
+    if (units.empty()) return;
+    if (steps % kLookSteps == 1) {
+      look();
+    } else if (steps < kLookSteps && (steps & (steps - 1)) == 0) {
+      look_at_energy();  // a short run is told of it, too
+    }
   }
 
   /// What is in lanes stays there, and of units that have most of their numbers there only what else has changed is copied.

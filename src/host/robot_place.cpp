@@ -56,6 +56,19 @@ void Robot::place(std::size_t actuator, const Placement& at, double step_s) {
   unit.place(slot.unit, there);
 }
 
+void Robot::relocate(std::size_t actuator, double angle_rad, double speed_rad_per_s) {
+  static_cast<void>(known(actuator));
+  Impl& d = *impl_;
+  Problems problems;
+  Checks check(d.config.actuators[actuator].name + ": ", problems);
+  check.finite("angle_rad", angle_rad);
+  check.finite("speed_rad_per_s", speed_rad_per_s);
+  problems.throw_if_any();
+  const BusLine& bus = *d.buses[d.config.actuators[actuator].bus];
+  const std::lock_guard quiet(bus);
+  d.units[actuator]->relocate(d.home().actuators[actuator].unit, angle_rad, speed_rad_per_s);
+}
+
 void Robot::check(const Snapshot& snapshot) const {
   const RobotConfig& ours = impl_->config;
   if (snapshot.made_of == impl_->made_of) return;

@@ -196,7 +196,10 @@ void Seat::moved(std::size_t actuator) {
   if (actuator >= own_.now.in.size())
     throw InputError(Problem{"", "actuator", std::to_string(actuator), "there is no such actuator",
                              "0 … " + std::to_string(own_.now.in.size() - 1)});
-  own_.now.in[actuator].placed = true;
+  host::JointIn& in = own_.now.in[actuator];
+  if (std::isfinite(in.angle_rad) && std::isfinite(in.speed_rad_per_s))
+    robot_.relocate(actuator, in.angle_rad, in.speed_rad_per_s);  // else the next step says so
+  in.placed = true;
   own_.watch.again();
 }
 

@@ -109,6 +109,40 @@ TEST(Actuated, SomebodysHandThatPutsAShaftElsewhereIsNoWorkOfTheStep) {
   vsa::test::expect_small_closures(after, 0.01);
 }
 
+TEST(Actuated, ReadingsAreOfTheShaftThatIsThereBeforeAnyStep) {
+  const std::string text = bench(plugin(actuator("module_1::shaft", 1, "<initial equilibrium_rad='0.5' preset_rad='0.4'/>")));
+  World w = World::load_string(text, options());
+  const ActuatorRef a = w.actuators()[0];
+  const auto agrees = [&](const char* when) {
+    const auto reading = w.read(a.name);
+    EXPECT_EQ(reading.shaft_rad, w.joint_angle("bench::module_1::shaft")) << when;
+    EXPECT_EQ(reading.shaft_speed_rad_per_s, w.joint_speed("bench::module_1::shaft")) << when;
+    const auto before = w.ledger();
+    w.step();
+    EXPECT_NEAR(w.read(a.name).torque_Nm, reading.torque_Nm, 0.02 + 0.5 * std::abs(reading.torque_Nm)) << when;
+    EXPECT_NEAR(w.ledger().stored_at_start, before.stored_at_start, 0.01 * std::abs(before.stored_at_start)) << when;
+    EXPECT_LT(std::abs(w.ledger().imbalance()), 1e-9) << when;
+  };
+  EXPECT_GT(std::abs(w.read(a.name).torque_Nm), 0.3) << "half a radian from where its springs pull";
+  agrees("loaded");
+  w.run(0.2);
+  w.set_joint("bench::module_1::shaft", -0.2, 1.5);
+  agrees("put");
+  w.reset();
+  EXPECT_EQ(w.read(a.name).shaft_rad, 0.0);
+  agrees("reset");
+}
+
+TEST(Actuated, APlaceWithASpeedHasItsMotorsEnergyAtOnce) {
+  World w = World::load_string(bench(plugin(actuator("module_1::shaft", 1, "<initial preset_rad='0.4'/>"))), options());
+  w.place(w.actuators()[0].name, 0.3, 0.4, 2.0);
+  const auto placed = w.ledger();
+  EXPECT_GT(placed.kinetic, 0);
+  EXPECT_EQ(placed.stored(), placed.stored_at_start);
+  w.step();
+  EXPECT_NEAR(w.ledger().stored_at_start, placed.stored_at_start, 1e-9);
+}
+
 TEST(Actuated, AFaultLeavesTheRobotsWhereTheyWere) {
   World w = World::load_string(bench(plugin(actuator("module_1::shaft", 1))), options());
   w.run(0.05);

@@ -162,6 +162,7 @@ TEST(HostileRobot, AnActuatorThatIsNotThereIsAnError) {
     EXPECT_THROW(r.set_faults(i, {}), InputError);
     EXPECT_THROW(r.check_faults(i, {}), InputError);
     EXPECT_THROW(r.place(i, {}), InputError);
+    EXPECT_THROW(r.relocate(i, 0.1), InputError);
     EXPECT_THROW(r.set_parameters(i, vsa::test::maker_pro()), InputError);
     EXPECT_FALSE(r.command(i, 0.1, 0.1));
     EXPECT_FALSE(r.follow(i, Robot::Channel::preset, {{0.0, 0.1}}));
@@ -353,6 +354,7 @@ TEST(HostileRobot, OneThatWasMovedFromSaysSo) {
   EXPECT_THROW((void)r.faults(0), std::logic_error);
   EXPECT_THROW((void)r.serial_line(0), std::logic_error);
   EXPECT_THROW(r.place(0, {}), std::logic_error);
+  EXPECT_THROW(r.relocate(0, 0.1), std::logic_error);
   EXPECT_THROW(r.set_parameters(0, vsa::test::maker_pro()), std::logic_error);
   EXPECT_THROW((void)r.clone(), std::logic_error);
   EXPECT_THROW((void)r.snapshot(), std::logic_error);

@@ -66,8 +66,9 @@ class Actuator {
   explicit Actuator(ActuatorParams params);  ///< parameters that validate() passes; no check here
 
   [[nodiscard]] const ActuatorParams& params() const noexcept { return params_; }  ///< as given
-  /// At rest, pulleys and shaft there (rad), frictions relaxed; the ledger begins.
-  [[nodiscard]] ActuatorState initial(const std::array<double, 2>& pulleys, double shaft) const noexcept;
+  /// Pulleys (rad, rad/s) and shaft (rad) there, frictions relaxed; the ledger begins.
+  [[nodiscard]] ActuatorState initial(const std::array<double, 2>& pulleys, double shaft,
+                                      const std::array<double, 2>& pulley_speeds = {}) const noexcept;
 
   /// Puts the shaft somewhere without work, friction relaxed: before the first step only. The ledger begins here.
   void place(ActuatorState& state, double shaft) const noexcept;

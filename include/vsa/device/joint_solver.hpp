@@ -26,6 +26,8 @@ namespace vsa::device {
 
 namespace solver {
 inline constexpr int kMaxIterations = 80;  ///< rounds of Newton
+inline constexpr int kMaxHalvings = 100;   ///< where these found nothing: of a way on which a solution lies
+inline constexpr int kMaxWays = 20;        ///< of several joints then: ways
 /// A guess may lie where the spring's exponential law has no numbers left, so it goes no further than this at once.
 inline constexpr double kReach_rad = 0.25;
 /// A step along which the slope still has this part of what it had, with the other sign, went too far. Where a friction begins or
@@ -89,6 +91,7 @@ class JointSolver {
   void attempt(std::span<const JointInStep> joints, bool rough, bool keep = false) noexcept;
   double set_out(double& part) noexcept;
   bool search(std::span<const JointInStep> joints) noexcept;
+  bool search_closely(std::span<const JointInStep> joints) noexcept;
   bool near(std::span<const JointInStep> joints) noexcept;
   void guess() noexcept;
   bool settle(std::span<const JointInStep> joints) noexcept;

@@ -161,6 +161,9 @@ class Unit {
   void place(UnitState& state, const UnitPlace& at) const noexcept;
   /// Adds why the program couldn't hold that place: references beyond its limits or its 16 bits, a preset beyond preset_max.
   void check_place(const UnitState& state, const UnitPlace& at, std::string_view where, Problems& problems) const;
+  /// The host has put the shaft there, between two steps: neither work nor acceleration, its frictions relaxed, the stored energy is
+  /// what it is there. Orders, pulleys and the program stay.
+  void relocate(UnitState& state, double shaft_rad, double speed) const noexcept;
   /// Makes the state of a unit with other parameters one of this. Angles, speeds, currents, the gears' bristles and the program's
   /// loop go on; springs and the other frictions begin relaxed where they are, the ledger begins anew. Where the parameter memory
   /// differs, the program has the new one at once, with its ID.

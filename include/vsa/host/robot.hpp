@@ -186,7 +186,8 @@ class Robot {
   [[nodiscard]] bool is_stiff() const;
   [[nodiscard]] actuator::Ledger ledger(std::size_t actuator) const;  ///< energy ledger since the start or the last reset
   [[nodiscard]] actuator::Ledger ledger() const;                      ///< summed over all actuators
-  [[nodiscard]] std::vector<Notice> take_notices();                   ///< since the last call
+  /// Since the last call. Energy out of nothing is looked for after steps 1, 2, 4 … 64, and then after each 128th.
+  [[nodiscard]] std::vector<Notice> take_notices();
 
   /// Cuts or restores the supply of every unit (0 V: the motors short through the bridge), at once. The stepping thread's.
   void set_supply(bool on);
@@ -198,6 +199,9 @@ class Robot {
   /// step/2·q̇; it matters only where q̇ isn't 0. Supply, faults and parameters stay, and motors that are off stay off. InputError:
   /// numbers out of range, or a place that the program can't hold (its limits, its 16 bits). The stepping thread's.
   void place(std::size_t actuator, const Placement& at, double step_s = 0);
+  /// The host has put the joint there, between two steps: readings and the ledger's stored energy have the shaft where it is now. The
+  /// unit's own orders stay. InputError: no such actuator, what isn't finite.
+  void relocate(std::size_t actuator, double angle_rad, double speed_rad_per_s = 0);
 
   /// Other parameters from the next step on, for a randomised domain, say: checked by device::validate(). Motion, currents, the
   /// gears' bristles and the program's loop go on; springs and the other frictions begin relaxed where they are, the actuator's

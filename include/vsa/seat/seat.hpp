@@ -113,7 +113,7 @@ class Seat {
   /// in() tells where the joints are after the host's step.
   void observe() noexcept { robot_.observe(own_.now.in); }
   /// The host has put bodies elsewhere: B is due in the next step. With an actuator: its joint, and that was neither work nor
-  /// acceleration; throws InputError for one that isn't there.
+  /// acceleration, and readings have it where in() tells; throws InputError for one that isn't there.
   void moved() noexcept { own_.watch.again(); }
   void moved(std::size_t actuator);  ///< InputError: no such actuator
 
