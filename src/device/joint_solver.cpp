@@ -226,7 +226,7 @@ bool JointSolver::search(std::span<const JointInStep> joints) noexcept {
   return false;
 }
 
-/// Where a friction's edge, narrow beside a step, keeps Newton going to and fro: each of its ways is gone to where the slope along it
+/// Where the friction of a shaft, an edge beside a step, keeps Newton going to and fro: each of its ways is gone to where the slope along it
 /// ends, which lies between two places of it, for the torques fall with Δy. There Newton sees the edge.
 bool JointSolver::search_closely(std::span<const JointInStep> joints) noexcept {
   constexpr double kFlat = 0.1;  // of the slope that a way begins with
@@ -251,14 +251,17 @@ bool JointSolver::search_closely(std::span<const JointInStep> joints) noexcept {
 
 /// From dy_ on.
 bool JointSolver::settle(std::span<const JointInStep> joints) noexcept {
-  if (search(joints) || search_closely(joints)) return true;
-  // As near as it comes, what is left may be little all the same.
-  std::fill(move_.begin(), move_.end(), 0.0);
-  attempt(joints, false);
-  near(joints);
-  bool settled = true;
-  for (std::size_t i = 0; i < n_; ++i) settled = settled && std::abs(gradient_[i]) <= kLeft * std::abs(tried_.torque[i]) + kLeft_Nm;
-  return settled;
+  // As near as it came: what is left may be little all the same.
+  const auto stay = [&] {
+    std::fill(move_.begin(), move_.end(), 0.0);
+    attempt(joints, false);
+    near(joints);
+    bool little = true;
+    for (std::size_t i = 0; i < n_; ++i) little = little && std::abs(gradient_[i]) <= kLeft * std::abs(tried_.torque[i]) + kLeft_Nm;
+    return little;
+  };
+  const auto has_edge = [](const JointInStep& j) { return j.unit->has_edge(*j.plan); };
+  return search(joints) || stay() || (std::any_of(joints.begin(), joints.end(), has_edge) && (search_closely(joints) || stay()));
 }
 
 /// Whether the holder's answer to the torques that were found isn't the units' Δy. Then free and C are what it tells of there, and dy_ is

@@ -28,9 +28,12 @@ struct Alone {
     return which ? unit.attempt(state, plan, at, rough) : ShaftTorque{};
   }
   [[nodiscard]] ShaftTorque carried(double move) const noexcept { return unit.carried(state, plan, move); }
+  [[nodiscard]] bool has_edge() const noexcept { return unit.has_edge(plan); }
 };
 
 }  // namespace
+
+bool Unit::has_edge(const StepPlan& plan) const noexcept { return steps<double>().has_edge(plan, seconds(plan.dt_ns)); }
 
 // A step is many small functions, and calls between them cost a tenth of it: each of these is one piece.
 [[gnu::flatten]] actuator::Lead Unit::set_out(UnitState& s, StepPlan& plan) const noexcept {

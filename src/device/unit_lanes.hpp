@@ -87,6 +87,11 @@ struct UnitPhysics {
     return {plan.path.torque - change + after.torque, slope + after.slope, near};
   }
 
+  template <class Plan>
+  [[nodiscard]] lanes::Truth<T> has_edge(const Plan& plan, double dt_s) const noexcept {
+    return T(shaft_friction.stiffness) * (dt_s * dt_s * plan.in.inverse_inertia) > kEdge;
+  }
+
   template <class State, class Plan>
   void finish(State& s, Plan& plan, T move, T torque, double dt_s) const noexcept {
     actuator.finish(s.actuator, plan.last);
@@ -103,7 +108,8 @@ struct UnitPhysics {
 };
 
 /// Solves a joint alone (device/joint_solver.hpp with n = 1), of one unit or of several side by side, each for itself.
-/// `Joint`: free, last_torque; dy() of its last attempt; foresee(dy), attempt(dy, rough, which), carried(move) → ShaftTorqueOf<T>.
+/// `Joint`: free, last_torque; dy() of its last attempt; foresee(dy), attempt(dy, rough, which), carried(move) → ShaftTorqueOf<T>;
+/// has_edge() (Unit::has_edge).
 template <class T, class Joint>
 class AloneSolver {
   using Truth = lanes::Truth<T>;
@@ -121,15 +127,9 @@ class AloneSolver {
     set_out_free();
     if (lanes::any(led)) lead(led);
     Truth settled = search(!led) | led;
-    if (lanes::all(settled)) return settled;
-    settled = settled | close_in(!settled);
-    if (lanes::all(settled)) return settled;
-    // As near as it comes, what is left may be little all the same.
-    const Truth left = !settled;
-    move_ = lanes::select(left, T(0.0), move_);
-    attempt(false, left);
-    near(left);
-    return settled | (lanes::abs(gradient_) <= solver::kLeft * lanes::abs(torque_) + solver::kLeft_Nm);
+    if (!lanes::all(settled)) settled = settled | stay(!settled);
+    if (!lanes::all(settled)) settled = settled | close_in(joint_->has_edge() & !settled);
+    return lanes::all(settled) ? settled : settled | stay(!settled);
   }
   /// A first Δy, from what the last steps left.
   T predict(Joint& joint, T inertia) noexcept {
@@ -191,6 +191,13 @@ class AloneSolver {
     const T step = -gradient_ * factor_;  // not by way of move_: a number that was just stored comes late
     dy_ = lanes::select(good, lanes::clamp(dy_ + step, -T(solver::kReach_rad), solver::kReach_rad), dy_);
   }
+  /// As near as it came: what is left may be little all the same.
+  Truth stay(Truth which) noexcept {
+    move_ = lanes::select(which, T(0.0), move_);
+    attempt(false, which);
+    near(which);
+    return which & (lanes::abs(gradient_) <= solver::kLeft * lanes::abs(torque_) + solver::kLeft_Nm);
+  }
   Truth search(Truth all) noexcept;
   Truth close_in(Truth all) noexcept;
 
@@ -246,7 +253,7 @@ lanes::Truth<T> AloneSolver<T, Joint>::search(Truth goes_on) noexcept {
   return settled;
 }
 
-/// Where a friction's edges keep Newton going to and fro: Newton between two Δy of which one lies too far, else their middle. The torque
+/// Where the shaft's friction keeps Newton going to and fro over its edge: Newton between two Δy of which one lies too far, else their middle. The torque
 /// falls with Δy, so from anywhere the other end is no farther than what acts there would move the joint by itself.
 template <class T, class Joint>
 lanes::Truth<T> AloneSolver<T, Joint>::close_in(Truth goes_on) noexcept {
@@ -298,6 +305,7 @@ lanes::Truth<T> solve_whole(const UnitPhysics<T>& physics, State& state, Plan& s
       return p.attempt(s, plan, at, rough, which);
     }
     [[nodiscard]] ShaftTorqueOf<T> carried(T move) const noexcept { return p.carried(s, plan, move, dt_s); }
+    [[nodiscard]] lanes::Truth<T> has_edge() const noexcept { return p.has_edge(plan, dt_s); }
   } joint{physics, state, step, dt, step.free, step.last_torque};
   AloneSolver<T, Joint> solver;
   const auto settled = solver.solve(joint, coupled_inertia<T>(step.in.inverse_inertia, dt));

@@ -61,6 +61,8 @@ struct ShaftMotion {
 
 /// Beyond the first a step hardly resolves a spring's swing, beyond the second it doesn't.
 inline constexpr double kHardlyResolved = 0.25, kUnresolved = 1.0;  ///< (ω·dt)²
+/// (ω·dt)² of the shaft on its friction's bristle beyond which that is an edge, which a solution must be looked for on.
+inline constexpr double kEdge = 100;
 /// All that changes of a unit; the same size for every unit. It goes on with equal parameters only: Unit::adopt takes it to others.
 struct UnitState {
   actuator::ActuatorState actuator;  ///< motors, springs, ledger
@@ -173,6 +175,8 @@ class Unit {
   double step(UnitState& state, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) noexcept;
   /// Whether the last step ended by this object found its solution (JointSolver::solve).
   [[nodiscard]] bool settled() const noexcept { return settled_; }
+  /// Whether the shaft's friction is an edge beside this step, on what is behind the joint alone.
+  [[nodiscard]] bool has_edge(const StepPlan& plan) const noexcept;
 
   /// A step of several segments has its Δy expected from here on; one of a single segment sets out with its trials.
   void begin_step(UnitState& state, StepPlan& plan, std::int64_t t_ns, std::int64_t dt_ns, const ShaftIn& in) const noexcept;
