@@ -253,8 +253,9 @@ lanes::Truth<T> AloneSolver<T, Joint>::search(Truth goes_on) noexcept {
   return settled;
 }
 
-/// Where the shaft's friction keeps Newton going to and fro over its edge: Newton between two Δy of which one lies too far, else their middle. The torque
-/// falls with Δy, so from anywhere the other end is no farther than what acts there would move the joint by itself.
+/// Where the shaft's friction keeps Newton going to and fro over its edge: Newton between two Δy of which one lies too far, else
+/// their middle. The torque falls with Δy, so from anywhere the other end is no farther than what acts there would move the joint by
+/// itself.
 template <class T, class Joint>
 lanes::Truth<T> AloneSolver<T, Joint>::close_in(Truth goes_on) noexcept {
   const auto reached = [](T dy) { return lanes::clamp(dy, -T(solver::kReach_rad), solver::kReach_rad); };
