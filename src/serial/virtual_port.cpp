@@ -27,6 +27,12 @@ using Clock = bus::SerialLine::Clock;
 
 constexpr std::size_t kReadBytes = 4096;
 
+/// The system tells of a client's closing before it is done with it, which takes a while where many bytes lie there or processors are
+/// busy: who seems to be there still is looked for again after so long each.
+constexpr std::array<Clock::duration, 5> kLookAgain{std::chrono::milliseconds(1), std::chrono::milliseconds(10),
+                                                    std::chrono::milliseconds(100), std::chrono::seconds(1),
+                                                    std::chrono::seconds(10)};
+
 /// Written by one thread, read by any: who reads a count finds done what it counts.
 template <class T>
 class Counter {
@@ -87,8 +93,9 @@ class VirtualPort::Server {
   [[nodiscard]] std::optional<std::size_t> receive();
   void exchange(std::span<const std::uint8_t> bytes);
   void send();
-  /// False: the port is lost.
-  [[nodiscard]] bool clients_left();
+  /// `lost`: the port is.
+  enum class Clients { there, gone, lost };
+  [[nodiscard]] Clients look_for_clients();
 
   bus::SerialLine& line_;
   std::size_t most_held_;
@@ -103,13 +110,16 @@ class VirtualPort::Server {
 };
 
 void VirtualPort::Server::run() {
+  std::size_t looked_again = kLookAgain.size();  // since somebody closed the port
+  std::optional<Clock::time_point> look_again;
   while (true) {
     const short to_write = answer_.empty() ? 0 : POLLOUT;
     std::array<pollfd, 3> fds{pollfd{pair_.ours(), static_cast<short>(POLLIN | to_write), 0}, pollfd{stop_.get(), POLLIN, 0},
                               pollfd{pair_.watch(), POLLIN, 0}};
     const auto wake = line_.wake();
-    const timespec timeout = wake ? until(*wake) : timespec{};
-    if (ppoll(fds.data(), fds.size(), wake ? &timeout : nullptr, nullptr) < 0 && errno != EINTR) return;
+    const auto first = wake && look_again ? std::min(*wake, *look_again) : wake ? wake : look_again;
+    const timespec timeout = first ? until(*first) : timespec{};
+    if (ppoll(fds.data(), fds.size(), first ? &timeout : nullptr, nullptr) < 0 && errno != EINTR) return;
     const auto arrival = Clock::now();
     if (fds[1].revents != 0) return;
     const auto count = receive();
@@ -120,7 +130,13 @@ void VirtualPort::Server::run() {
     } else if (!answer_.empty()) {
       send();
     }
-    if ((pair_.somebody_left() || (fds[0].revents & POLLHUP) != 0) && !clients_left()) return;
+    const bool left = pair_.somebody_left() || (fds[0].revents & POLLHUP) != 0;
+    if (left) looked_again = 0;
+    if (!left && !(look_again && *look_again <= arrival)) continue;
+    const Clients clients = look_for_clients();
+    if (clients == Clients::lost) return;
+    look_again.reset();
+    if (clients == Clients::there && looked_again < kLookAgain.size()) look_again = Clock::now() + kLookAgain[looked_again++];
   }
 }
 
@@ -153,7 +169,7 @@ void VirtualPort::Server::send() {
   answer_.resize(most_held_);
 }
 
-bool VirtualPort::Server::clients_left() {
+VirtualPort::Server::Clients VirtualPort::Server::look_for_clients() {
   pair_.let_go();
   // What the last one wrote before it went is on the wire: the units hear it, nobody hears them. Reading needs to come to its end
   // before we can say that nobody came meanwhile, whose request this might be.
@@ -166,7 +182,7 @@ bool VirtualPort::Server::clients_left() {
   const bool held = pair_.take_hold(!gone);
   if (!gone) {
     send();
-    return true;
+    return Clients::there;
   }
   answer_.clear();
   if (held) {
@@ -178,12 +194,12 @@ bool VirtualPort::Server::clients_left() {
       link_.point_to(fresh.device());
       pair_ = std::move(fresh);
     } catch (const std::exception&) {
-      return false;
+      return Clients::lost;
     }
   }
   // Last: who sees it counted finds the port as new.
   clients_gone_.add(1);
-  return true;
+  return Clients::gone;
 }
 
 VirtualPort::VirtualPort(bus::SerialLine& line, const VirtualPortOptions& options)

@@ -6,6 +6,7 @@
 
 #include <numeric>
 
+#include "blind_poll.hpp"
 #include "support.hpp"
 #include "vsa/bus/client.hpp"
 #include "vsa/serial/serial_channel.hpp"
@@ -183,6 +184,22 @@ TEST(VirtualPort, AClientThatNeverReadsLosesAnswersAndBlocksNobody) {
   const RawClient next(p.port.path());
   next.write({7});
   EXPECT_EQ(next.read(1), Bytes{7});
+}
+
+TEST(VirtualPort, AClientWhoseClosingIsStillUnderWayIsLookedForAgain) {
+  for (const int looks : {1, 2, 4}) {
+    EchoPort p;
+    RawClient client(p.port.path());
+    client.write({7});
+    ASSERT_EQ(client.read(1), Bytes{7});
+    blind_polls = 2 * looks;  // each look asks twice
+    client.leave();
+    EXPECT_TRUE(eventually([&p] { return p.port.counters().clients_gone == 1U; })) << looks;
+    EXPECT_EQ(blind_polls, 0);
+    const RawClient next(p.port.path());
+    next.write({8});
+    EXPECT_EQ(next.read(1), Bytes{8});
+  }
 }
 
 TEST(VirtualPort, AClientThatReadsLateGetsEverythingThatWasKept) {
