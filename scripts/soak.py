@@ -38,6 +38,7 @@ WORLD_MODEL = "qbmove_snake"
 FAULTS = ["off", "lost_byte=0.02", "flipped_byte=0.02", "late_s=0.0005", "stuck=motor_1", "noise_rad=0.01", "supply_V=18", "unplugged=2"]
 OF_TOPICS = ("commands by topics", "faults by the service")  # visits, each a client of its own
 OF_GAZEBO = "clients of Gazebo that published"
+MODULES = "modules in Gazebo"
 GROWTH = 1.05  # of resident memory, last quarter over second: what a program may gain
 KEPT_MB = 0.032  # by ZeroMQ of each client of topics that has gone (libzmq 4286), for as long as the world lives
 ANSWERED = 0.9  # of exchanges: bytes are lost and flipped on purpose, which took the answers of 2.5 % of them in an hour
@@ -218,7 +219,7 @@ class Soak:
     def spawned_module(self, chance):
         name, place = f"visitor_{chance.getrandbits(32)}", [chance.choice((-1, 1)) * chance.uniform(1, 5) for _ in range(2)]
         wrong, clients = self.gazebo.visit(name, place, chance.uniform(0.1, 0.55))  # where its motors stall is 0.6 rad
-        self.count("modules in Gazebo")
+        self.count(MODULES)
         self.count(OF_GAZEBO, clients)
         if wrong:
             self.complain(wrong)
@@ -259,9 +260,13 @@ def answered(soak, end):
 
 
 def slack(soak, name, k):
-    """How many more descriptors (1) or threads (2) a program may have once the visitors have gone: Gazebo Classic keeps a socket of each
-    client that published, whatever is in its models."""
-    return SLACK[k] + (soak.counts.get(OF_GAZEBO, 0) if name == "gazebo" and k == 1 else 0)
+    """How many more descriptors (1) or threads (2) a program may have once the visitors have gone. Gazebo Classic keeps a socket of each
+    client that published, whatever is in its models. And ignition-transport's processes, whatever their partitions, connect to each that
+    has services: once more after one of those services has gone, as a module's do, for they forget the connection that they have
+    (NodeShared::OnNewSrvDisconnection)."""
+    sockets = soak.counts.get(MODULES, 0) if name in ("run", "gazebo") else 0
+    sockets += soak.counts.get(OF_GAZEBO, 0) if name == "gazebo" else 0
+    return SLACK[k] + (sockets if k == 1 else 0)
 
 
 def verdicts(soak, subjects, idle, ends, end):
