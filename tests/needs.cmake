@@ -68,6 +68,9 @@ set(VSA_NEEDS_SDF_engine
   Actuated.AnotherActuatorCanBePutOnAWorld
   Actuated.SnapshotsHoldTheRobotsToo
   Actuated.SomebodysHandThatPutsAShaftElsewhereIsNoWorkOfTheStep
+  Actuated.ReadingsAreOfTheShaftThatIsThereBeforeAnyStep
+  Actuated.APlaceWithASpeedHasItsMotorsEnergyAtOnce
+  Joints/BreakAway.*
   Actuated.AFaultLeavesTheRobotsWhereTheyWere
   Actuated.JointsThatArentThereOrTwiceOrOfTheWrongTypeAreNamed
   Allocation.AStepOfSeveralSubstepsWithHandsAtWorkTakesNothingFromTheHeap
