@@ -31,9 +31,9 @@ def front_end(command):
 
 
 def main():
-    listing = tidy.listing_of("alone.py")
+    listing = tidy.listing_of()
     seconds, jobs = tidy.setting("ALONE_S", 0), tidy.setting("ALONE_JOBS", os.cpu_count())
-    commands = tidy.sources(listing, "alone.py")
+    commands = tidy.sources(listing)
     clean = tidy.Clean(listing.with_name("alone.json"), tidy.states(commands, __file__))
     known = [file for file in commands if clean.has(file)]
     rank = tidy.age()

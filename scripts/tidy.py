@@ -27,12 +27,13 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TOGETHER = 8
+SELF = os.path.basename(sys.argv[0])  # or alone.py, which asks the same of its users
 
 
 def setting(name, default):
     text = os.environ.get(name, "") or str(default)
     if not text.isdigit():
-        print(f"tidy.py: {name} = '{text}': a whole number", file=sys.stderr)
+        print(f"{SELF}: {name} = '{text}': a whole number", file=sys.stderr)
         sys.exit(2)
     return int(text)
 
@@ -153,33 +154,33 @@ def newest(files, rank):
     return min(rank.get(os.path.relpath(file, ROOT), len(rank)) for file in files)
 
 
-def listing_of(script):
+def listing_of():
     """The list of commands of the one argument; ends the script where that isn't one."""
     if len(sys.argv) != 2:
-        print(f"usage: {script} BUILD", file=sys.stderr)
+        print(f"usage: {SELF} BUILD", file=sys.stderr)
         sys.exit(2)
     listing = pathlib.Path(sys.argv[1]) / "compile_commands.json"
     if not listing.exists():
-        print(f"{script}: {sys.argv[1]}: no compile_commands.json: configure it first", file=sys.stderr)
+        print(f"{SELF}: {sys.argv[1]}: no compile_commands.json: configure it first", file=sys.stderr)
         sys.exit(2)
     return listing
 
 
-def sources(listing, script):
+def sources(listing):
     """The project's own, with their commands."""
     generated = ROOT / "build"
     listed = json.loads(listing.read_text(encoding="utf-8"))
     if any("/Unity/unity_" in c["file"] for c in listed):
-        print(f"{script}: {listing.parent}: compiles sources together, which hides them: configure it with -DVSA_UNITY=OFF", file=sys.stderr)
+        print(f"{SELF}: {listing.parent}: compiles sources together, which hides them: configure it with -DVSA_UNITY=OFF", file=sys.stderr)
         sys.exit(2)
     return {c["file"]: c for c in listed
             if c["file"].endswith(".cpp") and ROOT in pathlib.Path(c["file"]).parents and generated not in pathlib.Path(c["file"]).parents}
 
 
 def main():
-    listing = listing_of("tidy.py")
+    listing = listing_of()
     seconds, jobs = setting("TIDY_S", 0), setting("TIDY_JOBS", os.cpu_count())
-    rank, commands = age(), sources(listing, "tidy.py")
+    rank, commands = age(), sources(listing)
     clean = Clean(listing.with_name("tidy.json"), states(commands, __file__))
     known = [file for file in commands if clean.has(file)]
     for file in known:
